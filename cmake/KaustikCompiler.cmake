@@ -1,0 +1,24 @@
+# Compiler settings shared by every target, as one interface library.
+add_library(kaustik_options INTERFACE)
+target_include_directories(kaustik_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(kaustik_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  # The same source must give the same bits in every build: no contraction into FMA, no fast-math.
+  # Not setting errno changes no result and lets sqrt be one instruction.
+  -ffp-contract=off -fno-fast-math -fno-math-errno)
+if(KAUSTIK_WARNINGS_AS_ERRORS)
+  target_compile_options(kaustik_options INTERFACE -Werror)
+endif()
+
+# Comma-separated sanitizers, e.g. "address,undefined". The first undefined behaviour ends the program, so that
+# a test fails on it.
+if(KAUSTIK_SANITIZE)
+  target_compile_options(kaustik_options INTERFACE
+    -fsanitize=${KAUSTIK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(kaustik_options INTERFACE -fsanitize=${KAUSTIK_SANITIZE})
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()

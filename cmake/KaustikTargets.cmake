@@ -1,0 +1,21 @@
+# kaustik_library(<name> [libraries...]): a static library of every source below the calling folder.
+function(kaustik_library name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(kaustik_${name} STATIC ${sources})
+  target_link_libraries(kaustik_${name} PUBLIC kaustik_options ${ARGN})
+endfunction()
+
+# kaustik_test(<folder> [libraries...]): one GoogleTest program per folder, one ctest entry per case.
+function(kaustik_test folder)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(test_${folder} ${sources})
+  target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_definitions(test_${folder} PRIVATE
+    KAUSTIK_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    KAUSTIK_SCENES_DIR="${PROJECT_SOURCE_DIR}/scenes"
+    KAUSTIK_TEST_OUTPUT_DIR="${CMAKE_CURRENT_BINARY_DIR}/output")
+  gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60)
+endfunction()

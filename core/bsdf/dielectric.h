@@ -1,0 +1,35 @@
+#pragma once
+#include "core/bsdf/bsdf_types.h"
+#include "core/bsdf/fresnel.h"
+
+namespace kaustik {
+
+// Smooth boundary of two dielectrics: Fresnel reflection and refraction, chosen in proportion (pharr
+// 2023, 9.5).
+struct Dielectric {
+  static constexpr bool kSpecular = true;
+  static constexpr std::string_view kName = "dielectric";
+
+  float eta = 1.5f;  // of the inside (below the surface) over the outside
+
+  Rgb f(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return Rgb(0); }
+  float pdf(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return 0; }
+  std::optional<BsdfSample> sample_f(const Vector3& wo, float uc, const Point2& /*u*/,
+                                     TransportMode mode) const {
+    if (wo.z == 0) return std::nullopt;
+    if (eta == 1) return BsdfSample{-wo, Rgb(1), 1, true, true};
+    const float relative = wo.z > 0 ? eta : 1 / eta;
+    const float cos_i = std::min(std::abs(wo.z), 1.0f);
+    const float cos_t = refracted_cosine(cos_i, relative);
+    const float reflectance = fresnel_from_cosines(cos_i, cos_t, relative);
+    // The lobe's factor is its probability, so that both lobes weigh exactly one (before eta^2).
+    if (uc < reflectance) return BsdfSample{{-wo.x, -wo.y, wo.z}, Rgb(1), reflectance, true, false};
+    const float inverse = 1 / relative;
+    const Vector3 wi(-wo.x * inverse, -wo.y * inverse, wo.z > 0 ? -cos_t : cos_t);
+    const float scale = mode == TransportMode::kRadiance ? inverse * inverse : 1.0f;
+    return BsdfSample{wi, Rgb(scale), 1 - reflectance, true, true};
+  }
+  Rgb albedo() const { return Rgb(1); }
+};
+
+}  // namespace kaustik

@@ -1,0 +1,23 @@
+#pragma once
+#include "core/bsdf/bsdf_types.h"
+
+namespace kaustik {
+
+// Ideal mirror of constant reflectance, both sides.
+struct Mirror {
+  static constexpr bool kSpecular = true;
+  static constexpr std::string_view kName = "mirror";
+
+  Rgb reflectance{1};
+
+  Rgb f(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return Rgb(0); }
+  float pdf(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return 0; }
+  std::optional<BsdfSample> sample_f(const Vector3& wo, float /*uc*/, const Point2& /*u*/,
+                                     TransportMode /*mode*/) const {
+    if (wo.z == 0) return std::nullopt;
+    return BsdfSample{{-wo.x, -wo.y, wo.z}, reflectance, 1, true, false};
+  }
+  Rgb albedo() const { return reflectance; }
+};
+
+}  // namespace kaustik

@@ -1,0 +1,63 @@
+#include "core/geometry/interaction.h"
+
+#include "core/geometry/surface_bounds.h"
+
+namespace kaustik {
+namespace {
+
+void fill(const TriangleMesh& mesh, const Shape& shape, const Ray& /*ray*/, const Hit& hit,
+          SurfaceInteraction& si) {
+  const auto [i0, i1, i2] = mesh.indices[hit.primitive];
+  const Point3 p0 = mesh.P[i0];
+  const Vector3 e1 = mesh.P[i1] - p0;
+  const Vector3 e2 = mesh.P[i2] - p0;
+  const float b1 = hit.uv.x;
+  const float b2 = hit.uv.y;
+  si.p = p0 + (b1 * e1 + b2 * e2);
+  si.p_error = triangle_error(si.p, e1, e2);
+  si.n = triangle_normal(e1, e2);
+  if (!mesh.N.empty()) {
+    const Normal3 ns = (1 - b1 - b2) * mesh.N[i0] + b1 * mesh.N[i1] + b2 * mesh.N[i2];
+    const float length2 = length_squared(ns);
+    if (length2 > 0 && std::isfinite(length2)) {
+      si.ns = ns / std::sqrt(length2);
+      if (glm::dot(si.n, si.ns) < 0) si.n = -si.n;
+      return;
+    }
+  }
+  if (shape.flip_normal) si.n = -si.n;
+  si.ns = si.n;
+}
+
+void fill(const Sphere& sphere, const Shape& shape, const Ray& ray, const Hit& hit, SurfaceInteraction& si) {
+  const Transform& t = sphere.to_world;
+  const Vector3 on_sphere = glm::normalize(t.inverse_point(ray.o) + hit.t * t.inverse_vector(ray.d));
+  const Normal3 n = glm::normalize(t.normal(on_sphere));
+  si.p = t.point(on_sphere);
+  si.p_error = sphere_error(t);
+  si.n = si.ns = shape.flip_normal ? -n : n;
+}
+
+void fill(const Disk& disk, const Shape& shape, const Ray& /*ray*/, const Hit& hit, SurfaceInteraction& si) {
+  const Transform& t = disk.to_world;
+  const Normal3 n = disk_normal(t);
+  si.p = t.point({hit.uv.x, hit.uv.y, 0});
+  si.p_error = disk_error(t);
+  si.n = si.ns = shape.flip_normal ? -n : n;
+}
+
+}  // namespace
+
+SurfaceInteraction make_interaction(const std::vector<Shape>& shapes, const Ray& ray, const Hit& hit) {
+  const Shape& shape = shapes[hit.shape];
+  SurfaceInteraction si;
+  si.shape = hit.shape;
+  si.primitive = hit.primitive;
+  si.material = shape.material;
+  si.light = shape.light;
+  si.surface_group = shape.surface_group;
+  std::visit([&](const auto& geometry) { fill(geometry, shape, ray, hit, si); }, shape.geometry);
+  return si;
+}
+
+}  // namespace kaustik

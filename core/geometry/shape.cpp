@@ -1,0 +1,88 @@
+#include "core/geometry/shape.h"
+
+#include "core/geometry/surface_bounds.h"
+
+namespace kaustik {
+namespace {
+
+constexpr double kPiDouble = std::numbers::pi;
+
+Bounds3 bounds_about(const Point3& center, const Vector3& half, float error) {
+  Bounds3 b;
+  b.add(center - half - error);
+  b.add(center + half + error);
+  return b;
+}
+
+// Of the image of a disk of the first two axes or a ball of all three: sqrt of the sum of squares per row.
+Vector3 half_extent(const glm::mat3& m, int columns) {
+  glm::dvec3 sum(0);
+  for (int c = 0; c < columns; ++c) sum += glm::dvec3(m[c]) * glm::dvec3(m[c]);
+  return Vector3(glm::sqrt(sum));
+}
+
+Bounds3 bounds(const TriangleMesh& mesh) {
+  Bounds3 b;
+  for (const auto& triangle : mesh.indices) {
+    for (const uint32_t i : triangle) b.add(mesh.P[i]);
+  }
+  return b;
+}
+Bounds3 bounds(const Sphere& s) {
+  return bounds_about(s.to_world.translation, half_extent(s.to_world.linear, 3), sphere_error(s.to_world));
+}
+Bounds3 bounds(const Disk& d) {
+  return bounds_about(d.to_world.translation, half_extent(d.to_world.linear, 2), disk_error(d.to_world));
+}
+
+double area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [i0, i1, i2] : mesh.indices) {
+    const glm::dvec3 e1(mesh.P[i1] - mesh.P[i0]);
+    const glm::dvec3 e2(mesh.P[i2] - mesh.P[i0]);
+    sum += 0.5 * glm::length(glm::cross(e1, e2));
+  }
+  return sum;
+}
+
+// Area element of an ellipsoid: |det M| |M^-T n| per solid angle of the unit sphere. The integrand is smooth
+// and periodic in phi, so the midpoint rule converges fast; a round sphere is exact.
+double area(const Sphere& s) {
+  constexpr int kRings = 128, kSectors = 64;
+  const glm::dmat3 m(s.to_world.linear);
+  const glm::dmat3 inverse_transpose = glm::transpose(glm::inverse(m));
+  double sum = 0;
+  for (int i = 0; i < kRings; ++i) {
+    const double z = (2 * i + 1.0) / kRings - 1;
+    const double r = std::sqrt(1 - z * z);
+    for (int j = 0; j < kSectors; ++j) {
+      const double phi = 2 * kPiDouble * (j + 0.5) / kSectors;
+      sum += glm::length(inverse_transpose * glm::dvec3(r * std::cos(phi), r * std::sin(phi), z));
+    }
+  }
+  return std::abs(glm::determinant(m)) * sum * 4 * kPiDouble / (kRings * kSectors);
+}
+
+double area(const Disk& d) {
+  const glm::dvec3 x(d.to_world.linear[0]);
+  const glm::dvec3 y(d.to_world.linear[1]);
+  const double inner = d.inner;
+  return kPiDouble * (1 - inner * inner) * glm::length(glm::cross(x, y));
+}
+
+}  // namespace
+
+Bounds3 bounds_of(const Shape& shape) {
+  return std::visit([](const auto& g) { return bounds(g); }, shape.geometry);
+}
+
+double surface_area(const Shape& shape) {
+  return std::visit([](const auto& g) { return area(g); }, shape.geometry);
+}
+
+uint64_t primitive_count(const Shape& shape) {
+  const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+  return mesh ? mesh->indices.size() : 1;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,53 @@
+#pragma once
+// Geometry as plain data in world space. Orientation: a shape's outside is where its oriented geometric
+// normal points; one-sided lamps emit there, dielectrics have their exterior medium there.
+
+#include <array>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "core/math/bounds.h"
+#include "core/math/transform.h"
+#include "core/math/vec.h"
+
+namespace kaustik {
+
+// Indexed triangles. N and uv are empty or one per vertex. Unless N says otherwise the outside is the side of
+// cross(p1 - p0, p2 - p0); where N is given, the geometric normal is turned into N's hemisphere (pbrt's
+// rule).
+struct TriangleMesh {
+  std::vector<Point3> P;
+  std::vector<Normal3> N;
+  std::vector<Point2> uv;
+  std::vector<std::array<uint32_t, 3>> indices;
+};
+
+// Image of the unit sphere about the origin under to_world: exact, ellipsoids included.
+struct Sphere {
+  Transform to_world;
+};
+
+// Image of the annulus inner <= |xy| <= 1, z = 0 under to_world; outside is the side of +z (mapped as a
+// normal).
+struct Disk {
+  Transform to_world;
+  float inner = 0;  // inner radius over outer radius, in [0, 1)
+};
+
+inline constexpr uint32_t kNoIndex = 0xffffffffu;
+
+struct Shape {
+  std::variant<TriangleMesh, Sphere, Disk> geometry;
+  uint32_t material = 0;       // into Scene::materials
+  uint32_t light = kNoIndex;   // into Scene::lights when the shape emits
+  uint32_t surface_group = 0;  // photons are shared within a group only
+  bool flip_normal =
+      false;  // ReverseOrientation xor handedness of the transform (not applied where N is given)
+};
+
+Bounds3 bounds_of(const Shape& shape);
+double surface_area(const Shape& shape);
+uint64_t primitive_count(const Shape& shape);  // triangles, or 1
+
+}  // namespace kaustik

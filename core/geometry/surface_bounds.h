@@ -1,0 +1,55 @@
+#pragma once
+// Error bounds and normals of the three kinds of surface, shared by intersections and lamps so that a point
+// leaves a surface by the same distance whichever of them made it.
+
+#include "core/geometry/shape.h"
+#include "core/math/error_bounds.h"
+
+namespace kaustik {
+
+// Largest sum of absolute values in a row of the first `columns` columns: bounds the coordinates of the image
+// of the unit box.
+inline float max_row_sum(const glm::mat3& m, int columns = 3) {
+  Vector3 sum(0);
+  for (int c = 0; c < columns; ++c) sum += glm::abs(m[c]);
+  return max_component(sum);
+}
+
+// Of p = p0 + b1 e1 + b2 e2.
+inline float triangle_error(const Point3& p, const Vector3& e1, const Vector3& e2) {
+  return surface_error(max_abs_component(p), max_abs_component(e1) + max_abs_component(e2));
+}
+
+// Of a point on a round sphere.
+inline float sphere_error(const Point3& center, float radius) {
+  return surface_error(max_abs_component(center) + radius, 2 * radius);
+}
+
+// Of a point on the image of the unit sphere. The intersector works in object space, where the rounding of
+// the inverse is amplified by the condition number of the map.
+inline float sphere_error(const Transform& to_world) {
+  const float extent = max_row_sum(to_world.linear);
+  const float condition = extent * max_row_sum(to_world.inverse_linear);
+  return surface_error(max_abs_component(to_world.translation) + extent, extent * std::max(1.0f, condition));
+}
+
+// Of a point on the image of the unit disk.
+inline float disk_error(const Transform& to_world) {
+  const float extent = max_row_sum(to_world.linear, 2);
+  return surface_error(max_abs_component(to_world.translation) + extent, 2 * extent);
+}
+
+// Unit normal of cross(e1, e2), in double: the squared length of a small triangle's cross product would
+// underflow in float. Zero for a degenerate triangle.
+inline Normal3 triangle_normal(const Vector3& e1, const Vector3& e2) {
+  const glm::dvec3 n = glm::cross(glm::dvec3(e1), glm::dvec3(e2));
+  const double length = glm::length(n);
+  return length > 0 ? Normal3(n / length) : Normal3(0);
+}
+
+// +z mapped as a normal, unit.
+inline Normal3 disk_normal(const Transform& to_world) {
+  return Normal3(glm::normalize(glm::dvec3(to_world.normal({0, 0, 1}))));
+}
+
+}  // namespace kaustik

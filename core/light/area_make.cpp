@@ -1,0 +1,64 @@
+// Builds a lamp's own copy of its shape.
+
+#include "core/geometry/surface_bounds.h"
+#include "core/light/area.h"
+
+namespace kaustik {
+namespace {
+
+TriangleEmitter make_emitter(const TriangleMesh& mesh, bool flip_normal) {
+  TriangleEmitter e;
+  std::vector<double> areas;
+  for (const auto& [i0, i1, i2] : mesh.indices) {
+    const Point3 p0 = mesh.P[i0];
+    const Vector3 e1 = mesh.P[i1] - p0;
+    const Vector3 e2 = mesh.P[i2] - p0;
+    const glm::dvec3 normal = glm::cross(glm::dvec3(e1), glm::dvec3(e2));
+    const double length = glm::length(normal);
+    if (!(length > 0)) continue;
+    Normal3 n(normal / length);
+    const bool flip = mesh.N.empty() ? flip_normal : glm::dot(n, mesh.N[i0] + mesh.N[i1] + mesh.N[i2]) < 0;
+    e.triangles.push_back({p0, e1, e2, flip ? -n : n});
+    areas.push_back(0.5 * length);
+  }
+  e.by_area = DiscreteDistribution(areas);
+  return e;
+}
+
+// True when the map only rotates, mirrors, translates and scales by one factor, up to the rounding of a chain
+// of float matrices.
+bool is_similarity(const glm::mat3& m) {
+  constexpr float kTolerance = gamma_bound(64);
+  const glm::mat3 gram = glm::transpose(m) * m;
+  const float size = gram[0][0];
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      if (!(std::abs(gram[c][r] - (c == r ? size : 0)) <= kTolerance * size)) return false;
+    }
+  }
+  return size > 0;
+}
+
+}  // namespace
+
+std::optional<DiffuseAreaLight> DiffuseAreaLight::make(const Shape& shape, const Rgb& L, bool twosided) {
+  DiffuseAreaLight light;
+  light.L = L;
+  light.twosided = twosided;
+  light.area = static_cast<float>(surface_area(shape));
+  if (!(light.area > 0) || !std::isfinite(light.area)) return std::nullopt;
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
+    light.surface = make_emitter(*mesh, shape.flip_normal);
+  } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+    const Transform& t = sphere->to_world;
+    if (!is_similarity(t.linear)) return std::nullopt;
+    light.surface = SphereEmitter{t.translation, glm::length(t.linear[0]), shape.flip_normal};
+  } else {
+    const auto& disk = std::get<Disk>(shape.geometry);
+    const Normal3 n = disk_normal(disk.to_world);
+    light.surface = DiskEmitter{disk.to_world, disk.inner, shape.flip_normal ? -n : n};
+  }
+  return light;
+}
+
+}  // namespace kaustik

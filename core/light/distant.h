@@ -1,0 +1,22 @@
+#pragma once
+#include "core/light/light_types.h"
+#include "core/math/bounds.h"
+
+namespace kaustik {
+
+// Parallel light of irradiance L on a plane facing it. The builder sets the scene's bounding sphere.
+struct DistantLight {
+  static constexpr bool kDelta = true;
+  static constexpr std::string_view kName = "distant";
+
+  Vector3 to_light{0, 0, 1};  // unit
+  Rgb L{1};
+  Point3 scene_center{0};
+  float scene_radius = 0;
+
+  std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
+  std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
+  Rgb power() const { return kPi * scene_radius * scene_radius * L; }
+};
+
+}  // namespace kaustik

@@ -1,0 +1,41 @@
+#pragma once
+// What every light has in common. A light is a value type with these members:
+//   std::optional<LightSample> sample_Li(ref, u) const       incident light at a point; nothing when it
+//   cannot arrive float pdf_Li(ref, wi, on_light) const                    density of sample_Li per solid
+//   angle; zero for delta lights std::optional<EmissionSample> sample_Le(u_pos, u_dir, emission) const    a
+//   photon's start Rgb power() const                                        watts per channel static
+//   constexpr bool kDelta                             cannot be hit by a ray (point, spot, distant) static
+//   constexpr std::string_view kName
+// Area and infinite lights also have Le: radiance towards a viewer.
+
+#include <optional>
+#include <string_view>
+
+#include "core/math/error_bounds.h"
+#include "core/math/ray.h"
+
+namespace kaustik {
+
+// How area lamps choose photon directions.
+enum class EmissionMode {
+  kCosine,       // pdf cos/pi: equal flux per photon
+  kUniformAngle  // the lecture's: theta and phi uniform, weighted by cos sin(theta) pi
+};
+
+// Light arriving at a point, before visibility.
+struct LightSample {
+  Vector3 wi{0};  // unit, from the point to the light
+  Rgb Li{0};      // radiance; for delta lights intensity / distance^2 or irradiance, with pdf 1
+  float pdf = 0;  // per solid angle at the point; 1 for delta lights
+  Point3 p_light{
+      0};  // where it comes from, already offset off the lamp towards the point; infinite lights: unused
+  bool infinite = false;  // no end point: trace to t_max = infinity
+};
+
+// Start of a photon path.
+struct EmissionSample {
+  Ray ray;      // unit direction, origin offset off the lamp
+  Rgb flux{0};  // Le |cos| / (pdf_pos pdf_dir): watts if this were the only photon of this lamp
+};
+
+}  // namespace kaustik

@@ -1,0 +1,24 @@
+#pragma once
+#include "core/light/light_types.h"
+#include "core/math/frame.h"
+
+namespace kaustik {
+
+// Spot lamp: intensity I within acos(cos_falloff_start) of its axis, falling by pbrt's smoothstep to zero at
+// acos(cos_total_width).
+struct SpotLight {
+  static constexpr bool kDelta = true;
+  static constexpr std::string_view kName = "spot";
+
+  Point3 position{0};
+  Frame frame;  // z = axis
+  Rgb I{1};
+  float cos_falloff_start = 1, cos_total_width = 0;
+
+  Rgb intensity(float cos_theta) const;
+  std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
+  std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
+  Rgb power() const;
+};
+
+}  // namespace kaustik

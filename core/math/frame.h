@@ -1,0 +1,24 @@
+#pragma once
+// Orthonormal frame about a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+
+#include <cmath>
+
+#include "core/math/vec.h"
+
+namespace kaustik {
+
+// Right-handed frame whose z axis is the unit vector it was made from.
+struct Frame {
+  Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+
+  static Frame from_z(const Vector3& z) {
+    const float sign = std::copysign(1.0f, z.z);
+    const float a = -1.0f / (sign + z.z);
+    const float b = z.x * z.y * a;
+    return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
+  }
+  Vector3 to_local(const Vector3& v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
+  Vector3 to_world(const Vector3& v) const { return v.x * x + v.y * y + v.z * z; }
+};
+
+}  // namespace kaustik

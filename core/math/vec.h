@@ -1,0 +1,46 @@
+#pragma once
+// Vector vocabulary: GLM types under the names of the field. The aliases carry meaning for the reader only;
+// they share one representation. Units: metres; linear Rec. 709 for Rgb.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+#include <numbers>
+
+namespace kaustik {
+
+using Point2 = glm::vec2;
+using Point3 = glm::vec3;
+using Vector2 = glm::vec2;
+using Vector3 = glm::vec3;
+using Normal3 = glm::vec3;
+using Rgb = glm::vec3;
+
+inline constexpr float kPi = std::numbers::pi_v<float>;
+inline constexpr float kInvPi = std::numbers::inv_pi_v<float>;
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// Largest float below one: keeps canonical random numbers inside [0, 1).
+inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
+
+inline float max_component(const glm::vec3& v) {
+  return std::max(v.x, std::max(v.y, v.z));
+}
+inline float abs_dot(const glm::vec3& a, const glm::vec3& b) {
+  return std::abs(glm::dot(a, b));
+}
+inline float length_squared(const glm::vec3& v) {
+  return glm::dot(v, v);
+}
+// Relative luminance of linear Rec. 709.
+inline float luminance(const Rgb& c) {
+  return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+inline bool is_black(const Rgb& c) {
+  return c.x == 0 && c.y == 0 && c.z == 0;
+}
+inline bool is_finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,77 @@
+#pragma once
+// Counter-based Owen-scrambled Sobol points (Burley 2020, "Practical Hash-based Owen Scrambling").
+// Every value is a pure function of (seed, index, dimension): no state is shared between threads, so any
+// split of the work gives the same numbers.
+
+#include <cstdint>
+
+#include "core/math/vec.h"
+#include "core/sampling/sobol_table.h"
+
+namespace kaustik {
+
+// Bijective 64-bit finaliser (Stafford 2011, variant 13).
+constexpr uint64_t mix64(uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+constexpr uint64_t hash_combine(uint64_t a, uint64_t b) {
+  return mix64(a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2)));
+}
+
+// Point `index` of the sequence `seed`; dimensions are drawn in order. Index may use all 64 bits: the upper
+// 32 choose an independently scrambled sequence. Values lie in [0, 1).
+//
+// Dimensions come in sets of four: dimensions 4k..4k+3 are one four-dimensional Sobol set, whose index is
+// shuffled by the set's own Owen scrambling (Burley 2020, section 5: padding). Every aligned block of 2^m
+// points is a (0, m, 2)-net in dimensions 4k and 4k+1 and a (3, m, 4)-net in the whole set. Whoever draws
+// position and direction of one thing best draws them from one set.
+class Sampler {
+ public:
+  Sampler(uint64_t seed, uint64_t index, uint32_t first_dimension = 0)
+      : seed_(hash_combine(seed, index >> 32)),
+        reversed_index_(reverse_bits(static_cast<uint32_t>(index))),
+        dimension_(first_dimension) {}
+
+  float next_1d() { return draw(dimension_++); }
+  // Always an aligned pair of one Sobol set, so that it is stratified in two dimensions. Skips a dimension
+  // when the last one drawn was even.
+  Point2 next_2d() {
+    dimension_ += dimension_ & 1u;
+    const float x = draw(dimension_);
+    const float y = draw(dimension_ + 1);
+    dimension_ += 2;
+    return {x, y};
+  }
+  uint32_t dimension() const { return dimension_; }
+
+ private:
+  static constexpr uint32_t kNoSet = 0xffffffffu;
+  static constexpr uint64_t kGoldenRatio = 0x9e3779b97f4a7c15ull;
+
+  float draw(uint32_t dimension) {
+    const uint32_t set = dimension >> 2;
+    if (set != set_) {
+      set_ = set;
+      const uint64_t set_key = (uint64_t{1} << 32) | set;
+      shuffled_ = reverse_bits(laine_karras(reversed_index_, hash(set_key)));
+    }
+    const uint32_t scrambled =
+        reverse_bits(laine_karras(sobol_reversed(shuffled_, dimension & 3u), hash(dimension)));
+    // Truncated, not rounded: a point never moves into the next stratum, nor to 1.
+    return static_cast<float>(scrambled >> 8) * 0x1p-24f;
+  }
+  uint32_t hash(uint64_t key) const { return static_cast<uint32_t>(mix64(seed_ + key * kGoldenRatio)); }
+
+  uint64_t seed_;
+  uint32_t reversed_index_;
+  uint32_t dimension_;
+  uint32_t set_ = kNoSet;
+  uint32_t shuffled_ = 0;
+};
+
+// The value that Sampler draws; exposed for tests.
+float sobol_owen(uint32_t index, uint64_t seed, uint32_t dimension);
+
+}  // namespace kaustik

@@ -1,0 +1,269 @@
+#include "core/scene/builder.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/diagnostics/nearest_name.h"
+#include "core/scene/camera_builder.h"
+#include "core/scene/material_table.h"
+#include "core/scene/shape_source.h"
+#include "core/scene/surface_groups.h"
+
+namespace kaustik {
+namespace {
+
+// Instances are copied: past this many triangles that is a mistake, or a scene for another machine.
+constexpr uint64_t kMostInstancedTriangles = 1'000'000'000;
+
+// A Shape line that passed the checks, and its geometry.
+struct Item {
+  const ShapeDescription* description = nullptr;
+  uint32_t material = 0;
+  std::optional<ShapeSource> source;
+  DiagnosticList diagnostics;  // of making the source
+};
+
+// One placement of an item.
+struct Placement {
+  size_t item = 0;
+  glm::dmat4 to_world{1};
+  bool lamp = false;
+  bool last = false;  // of the item: may take the geometry instead of copying it
+};
+
+class Builder {
+ public:
+  Builder(const SceneDescription& description, const MeshLoader& load_mesh, Diagnostics& diagnostics)
+      : description_(description), load_mesh_(load_mesh), diagnostics_(diagnostics) {}
+
+  std::optional<Scene> build() {
+    Scene scene;
+    scene.camera = build_camera(description_, warned_, diagnostics_);
+    MaterialTable materials(description_, warned_, diagnostics_);
+    collect(materials);
+    load_sources();
+    check_area_lights();
+    build_lights(scene);
+    if (diagnostics_.has_errors() || !fits_memory()) return std::nullopt;
+    place(scene);
+    if (diagnostics_.has_errors()) return std::nullopt;
+    scene.materials = std::move(materials.materials());
+    scene.material_names = std::move(materials.names());
+    finalize_scene(scene);
+    return scene;
+  }
+
+ private:
+  void collect(MaterialTable& materials);
+  std::optional<size_t> add_item(const ShapeDescription& shape, MaterialTable& materials);
+  void add_instance(const InstanceDescription& instance,
+                    const std::map<std::string_view, std::vector<size_t>>& items_of);
+  void load_sources();
+  void check_area_lights();
+  void build_lights(Scene& scene);
+  bool fits_memory();
+  void place(Scene& scene);
+  bool keep(const Placement& placement, PlacedShape& placed);
+  bool make_lamp(const Item& item, Shape& shape, Scene& scene);
+  std::string group_name(const ShapeDescription& shape) const;
+
+  const SceneDescription& description_;
+  const MeshLoader& load_mesh_;
+  Diagnostics& diagnostics_;
+  WarnedOnce warned_;
+  std::vector<Item> items_;
+  std::vector<Placement> placements_;
+  std::vector<const TypeSpec*> area_light_specs_;
+  std::set<size_t> warned_without_area_;
+};
+
+// Nothing when the shape is bad, or is no surface at all.
+std::optional<size_t> Builder::add_item(const ShapeDescription& shape, MaterialTable& materials) {
+  const uint32_t material = materials.resolve(shape.material, diagnostics_);
+  const TypeSpec* spec = find_type(category("Shape"), shape, diagnostics_);
+  bool ok = spec && check_parameters("shape", *spec, shape, warned_, diagnostics_);
+  if (!is_usable_transform(shape.object_to_world)) {
+    diagnostics_.error(shape.location, "the transform of this shape cannot be inverted");
+    ok = false;
+  }
+  if (!ok) return std::nullopt;
+  if (material == MaterialTable::kInterface) {
+    if (shape.area_light) {
+      diagnostics_.warning(shape.location, "the area light is ignored: material \"interface\" is no surface",
+                           {{description_.area_lights[*shape.area_light].location, "the area light"}});
+    }
+    return std::nullopt;
+  }
+  items_.push_back({&shape, material, std::nullopt, {}});
+  return items_.size() - 1;
+}
+
+void Builder::collect(MaterialTable& materials) {
+  for (const ShapeDescription& shape : description_.shapes) {
+    if (const auto item = add_item(shape, materials)) {
+      placements_.push_back({*item, shape.object_to_world, shape.area_light.has_value(), true});
+    }
+  }
+  std::map<std::string_view, std::vector<size_t>> items_of;
+  for (const ObjectDescription& object : description_.objects) {
+    std::vector<size_t>& items = items_of[object.name];
+    for (const ShapeDescription& shape : object.shapes) {
+      if (const auto item = add_item(shape, materials)) items.push_back(*item);
+      if (shape.area_light) {
+        diagnostics_.warning(shape.location, "the area light is ignored: shapes of an object are no lamps");
+      }
+    }
+  }
+  for (const InstanceDescription& instance : description_.instances) add_instance(instance, items_of);
+}
+
+void Builder::add_instance(const InstanceDescription& instance,
+                           const std::map<std::string_view, std::vector<size_t>>& items_of) {
+  const auto found = items_of.find(instance.object);
+  if (found == items_of.end()) {
+    std::vector<std::string_view> names;
+    for (const auto& [name, items] : items_of) names.push_back(name);
+    diagnostics_.error(instance.location, fmt::format("no object is named `{}`{}", instance.object,
+                                                      name_hint(instance.object, names)));
+    return;
+  }
+  if (!is_usable_transform(instance.instance_to_world)) {
+    diagnostics_.error(instance.location, "the transform of this instance cannot be inverted");
+    return;
+  }
+  for (const size_t item : found->second) {
+    placements_.push_back({item, instance.instance_to_world * items_[item].description->object_to_world, false, false});
+  }
+}
+
+void Builder::load_sources() {
+  tbb::parallel_for(size_t{0}, items_.size(), [&](size_t i) {
+    Item& item = items_[i];
+    const auto& types = shape_types();
+    const auto spec = std::find_if(types.begin(), types.end(),
+                                   [&](const TypeSpec& t) { return t.name == item.description->type; });
+    item.source = make_shape_source(*item.description, *spec, load_mesh_, item.diagnostics);
+  });
+  for (Item& item : items_) diagnostics_.append(std::move(item.diagnostics));
+}
+
+void Builder::check_area_lights() {
+  for (const Directive& light : description_.area_lights) {
+    const TypeSpec* spec = find_type(category("AreaLightSource"), light, diagnostics_);
+    if (spec && !check_parameters("area light", *spec, light, warned_, diagnostics_)) spec = nullptr;
+    area_light_specs_.push_back(spec);
+  }
+}
+
+void Builder::build_lights(Scene& scene) {
+  for (const LightDescription& light : description_.lights) {
+    const TypeSpec* spec = find_type(category("LightSource"), light, diagnostics_);
+    if (!spec || !check_parameters("light", *spec, light, warned_, diagnostics_)) continue;
+    if (!is_usable_transform(light.light_to_world)) {
+      diagnostics_.error(light.location, "the transform of this light cannot be inverted");
+      continue;
+    }
+    const auto row = std::find_if(light_rows().begin(), light_rows().end(),
+                                  [&](const LightRow& r) { return &r.spec == spec; });
+    auto made = row->make(ParameterReader(light, *spec), light.light_to_world, diagnostics_);
+    if (made) scene.lights.push_back(std::move(*made));
+  }
+}
+
+bool Builder::fits_memory() {
+  uint64_t triangles = 0;
+  for (const Placement& placement : placements_) {
+    const auto* mesh = std::get_if<TriangleMesh>(&items_[placement.item].source->geometry);
+    if (mesh && !placement.last) triangles += mesh->indices.size();
+  }
+  if (triangles <= kMostInstancedTriangles) return true;
+  diagnostics_.error(description_.instances.front().location,
+                     fmt::format("instances are copied: {} triangles are more than the {} that are accepted",
+                                 triangles, kMostInstancedTriangles));
+  return false;
+}
+
+// Reports what placing found; false when nothing is left of the shape.
+bool Builder::keep(const Placement& placement, PlacedShape& placed) {
+  const ShapeDescription& shape = *items_[placement.item].description;
+  if (!placed.finite) {
+    diagnostics_.error(shape.location, "the transform takes this shape beyond the range of floats");
+    return false;
+  }
+  if (placed.without_area > 0 && warned_without_area_.insert(placement.item).second) {
+    const auto& mesh = std::get<TriangleMesh>(placed.shape.geometry);
+    diagnostics_.warning(shape.location, fmt::format("{} of {} triangles have no area and are left out",
+                                                     placed.without_area, mesh.indices.size() + placed.without_area));
+  }
+  return primitive_count(placed.shape) > 0;
+}
+
+bool Builder::make_lamp(const Item& item, Shape& shape, Scene& scene) {
+  const uint32_t index = *item.description->area_light;
+  const Directive& directive = description_.area_lights[index];
+  const ParameterReader reader(directive, *area_light_specs_[index]);
+  auto light = DiffuseAreaLight::make(shape, reader.rgb("L"), reader.flag("twosided"));
+  if (!light) {
+    const bool sphere = std::holds_alternative<Sphere>(shape.geometry);
+    diagnostics_.error(item.description->location,
+                       sphere ? "a sphere that is scaled unevenly cannot be a lamp"
+                              : "the area of this lamp is zero or not finite",
+                       {{directive.location, "the area light"}});
+    return false;
+  }
+  if (reader.has("power")) {
+    const float emitted = luminance(light->power());
+    if (!(emitted > 0)) {
+      diagnostics_.error(reader.location("power"), "`power` of a light that emits nothing");
+      return false;
+    }
+    light->L *= static_cast<float>(reader.number("power")) / emitted;
+  }
+  light->L *= static_cast<float>(reader.number("scale"));
+  shape.light = static_cast<uint32_t>(scene.lights.size());
+  scene.lights.push_back(std::move(*light));
+  return true;
+}
+
+std::string Builder::group_name(const ShapeDescription& shape) const {
+  if (!shape.location.valid()) return shape.type;
+  return fmt::format("{} at {}:{}", shape.type, diagnostics_.files.name(shape.location.file), shape.location.line);
+}
+
+void Builder::place(Scene& scene) {
+  std::vector<PlacedShape> placed(placements_.size());
+  tbb::parallel_for(size_t{0}, placements_.size(), [&](size_t i) {
+    const Placement& p = placements_[i];
+    Item& item = items_[p.item];
+    // Only a Shape line's own placement is its last one, and then its only one: no other thread reads the source.
+    ShapeSource source = p.last ? std::move(*item.source) : *item.source;
+    placed[i] = place_shape(std::move(source), p.to_world, item.description->reverse_orientation);
+  });
+  std::vector<std::string> names;
+  std::vector<std::string> places;
+  for (size_t i = 0; i < placed.size(); ++i) {
+    const Item& item = items_[placements_[i].item];
+    Shape& shape = placed[i].shape;
+    if (!keep(placements_[i], placed[i])) continue;
+    shape.material = item.material;
+    if (placements_[i].lamp && !make_lamp(item, shape, scene)) continue;
+    const Parameter* group = item.description->find("surfacegroup");
+    names.push_back(group ? group->strings[0] : std::string());
+    places.push_back(group ? names.back() : group_name(*item.description));
+    scene.shapes.push_back(std::move(shape));
+  }
+  scene.surface_group_names.resize(assign_surface_groups(scene.shapes, names));
+  for (size_t i = scene.shapes.size(); i-- > 0;) scene.surface_group_names[scene.shapes[i].surface_group] = places[i];
+}
+
+}  // namespace
+
+std::optional<Scene> build_scene(const SceneDescription& description, const MeshLoader& load_mesh,
+                                 Diagnostics& diagnostics) {
+  return Builder(description, load_mesh, diagnostics).build();
+}
+
+}  // namespace kaustik

@@ -1,0 +1,66 @@
+#include "core/scene/material_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/diagnostics/nearest_name.h"
+
+namespace kaustik {
+
+MaterialTable::MaterialTable(const SceneDescription& description, WarnedOnce& warned,
+                             DiagnosticList& diagnostics) {
+  std::map<std::string_view, SourceLocation> first_place;
+  for (const MaterialDescription& material : description.materials) {
+    const uint32_t index = make(material, warned, diagnostics);
+    of_description_.push_back(index);
+    if (material.name.empty()) continue;
+    const auto [first, is_new] = first_place.emplace(material.name, material.name_location);
+    if (!is_new) {
+      diagnostics.error(material.name_location, fmt::format("material `{}` is defined twice", material.name),
+                        {{first->second, "first defined here"}});
+    }
+    by_name_.emplace(material.name, index);
+  }
+}
+
+uint32_t MaterialTable::add(const Bsdf& bsdf, std::string name) {
+  materials_.push_back(bsdf);
+  names_.push_back(std::move(name));
+  return static_cast<uint32_t>(materials_.size() - 1);
+}
+
+uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& warned,
+                             DiagnosticList& diagnostics) {
+  const TypeSpec* spec = find_type(category("Material"), material, diagnostics);
+  if (!spec || !check_parameters("material", *spec, material, warned, diagnostics)) return default_material();
+  const auto row = std::find_if(material_rows().begin(), material_rows().end(),
+                                [&](const MaterialRow& r) { return &r.spec == spec; });
+  if (!row->make) return kInterface;
+  return add(row->make(ParameterReader(material, *spec)), material.name.empty() ? material.type : material.name);
+}
+
+uint32_t MaterialTable::default_material() {
+  if (default_ == kNoIndex) default_ = add(Lambertian{}, "default");
+  return default_;
+}
+
+uint32_t MaterialTable::resolve(const MaterialReference& reference, DiagnosticList& diagnostics) {
+  if (reference.index) return of_description_[*reference.index];
+  if (reference.name.empty()) return default_material();
+  const auto found = by_name_.find(reference.name);
+  if (found != by_name_.end()) return found->second;
+  const SourceLocation& at = reference.location;
+  if (reported_.insert({at.file, at.line, at.column}).second) {
+    const std::vector<std::string_view> names = [&] {
+      std::vector<std::string_view> all;
+      for (const auto& [name, index] : by_name_) all.push_back(name);
+      return all;
+    }();
+    diagnostics.error(at, fmt::format("no material is named `{}`{}", reference.name,
+                                      name_hint(reference.name, names)));
+  }
+  return default_material();
+}
+
+}  // namespace kaustik

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace kaustik {
+
+// What must be modelled for this scene; everything else is left out, and the log says so.
+struct SceneNeeds {
+  bool specular = false;           // some dielectric, conductor or mirror: caustics exist
+  bool diffuse = false;            // some non-specular surface: photon maps are of use
+  bool only_delta_lights = false;  // paths cannot hit a lamp: caustics need photons
+  bool infinite_light = false;
+  bool any_light = false;
+
+  // One sentence per thing left out, e.g. "no specular surface: no caustic pass".
+  std::vector<std::string> left_out() const;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,51 @@
+#include "core/scene/scene.h"
+
+namespace kaustik {
+namespace {
+
+// Bounding sphere handed to lights that lie outside the scene; a little larger than the box needs, so that
+// rounding leaves nothing outside.
+void set_scene_sphere(std::vector<Light>& lights, const Bounds3& bounds) {
+  if (bounds.empty()) return;
+  const Point3 center = bounds.center();
+  const float radius = bounds.radius() * (1 + gamma_bound(16)) + gamma_bound(16) * max_abs_component(center);
+  for (Light& light : lights) {
+    if (auto* distant = std::get_if<DistantLight>(&light)) {
+      distant->scene_center = center;
+      distant->scene_radius = radius;
+    } else if (auto* infinite = std::get_if<InfiniteLight>(&light)) {
+      infinite->scene_center = center;
+      infinite->scene_radius = radius;
+    }
+  }
+}
+
+SceneNeeds needs_of(const Scene& scene) {
+  SceneNeeds needs;
+  for (const Shape& shape : scene.shapes) {
+    (is_specular(scene.materials[shape.material]) ? needs.specular : needs.diffuse) = true;
+  }
+  needs.any_light = !scene.lights.empty();
+  needs.infinite_light = !scene.infinite_lights.empty();
+  needs.only_delta_lights =
+      needs.any_light && std::all_of(scene.lights.begin(), scene.lights.end(), is_delta);
+  return needs;
+}
+
+}  // namespace
+
+void finalize_scene(Scene& scene) {
+  scene.bounds = Bounds3();
+  for (const Shape& shape : scene.shapes) scene.bounds.add(bounds_of(shape));
+  set_scene_sphere(scene.lights, scene.bounds);
+  scene.light_power = light_power_distribution(scene.lights);
+  scene.infinite_lights.clear();
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    if (std::holds_alternative<InfiniteLight>(scene.lights[i])) {
+      scene.infinite_lights.push_back(static_cast<uint32_t>(i));
+    }
+  }
+  scene.needs = needs_of(scene);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,34 @@
+#pragma once
+// The scene as it is rendered: plain data, built once by build_scene and const from then on.
+
+#include <string>
+#include <vector>
+
+#include "core/bsdf/bsdf.h"
+#include "core/camera/perspective.h"
+#include "core/geometry/interaction.h"
+#include "core/light/light.h"
+#include "core/scene/needs.h"
+
+namespace kaustik {
+
+struct Scene {
+  PerspectiveCamera camera;
+  std::vector<Shape> shapes;
+  std::vector<Bsdf> materials;
+  std::vector<std::string> material_names;  // for `kaustik info`
+  std::vector<std::string> surface_group_names;
+  std::vector<Light> lights;
+  DiscreteDistribution light_power;       // emission and next-event probabilities
+  std::vector<uint32_t> infinite_lights;  // indices into lights
+  Bounds3 bounds;                         // of all shapes
+  SceneNeeds needs;
+
+  const Bsdf& bsdf(const SurfaceInteraction& si) const { return materials[si.material]; }
+};
+
+// Fills what follows from shapes, materials and lights: bounds, scene spheres of distant and infinite lights,
+// light_power, infinite_lights, needs. Called by build_scene, and by tests that make scenes in code.
+void finalize_scene(Scene& scene);
+
+}  // namespace kaustik

@@ -1,0 +1,230 @@
+// The rows of shapes, camera, film, sampler, filter, accelerator and options, and the list of all categories.
+
+#include <algorithm>
+
+#include "core/scene/parameter_spec.h"
+
+namespace kaustik {
+namespace {
+
+using namespace spec;
+using Type = ParameterType;
+
+// Every shape's.
+std::vector<ParameterSpec> shape(std::vector<ParameterSpec> own) {
+  own.push_back(text("surfacegroup", "found from shared edges",
+                     "name of the surface that the shape is a part of: photons count across all shapes of one "
+                     "name, and of no other. Not in pbrt"));
+  own.push_back(ignored("alpha", {Type::kFloat, Type::kTexture}, "cut-outs", 1));
+  return own;
+}
+
+std::vector<TypeSpec> make_shape_types() {
+  const ParameterSpec P = list(Type::kPoint3, "P", 3, "required", "m", "vertices");
+  const ParameterSpec N =
+      list(Type::kNormal, "N", 1, "none", "", "normals, one per vertex; they also choose the outside");
+  const ParameterSpec uv = list(Type::kPoint2, "uv", 1, "none", "", "texture coordinates, one per vertex");
+  const ParameterSpec face_indices = ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
+  const ParameterSpec phimax =
+      not_rendered("phimax", {Type::kFloat}, "only full turns are rendered: must be 360", 360);
+  return {
+      {"trianglemesh", "Triangles. Without `N`, the outside is the side of cross(p1 - p0, p2 - p0).",
+       shape({P, list(Type::kInteger, "indices", 3, "0 1 2 when there are three vertices", "",
+                      "three vertices per triangle, from zero"),
+              N, uv, ignored("S", {Type::kVector3}, "tangents"), face_indices})},
+      {"plymesh", "Triangles, quads and polygons of a PLY file (ascii or binary), with normals and uv.",
+       shape({text("filename", "required", "beside the scene file, unless absolute"),
+              ignored("displacement", {Type::kTexture, Type::kFloat}, "displaced geometry", 0),
+              ignored("edgelength", {Type::kFloat}, "of displaced geometry")})},
+      {"sphere", "About the origin, exact; an ellipsoid under a transform that does not scale evenly.",
+       shape({number("radius", 1, "m", kPositive, "radius"),
+              without_default(number("zmin", 0, "m", kAnyNumber, "must not cut the sphere"), "-radius"),
+              without_default(number("zmax", 0, "m", kAnyNumber, "must not cut the sphere"), "radius"),
+              phimax})},
+      {"disk", "In the plane z = height; the outside is the side of +z.",
+       shape({number("radius", 1, "m", kPositive, "outer radius"),
+              number("innerradius", 0, "m", kNotNegative, "radius of the hole"),
+              number("height", 0, "m", kAnyNumber, "where it lies along z"), phimax})},
+      {"bilinearmesh",
+       "Patches of four corners p00 p10 p01 p11. Flat convex ones become two triangles, others a grid.",
+       shape({list(Type::kPoint3, "P", 4, "required", "m", "corners"),
+              list(Type::kInteger, "indices", 4, "0 1 2 3 when there are four corners", "",
+                   "four corners per patch, from zero"),
+              N, uv, face_indices,
+              not_rendered("emissionfilename", {Type::kString}, "images as lamps are not rendered")})},
+  };
+}
+
+std::vector<TypeSpec> make_camera_types() {
+  ParameterSpec window = list(Type::kFloat, "screenwindow", 4, "the film's shape, shorter side -1 to 1", "",
+                              "x min, x max, y min, y max of the image plane");
+  window.max_items = 4;
+  return {{"perspective",
+           "Pinhole camera at the origin of its space: +x right, +y up, +z ahead.",
+           {number("fov", 90, "degrees", {0, 180, true, true}, "full angle of the shorter image side"),
+            without_default(number("frameaspectratio", 0, "", kPositive, "width over height"), "the film's"),
+            window, ignored("lensradius", {Type::kFloat}, "depth of field", 0),
+            ignored("focaldistance", {Type::kFloat}, "no effect on a pinhole"),
+            ignored("shutteropen", {Type::kFloat}, "nothing moves"),
+            ignored("shutterclose", {Type::kFloat}, "nothing moves")}}};
+}
+
+std::vector<TypeSpec> make_film_types() {
+  ParameterSpec crop =
+      list(Type::kFloat, "cropwindow", 4, "0 1 0 1", "", "x min, x max, y min, y max, as shares of the image");
+  crop.max_items = 4;
+  crop.range = kUnit;
+  ParameterSpec bounds =
+      list(Type::kInteger, "pixelbounds", 4, "all", "pixels", "x min, x max, y min, y max, half open");
+  bounds.max_items = 4;
+  bounds.range = kNotNegative;
+  const Range side{1, 1 << 20};
+  return {{"rgb",
+           "The image.",
+           {integer("xresolution", 1280, "pixels", side, "width"),
+            integer("yresolution", 720, "pixels", side, "height"),
+            text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop, bounds,
+            ignored("diagonal", {Type::kFloat}, "of a lens camera"),
+            ignored("sensor", {Type::kString}, "the film is linear Rec. 709"),
+            ignored("iso", {Type::kFloat}, "no exposure", 100),
+            ignored("whitebalance", {Type::kFloat}, "no white balance", 0),
+            ignored("maxcomponentvalue", {Type::kFloat}, "samples are not clamped"),
+            ignored("savefp16", {Type::kBool}, "layers are 32-bit floats")}}};
+}
+
+std::vector<TypeSpec> make_sampler_types() {
+  const ParameterSpec seed = ignored("seed", {Type::kInteger}, "use `--seed`");
+  const ParameterSpec scrambling =
+      ignored("randomization", {Type::kString}, "always Owen-scrambled Sobol points");
+  const ParameterSpec samples = integer("pixelsamples", 16, "", {1, 1 << 30}, "samples per pixel");
+  std::vector<TypeSpec> types;
+  for (const std::string_view name : {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "zsobol"}) {
+    types.push_back({name, "Gives the samples per pixel; the points are always Owen-scrambled Sobol points.",
+                     {samples, seed, scrambling}});
+  }
+  types.push_back({"stratified",
+                   "Gives xsamples times ysamples samples per pixel.",
+                   {integer("xsamples", 4, "", {1, 1 << 15}, "columns of strata"),
+                    integer("ysamples", 4, "", {1, 1 << 15}, "rows of strata"), seed,
+                    ignored("jitter", {Type::kBool}, "always jittered")}});
+  return types;
+}
+
+std::vector<TypeSpec> make_filter_types() {
+  constexpr std::string_view kDoc = "pixels are means over their own square";
+  const auto radii = [&](std::optional<double> neutral) {
+    return std::vector<ParameterSpec>{ignored("xradius", {Type::kFloat}, kDoc, neutral),
+                                      ignored("yradius", {Type::kFloat}, kDoc, neutral)};
+  };
+  const auto with = [&](std::initializer_list<std::string_view> names) {
+    std::vector<ParameterSpec> all = radii(std::nullopt);
+    for (const std::string_view name : names) all.push_back(ignored(name, {Type::kFloat}, kDoc));
+    return all;
+  };
+  constexpr std::string_view kOther = "Accepted; a box of one pixel is used.";
+  return {{"box", "Pixels are means over their own square.", radii(0.5)},
+          {"gaussian", kOther, with({"sigma"})},
+          {"mitchell", kOther, with({"B", "C"})},
+          {"sinc", kOther, with({"tau"})},
+          {"triangle", kOther, with({})}};
+}
+
+std::vector<TypeSpec> make_accelerator_types() {
+  return {{"bvh",
+           "Accepted; Embree builds its own.",
+           {ignored("maxnodeprims", {Type::kInteger}, "of pbrt's own tree"),
+            ignored("splitmethod", {Type::kString}, "of pbrt's own tree")}},
+          {"kdtree",
+           "Accepted; Embree builds its own.",
+           {ignored("intersectcost", {Type::kInteger}, "of pbrt's own tree"),
+            ignored("traversalcost", {Type::kInteger}, "of pbrt's own tree"),
+            ignored("emptybonus", {Type::kFloat}, "of pbrt's own tree"),
+            ignored("maxprims", {Type::kInteger}, "of pbrt's own tree"),
+            ignored("maxdepth", {Type::kInteger}, "of pbrt's own tree")}}};
+}
+
+TypeSpec make_option_type() {
+  TypeSpec type{"", "Settings of the program pbrt.", {}};
+  for (const std::string_view name : {"disablepixeljitter", "disabletexturefiltering", "disablewavelengthjitter",
+                                      "forcediffuse", "pixelstats", "wavefront"}) {
+    type.parameters.push_back(ignored(name, {Type::kBool}, "of the program pbrt", 0));
+  }
+  type.parameters.push_back(ignored("displacementedgescale", {Type::kFloat}, "of the program pbrt", 1));
+  for (const std::string_view name : {"msereferenceimage", "msereferenceout", "rendercoordsys"}) {
+    type.parameters.push_back(ignored(name, {Type::kString}, "of the program pbrt"));
+  }
+  type.parameters.push_back(ignored("seed", {Type::kInteger}, "use `--seed`"));
+  return type;
+}
+
+template <class Row>
+std::vector<const TypeSpec*> specs_of(const std::vector<Row>& rows) {
+  std::vector<const TypeSpec*> specs;
+  for (const Row& row : rows) {
+    if constexpr (std::is_same_v<Row, TypeSpec>) {
+      specs.push_back(&row);
+    } else {
+      specs.push_back(&row.spec);
+    }
+  }
+  return specs;
+}
+
+std::vector<Category> make_categories() {
+  return {
+      {"Camera", "camera", specs_of(camera_types()), {"orthographic", "realistic", "spherical"}},
+      {"Film", "film", specs_of(film_types()), {"gbuffer", "spectral"}},
+      {"Sampler", "sampler", specs_of(sampler_types()), {}},
+      {"PixelFilter", "pixel filter", specs_of(filter_types()), {}},
+      {"Accelerator", "accelerator", specs_of(accelerator_types()), {}},
+      {"Material",
+       "material",
+       specs_of(material_rows()),
+       {"coatedconductor", "coateddiffuse", "diffusetransmission", "hair", "measured", "mix", "subsurface",
+        "thindielectric"}},
+      {"Shape", "shape", specs_of(shape_types()), {"curve", "cylinder", "loopsubdiv"}},
+      {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
+      {"LightSource", "light", specs_of(light_rows()), {"goniometric", "projection"}},
+  };
+}
+
+}  // namespace
+
+const std::vector<TypeSpec>& shape_types() {
+  static const std::vector<TypeSpec> types = make_shape_types();
+  return types;
+}
+const std::vector<TypeSpec>& camera_types() {
+  static const std::vector<TypeSpec> types = make_camera_types();
+  return types;
+}
+const std::vector<TypeSpec>& film_types() {
+  static const std::vector<TypeSpec> types = make_film_types();
+  return types;
+}
+const std::vector<TypeSpec>& sampler_types() {
+  static const std::vector<TypeSpec> types = make_sampler_types();
+  return types;
+}
+const std::vector<TypeSpec>& filter_types() {
+  static const std::vector<TypeSpec> types = make_filter_types();
+  return types;
+}
+const std::vector<TypeSpec>& accelerator_types() {
+  static const std::vector<TypeSpec> types = make_accelerator_types();
+  return types;
+}
+const TypeSpec& option_type() {
+  static const TypeSpec type = make_option_type();
+  return type;
+}
+const std::vector<Category>& categories() {
+  static const std::vector<Category> all = make_categories();
+  return all;
+}
+const Category& category(std::string_view directive) {
+  return *std::find_if(categories().begin(), categories().end(),
+                       [&](const Category& c) { return c.directive == directive; });
+}
+
+}  // namespace kaustik

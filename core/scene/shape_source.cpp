@@ -1,0 +1,189 @@
+#include "core/scene/shape_source.h"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/scene/bilinear.h"
+
+namespace kaustik {
+namespace {
+
+struct Context {
+  const ShapeDescription& shape;
+  const ParameterReader& reader;
+  DiagnosticList& diagnostics;
+
+  void error(const SourceLocation& where, std::string message) const {
+    diagnostics.error(where, std::move(message));
+  }
+  const Parameter* required(std::string_view name) const {
+    const Parameter* p = shape.find(name);
+    if (!p) error(shape.type_location, fmt::format("shape \"{}\" needs `{}`", shape.type, name));
+    return p;
+  }
+};
+
+template <class V, int kSize>
+std::vector<V> vectors(const Parameter* p) {
+  std::vector<V> out;
+  if (!p) return out;
+  out.resize(p->numbers.size() / kSize);
+  for (size_t i = 0; i < out.size(); ++i) {
+    for (int k = 0; k < kSize; ++k) out[i][k] = static_cast<float>(p->numbers[i * kSize + k]);
+  }
+  return out;
+}
+
+// `kSize` vertices per face; without the parameter, one face of the first ones.
+template <size_t kSize>
+std::optional<std::vector<std::array<uint32_t, kSize>>> faces(const Context& c, size_t vertices) {
+  const Parameter* p = c.shape.find("indices");
+  if (!p) {
+    std::array<uint32_t, kSize> only{};
+    for (size_t k = 0; k < kSize; ++k) only[k] = static_cast<uint32_t>(k);
+    if (vertices == kSize) return std::vector<std::array<uint32_t, kSize>>{only};
+    c.required("indices");
+    return std::nullopt;
+  }
+  if (p->numbers.size() % kSize != 0) {
+    c.error(p->location, fmt::format("`indices` of shape \"{}\" come in groups of {}, not {} in all", c.shape.type,
+                                     kSize, p->numbers.size()));
+    return std::nullopt;
+  }
+  std::vector<std::array<uint32_t, kSize>> out(p->numbers.size() / kSize);
+  for (size_t i = 0; i < p->numbers.size(); ++i) {
+    const double index = p->numbers[i];
+    if (!(index >= 0 && index < static_cast<double>(vertices))) {
+      c.error(p->value_location(i), fmt::format("index {} is out of range: there are {} vertices", index, vertices));
+      return std::nullopt;
+    }
+    out[i / kSize][i % kSize] = static_cast<uint32_t>(index);
+  }
+  return out;
+}
+
+bool check_per_vertex(const Context& c, std::string_view name, size_t count, size_t vertices) {
+  if (count == 0 || count == vertices) return true;
+  c.error(c.shape.find(name)->location,
+          fmt::format("`{}` has {} entries for {} vertices", name, count, vertices));
+  return false;
+}
+
+std::optional<ShapeSource> make_trianglemesh(const Context& c) {
+  const Parameter* P = c.required("P");
+  if (!P) return std::nullopt;
+  TriangleMesh mesh;
+  mesh.P = vectors<Point3, 3>(P);
+  mesh.N = vectors<Normal3, 3>(c.shape.find("N"));
+  mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
+  const bool complete =
+      check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) && check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
+  auto indices = faces<3>(c, mesh.P.size());
+  if (!complete || !indices) return std::nullopt;
+  mesh.indices = std::move(*indices);
+  return ShapeSource{std::move(mesh)};
+}
+
+std::optional<ShapeSource> make_bilinearmesh(const Context& c) {
+  const Parameter* P = c.required("P");
+  if (!P) return std::nullopt;
+  PatchMesh mesh;
+  mesh.P = vectors<Point3, 3>(P);
+  mesh.N = vectors<Normal3, 3>(c.shape.find("N"));
+  mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
+  const bool complete =
+      check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) && check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
+  auto patches = faces<4>(c, mesh.P.size());
+  if (!complete || !patches) return std::nullopt;
+  mesh.patches = std::move(*patches);
+  return ShapeSource{triangulate_patches(mesh)};
+}
+
+std::optional<ShapeSource> make_plymesh(const Context& c, const MeshLoader& load_mesh) {
+  if (!c.required("filename")) return std::nullopt;
+  const SourceLocation where = c.reader.location("filename");
+  MeshResult result = load_mesh(c.reader.text("filename"), where);
+  if (!result.error.empty()) {
+    c.error(where, std::move(result.error));
+    return std::nullopt;
+  }
+  return ShapeSource{std::move(result.mesh)};
+}
+
+// zmin and zmax may be given as long as they leave the whole sphere.
+bool check_whole_sphere(const Context& c, double radius) {
+  const auto cuts = [&](std::string_view name, double sign) {
+    const Parameter* p = c.shape.find(name);
+    if (!p || sign * p->numbers[0] >= radius) return false;
+    c.error(p->value_location(0), fmt::format("`{}` = {} cuts the sphere of radius {}: only whole spheres are rendered",
+                                              name, p->numbers[0], radius));
+    return true;
+  };
+  const bool cut_below = cuts("zmin", -1);
+  const bool cut_above = cuts("zmax", 1);
+  return !cut_below && !cut_above;
+}
+
+std::optional<ShapeSource> make_sphere(const Context& c) {
+  const double radius = c.reader.number("radius");
+  if (!check_whole_sphere(c, radius)) return std::nullopt;
+  return ShapeSource{SphereSource{}, glm::scale(glm::dmat4(1), glm::dvec3(radius))};
+}
+
+std::optional<ShapeSource> make_disk(const Context& c) {
+  const double radius = c.reader.number("radius");
+  const double inner = c.reader.number("innerradius");
+  if (!(inner < radius)) {
+    c.error(c.reader.location("innerradius"),
+            fmt::format("`innerradius` = {} leaves nothing of a disk of radius {}", inner, radius));
+    return std::nullopt;
+  }
+  const glm::dmat4 local = glm::scale(
+      glm::translate(glm::dmat4(1), glm::dvec3(0, 0, c.reader.number("height"))), glm::dvec3(radius));
+  return ShapeSource{DiskSource{static_cast<float>(inner / radius)}, local};
+}
+
+// What both inline meshes and files can get wrong.
+bool check_mesh(const Context& c, const TriangleMesh& mesh) {
+  const std::string_view source = c.shape.find("P") ? "P" : "filename";
+  const SourceLocation where = c.reader.location(source);
+  for (size_t i = 0; i < mesh.P.size(); ++i) {
+    if (is_finite(mesh.P[i]) && (mesh.N.empty() || is_finite(mesh.N[i]))) continue;
+    c.error(where, fmt::format("vertex {} of the mesh has a {} that is not finite", i,
+                               is_finite(mesh.P[i]) ? "normal" : "position"));
+    return false;
+  }
+  for (size_t t = 0; t < mesh.indices.size(); ++t) {
+    for (const uint32_t index : mesh.indices[t]) {
+      if (index < mesh.P.size()) continue;
+      c.error(where, fmt::format("triangle {} of the mesh has vertex {}: there are {} vertices", t, index,
+                                 mesh.P.size()));
+      return false;
+    }
+  }
+  return true;
+}
+
+std::optional<ShapeSource> make_geometry(const Context& c, const MeshLoader& load_mesh) {
+  if (c.shape.type == "trianglemesh") return make_trianglemesh(c);
+  if (c.shape.type == "plymesh") return make_plymesh(c, load_mesh);
+  if (c.shape.type == "bilinearmesh") return make_bilinearmesh(c);
+  if (c.shape.type == "sphere") return make_sphere(c);
+  return make_disk(c);
+}
+
+}  // namespace
+
+std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
+                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics) {
+  const ParameterReader reader(shape, spec);
+  const Context context{shape, reader, diagnostics};
+  std::optional<ShapeSource> source = make_geometry(context, load_mesh);
+  if (!source) return std::nullopt;
+  const auto* mesh = std::get_if<TriangleMesh>(&source->geometry);
+  if (mesh && !check_mesh(context, *mesh)) return std::nullopt;
+  return source;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,37 @@
+#pragma once
+// A shape in its own space: what the parameters of a Shape line say, before any transform. Instances share it.
+
+#include <optional>
+#include <variant>
+
+#include "core/geometry/shape.h"
+#include "core/scene/builder.h"
+#include "core/scene/schema.h"
+
+namespace kaustik {
+
+struct SphereSource {};
+struct DiskSource {
+  float inner = 0;
+};
+
+struct ShapeSource {
+  std::variant<TriangleMesh, SphereSource, DiskSource> geometry;
+  glm::dmat4 local{1};  // from the unit sphere or disk to the shape's space; identity for meshes
+};
+
+// Nothing, with errors added, when the parameters contradict each other or the mesh is bad: indices out of range,
+// positions or normals that are not finite. The directive must have passed check_parameters. Thread-safe.
+std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
+                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics);
+
+struct PlacedShape {
+  Shape shape;
+  size_t without_area = 0;  // triangles that were left out because their corners lie on one line
+  bool finite = true;       // false: the transform takes the shape beyond the range of floats
+};
+
+// Bakes the transform. Triangles keep their order.
+PlacedShape place_shape(ShapeSource source, const glm::dmat4& object_to_world, bool reverse_orientation);
+
+}  // namespace kaustik

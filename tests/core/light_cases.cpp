@@ -1,0 +1,138 @@
+#include "tests/core/light_cases.h"
+
+#include "core/sampling/warp.h"
+
+namespace kaustik::test {
+namespace {
+
+LightCase area_case(const std::string& name, const Shape& shape, bool twosided, std::vector<Point3> refs) {
+  LightCase c;
+  c.name = name + (twosided ? " two-sided" : "");
+  c.shapes = {shape};
+  c.light = *DiffuseAreaLight::make(shape, Rgb(1, 2, 3), twosided);
+  c.refs = std::move(refs);
+  return c;
+}
+
+// A bent strip of two triangles of unequal size, facing down.
+Shape bent_mesh() {
+  Shape shape;
+  shape.geometry =
+      TriangleMesh{{{-1, -1, 3}, {-1, 1, 3}, {1, 1, 3.2f}, {2, -1, 3.5f}}, {}, {}, {{0, 1, 2}, {0, 2, 3}}};
+  return shape;
+}
+
+Shape disk_shape(float inner, bool flip) {
+  Shape shape;
+  // An ellipse, tilted, whose +z side faces up; flip turns it down.
+  const glm::dmat3 linear(1, 0, 0.2, 0, 0.5, 0.1, 0, 0, 1);
+  shape.geometry = Disk{Transform::from_matrix(affine(linear, {0.3, 0, 2})), inner};
+  shape.flip_normal = flip;
+  return shape;
+}
+
+std::vector<LightCase> make_cases() {
+  std::vector<LightCase> cases;
+  const std::vector<Point3> below = {{0.2f, 0.1f, 0}, {1.5f, -1, 1}};
+  LightCase point{"point", PointLight{Point3(0, 0, 2), Rgb(1, 2, 3)}, {}, below};
+  LightCase spot{"spot", SpotLight{}, {}, below};
+  auto& s = std::get<SpotLight>(spot.light);
+  s.position = Point3(0, 0, 2);
+  s.frame = Frame::from_z(glm::normalize(Vector3(0.1f, 0, -1)));
+  s.cos_falloff_start = 0.97f;
+  s.cos_total_width = 0.9f;
+  spot.receiver_radius = 0.9f;
+  LightCase distant{
+      "distant", DistantLight{glm::normalize(Vector3(1, 0, 2)), Rgb(1, 2, 3), Point3(0), 3}, {}, below};
+  LightCase infinite{"infinite", InfiniteLight{Rgb(1, 2, 3), Point3(0), 2.5f}, {}, below};
+  cases = {point, spot, distant, infinite};
+
+  cases.push_back(area_case("triangle", triangle_shape({0, 0, 2}, {0, 1, 2}, {1, 0, 2}), false, below));
+  cases.push_back(area_case("bent mesh", bent_mesh(), false, below));
+  cases.push_back(area_case("bent mesh", bent_mesh(), true, {{0, 0, 0}, {1, 0.5f, 6}}));
+  const Point3 center(0.5f, 0, 3);
+  cases.push_back(area_case("sphere", sphere_shape(center, 0.8f), false, {{0, 0, 0}, {0.5f, 0.1f, 2.1f}}));
+  cases.push_back(area_case("distant sphere", sphere_shape({0, 0, 300}, 0.8f), false, {{0, 0, 0}}));
+  cases.back().receiver_radius = 150;
+  cases.push_back(area_case("inward sphere", sphere_shape(center, 4, true), false, {{0.1f, 0, 2}, center}));
+  cases.push_back(area_case("sphere", sphere_shape(center, 4), true, {{0.1f, 0.2f, 2}, {8, 1, 1}}));
+  cases.push_back(area_case("disk", disk_shape(0, true), false, below));
+  cases.push_back(area_case("annulus", disk_shape(0.6f, false), true, {{0, 0, 0}, {0.5f, 0.5f, 4}}));
+  return cases;
+}
+
+// A cone about `frame.z` that holds every direction to the lamp.
+struct Cone {
+  Frame frame;
+  double z_min = -1;
+};
+Cone cone_of(const LightCase& c, const Point3& ref) {
+  if (!std::holds_alternative<DiffuseAreaLight>(c.light)) return {};
+  const Bounds3 b = bounds_of(c.shapes[0]);
+  const Vector3 to_center = b.center() - ref;
+  const double distance = glm::length(to_center);
+  if (distance <= b.radius()) return {};
+  const double sin_max = b.radius() / distance;
+  return {Frame::from_z(glm::normalize(to_center)), std::sqrt(1 - sin_max * sin_max)};
+}
+
+double density(const LightCase& c, const Point3& ref, const Vector3& wi) {
+  if (const auto* infinite = std::get_if<InfiniteLight>(&c.light)) return infinite->pdf_Li();
+  // Every part of the lamp along the ray counts: sample_Li knows no visibility.
+  const auto& area = std::get<DiffuseAreaLight>(c.light);
+  double sum = 0;
+  Ray ray{ref, wi};
+  for (int i = 0; i < 4; ++i) {
+    const Hit hit = brute_force(c.shapes, ray);
+    if (!hit.valid()) break;
+    const SurfaceInteraction on_light = make_interaction(c.shapes, ray, hit);
+    sum += area.pdf_Li(ref, wi, on_light);
+    const auto* sphere = std::get_if<SphereEmitter>(&area.surface);
+    if (sphere) break;  // sampled by its visible cone, or seen from inside
+    ray = on_light.spawn(wi);
+  }
+  return sum;
+}
+
+}  // namespace
+
+const std::vector<LightCase>& light_cases() {
+  static const std::vector<LightCase> cases = make_cases();
+  return cases;
+}
+
+Point3 Receiver::point(const Point2& u) const {
+  const Point2 d = sample_uniform_disk_concentric(u);
+  return center + radius * Frame::from_z(normal).to_world({d.x, d.y, 0});
+}
+
+bool Receiver::meets(const Ray& ray) const {
+  const float cosine = -glm::dot(ray.d, normal);
+  if (!(cosine > 0)) return false;
+  const float t = glm::dot(ray.o - center, normal) / cosine;
+  return t > 0 && glm::distance(ray.at(t), center) <= radius;
+}
+
+Receiver receiver_of(const LightCase& c) {
+  return {c.refs[0], c.receiver_normal, c.receiver_radius};
+}
+
+SquareCase direction_square(const LightCase& c, const Point3& ref) {
+  const Cone cone = cone_of(c, ref);
+  SquareCase square;
+  square.name = c.name;
+  square.subdivisions = std::holds_alternative<InfiniteLight>(c.light) ? 1 : 40;
+  square.sample = [=](IndependentRandom& random, Point2* p) {
+    const auto s = sample_Li(c.light, ref, random);
+    if (!s) return false;
+    *p = direction_to_square(cone.frame.to_local(s->wi), cone.z_min);
+    return true;
+  };
+  square.density = [=](double x, double y) {
+    const Vector3 wi = cone.frame.to_world(square_to_direction(x, y, cone.z_min));
+    return density(c, ref, wi) * square_solid_angle(cone.z_min);
+  };
+  return square;
+}
+
+}  // namespace kaustik::test
