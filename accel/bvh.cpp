@@ -1,0 +1,291 @@
+// Bvh on Embree. Geometry ids: a triangle mesh has its shape's index; all spheres are one user geometry and
+// all disks another, behind them.
+//
+// Embree sees the scene divided by a power of two that brings its largest coordinate into [1, 2): exact, and
+// undone exactly. So Embree's few absolute thresholds (it gives up barycentrics when area falls below 1e-18)
+// mean the same at every scale of scene. Coordinates beyond 2^100 are not supported.
+//
+// Flush-to-zero and denormals-are-zero stay off, against Embree's advice for speed: they would make hits of
+// very small scenes differ from those of their scaled copies. Embree orders the primitives of a leaf, so the
+// tree, and which of two equally near triangles wins, does not depend on the number of build threads.
+
+#include "accel/bvh.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "accel/embree_api.h"
+
+namespace kaustik::accel {
+
+namespace {
+
+// The shapes behind one user geometry, one primitive each.
+struct QuadricGroup {
+  const std::vector<Shape>* shapes = nullptr;
+  std::vector<uint32_t> members;
+  unsigned geometry_id = 0;
+  float to_scene = 1, to_embree = 1;  // lengths
+};
+
+[[noreturn]] void throw_embree(RTCError code, const std::string& what) {
+  if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::runtime_error("Embree: out of memory while " + what);
+  throw std::runtime_error("Embree: error " + std::to_string(static_cast<int>(code)) + " while " + what);
+}
+
+void check(RTCDevice device, const std::string& what) {
+  const RTCError code = rtcGetDeviceError(device);
+  if (code != RTC_ERROR_NONE) throw_embree(code, what);
+}
+
+bool count_memory(void* user, ssize_t bytes, bool /*post*/) {
+  static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
+  return true;
+}
+
+// Embree accepts tnear <= t <= tfar where we want 0 < t < t_max: the next floats inside. An empty range stays
+// empty.
+constexpr float kNear = std::numeric_limits<float>::min();
+float far_end(float t_max) {
+  return t_max > 0 ? std::bit_cast<float>(std::bit_cast<uint32_t>(t_max) - 1) : -1.0f;
+}
+
+void fill(RTCRay& r, const Ray& ray, float to_embree) {
+  r.org_x = ray.o.x * to_embree;
+  r.org_y = ray.o.y * to_embree;
+  r.org_z = ray.o.z * to_embree;
+  r.tnear = kNear;
+  r.dir_x = ray.d.x;
+  r.dir_y = ray.d.y;
+  r.dir_z = ray.d.z;
+  r.time = 0;
+  r.tfar = far_end(ray.t_max * to_embree);
+  r.mask = 0xffffffffu;
+  r.id = 0;
+  r.flags = 0;
+}
+
+// The inverse of fill(): scene units and a half-open range again.
+Ray to_ray(const RTCRay& r, float to_scene) {
+  const float t_max = std::bit_cast<float>(std::bit_cast<uint32_t>(r.tfar) + 1);
+  return {to_scene * Point3(r.org_x, r.org_y, r.org_z), {r.dir_x, r.dir_y, r.dir_z}, to_scene * t_max};
+}
+
+// t in Embree's units.
+template <class Geometry>
+float intersect_quadric(const QuadricGroup& group, uint32_t primitive, const RTCRay& query, Point2* uv) {
+  const auto& geometry = std::get<Geometry>((*group.shapes)[group.members[primitive]].geometry);
+  const Ray ray = to_ray(query, group.to_scene);
+  if constexpr (std::is_same_v<Geometry, Sphere>) {
+    return group.to_embree * intersect_sphere(geometry, ray);
+  } else {
+    return group.to_embree * intersect_disk(geometry, ray, uv);
+  }
+}
+
+void quadric_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
+  const Bounds3 b = bounds_of((*group.shapes)[group.members[args->primID]]);
+  const Point3 lower = group.to_embree * b.min, upper = group.to_embree * b.max;
+  *args->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
+}
+
+// A hit replaces what the query holds when it is nearer, or as near and earlier in the scene.
+bool replaces(const RTCRayHit& query, float t, unsigned geometry_id, unsigned primitive) {
+  if (t != query.ray.tfar) return t < query.ray.tfar;
+  return query.hit.geomID == RTC_INVALID_GEOMETRY_ID || query.hit.geomID > geometry_id ||
+         (query.hit.geomID == geometry_id && query.hit.primID > primitive);
+}
+
+template <class Geometry>
+void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
+  auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  Point2 uv(0);
+  const float t = intersect_quadric<Geometry>(group, args->primID, query.ray, &uv);
+  if (!replaces(query, t, group.geometry_id, args->primID)) return;
+  query.ray.tfar = t;
+  query.hit.u = uv.x;
+  query.hit.v = uv.y;
+  query.hit.primID = args->primID;
+  query.hit.geomID = group.geometry_id;
+  query.hit.instID[0] = args->context->instID[0];
+}
+
+template <class Geometry>
+void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
+  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+  Point2 uv(0);
+  if (intersect_quadric<Geometry>(group, args->primID, ray, &uv) <= ray.tfar) ray.tfar = kEmbreeOccluded;
+}
+
+}  // namespace
+
+struct Bvh::Impl {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::atomic<int64_t> bytes{0};
+  uint32_t shapes = 0;                // geometry ids below are meshes
+  float to_scene = 1, to_embree = 1;  // lengths: powers of two
+  QuadricGroup spheres, disks;
+
+  Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+
+  void open();
+  void set_scale(const Bounds3& bounds);
+  void add_shapes(const std::vector<Shape>& all);
+  void add_mesh(const TriangleMesh& mesh, uint32_t shape);
+  template <class Geometry>
+  void add_group(QuadricGroup& group, unsigned geometry_id);
+  void attach(RTCGeometry geometry, unsigned geometry_id);
+  void commit(int threads);
+};
+
+void Bvh::Impl::open() {
+  // No "threads=" here: Embree would cap the whole process by it. commit() caps the build alone.
+  device = rtcNewDevice(nullptr);
+  if (!device) throw_embree(rtcGetDeviceError(nullptr), "opening the device");
+  rtcSetDeviceMemoryMonitorFunction(device, count_memory, &bytes);
+  scene = rtcNewScene(device);
+  check(device, "making the scene");
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+}
+
+void Bvh::Impl::attach(RTCGeometry geometry, unsigned geometry_id) {
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, geometry_id);
+  rtcReleaseGeometry(geometry);
+  check(device, "adding a shape");
+}
+
+void Bvh::Impl::add_mesh(const TriangleMesh& mesh, uint32_t shape) {
+  if (mesh.indices.empty()) return;
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  // Embree pads its own buffer: it reads 16 bytes at each vertex, 4 past the last one.
+  auto* vertices = static_cast<Point3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Point3), mesh.P.size()));
+  check(device, "copying vertices");
+  std::transform(mesh.P.begin(), mesh.P.end(), vertices, [this](const Point3& p) { return to_embree * p; });
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
+                             sizeof(mesh.indices[0]), mesh.indices.size());
+  attach(geometry, shape);
+}
+
+template <class Geometry>
+void Bvh::Impl::add_group(QuadricGroup& group, unsigned geometry_id) {
+  if (group.members.empty()) return;
+  group.geometry_id = geometry_id;
+  group.to_scene = to_scene;
+  group.to_embree = to_embree;
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(group.members.size()));
+  rtcSetGeometryUserData(geometry, &group);
+  rtcSetGeometryBoundsFunction(geometry, quadric_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, quadric_intersect<Geometry>);
+  rtcSetGeometryOccludedFunction(geometry, quadric_occluded<Geometry>);
+  attach(geometry, geometry_id);
+}
+
+void Bvh::Impl::set_scale(const Bounds3& bounds) {
+  if (bounds.empty()) return;
+  const float largest = std::max(max_abs_component(bounds.min), max_abs_component(bounds.max));
+  if (!(largest > 0) || !std::isfinite(largest)) return;
+  const int exponent = std::clamp(std::ilogb(largest), -100, 100);
+  to_scene = std::ldexp(1.0f, exponent);
+  to_embree = std::ldexp(1.0f, -exponent);
+}
+
+void Bvh::Impl::add_shapes(const std::vector<Shape>& all) {
+  shapes = static_cast<uint32_t>(all.size());
+  spheres.shapes = disks.shapes = &all;
+  for (uint32_t i = 0; i < shapes; ++i) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(&all[i].geometry)) {
+      add_mesh(*mesh, i);
+    } else {
+      (std::holds_alternative<Sphere>(all[i].geometry) ? spheres : disks).members.push_back(i);
+    }
+  }
+  add_group<Sphere>(spheres, shapes);
+  add_group<Disk>(disks, shapes + 1);
+}
+
+void Bvh::Impl::commit(int threads) {
+  std::optional<tbb::global_control> cap;
+  if (threads > 0) cap.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  rtcCommitScene(scene);
+  check(device, "building the tree");
+}
+
+Bvh::Bvh(const Scene& scene, int threads) : scene_(&scene), impl_(std::make_unique<Impl>()) {
+  try {
+    impl_->open();
+    impl_->set_scale(scene.bounds);
+    impl_->add_shapes(scene.shapes);
+    impl_->commit(threads);
+  } catch (const std::bad_alloc&) {
+    throw_embree(RTC_ERROR_OUT_OF_MEMORY, "building the tree");
+  }
+}
+
+Bvh::~Bvh() = default;
+Bvh::Bvh(Bvh&&) noexcept = default;
+Bvh& Bvh::operator=(Bvh&&) noexcept = default;
+
+Hit Bvh::intersect(const Ray& ray) const {
+  RTCRayHit query;
+  fill(query.ray, ray, impl_->to_embree);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  embree_intersect(impl_->scene, &query);
+  Hit hit;
+  const uint32_t geometry = query.hit.geomID;
+  if (geometry == RTC_INVALID_GEOMETRY_ID) return hit;
+  hit.t = query.ray.tfar * impl_->to_scene;
+  hit.uv = {query.hit.u, query.hit.v};
+  if (geometry < impl_->shapes) {
+    hit.shape = geometry;
+    hit.primitive = query.hit.primID;
+  } else {
+    const QuadricGroup& group = geometry == impl_->shapes ? impl_->spheres : impl_->disks;
+    hit.shape = group.members[query.hit.primID];
+  }
+  return hit;
+}
+
+bool Bvh::occluded(const Ray& ray) const {
+  RTCRay query;
+  fill(query, ray, impl_->to_embree);
+  embree_occluded(impl_->scene, &query);
+  return query.tfar == kEmbreeOccluded;
+}
+
+bool Bvh::intersect(const Ray& ray, SurfaceInteraction* si) const {
+  const Hit hit = intersect(ray);
+  if (!hit.valid()) return false;
+  *si = make_interaction(scene_->shapes, ray, hit);
+  return true;
+}
+
+uint64_t Bvh::memory_bytes() const {
+  return static_cast<uint64_t>(std::max<int64_t>(0, impl_->bytes.load(std::memory_order_relaxed)));
+}
+
+}  // namespace kaustik::accel

@@ -1,0 +1,36 @@
+#pragma once
+// Every ray of the renderer goes through here: Embree's BVH (3.13 and 4) behind a small header. Robust mode,
+// medium build quality. Spheres and disks are exact: user geometry, intersected by core/geometry.
+
+#include <memory>
+
+#include "core/scene/scene.h"
+
+namespace kaustik::accel {
+
+// Immutable after construction; every const member may be called from any thread.
+class Bvh {
+ public:
+  // threads: upper bound on build threads, 0 = all. Keeps a pointer to scene, which must outlive it.
+  explicit Bvh(const Scene& scene, int threads = 0);
+  ~Bvh();
+  Bvh(Bvh&&) noexcept;
+  Bvh& operator=(Bvh&&) noexcept;
+
+  // Nearest hit with 0 < t < ray.t_max.
+  Hit intersect(const Ray& ray) const;
+  // True when anything blocks the open segment 0 < t < ray.t_max.
+  bool occluded(const Ray& ray) const;
+  // Nearest hit as a surface point; false when the ray escapes.
+  bool intersect(const Ray& ray, SurfaceInteraction* si) const;
+
+  const Scene& scene() const { return *scene_; }
+  uint64_t memory_bytes() const;  // as Embree reports it
+
+ private:
+  struct Impl;
+  const Scene* scene_;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kaustik::accel
