@@ -85,9 +85,8 @@ void DiagnosticList::sort_by_location() {
 }
 
 size_t DiagnosticList::error_count() const {
-  return static_cast<size_t>(std::count_if(entries_.begin(), entries_.end(), [](const Diagnostic& d) {
-    return d.severity == Severity::kError;
-  }));
+  return static_cast<size_t>(std::count_if(
+      entries_.begin(), entries_.end(), [](const Diagnostic& d) { return d.severity == Severity::kError; }));
 }
 
 uint32_t SourceFiles::add(std::string name, std::string text) {

@@ -1,6 +1,6 @@
 #pragma once
-// Errors and warnings as data. Stages add to a list and go on, so that one run reports everything that is wrong with its
-// input; nothing here prints or ends the program.
+// Errors and warnings as data. Stages add to a list and go on, so that one run reports everything that is
+// wrong with its input; nothing here prints or ends the program.
 
 #include <deque>
 #include <string>
@@ -26,8 +26,8 @@ struct Diagnostic {
   std::vector<DiagnosticNote> notes;
 };
 
-// Diagnostics in the order in which they were found. Not thread-safe: parallel work fills one list per item and appends
-// them in item order.
+// Diagnostics in the order in which they were found. Not thread-safe: parallel work fills one list per item
+// and appends them in item order.
 class DiagnosticList {
  public:
   void error(const SourceLocation& where, std::string message, std::vector<DiagnosticNote> notes = {});
@@ -45,7 +45,8 @@ class DiagnosticList {
   std::vector<Diagnostic> entries_;
 };
 
-// Names and texts of the files that locations refer to. Texts stay where they are: views into them remain valid.
+// Names and texts of the files that locations refer to. Texts stay where they are: views into them remain
+// valid.
 class SourceFiles {
  public:
   // name: as the user gave it (printed as it is); text may be empty when the file is not a text.
@@ -69,8 +70,9 @@ class Diagnostics : public DiagnosticList {
  public:
   SourceFiles files;
 
-  // "scene.pbrt:12:8: error: message", the source line, a caret under the column (tabs kept, so that both lines shift
-  // alike; long lines are cut to a window around the caret); then the notes in the same form. Ends with a newline.
+  // "scene.pbrt:12:8: error: message", the source line, a caret under the column (tabs kept, so that both
+  // lines shift alike; long lines are cut to a window around the caret); then the notes in the same form.
+  // Ends with a newline.
   std::string format(const Diagnostic& diagnostic) const;
   // All of them, one after the other.
   std::string format_all() const;

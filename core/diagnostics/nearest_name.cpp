@@ -57,10 +57,12 @@ std::optional<std::string_view> nearest_name(std::string_view name,
 
 std::string name_hint(std::string_view name, std::span<const std::string_view> candidates) {
   std::string hint;
-  if (const auto nearest = nearest_name(name, candidates)) {
+  const auto nearest = nearest_name(name, candidates);
+  if (nearest) {
     hint += fmt::format("; did you mean `{}`?", *nearest);
   }
-  if (!candidates.empty() && candidates.size() <= kShortList) {
+  const size_t said = nearest ? 1 : 0;
+  if (candidates.size() > said && candidates.size() <= kShortList) {
     hint += fmt::format("{} known: {}", hint.empty() ? ";" : "", fmt::join(candidates, ", "));
   }
   return hint;

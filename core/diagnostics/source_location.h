@@ -1,5 +1,6 @@
 #pragma once
-// Where a value was written. Kept with every value of a scene description, so that any later stage can point at it.
+// Where a value was written. Kept with every value of a scene description, so that any later stage can point
+// at it.
 
 #include <cstdint>
 

@@ -36,7 +36,8 @@ bool is_flat_and_convex(const Corners& c) {
 
 // At most 23: the twist is twice the distance of the diagonals' midpoints, hence at most twice the extent.
 int cells_per_side(const Corners& c) {
-  const glm::dvec3 pairs[6] = {c.p00 - c.p10, c.p00 - c.p01, c.p00 - c.p11, c.p10 - c.p01, c.p10 - c.p11, c.p01 - c.p11};
+  const glm::dvec3 pairs[6] = {c.p00 - c.p10, c.p00 - c.p01, c.p00 - c.p11,
+                               c.p10 - c.p01, c.p10 - c.p11, c.p01 - c.p11};
   double extent = 0;
   for (const glm::dvec3& d : pairs) extent = std::max(extent, glm::length(d));
   if (!(extent > 0)) return 1;
@@ -45,7 +46,8 @@ int cells_per_side(const Corners& c) {
 }
 
 Corners corners_of(const PatchMesh& mesh, const PatchIndices& i) {
-  return {glm::dvec3(mesh.P[i[0]]), glm::dvec3(mesh.P[i[1]]), glm::dvec3(mesh.P[i[2]]), glm::dvec3(mesh.P[i[3]])};
+  return {glm::dvec3(mesh.P[i[0]]), glm::dvec3(mesh.P[i[1]]), glm::dvec3(mesh.P[i[2]]),
+          glm::dvec3(mesh.P[i[3]])};
 }
 
 glm::dvec3 unit(const glm::dvec3& v) {

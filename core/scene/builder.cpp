@@ -135,7 +135,8 @@ void Builder::add_instance(const InstanceDescription& instance,
     return;
   }
   for (const size_t item : found->second) {
-    placements_.push_back({item, instance.instance_to_world * items_[item].description->object_to_world, false, false});
+    placements_.push_back(
+        {item, instance.instance_to_world * items_[item].description->object_to_world, false, false});
   }
 }
 
@@ -195,8 +196,9 @@ bool Builder::keep(const Placement& placement, PlacedShape& placed) {
   }
   if (placed.without_area > 0 && warned_without_area_.insert(placement.item).second) {
     const auto& mesh = std::get<TriangleMesh>(placed.shape.geometry);
-    diagnostics_.warning(shape.location, fmt::format("{} of {} triangles have no area and are left out",
-                                                     placed.without_area, mesh.indices.size() + placed.without_area));
+    diagnostics_.warning(shape.location,
+                         fmt::format("{} of {} triangles have no area and are left out", placed.without_area,
+                                     mesh.indices.size() + placed.without_area));
   }
   return primitive_count(placed.shape) > 0;
 }
@@ -230,7 +232,8 @@ bool Builder::make_lamp(const Item& item, Shape& shape, Scene& scene) {
 
 std::string Builder::group_name(const ShapeDescription& shape) const {
   if (!shape.location.valid()) return shape.type;
-  return fmt::format("{} at {}:{}", shape.type, diagnostics_.files.name(shape.location.file), shape.location.line);
+  return fmt::format("{} at {}:{}", shape.type, diagnostics_.files.name(shape.location.file),
+                     shape.location.line);
 }
 
 void Builder::place(Scene& scene) {
@@ -238,7 +241,8 @@ void Builder::place(Scene& scene) {
   tbb::parallel_for(size_t{0}, placements_.size(), [&](size_t i) {
     const Placement& p = placements_[i];
     Item& item = items_[p.item];
-    // Only a Shape line's own placement is its last one, and then its only one: no other thread reads the source.
+    // Only a Shape line's own placement is its last one, and then its only one: no other thread reads the
+    // source.
     ShapeSource source = p.last ? std::move(*item.source) : *item.source;
     placed[i] = place_shape(std::move(source), p.to_world, item.description->reverse_orientation);
   });
@@ -256,7 +260,8 @@ void Builder::place(Scene& scene) {
     scene.shapes.push_back(std::move(shape));
   }
   scene.surface_group_names.resize(assign_surface_groups(scene.shapes, names));
-  for (size_t i = scene.shapes.size(); i-- > 0;) scene.surface_group_names[scene.shapes[i].surface_group] = places[i];
+  for (size_t i = scene.shapes.size(); i-- > 0;)
+    scene.surface_group_names[scene.shapes[i].surface_group] = places[i];
 }
 
 }  // namespace

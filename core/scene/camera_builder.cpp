@@ -10,7 +10,8 @@ const TypeSpec* checked(std::string_view directive, const Directive& d, WarnedOn
   return spec && check_parameters(kind.noun, *spec, d, warned, diagnostics) ? spec : nullptr;
 }
 
-void take_film(const Directive& film, WarnedOnce& warned, DiagnosticList& diagnostics, PerspectiveCamera& camera) {
+void take_film(const Directive& film, WarnedOnce& warned, DiagnosticList& diagnostics,
+               PerspectiveCamera& camera) {
   const TypeSpec* spec = checked("Film", film, warned, diagnostics);
   if (!spec) return;
   const ParameterReader reader(film, *spec);
@@ -18,7 +19,8 @@ void take_film(const Directive& film, WarnedOnce& warned, DiagnosticList& diagno
   camera.height = static_cast<int>(reader.number("yresolution"));
 }
 
-void take_screen_window(const ParameterReader& reader, DiagnosticList& diagnostics, PerspectiveCamera& camera) {
+void take_screen_window(const ParameterReader& reader, DiagnosticList& diagnostics,
+                        PerspectiveCamera& camera) {
   if (reader.has("frameaspectratio")) {
     const auto aspect = static_cast<float>(reader.number("frameaspectratio"));
     camera.screen_window =
@@ -26,8 +28,10 @@ void take_screen_window(const ParameterReader& reader, DiagnosticList& diagnosti
   }
   const Parameter* window = reader.directive().find("screenwindow");
   if (!window) return;
-  for (int k = 0; k < 4; ++k) camera.screen_window[k] = static_cast<float>(window->numbers[static_cast<size_t>(k)]);
-  if (!(camera.screen_window[0] < camera.screen_window[1] && camera.screen_window[2] < camera.screen_window[3])) {
+  for (int k = 0; k < 4; ++k)
+    camera.screen_window[k] = static_cast<float>(window->numbers[static_cast<size_t>(k)]);
+  if (!(camera.screen_window[0] < camera.screen_window[1] &&
+        camera.screen_window[2] < camera.screen_window[3])) {
     diagnostics.error(window->location, "`screenwindow` must be x min < x max, y min < y max");
   }
 }
@@ -49,7 +53,8 @@ void take_camera(const CameraDescription& description, WarnedOnce& warned, Diagn
 }  // namespace
 
 bool is_usable_transform(const glm::dmat4& m) {
-  return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1 && Transform::from_matrix(m).invertible();
+  return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1 &&
+         Transform::from_matrix(m).invertible();
 }
 
 PerspectiveCamera build_camera(const SceneDescription& description, WarnedOnce& warned,
@@ -58,9 +63,9 @@ PerspectiveCamera build_camera(const SceneDescription& description, WarnedOnce& 
   if (description.film) take_film(*description.film, warned, diagnostics, camera);
   camera.set_default_screen_window();
   if (description.camera) take_camera(*description.camera, warned, diagnostics, camera);
-  for (const auto& [name, directive] : {std::pair{"Sampler", &description.sampler},
-                                        std::pair{"PixelFilter", &description.filter},
-                                        std::pair{"Accelerator", &description.accelerator}}) {
+  for (const auto& [name, directive] :
+       {std::pair{"Sampler", &description.sampler}, std::pair{"PixelFilter", &description.filter},
+        std::pair{"Accelerator", &description.accelerator}}) {
     if (*directive) checked(name, **directive, warned, diagnostics);
   }
   Directive options;

@@ -4,8 +4,8 @@
 
 namespace kaustik {
 
-// Checks the Camera and Film lines and makes the camera from them; pbrt's defaults for what is absent. Errors leave a
-// usable camera.
+// Checks the Camera and Film lines and makes the camera from them; pbrt's defaults for what is absent. Errors
+// leave a usable camera.
 PerspectiveCamera build_camera(const SceneDescription& description, WarnedOnce& warned,
                                DiagnosticList& diagnostics);
 

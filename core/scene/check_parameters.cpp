@@ -41,8 +41,8 @@ void report_unknown(const Context& c, const Parameter& p) {
   for (const ParameterSpec& spec : c.spec.parameters) {
     if (spec.state == ParameterState::kUsed) names.push_back(spec.name);
   }
-  c.diagnostics.error(p.location, fmt::format("{} has no parameter `{}`{}", c.owner(), p.name,
-                                              name_hint(p.name, names)));
+  c.diagnostics.error(p.location,
+                      fmt::format("{} has no parameter `{}`{}", c.owner(), p.name, name_hint(p.name, names)));
 }
 
 bool check_type(const Context& c, const ParameterSpec& spec, const Parameter& p) {
@@ -54,9 +54,12 @@ bool check_type(const Context& c, const ParameterSpec& spec, const Parameter& p)
     case ParameterType::kTexture:
     case ParameterType::kSpectrum:
     case ParameterType::kBlackbody:
-      c.diagnostics.error(p.location, fmt::format("{} is not rendered: {} takes {} only", given, c.owner(), expected));
+      c.diagnostics.error(p.location,
+                          fmt::format("{} is not rendered: {} takes {} only", given, c.owner(), expected));
       break;
-    default: c.diagnostics.error(p.location, fmt::format("{} has the wrong type: {} takes {}", given, c.owner(), expected));
+    default:
+      c.diagnostics.error(p.location,
+                          fmt::format("{} has the wrong type: {} takes {}", given, c.owner(), expected));
   }
   return false;
 }
@@ -76,11 +79,13 @@ bool check_count(const Context& c, const ParameterSpec& spec, const Parameter& p
   const bool floats_for_rgb = p.type == ParameterType::kFloat && spec.types.front() == ParameterType::kRgb;
   if (floats_for_rgb && (p.count() == 1 || p.count() == 3)) return true;
   const size_t n = numbers_per_item(p.type);
-  if (!floats_for_rgb && p.count() % n == 0 && p.count() / n >= spec.min_items && p.count() / n <= spec.max_items) {
+  if (!floats_for_rgb && p.count() % n == 0 && p.count() / n >= spec.min_items &&
+      p.count() / n <= spec.max_items) {
     return true;
   }
   const std::string expected = floats_for_rgb ? "1 or 3 values" : expected_count(spec, p.type);
-  c.diagnostics.error(p.location, fmt::format("`{}` of {} takes {}, not {}", p.name, c.owner(), expected, p.count()));
+  c.diagnostics.error(p.location,
+                      fmt::format("`{}` of {} takes {}, not {}", p.name, c.owner(), expected, p.count()));
   return false;
 }
 
@@ -158,17 +163,17 @@ const TypeSpec* find_type(const Category& category, const Directive& directive, 
   const auto& pbrt = category.only_in_pbrt;
   if (std::find(pbrt.begin(), pbrt.end(), directive.type) != pbrt.end()) {
     diagnostics.error(directive.type_location,
-                      fmt::format("pbrt's {} \"{}\" is not rendered; there are: {}", category.noun, directive.type,
-                                  fmt::join(names, ", ")));
+                      fmt::format("pbrt's {} \"{}\" is not rendered; there are: {}", category.noun,
+                                  directive.type, fmt::join(names, ", ")));
   } else {
-    diagnostics.error(directive.type_location, fmt::format("unknown {} \"{}\"{}", category.noun, directive.type,
-                                                           name_hint(directive.type, names)));
+    diagnostics.error(directive.type_location, fmt::format("unknown {} \"{}\"{}", category.noun,
+                                                           directive.type, name_hint(directive.type, names)));
   }
   return nullptr;
 }
 
-bool check_parameters(std::string_view noun, const TypeSpec& spec, const Directive& directive, WarnedOnce& warned,
-                      DiagnosticList& diagnostics) {
+bool check_parameters(std::string_view noun, const TypeSpec& spec, const Directive& directive,
+                      WarnedOnce& warned, DiagnosticList& diagnostics) {
   const Context context{noun, spec, warned, diagnostics};
   bool ok = check_duplicates(context, directive);
   for (const Parameter& p : directive.parameters) ok = check_one(context, p) && ok;

@@ -4,19 +4,32 @@ namespace kaustik {
 
 std::string_view parameter_type_name(ParameterType type) {
   switch (type) {
-    case ParameterType::kFloat: return "float";
-    case ParameterType::kInteger: return "integer";
-    case ParameterType::kBool: return "bool";
-    case ParameterType::kString: return "string";
-    case ParameterType::kPoint2: return "point2";
-    case ParameterType::kVector2: return "vector2";
-    case ParameterType::kPoint3: return "point3";
-    case ParameterType::kVector3: return "vector3";
-    case ParameterType::kNormal: return "normal";
-    case ParameterType::kRgb: return "rgb";
-    case ParameterType::kSpectrum: return "spectrum";
-    case ParameterType::kBlackbody: return "blackbody";
-    case ParameterType::kTexture: return "texture";
+    case ParameterType::kFloat:
+      return "float";
+    case ParameterType::kInteger:
+      return "integer";
+    case ParameterType::kBool:
+      return "bool";
+    case ParameterType::kString:
+      return "string";
+    case ParameterType::kPoint2:
+      return "point2";
+    case ParameterType::kVector2:
+      return "vector2";
+    case ParameterType::kPoint3:
+      return "point3";
+    case ParameterType::kVector3:
+      return "vector3";
+    case ParameterType::kNormal:
+      return "normal";
+    case ParameterType::kRgb:
+      return "rgb";
+    case ParameterType::kSpectrum:
+      return "spectrum";
+    case ParameterType::kBlackbody:
+      return "blackbody";
+    case ParameterType::kTexture:
+      return "texture";
   }
   return "";
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A scene as it was written: plain data, independent of any file format, every value with its place. Nothing is checked
-// or interpreted here; build_scene does that against core/scene/schema.h.
+// A scene as it was written: plain data, independent of any file format, every value with its place. Nothing
+// is checked or interpreted here; build_scene does that against core/scene/schema.h.
 
 #include <glm/glm.hpp>
 #include <optional>
@@ -35,8 +35,8 @@ struct Parameter {
   ParameterType type = ParameterType::kFloat;
   std::string name;
   SourceLocation location;  // of the declaration "type name"
-  // Values: numbers of float, integer (exact up to 2^53), bool (0, 1), points, vectors, normals, rgb, blackbody, sampled
-  // spectra; strings of string, texture and named spectra. One of the two is empty.
+  // Values: numbers of float, integer (exact up to 2^53), bool (0, 1), points, vectors, normals, rgb,
+  // blackbody, sampled spectra; strings of string, texture and named spectra. One of the two is empty.
   std::vector<double> numbers;
   std::vector<std::string> strings;
   std::vector<LineColumn> value_places;  // one per value
@@ -68,7 +68,8 @@ struct MaterialDescription : Directive {
   SourceLocation name_location;
 };
 
-// How a shape names its material: in place (index), by name (may be defined later), or not at all (the default).
+// How a shape names its material: in place (index), by name (may be defined later), or not at all (the
+// default).
 struct MaterialReference {
   std::optional<uint32_t> index;  // into SceneDescription::materials
   std::string name;

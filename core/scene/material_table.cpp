@@ -37,7 +37,8 @@ uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& wa
   const auto row = std::find_if(material_rows().begin(), material_rows().end(),
                                 [&](const MaterialRow& r) { return &r.spec == spec; });
   if (!row->make) return kInterface;
-  return add(row->make(ParameterReader(material, *spec)), material.name.empty() ? material.type : material.name);
+  return add(row->make(ParameterReader(material, *spec)),
+             material.name.empty() ? material.type : material.name);
 }
 
 uint32_t MaterialTable::default_material() {
@@ -57,8 +58,8 @@ uint32_t MaterialTable::resolve(const MaterialReference& reference, DiagnosticLi
       for (const auto& [name, index] : by_name_) all.push_back(name);
       return all;
     }();
-    diagnostics.error(at, fmt::format("no material is named `{}`{}", reference.name,
-                                      name_hint(reference.name, names)));
+    diagnostics.error(
+        at, fmt::format("no material is named `{}`{}", reference.name, name_hint(reference.name, names)));
   }
   return default_material();
 }

@@ -16,8 +16,8 @@ class MaterialTable {
   // Makes every material; reports bad ones, and names that are given twice.
   MaterialTable(const SceneDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
 
-  // Index into materials(), or kInterface. A name that nobody defined is an error, once per place; then, and where no
-  // material was set, pbrt's default: diffuse of reflectance 0.5.
+  // Index into materials(), or kInterface. A name that nobody defined is an error, once per place; then, and
+  // where no material was set, pbrt's default: diffuse of reflectance 0.5.
   uint32_t resolve(const MaterialReference& reference, DiagnosticList& diagnostics);
 
   std::vector<Bsdf>& materials() { return materials_; }

@@ -7,12 +7,15 @@ namespace kaustik {
 size_t numbers_per_item(ParameterType type) {
   switch (type) {
     case ParameterType::kPoint2:
-    case ParameterType::kVector2: return 2;
+    case ParameterType::kVector2:
+      return 2;
     case ParameterType::kPoint3:
     case ParameterType::kVector3:
     case ParameterType::kNormal:
-    case ParameterType::kRgb: return 3;
-    default: return 1;
+    case ParameterType::kRgb:
+      return 3;
+    default:
+      return 1;
   }
 }
 

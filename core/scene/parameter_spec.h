@@ -60,7 +60,8 @@ inline ParameterSpec without_default(ParameterSpec p, std::string_view default_t
   return p;
 }
 
-// Of pbrt, without effect here. Every type that pbrt allows is accepted, so that the warning is all that it costs.
+// Of pbrt, without effect here. Every type that pbrt allows is accepted, so that the warning is all that it
+// costs.
 inline ParameterSpec unused(ParameterState state, std::string_view name, std::vector<ParameterType> types,
                             std::string_view doc, std::optional<double> neutral) {
   ParameterSpec p;

@@ -5,8 +5,8 @@
 namespace kaustik {
 namespace {
 
-// The corners lie on one line, or so nearly that the normal is lost in floats. Edges of floats have exact products in
-// double, so the first test is exact; both are free of scale.
+// The corners lie on one line, or so nearly that the normal is lost in floats. Edges of floats have exact
+// products in double, so the first test is exact; both are free of scale.
 bool has_no_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& t) {
   const Vector3 e1 = mesh.P[t[1]] - mesh.P[t[0]];
   const Vector3 e2 = mesh.P[t[2]] - mesh.P[t[0]];

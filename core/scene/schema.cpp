@@ -34,7 +34,8 @@ ParameterSpec metal_index(std::string_view name, std::string_view doc) {
   return p;
 }
 
-// pbrt's metal of a given colour: eta = 1 and k so that the reflectance at normal incidence is r (pharr 2023, 9.4).
+// pbrt's metal of a given colour: eta = 1 and k so that the reflectance at normal incidence is r (pharr
+// 2023, 9.4).
 Conductor conductor_of_reflectance(const Rgb& reflectance) {
   const Rgb r = glm::clamp(reflectance, Rgb(0), Rgb(0.9999f));
   return {Rgb(1), 2.0f * glm::sqrt(r) / glm::sqrt(Rgb(1) - r)};
@@ -50,7 +51,8 @@ Bsdf make_conductor(const ParameterReader& p) {
 }
 
 std::vector<MaterialRow> make_material_rows() {
-  const ParameterSpec reflectance = rgb("reflectance", 0.5, "", kUnit, "share of the light that is reflected");
+  const ParameterSpec reflectance =
+      rgb("reflectance", 0.5, "", kUnit, "share of the light that is reflected");
   return {
       {{"diffuse", "Ideal diffuse reflection, both sides.", material({reflectance})},
        [](const ParameterReader& p) -> Bsdf { return Lambertian{p.rgb("reflectance")}; }},
@@ -64,10 +66,10 @@ std::vector<MaterialRow> make_material_rows() {
         smooth_material({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")})},
        [](const ParameterReader& p) -> Bsdf { return Dielectric{static_cast<float>(p.number("eta"))}; }},
       {{"conductor", "Smooth metal: give `reflectance`, or `eta` and `k`.",
-        smooth_material({without_default(rgb("reflectance", 0, "", kUnit, "reflectance at normal incidence"),
-                                         "none"),
-                         metal_index("eta", "real part of the index of refraction"),
-                         metal_index("k", "imaginary part")})},
+        smooth_material(
+            {without_default(rgb("reflectance", 0, "", kUnit, "reflectance at normal incidence"), "none"),
+             metal_index("eta", "real part of the index of refraction"),
+             metal_index("k", "imaginary part")})},
        make_conductor},
       {{"mirror", "Ideal mirror of constant reflectance, both sides. Not in pbrt.",
         material({rgb("reflectance", 1, "", kUnit, "share of the light that is reflected")})},
@@ -89,7 +91,8 @@ ParameterSpec image() {
   return not_rendered("filename", {ParameterType::kString}, "images as lamps are not rendered");
 }
 
-// Scales `colour` so that `measure` (luminance of what colour gives) becomes the parameter's value, where given.
+// Scales `colour` so that `measure` (luminance of what colour gives) becomes the parameter's value, where
+// given.
 bool scale_to(const ParameterReader& p, std::string_view name, float measure, Rgb& colour,
               DiagnosticList& diagnostics) {
   if (!p.has(name)) return true;
@@ -133,7 +136,8 @@ std::optional<Light> make_spot(const ParameterReader& p, const glm::dmat4& m, Di
   return light;
 }
 
-std::optional<Light> make_distant(const ParameterReader& p, const glm::dmat4& m, DiagnosticList& diagnostics) {
+std::optional<Light> make_distant(const ParameterReader& p, const glm::dmat4& m,
+                                  DiagnosticList& diagnostics) {
   const auto to_light = direction(p, p.vec3("from") - p.vec3("to"), m, diagnostics);
   if (!to_light) return std::nullopt;
   DistantLight light;
@@ -178,8 +182,7 @@ std::vector<LightRow> make_light_rows() {
         {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(),
          illuminance("luminance of the irradiance of a plane that sees half of it: `L` is scaled to it, then "
                      "by `scale`"),
-         image(),
-         ignored("portal", {ParameterType::kPoint3}, "a hint for sampling")}},
+         image(), ignored("portal", {ParameterType::kPoint3}, "a hint for sampling")}},
        make_infinite},
   };
 }

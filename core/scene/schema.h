@@ -1,7 +1,7 @@
 #pragma once
-// What a scene may say: one table per kind of directive, one row per type, one entry per parameter. The checks, the
-// error messages, the defaults and the tables of docs/scene_format.md all come from here.
-// A new material or light is a row of schema.cpp; the row holds the function that makes it from its parameters.
+// What a scene may say: one table per kind of directive, one row per type, one entry per parameter. The
+// checks, the error messages, the defaults and the tables of docs/scene_format.md all come from here. A new
+// material or light is a row of schema.cpp; the row holds the function that makes it from its parameters.
 
 #include <functional>
 #include <limits>
@@ -62,7 +62,8 @@ struct TypeSpec {
 // Numbers of one item: 3 of an rgb, 1 of a float or string.
 size_t numbers_per_item(ParameterType type);
 
-// Reads the values of a directive that check_parameters accepted; what is absent comes from the row's defaults.
+// Reads the values of a directive that check_parameters accepted; what is absent comes from the row's
+// defaults.
 class ParameterReader {
  public:
   ParameterReader(const Directive& directive, const TypeSpec& spec) : directive_(directive), spec_(spec) {}
@@ -92,7 +93,8 @@ struct MaterialRow {
 
 struct LightRow {
   TypeSpec spec;
-  // Nothing, with an error added, when the parameters contradict each other. The matrix takes the light to the world.
+  // Nothing, with an error added, when the parameters contradict each other. The matrix takes the light to
+  // the world.
   std::optional<Light> (*make)(const ParameterReader&, const glm::dmat4&, DiagnosticList&) = nullptr;
 };
 
@@ -123,11 +125,12 @@ const Category& category(std::string_view directive);
 // Remembers which "ignored" warnings were given: one per directive, type and parameter.
 using WarnedOnce = std::set<std::string>;
 
-// The row of a directive's type, or null with an error: a type of pbrt that is not rendered, or one that nobody knows.
+// The row of a directive's type, or null with an error: a type of pbrt that is not rendered, or one that
+// nobody knows.
 const TypeSpec* find_type(const Category& category, const Directive& directive, DiagnosticList& diagnostics);
 
-// Checks every parameter against the row: unknown, twice, of a wrong type or count, out of range, not rendered (errors),
-// ignored (warnings). noun: "material". True when there was no error.
+// Checks every parameter against the row: unknown, twice, of a wrong type or count, out of range, not
+// rendered (errors), ignored (warnings). noun: "material". True when there was no error.
 bool check_parameters(std::string_view noun, const TypeSpec& spec, const Directive& directive,
                       WarnedOnce& warned, DiagnosticList& diagnostics);
 

@@ -39,7 +39,8 @@ std::string row(const ParameterSpec& p) {
 
 std::string table(const TypeSpec& type) {
   if (type.parameters.empty()) return "It takes no parameters.\n\n";
-  std::string text = "| parameter | type | default | unit | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
+  std::string text =
+      "| parameter | type | default | unit | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const ParameterSpec& p : type.parameters) text += row(p);
   return text + "\n";
 }
@@ -54,7 +55,8 @@ std::string schema_markdown() {
       text += fmt::format("#### `{} \"{}\"`\n\n{}\n\n{}", c.directive, type->name, type->doc, table(*type));
     }
     if (!c.only_in_pbrt.empty()) {
-      text += fmt::format("Of pbrt, and not rendered (an error): `{}`.\n\n", fmt::join(c.only_in_pbrt, "`, `"));
+      text +=
+          fmt::format("Of pbrt, and not rendered (an error): `{}`.\n\n", fmt::join(c.only_in_pbrt, "`, `"));
     }
   }
   return text + fmt::format("### Option\n\n{}\n\n{}", option_type().doc, table(option_type()));

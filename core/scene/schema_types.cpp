@@ -12,9 +12,10 @@ using Type = ParameterType;
 
 // Every shape's.
 std::vector<ParameterSpec> shape(std::vector<ParameterSpec> own) {
-  own.push_back(text("surfacegroup", "found from shared edges",
-                     "name of the surface that the shape is a part of: photons count across all shapes of one "
-                     "name, and of no other. Not in pbrt"));
+  own.push_back(
+      text("surfacegroup", "found from shared edges",
+           "name of the surface that the shape is a part of: photons count across all shapes of one "
+           "name, and of no other. Not in pbrt"));
   own.push_back(ignored("alpha", {Type::kFloat, Type::kTexture}, "cut-outs", 1));
   return own;
 }
@@ -24,13 +25,15 @@ std::vector<TypeSpec> make_shape_types() {
   const ParameterSpec N =
       list(Type::kNormal, "N", 1, "none", "", "normals, one per vertex; they also choose the outside");
   const ParameterSpec uv = list(Type::kPoint2, "uv", 1, "none", "", "texture coordinates, one per vertex");
-  const ParameterSpec face_indices = ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
+  const ParameterSpec face_indices =
+      ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
   const ParameterSpec phimax =
       not_rendered("phimax", {Type::kFloat}, "only full turns are rendered: must be 360", 360);
   return {
       {"trianglemesh", "Triangles. Without `N`, the outside is the side of cross(p1 - p0, p2 - p0).",
-       shape({P, list(Type::kInteger, "indices", 3, "0 1 2 when there are three vertices", "",
-                      "three vertices per triangle, from zero"),
+       shape({P,
+              list(Type::kInteger, "indices", 3, "0 1 2 when there are three vertices", "",
+                   "three vertices per triangle, from zero"),
               N, uv, ignored("S", {Type::kVector3}, "tangents"), face_indices})},
       {"plymesh", "Triangles, quads and polygons of a PLY file (ascii or binary), with normals and uv.",
        shape({text("filename", "required", "beside the scene file, unless absolute"),
@@ -70,8 +73,8 @@ std::vector<TypeSpec> make_camera_types() {
 }
 
 std::vector<TypeSpec> make_film_types() {
-  ParameterSpec crop =
-      list(Type::kFloat, "cropwindow", 4, "0 1 0 1", "", "x min, x max, y min, y max, as shares of the image");
+  ParameterSpec crop = list(Type::kFloat, "cropwindow", 4, "0 1 0 1", "",
+                            "x min, x max, y min, y max, as shares of the image");
   crop.max_items = 4;
   crop.range = kUnit;
   ParameterSpec bounds =
@@ -83,8 +86,8 @@ std::vector<TypeSpec> make_film_types() {
            "The image.",
            {integer("xresolution", 1280, "pixels", side, "width"),
             integer("yresolution", 720, "pixels", side, "height"),
-            text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop, bounds,
-            ignored("diagonal", {Type::kFloat}, "of a lens camera"),
+            text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop,
+            bounds, ignored("diagonal", {Type::kFloat}, "of a lens camera"),
             ignored("sensor", {Type::kString}, "the film is linear Rec. 709"),
             ignored("iso", {Type::kFloat}, "no exposure", 100),
             ignored("whitebalance", {Type::kFloat}, "no white balance", 0),
@@ -99,7 +102,8 @@ std::vector<TypeSpec> make_sampler_types() {
   const ParameterSpec samples = integer("pixelsamples", 16, "", {1, 1 << 30}, "samples per pixel");
   std::vector<TypeSpec> types;
   for (const std::string_view name : {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "zsobol"}) {
-    types.push_back({name, "Gives the samples per pixel; the points are always Owen-scrambled Sobol points.",
+    types.push_back({name,
+                     "Gives the samples per pixel; the points are always Owen-scrambled Sobol points.",
                      {samples, seed, scrambling}});
   }
   types.push_back({"stratified",
@@ -145,8 +149,8 @@ std::vector<TypeSpec> make_accelerator_types() {
 
 TypeSpec make_option_type() {
   TypeSpec type{"", "Settings of the program pbrt.", {}};
-  for (const std::string_view name : {"disablepixeljitter", "disabletexturefiltering", "disablewavelengthjitter",
-                                      "forcediffuse", "pixelstats", "wavefront"}) {
+  for (const std::string_view name : {"disablepixeljitter", "disabletexturefiltering",
+                                      "disablewavelengthjitter", "forcediffuse", "pixelstats", "wavefront"}) {
     type.parameters.push_back(ignored(name, {Type::kBool}, "of the program pbrt", 0));
   }
   type.parameters.push_back(ignored("displacementedgescale", {Type::kFloat}, "of the program pbrt", 1));

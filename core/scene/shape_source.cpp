@@ -47,15 +47,16 @@ std::optional<std::vector<std::array<uint32_t, kSize>>> faces(const Context& c, 
     return std::nullopt;
   }
   if (p->numbers.size() % kSize != 0) {
-    c.error(p->location, fmt::format("`indices` of shape \"{}\" come in groups of {}, not {} in all", c.shape.type,
-                                     kSize, p->numbers.size()));
+    c.error(p->location, fmt::format("`indices` of shape \"{}\" come in groups of {}, not {} in all",
+                                     c.shape.type, kSize, p->numbers.size()));
     return std::nullopt;
   }
   std::vector<std::array<uint32_t, kSize>> out(p->numbers.size() / kSize);
   for (size_t i = 0; i < p->numbers.size(); ++i) {
     const double index = p->numbers[i];
     if (!(index >= 0 && index < static_cast<double>(vertices))) {
-      c.error(p->value_location(i), fmt::format("index {} is out of range: there are {} vertices", index, vertices));
+      c.error(p->value_location(i),
+              fmt::format("index {} is out of range: there are {} vertices", index, vertices));
       return std::nullopt;
     }
     out[i / kSize][i % kSize] = static_cast<uint32_t>(index);
@@ -77,8 +78,8 @@ std::optional<ShapeSource> make_trianglemesh(const Context& c) {
   mesh.P = vectors<Point3, 3>(P);
   mesh.N = vectors<Normal3, 3>(c.shape.find("N"));
   mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
-  const bool complete =
-      check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) && check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
+  const bool complete = check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) &&
+                        check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
   auto indices = faces<3>(c, mesh.P.size());
   if (!complete || !indices) return std::nullopt;
   mesh.indices = std::move(*indices);
@@ -92,8 +93,8 @@ std::optional<ShapeSource> make_bilinearmesh(const Context& c) {
   mesh.P = vectors<Point3, 3>(P);
   mesh.N = vectors<Normal3, 3>(c.shape.find("N"));
   mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
-  const bool complete =
-      check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) && check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
+  const bool complete = check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) &&
+                        check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
   auto patches = faces<4>(c, mesh.P.size());
   if (!complete || !patches) return std::nullopt;
   mesh.patches = std::move(*patches);
@@ -116,8 +117,9 @@ bool check_whole_sphere(const Context& c, double radius) {
   const auto cuts = [&](std::string_view name, double sign) {
     const Parameter* p = c.shape.find(name);
     if (!p || sign * p->numbers[0] >= radius) return false;
-    c.error(p->value_location(0), fmt::format("`{}` = {} cuts the sphere of radius {}: only whole spheres are rendered",
-                                              name, p->numbers[0], radius));
+    c.error(p->value_location(0),
+            fmt::format("`{}` = {} cuts the sphere of radius {}: only whole spheres are rendered", name,
+                        p->numbers[0], radius));
     return true;
   };
   const bool cut_below = cuts("zmin", -1);

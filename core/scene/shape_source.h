@@ -1,5 +1,6 @@
 #pragma once
-// A shape in its own space: what the parameters of a Shape line say, before any transform. Instances share it.
+// A shape in its own space: what the parameters of a Shape line say, before any transform. Instances share
+// it.
 
 #include <optional>
 #include <variant>
@@ -20,8 +21,9 @@ struct ShapeSource {
   glm::dmat4 local{1};  // from the unit sphere or disk to the shape's space; identity for meshes
 };
 
-// Nothing, with errors added, when the parameters contradict each other or the mesh is bad: indices out of range,
-// positions or normals that are not finite. The directive must have passed check_parameters. Thread-safe.
+// Nothing, with errors added, when the parameters contradict each other or the mesh is bad: indices out of
+// range, positions or normals that are not finite. The directive must have passed check_parameters.
+// Thread-safe.
 std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
                                              const MeshLoader& load_mesh, DiagnosticList& diagnostics);
 

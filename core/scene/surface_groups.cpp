@@ -1,6 +1,7 @@
 #include "core/scene/surface_groups.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <bit>
@@ -50,8 +51,8 @@ Normal3 normal_of(const TriangleMesh& mesh, const std::array<uint32_t, 3>& trian
   return length > 0 ? Normal3(n / length) : Normal3(0);
 }
 
-// Edges that one triangle only has, by vertex index: those that meshes with doubled vertices have inside as well do no
-// harm, they only join a shape to itself.
+// Edges that one triangle only has, by vertex index: those that meshes with doubled vertices have inside as
+// well do no harm, they only join a shape to itself.
 std::vector<BoundaryEdge> boundary_edges(const TriangleMesh& mesh, uint32_t shape) {
   struct Edge {
     uint64_t vertices;
@@ -65,7 +66,7 @@ std::vector<BoundaryEdge> boundary_edges(const TriangleMesh& mesh, uint32_t shap
       edges.push_back({(uint64_t{low} << 32) | high, static_cast<uint32_t>(t)});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+  tbb::parallel_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.triangle < b.triangle;
   });
   std::vector<BoundaryEdge> boundary;
@@ -83,10 +84,16 @@ std::vector<BoundaryEdge> boundary_edges(const TriangleMesh& mesh, uint32_t shap
 
 std::vector<BoundaryEdge> all_boundary_edges(const std::vector<Shape>& shapes,
                                              const std::vector<std::string>& names) {
+  const auto is_candidate = [&](size_t i) {
+    return names[i].empty() && std::holds_alternative<TriangleMesh>(shapes[i].geometry);
+  };
+  size_t candidates = 0;
+  for (size_t i = 0; i < shapes.size(); ++i) candidates += is_candidate(i) ? 1 : 0;
+  if (candidates < 2) return {};
   std::vector<std::vector<BoundaryEdge>> of_shape(shapes.size());
   tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
-    const auto* mesh = std::get_if<TriangleMesh>(&shapes[i].geometry);
-    if (mesh && names[i].empty()) of_shape[i] = boundary_edges(*mesh, static_cast<uint32_t>(i));
+    if (!is_candidate(i)) return;
+    of_shape[i] = boundary_edges(std::get<TriangleMesh>(shapes[i].geometry), static_cast<uint32_t>(i));
   });
   std::vector<BoundaryEdge> edges;
   for (auto& part : of_shape) edges.insert(edges.end(), part.begin(), part.end());
