@@ -17,7 +17,6 @@ endforeach()
 find_package(glm REQUIRED)
 find_package(hwy REQUIRED)
 find_package(fmt REQUIRED)
-
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(assimp REQUIRED)

@@ -1,0 +1,99 @@
+#pragma once
+// Octree over photons sorted by Morton key. Implicit: a node is a range of keys, and the photons are not
+// touched. Only the nodes that a search passes through are stored, 16 bytes each.
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "photon/gather.h"
+#include "photon/morton.h"
+#include "photon/uninitialised_array.h"
+
+namespace kaustik::photon {
+
+// The children of a node lie next to each other, in octant order.
+struct OctreeNode {
+  uint32_t begin = 0, end = 0;  // photons
+  uint32_t first_child = 0;     // index of the node
+  uint32_t children = 0;        // bit o: octant o is not empty; bits 8 + 3 o up: how many come before it
+
+  bool leaf() const { return children == 0; }
+  PhotonRange range() const { return {begin, end}; }
+  uint32_t child_mask() const { return children & 255; }
+  bool has_child(uint32_t octant) const { return children >> octant & 1; }
+  uint32_t child_offset(uint32_t octant) const { return children >> (8 + 3 * octant) & 7; }
+  uint32_t child(uint32_t octant) const { return first_child + child_offset(octant); }
+};
+static_assert(sizeof(OctreeNode) == 16);
+
+// A cell of any depth, whether or not a node of its own is stored.
+struct OctreeCell {
+  PhotonRange range;
+  MortonCell corner{};  // lowest coordinates at level kMortonBits
+  int depth = 0;
+  int climbed = 0;  // levels climbed from the leaf
+  Bounds3 bounds;   // metres
+};
+
+// The sorted photons' columns, from which keys are computed again where a cell lies below a stored leaf.
+struct PhotonPositions {
+  const float *x = nullptr, *y = nullptr, *z = nullptr;
+  Point3 operator[](uint64_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+class Octree {
+ public:
+  // Stored leaves hold at most so many photons, unless they lie in one cell of the deepest level.
+  static constexpr uint64_t kLeafPhotons = 64;
+
+  Octree() = default;
+  // keys: ascending, fewer than 2^32. Built level by level: the children of all nodes of a level are counted
+  // in parallel, and a prefix sum gives each its place. The result does not depend on the number of threads.
+  Octree(const MortonCube& cube, std::span<const uint64_t> keys);
+
+  const MortonCube& cube() const { return cube_; }
+  uint64_t size() const { return size_; }  // photons
+  std::span<const OctreeNode> nodes() const { return nodes_; }
+  uint64_t memory_bytes() const { return nodes_.capacity() * sizeof(OctreeNode); }
+
+  // fn(PhotonRange) for ranges in ascending order that together hold every photon of `within` that is at most
+  // radius from p (and others): all leaves that meet the sphere, adjacent ones joined.
+  template <class Fn>
+  void visit_ranges(const Point3& p, float radius, PhotonRange within, Fn&& fn) const;
+
+  // fn(PhotonRange) -> radius for every leaf that meets the sphere, roughly the nearest first. What fn
+  // returns replaces the radius, and must not be larger.
+  template <class Fn>
+  void visit_near_first(const Point3& p, float radius, PhotonRange within, Fn&& fn) const;
+
+  // Photons of the ancestor cells of key: ranges[d] is that of depth d. Stops after the first depth at which
+  // stop(depth, range) is true, or at the deepest level; returns that depth.
+  template <class Stop>
+  int descend(const PhotonPositions& positions, uint64_t key, PhotonRange (&ranges)[kMortonBits + 1],
+              Stop&& stop) const;
+
+  // The lecture's leaf lookup (TNCG15): from the root, a cell splits while it holds more than node_photons
+  // (N0) and its children can still hold a sphere of `radius` (r0); then the parent is taken while p is
+  // nearer than r0 to a face. Faces of the root do not count: there is nothing beyond them.
+  OctreeCell find_cell(const PhotonPositions& positions, const Point3& p, uint32_t node_photons,
+                       float radius) const;
+
+  // The rules of find_cell, shared with the shadow classifier. Children at depth + 1 can hold the sphere.
+  bool children_hold(float radius, int depth) const;
+  // p, of the cell of depth, is at least radius away from every face of that cell that is inside the root.
+  bool keeps_from_faces(const Point3& p, float radius, int depth) const;
+  OctreeCell make_cell(const Point3& p, PhotonRange range, int depth, int climbed) const;
+
+ private:
+  PhotonRange child_range(const PhotonPositions& positions, PhotonRange range, uint64_t key, int depth) const;
+
+  MortonCube cube_;
+  std::vector<OctreeNode> nodes_;
+  uint64_t size_ = 0;
+};
+
+}  // namespace kaustik::photon
+
+#include "photon/octree-inl.h"

@@ -1,0 +1,98 @@
+#pragma once
+// Photons of one kind in Morton order, with the octree that finds those near a point.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "photon/gather.h"
+#include "photon/octree.h"
+#include "photon/photon_record.h"
+
+namespace kaustik::photon {
+
+struct MapSettings {
+  // Maps with the same bounds share one cube, so that a cell is a key range in each. Unset: the photons' own
+  // bounds. Photons outside are kept, in the nearest cells.
+  std::optional<Bounds3> bounds;
+};
+
+// Immutable after the build; const members may be called from any thread. Structure of arrays, 24 bytes per
+// photon and about one for the octree.
+class PhotonMap {
+ public:
+  PhotonMap() = default;
+
+  // Takes the buffer's memory and frees it. The result does not depend on the number of threads. Peak memory:
+  // 52 bytes per photon, the buffer included. At most 2^32 - 1 photons (std::length_error beyond).
+  static PhotonMap build(PhotonBuffer&& buffer, const MapSettings& settings = {});
+  // The same with the power kept as 3 x f32 instead of RGB9E5 (32 bytes per photon): the reference for what
+  // the packed power loses.
+  static PhotonMap build_f32(std::span<const Photon> photons, float flux_unit,
+                             const MapSettings& settings = {});
+
+  uint64_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  float flux_unit() const { return flux_unit_; }
+  const MortonCube& cube() const { return octree_.cube(); }
+  const Octree& octree() const { return octree_; }
+  uint64_t memory_bytes() const;  // columns and octree
+
+  // Photon i of the Morton order, decoded.
+  Photon photon(uint64_t i) const;
+
+  // Sum of flux K(d) over the photons that count, in W/m^2. The order of the sum is fixed.
+  Rgb gather_flux(const GatherQuery& query, const KernelSpec& kernel, GatherCounters& counters) const;
+
+  // fn(const Photon&, float distance_squared) for each photon that counts, in Morton order.
+  template <class Fn>
+  void for_each(const GatherQuery& query, Fn&& fn, GatherCounters& counters) const;
+
+  // The smallest radius in metres that reaches the k-th nearest photon that counts; query.radius when fewer
+  // than k are within it.
+  float nearest_radius(const GatherQuery& query, uint32_t k, GatherCounters& counters) const;
+
+  // The lecture's cell of p: see Octree::find_cell.
+  OctreeCell find_cell(const Point3& p, uint32_t node_photons, float radius) const {
+    return octree_.find_cell(positions(), p, node_photons, radius);
+  }
+
+  const PhotonColumns& columns() const { return columns_; }
+  PhotonPositions positions() const { return {columns_.x, columns_.y, columns_.z}; }
+
+ private:
+  // The columns while they are filled.
+  struct Writer {
+    float *x, *y, *z;
+    uint32_t *direction, *surface, *power;
+    float* power_f32[3];
+    void write(uint64_t i, const PhotonRecord& record) const;  // all but the power
+  };
+  Writer allocate(uint64_t size, bool f32_power);
+
+  Octree octree_;
+  UninitialisedArray<std::byte> storage_;  // all columns, one after the other
+  PhotonColumns columns_;
+  uint64_t size_ = 0;
+  float flux_unit_ = 1;
+};
+
+template <class Fn>
+void PhotonMap::for_each(const GatherQuery& query, Fn&& fn, GatherCounters& counters) const {
+  ++counters.queries;
+  uint32_t index[kSelectBlock + kGatherPadding];
+  float distance_squared[kSelectBlock + kGatherPadding];
+  octree_.visit_ranges(query.p, query.radius, query.within, [&](PhotonRange range) {
+    counters.candidates += range.size();
+    for (; !range.empty(); range.begin = std::min(range.end, range.begin + kSelectBlock)) {
+      const PhotonRange block{range.begin, std::min(range.end, range.begin + kSelectBlock)};
+      const size_t count =
+          select_range(columns_, block, query, query.radius * query.radius, index, distance_squared);
+      counters.accepted += count;
+      for (size_t i = 0; i < count; ++i) fn(photon(block.begin + index[i]), distance_squared[i]);
+    }
+  });
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,32 @@
+#pragma once
+// The 24-byte photon record, as it is shot and stored.
+
+#include <cstdint>
+#include <vector>
+
+#include "photon/photon.h"
+
+namespace kaustik::photon {
+
+// direction: octahedral 2 x u16 (towards where the photon came from); power: RGB9E5 of flux / flux_unit;
+// surface: octahedral normal 2 x u8 (low half) and surface group (high half, modulo 2^16).
+struct PhotonRecord {
+  float x, y, z;
+  uint32_t direction;
+  uint32_t power;
+  uint32_t surface;
+};
+static_assert(sizeof(PhotonRecord) == 24);
+
+// Photons of one kind before the build, in the order of their emission. flux_unit is a power of two near the
+// mean flux of one photon, so that the shared-exponent format keeps its range at any scale of scene and any
+// photon count.
+struct PhotonBuffer {
+  std::vector<PhotonRecord> records;
+  float flux_unit = 1;
+};
+
+PhotonRecord pack(const Photon& photon, float flux_unit);
+Photon unpack(const PhotonRecord& record, float flux_unit);
+
+}  // namespace kaustik::photon

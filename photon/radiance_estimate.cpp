@@ -1,0 +1,61 @@
+// The sum over photons, one visit of the BSDF outside it.
+
+#include "photon/radiance_estimate.h"
+
+#include <variant>
+
+namespace kaustik::photon {
+
+namespace {
+
+// Lr = sum of f_r(x, wo, wi_p) flux_p K(|x - x_p|), with f_r taken out of the sum where it is constant.
+struct ReflectedRadiance {
+  const PhotonMap& map;
+  const GatherQuery& query;
+  const KernelSpec& kernel;
+  const Frame& frame;
+  const Vector3& wo;  // local
+  GatherCounters& counters;
+
+  Rgb operator()(const Lambertian& bsdf) const {
+    return bsdf.reflectance * kInvPi * map.gather_flux(query, kernel, counters);
+  }
+
+  template <class AnyBsdf>
+  Rgb operator()(const AnyBsdf& bsdf) const {
+    if constexpr (AnyBsdf::kSpecular) return Rgb(0);
+    const KernelTerms terms = kernel_terms(kernel, query.radius);
+    Rgb Lr(0);
+    map.for_each(
+        query,
+        [&](const Photon& photon, float distance_squared) {
+          const Vector3 wi = frame.to_local(photon.wi);
+          Lr += bsdf.f(wo, wi) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
+        },
+        counters);
+    return Lr;
+  }
+};
+
+// The K-th nearest photon sets the disc but does not count: K - 1 photons in the disc that reaches the K-th
+// are an unbiased estimate of density, K photons are not (Silverman 1986, section 5.2).
+float nearest_radius(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
+  const float radius = map.nearest_radius(query, k, counters);
+  return radius < query.radius ? std::nextafter(radius, 0.0f) : radius;
+}
+
+}  // namespace
+
+Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
+                      const EstimateSettings& settings, GatherCounters& counters) {
+  if (map.empty()) return Rgb(0);
+  const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
+  GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
+  if (settings.nearest > 0) query.radius = nearest_radius(map, query, settings.nearest, counters);
+  if (settings.leaf) query.within = map.find_cell(si.p, settings.node_photons, query.radius).range;
+  const Frame frame = Frame::from_z(si.ns);
+  return std::visit(ReflectedRadiance{map, query, settings.kernel, frame, frame.to_local(wo), counters},
+                    bsdf);
+}
+
+}  // namespace kaustik::photon

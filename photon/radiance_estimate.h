@@ -1,0 +1,25 @@
+#pragma once
+// Reflected radiance from a photon map.
+
+#include "core/bsdf/bsdf.h"
+#include "core/geometry/interaction.h"
+#include "photon/photon_map.h"
+
+namespace kaustik::photon {
+
+struct EstimateSettings {
+  float radius = 0;  // r0, metres
+  KernelSpec kernel;
+  uint32_t nearest = 0;        // K > 0: the radius shrinks to the K-th nearest photon
+  bool leaf = false;           // the lecture's leaf lookup instead of the exact search
+  uint32_t node_photons = 64;  // N0 of the leaf lookup
+};
+
+// Lr(x, wo) = sum over photons p in reach of f_r(x, wo, wi_p) flux_p K(|x - x_p|)   in W/(m^2 sr)
+// Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", equations 7.3 to 7.6. No cosine: flux per
+// area already holds it. wo: unit, world, away from the surface. Bias: that of the kernel, O(radius^2) where
+// light is smooth. Zero for specular BSDFs and empty maps. Thread-safe.
+Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
+                      const EstimateSettings& settings, GatherCounters& counters);
+
+}  // namespace kaustik::photon

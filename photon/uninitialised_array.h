@@ -1,0 +1,38 @@
+#pragma once
+// An array of numbers whose memory is first touched by the thread that fills it.
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace kaustik::photon {
+
+// Owns `size` values, uninitialised at first; move-only.
+template <class T>
+class UninitialisedArray {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  UninitialisedArray() = default;
+  explicit UninitialisedArray(size_t size) : data_(std::make_unique_for_overwrite<T[]>(size)), size_(size) {}
+
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  size_t size() const { return size_; }
+  T& operator[](size_t i) { return data_[i]; }
+  const T& operator[](size_t i) const { return data_[i]; }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+  const T* begin() const { return data(); }
+  const T* end() const { return data() + size_; }
+  void clear() {
+    data_.reset();
+    size_ = 0;
+  }
+
+ private:
+  std::unique_ptr<T[]> data_;
+  size_t size_ = 0;
+};
+
+}  // namespace kaustik::photon
