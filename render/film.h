@@ -1,0 +1,68 @@
+#pragma once
+// The image being rendered: one float layer per class of paths, plus feature layers. Row 0 on top.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/math/vec.h"
+#include "render/image.h"
+
+namespace kaustik::render {
+
+enum class Layer { kEmitted, kDirect, kCaustic, kIndirect, kAlbedo, kNormal, kDepth, kPhotons };
+inline constexpr int kLayers = 8;
+inline constexpr std::array<std::string_view, kLayers> kLayerNames = {
+    "emitted", "direct", "caustic", "indirect", "albedo", "normal", "depth", "photons"};
+inline constexpr std::array<int, kLayers> kLayerChannels = {3, 3, 3, 3, 3, 3, 1, 1};
+
+// What one pixel holds: means over its samples.
+struct PixelResult {
+  Rgb emitted{0}, direct{0}, caustic{0}, indirect{0};  // W/(m^2 sr)
+  Rgb albedo{0};
+  Vector3 normal{0};  // shading normal of the first hit, world
+  float depth = 0;    // distance to the first hit, metres; 0 where the ray escapes
+  float photons = 0;  // caustic + indirect + direct photons in reach per query
+
+  Rgb radiance() const { return emitted + direct + caustic + indirect; }
+};
+
+// A window of width x height pixels whose upper left corner is pixel (x0, y0) of an image of full_width x
+// full_height. at(x, y) counts from the window's corner.
+class Film {
+ public:
+  Film() = default;
+  Film(int width, int height) : Film(width, height, 0, 0, width, height) {}
+  Film(int width, int height, int x0, int y0, int full_width, int full_height)
+      : width_(width),
+        height_(height),
+        x0_(x0),
+        y0_(y0),
+        full_width_(full_width),
+        full_height_(full_height),
+        pixels_(size_t(width) * size_t(height)) {}
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int x0() const { return x0_; }
+  int y0() const { return y0_; }
+  int full_width() const { return full_width_; }
+  int full_height() const { return full_height_; }
+  PixelResult& at(int x, int y) { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
+  const PixelResult& at(int x, int y) const { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
+
+ private:
+  int width_ = 0, height_ = 0;
+  int x0_ = 0, y0_ = 0, full_width_ = 0, full_height_ = 0;
+  std::vector<PixelResult> pixels_;
+};
+
+// The total radiance as a plain picture.
+inline Image image_of(const Film& film) {
+  Image image(film.width(), film.height());
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) image.at(x, y) = film.at(x, y).radiance();
+  return image;
+}
+
+}  // namespace kaustik::render

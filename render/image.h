@@ -1,0 +1,21 @@
+#pragma once
+// A plain picture in memory: linear Rec. 709, row 0 on top.
+
+#include <vector>
+
+#include "core/math/vec.h"
+
+namespace kaustik::render {
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<Rgb> pixels;
+
+  Image() = default;
+  Image(int w, int h, const Rgb& value = Rgb(0))
+      : width(w), height(h), pixels(size_t(w) * size_t(h), value) {}
+  Rgb& at(int x, int y) { return pixels[size_t(y) * size_t(width) + size_t(x)]; }
+  const Rgb& at(int x, int y) const { return pixels[size_t(y) * size_t(width) + size_t(x)]; }
+};
+
+}  // namespace kaustik::render

@@ -1,0 +1,225 @@
+#include "render/image_io.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cctype>
+#include <filesystem>
+
+namespace kaustik::render {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+bool is_exr(const std::string& path) {
+  return lower_extension(path) == ".exr";
+}
+
+// A name in the folder of `path` that keeps its extension (which chooses the format) and that no other writer
+// of this machine uses.
+fs::path temporary_name(const fs::path& path) {
+  static std::atomic<uint64_t> counter{0};
+  const std::string name = fmt::format(".{}.{}-{}.partial{}", path.stem().string(), ::getpid(), counter++,
+                                       path.extension().string());
+  return path.parent_path() / name;
+}
+
+// Removes the temporary file unless it was renamed to its final name.
+class PendingFile {
+ public:
+  explicit PendingFile(const std::string& path) : final_(path), temporary_(temporary_name(path)) {}
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+  ~PendingFile() {
+    std::error_code ignored;
+    if (!done_) fs::remove(temporary_, ignored);
+  }
+  std::string temporary() const { return temporary_.string(); }
+  void commit() {
+    std::error_code error;
+    fs::rename(temporary_, final_, error);
+    if (error) throw ImageError(final_.string(), "cannot rename the finished file: " + error.message());
+    done_ = true;
+  }
+
+ private:
+  fs::path final_, temporary_;
+  bool done_ = false;
+};
+
+void write_pixels(const std::string& path, OIIO::ImageSpec spec, const Metadata& metadata,
+                  OIIO::TypeDesc type, const void* pixels) {
+  for (const auto& [key, value] : metadata) spec.attribute(key, value);
+  PendingFile file(path);
+  auto out = OIIO::ImageOutput::create(file.temporary());
+  if (!out) throw ImageError(path, OIIO::geterror());
+  if (!out->open(file.temporary(), spec)) throw ImageError(path, out->geterror());
+  const bool written = out->write_image(type, pixels);
+  const std::string message = written ? "" : out->geterror();
+  const bool closed = out->close();
+  if (!written || !closed) throw ImageError(path, message.empty() ? out->geterror() : message);
+  file.commit();
+}
+
+std::vector<std::string> channel_names(Layer layer) {
+  const std::string name(kLayerNames[size_t(layer)]);
+  switch (layer) {
+    case Layer::kNormal:
+      return {name + ".X", name + ".Y", name + ".Z"};
+    case Layer::kDepth:
+      return {name + ".Z"};
+    case Layer::kPhotons:
+      return {name + ".Y"};
+    default:
+      return {name + ".R", name + ".G", name + ".B"};
+  }
+}
+
+void append_layer(const PixelResult& pixel, Layer layer, std::vector<float>* out) {
+  const auto append = [out](const glm::vec3& v) { out->insert(out->end(), {v.x, v.y, v.z}); };
+  switch (layer) {
+    case Layer::kEmitted:
+      return append(pixel.emitted);
+    case Layer::kDirect:
+      return append(pixel.direct);
+    case Layer::kCaustic:
+      return append(pixel.caustic);
+    case Layer::kIndirect:
+      return append(pixel.indirect);
+    case Layer::kAlbedo:
+      return append(pixel.albedo);
+    case Layer::kNormal:
+      return append(pixel.normal);
+    case Layer::kDepth:
+      return out->push_back(pixel.depth);
+    case Layer::kPhotons:
+      return out->push_back(pixel.photons);
+  }
+}
+
+void write_exr(const std::string& path, const Film& film, const WriteOptions& options) {
+  std::vector<std::string> names = {"R", "G", "B"};
+  for (const Layer layer : options.layers)
+    for (std::string& name : channel_names(layer)) names.push_back(std::move(name));
+  OIIO::ImageSpec spec(film.width(), film.height(), int(names.size()), OIIO::TypeDesc::FLOAT);
+  spec.channelnames = names;
+  spec.x = film.x0();
+  spec.y = film.y0();
+  spec.full_width = film.full_width();
+  spec.full_height = film.full_height();
+  spec.attribute("compression", "zip");
+  std::vector<float> pixels;
+  pixels.reserve(size_t(film.width()) * size_t(film.height()) * names.size());
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) {
+      const PixelResult& pixel = film.at(x, y);
+      const Rgb total = pixel.radiance();
+      pixels.insert(pixels.end(), {total.x, total.y, total.z});
+      for (const Layer layer : options.layers) append_layer(pixel, layer, &pixels);
+    }
+  write_pixels(path, std::move(spec), options.metadata, OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
+void write_exr(const std::string& path, const Image& image, const Metadata& metadata) {
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  write_pixels(path, std::move(spec), metadata, OIIO::TypeDesc::FLOAT, image.pixels.data());
+}
+
+void write_srgb8(const std::string& path, const Image& image, const ToneSettings& tone,
+                 const Metadata& metadata) {
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("compression", lower_extension(path) == ".png" ? "zip" : "jpeg:95");
+  std::vector<uint8_t> pixels;
+  pixels.reserve(3 * image.pixels.size());
+  for (const Rgb& radiance : image.pixels) {
+    const auto encoded = to_srgb8(radiance, tone);
+    pixels.insert(pixels.end(), encoded.begin(), encoded.end());
+  }
+  write_pixels(path, std::move(spec), metadata, OIIO::TypeDesc::UINT8, pixels.data());
+}
+
+// First channel and number of channels that hold the colour: R, G, B of the default layer, else the first
+// three, else one grey.
+std::pair<int, int> colour_channels(const OIIO::ImageSpec& spec) {
+  for (int c = 0; c + 2 < spec.nchannels; ++c)
+    if (spec.channelnames[size_t(c)] == "R" && spec.channelnames[size_t(c) + 1] == "G" &&
+        spec.channelnames[size_t(c) + 2] == "B")
+      return {c, 3};
+  return {0, spec.nchannels >= 3 ? 3 : 1};
+}
+
+}  // namespace
+
+std::vector<Layer> layers_from_names(const std::vector<std::string>& names) {
+  std::array<bool, kLayers> wanted{};
+  for (const std::string& name : names) {
+    const auto found = std::find(kLayerNames.begin(), kLayerNames.end(), name);
+    if (name == "all")
+      wanted.fill(true);
+    else if (found != kLayerNames.end())
+      wanted[size_t(found - kLayerNames.begin())] = true;
+    else
+      throw std::invalid_argument(
+          fmt::format("unknown layer '{}'; there are: {}, all", name, fmt::join(kLayerNames, ", ")));
+  }
+  std::vector<Layer> layers;
+  for (int i = 0; i < kLayers; ++i)
+    if (wanted[size_t(i)]) layers.push_back(Layer(i));
+  return layers;
+}
+
+void check_output_name(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".exr" && extension != ".png" && extension != ".jpg" && extension != ".jpeg")
+    throw std::invalid_argument(path + ": the name must end in .exr, .png, .jpg or .jpeg");
+}
+
+void write_film(const std::string& path, const Film& film, const WriteOptions& options) {
+  check_output_name(path);
+  if (is_exr(path))
+    write_exr(path, film, options);
+  else
+    write_srgb8(path, image_of(film), options.tone, options.metadata);
+}
+
+void write_image(const std::string& path, const Image& image, const ToneSettings& tone,
+                 const Metadata& metadata) {
+  check_output_name(path);
+  if (is_exr(path))
+    write_exr(path, image, metadata);
+  else
+    write_srgb8(path, image, tone, metadata);
+}
+
+Image read_image(const std::string& path) {
+  auto in = OIIO::ImageInput::open(path);
+  if (!in) throw ImageError(path, OIIO::geterror());
+  const OIIO::ImageSpec spec = in->spec();
+  const auto [first, count] = colour_channels(spec);
+  std::vector<float> values(size_t(spec.width) * size_t(spec.height) * size_t(count));
+  if (!in->read_image(0, 0, first, first + count, OIIO::TypeDesc::FLOAT, values.data()))
+    throw ImageError(path, in->geterror());
+  const bool encoded = !spec.format.is_floating_point();
+  Image image(spec.width, spec.height);
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const float v = values[i * size_t(count) + size_t(count == 3 ? c : 0)];
+      image.pixels[i][c] = encoded ? linear_from_srgb(v) : v;
+    }
+  return image;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,58 @@
+#pragma once
+// Reading and writing pictures through OpenImageIO: EXR with layers and metadata, PNG and JPEG tone-mapped.
+// Not handled: deep images, mip levels, spectral or non-Rec. 709 primaries.
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/film.h"
+#include "render/image.h"
+#include "render/tonemap.h"
+
+namespace kaustik::render {
+
+// what() begins with the path.
+class ImageError : public std::runtime_error {
+ public:
+  ImageError(const std::string& path, const std::string& message)
+      : std::runtime_error(path + ": " + message), path_(path) {}
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+struct WriteOptions {
+  std::vector<Layer> layers;  // EXR only: besides the image itself
+  Metadata metadata;          // string attributes: of every format that keeps them
+  ToneSettings tone;          // PNG and JPEG only
+};
+
+// Layers from names of `--aov`; "all" means every layer, repeated names count once. Throws
+// std::invalid_argument naming the unknown layer and the valid ones.
+std::vector<Layer> layers_from_names(const std::vector<std::string>& names);
+
+// Throws std::invalid_argument unless path ends in .exr, .png, .jpg or .jpeg (any case). For the command
+// line: to fail before rendering.
+void check_output_name(const std::string& path);
+
+// Writes a film by the extension of its path. EXR: 32-bit float, channels R G B (total radiance) and for each
+// layer `direct.R direct.G direct.B`, `normal.X normal.Y normal.Z`, `depth.Z`, `photons.Y`; a crop becomes
+// the data window inside the full display window. PNG, JPEG: 8-bit sRGB. The file appears under its name only
+// when it is complete: it is written to a temporary name in the same folder and renamed. Throws ImageError;
+// then nothing is left behind and a previous file of that name is untouched.
+void write_film(const std::string& path, const Film& film, const WriteOptions& options = {});
+
+// The same for a plain picture (EXR: channels R G B).
+void write_image(const std::string& path, const Image& image, const ToneSettings& tone = {},
+                 const Metadata& metadata = {});
+
+// Reads R, G, B (or one grey channel three times) of any format OpenImageIO knows, as linear floats: integer
+// formats are decoded from sRGB. Only the data window is returned. Throws ImageError.
+Image read_image(const std::string& path);
+
+}  // namespace kaustik::render

@@ -1,0 +1,36 @@
+#pragma once
+// Light that arrives straight from the lamps: next-event estimation, emission met by rays, and the weights
+// that join the two.
+
+#include "render/render_context.h"
+#include "render/shading_point.h"
+
+namespace kaustik::render {
+
+// Which part of the direct light next-event estimation owns.
+enum class LightWeight {
+  kAlone,  // all of it
+  kMis     // its share against BSDF sampling (power heuristic, Veach 1997, section 9.2.4)
+};
+
+// One-sample estimate of  int f(wo, wi) Le V |cos| dwi  over all lamps, W/(m^2 sr). One lamp is chosen in
+// proportion to its power; anything between blocks, glass too: light through specular surfaces belongs to the
+// caustic class. Delta lamps always have weight one. Draws three dimensions, always.
+Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
+                  TileCounters& counters);
+
+// Radiance that a surface point itself emits towards w (unit, world).
+Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w);
+
+// Radiance of the infinite lamps, for a ray that escapes.
+Rgb escaped(const Scene& scene);
+
+// The share of BSDF sampling for a ray from ref in direction wi, of density bsdf_pdf, that met emitter `si`:
+// bsdf_pdf^2 / (bsdf_pdf^2 + light_pdf^2).
+float emitter_hit_weight(const Scene& scene, const Point3& ref, const Vector3& wi, float bsdf_pdf,
+                         const SurfaceInteraction& si);
+
+// Radiance of the infinite lamps times the share of BSDF sampling, each lamp with its own.
+Rgb escaped_weighted(const Scene& scene, float bsdf_pdf);
+
+}  // namespace kaustik::render

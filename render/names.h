@@ -1,0 +1,53 @@
+#pragma once
+// The names of the choices in RenderSettings, as the command line, the scene file, the metadata and the
+// statistics spell them.
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "render/settings.h"
+
+namespace kaustik::render {
+
+// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 5> kMethodNames = {"auto", "raytrace", "mc", "hybrid",
+                                                                 "photon"};
+inline constexpr std::array<std::string_view, 3> kDirectNames = {"shadow-rays", "photons", "lecture"};
+inline constexpr std::array<std::string_view, 3> kCausticNames = {"photons", "paths", "off"};
+inline constexpr std::array<std::string_view, 3> kIndirectNames = {"paths", "photons", "off"};
+inline constexpr std::array<std::string_view, 3> kKernelNames = {"constant", "cone", "epanechnikov"};
+inline constexpr std::array<std::string_view, 2> kLookupNames = {"exact", "leaf"};
+inline constexpr std::array<std::string_view, 2> kEmissionNames = {"cosine", "uniform-angle"};
+
+inline std::string_view name_of(Method m) {
+  return kMethodNames[size_t(m)];
+}
+inline std::string_view name_of(DirectEstimator e) {
+  return kDirectNames[size_t(e)];
+}
+inline std::string_view name_of(CausticEstimator e) {
+  return kCausticNames[size_t(e)];
+}
+inline std::string_view name_of(IndirectEstimator e) {
+  return kIndirectNames[size_t(e)];
+}
+inline std::string_view name_of(Kernel k) {
+  return kKernelNames[size_t(k)];
+}
+inline std::string_view name_of(Lookup l) {
+  return kLookupNames[size_t(l)];
+}
+inline std::string_view name_of(EmissionMode m) {
+  return kEmissionNames[size_t(m)];
+}
+
+// The enumerator of this name, or nothing.
+template <class Enum, size_t N>
+std::optional<Enum> from_name(const std::array<std::string_view, N>& names, std::string_view name) {
+  for (size_t i = 0; i < N; ++i)
+    if (names[i] == name) return static_cast<Enum>(i);
+  return {};
+}
+
+}  // namespace kaustik::render

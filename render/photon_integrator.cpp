@@ -1,0 +1,113 @@
+// What a camera ray brings back:
+//
+//   L(ray) = Le + Lr                                          the rendering equation (Kajiya 1986)
+//   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
+//   Lr = direct + caustic + indirect at the first non-specular point x
+//        direct    L D S* E                 shadow rays, photons or the lecture's choice    direct_light
+//        caustic   L S+ D S* E              photons or paths                                caustic_light
+//        indirect  L S* D (S|D)* D S* E     photons or paths                                indirect_light
+//
+// Each class has one owner, so that their sum counts every path once (Heckbert 1990 for the notation).
+
+#include "render/photon_integrator.h"
+
+#include "render/path_integrator.h"
+
+namespace kaustik::render {
+
+namespace {
+
+Rgb from_map(const ReadMap& read, const ShadingPoint& x, TileCounters& counters) {
+  return photon::estimate_radiance(read.map, x.si, x.wo, *x.bsdf, read.estimate, counters.gather);
+}
+
+// The lecture (TNCG15): photons where the octree cell of x is free of shadow photons, shadow rays elsewhere.
+bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, LectureCounters& counters) {
+  const auto answer = photon::lecture_lookup(ctx.maps.direct.map, ctx.maps.shadow, x.si.p, ctx.maps.lecture);
+  counters.from_photons += answer.use_photons();
+  counters.climbed += answer.outcome == photon::LectureOutcome::kClimbed;
+  counters.fallback_few += answer.outcome == photon::LectureOutcome::kFew;
+  counters.fallback_shadow += answer.outcome == photon::LectureOutcome::kShadow;
+  counters.fallback_face += answer.outcome == photon::LectureOutcome::kFace;
+  return answer.use_photons();
+}
+
+// BSDF sampling finds lamps too when a path leaves x anyway: then both share the direct light.
+LightWeight light_weight(const EstimatorPlan& plan) {
+  return plan.direct == DirectEstimator::kShadowRays && traces_paths(plan) ? LightWeight::kMis
+                                                                           : LightWeight::kAlone;
+}
+
+Rgb direct_light(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler, TileCounters& counters) {
+  switch (ctx.plan.direct) {
+    case DirectEstimator::kPhotons:
+      return from_map(ctx.maps.direct, x, counters);
+    case DirectEstimator::kLecture:
+      if (lecture_trusts_photons(ctx, x, counters.lecture)) return from_map(ctx.maps.direct, x, counters);
+      break;
+    case DirectEstimator::kShadowRays:
+      break;
+  }
+  return sample_direct(ctx, x, light_weight(ctx.plan), sampler, counters);
+}
+
+Rgb caustic_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters) {
+  return ctx.plan.caustics == CausticEstimator::kPhotons ? from_map(ctx.maps.caustic, x, counters) : Rgb(0);
+}
+
+Rgb indirect_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters) {
+  return ctx.plan.indirect == IndirectEstimator::kPhotons ? from_map(ctx.maps.indirect, x, counters) : Rgb(0);
+}
+
+// Light scattered at the first non-specular point, seen through a specular chain of throughput beta. The path
+// brings nothing of a class that another estimator owns, so each sum below has one owner.
+void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
+                   TileCounters& counters, PixelResult* result) {
+  const uint64_t accepted = counters.gather.accepted;
+  const Rgb direct = direct_light(ctx, x, sampler, counters);
+  const Rgb caustic = caustic_light(ctx, x, counters);
+  const Rgb indirect = indirect_light(ctx, x, counters);
+  result->photons = float(counters.gather.accepted - accepted);
+  const PathLight path = traces_paths(ctx.plan) ? trace_path(ctx, x, sampler, counters) : PathLight{};
+  result->direct = beta * (direct + path.direct);
+  result->caustic = beta * (caustic + path.caustic);
+  result->indirect = beta * (indirect + path.indirect);
+}
+
+void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* result) {
+  result->albedo = albedo(*hit.bsdf);
+  result->normal = hit.si.ns;
+  result->depth = glm::distance(hit.si.p, eye);
+}
+
+}  // namespace
+
+PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, Sampler& sampler,
+                             TileCounters& counters) {
+  PixelResult result;
+  Rgb beta(1);
+  Ray ray = camera_ray;
+  ++counters.rays.camera;
+  for (int events = 0;; ++events) {
+    SurfaceInteraction si;
+    if (!ctx.bvh.intersect(ray, &si)) {
+      result.emitted += beta * escaped(ctx.scene);
+      return result;
+    }
+    result.emitted += beta * emitted(ctx.scene, si, -ray.d);
+    const ShadingPoint x(ctx.scene, si, -ray.d);
+    if (events == 0) set_features(x, ray.o, &result);
+    if (!x.specular()) {
+      add_reflected(ctx, x, beta, sampler, counters, &result);
+      return result;
+    }
+    if (events == ctx.settings.max_bounces) return result;
+    const auto s = scatter(x, sampler);
+    if (!s) return result;
+    beta *= s->weight;
+    ray = si.spawn(s->wi);
+    ++counters.rays.specular;
+  }
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,13 @@
+#pragma once
+// The radiance of one camera ray: the rendering equation, split by classes of paths.
+
+#include "render/render_context.h"
+
+namespace kaustik::render {
+
+// One sample of a pixel. Radiance by class in W/(m^2 sr); albedo, normal and depth of the first hit; photons
+// in reach of the queries at the first non-specular point. Draws from `sampler` what it needs.
+PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& ray, Sampler& sampler,
+                             TileCounters& counters);
+
+}  // namespace kaustik::render

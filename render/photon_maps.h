@@ -1,0 +1,34 @@
+#pragma once
+// The photon maps of one pass: which kinds are needed, the shoot, the builds, the gather radii.
+
+#include "photon/photon_map.h"
+#include "photon/radiance_estimate.h"
+#include "photon/shadow_classifier.h"
+#include "photon/shoot.h"
+#include "render/renderer.h"
+
+namespace kaustik::render {
+
+// A map and how it is read.
+struct ReadMap {
+  photon::PhotonMap map;
+  photon::EstimateSettings estimate;
+};
+
+struct PhotonMaps {
+  ReadMap direct, caustic, indirect;
+  photon::PhotonMap shadow;  // only for the lecture's direct estimator
+  photon::LectureSettings lecture;
+};
+
+// The kinds that the plan's estimators read; only these are traced and stored.
+photon::KindMask kinds_needed(const EstimatorPlan& plan);
+
+// Shoots and builds what the plan reads, and settles the radii; fills the photon fields of statistics. False
+// when progress cancelled. The result is a function of scene, settings and plan only, whatever the number of
+// threads.
+bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                      const EstimatorPlan& plan, const ProgressCallback& progress, PhotonMaps* maps,
+                      RenderStatistics* statistics);
+
+}  // namespace kaustik::render

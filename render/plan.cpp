@@ -1,0 +1,104 @@
+// make_plan: which estimator computes which class of paths.
+
+#include <fmt/format.h>
+
+#include "render/names.h"
+#include "render/renderer.h"
+
+namespace kaustik::render {
+
+namespace {
+
+using Direct = DirectEstimator;
+using Caustic = CausticEstimator;
+using Indirect = IndirectEstimator;
+
+// What the method alone says.
+EstimatorPlan preset(Method method) {
+  EstimatorPlan plan;
+  switch (method) {
+    case Method::kRaytrace:
+      plan.direct = Direct::kShadowRays, plan.caustics = Caustic::kOff, plan.indirect = Indirect::kOff;
+      break;
+    case Method::kMc:
+      plan.direct = Direct::kShadowRays, plan.caustics = Caustic::kPaths, plan.indirect = Indirect::kPaths;
+      break;
+    case Method::kHybrid:
+      plan.direct = Direct::kLecture, plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPaths;
+      break;
+    case Method::kPhoton:
+      plan.direct = Direct::kPhotons, plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
+      break;
+    case Method::kAuto:
+      // Indirect light by photons: less error in the same time than paths on every scene measured, and no
+      // fireflies where a small bright patch lights the room (docs/accuracy.md).
+      plan.direct = Direct::kShadowRays, plan.caustics = Caustic::kPhotons,
+      plan.indirect = Indirect::kPhotons;
+      break;
+  }
+  return plan;
+}
+
+void leave_out(const RenderSettings& settings, const SceneNeeds& needs, EstimatorPlan* plan) {
+  if (!needs.any_light) plan->notes.push_back("no lamp: the image is black");
+  // Caustics are the only class that can be empty by construction: without specular surfaces, or without
+  // light or something that receives it.
+  const bool empty = !needs.specular || !needs.any_light || !needs.diffuse;
+  if (empty && plan->caustics != Caustic::kOff && !settings.caustics) {
+    plan->caustics = Caustic::kOff;
+    plan->notes.push_back(!needs.specular    ? "no specular surface: no caustic pass"
+                          : !needs.any_light ? "no lamp: no caustic pass"
+                                             : "no diffuse surface: no caustic pass");
+  }
+  if (!needs.any_light && plan->indirect != Indirect::kOff && !settings.indirect) {
+    plan->indirect = Indirect::kOff;
+    plan->notes.push_back("no lamp: no indirect light");
+  }
+}
+
+void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* notes) {
+  const bool any = plan.direct != Direct::kShadowRays || plan.caustics == Caustic::kPhotons ||
+                   plan.indirect == Indirect::kPhotons;
+  if (!any) {
+    notes->push_back("no estimator reads photons: no photon pass");
+    return;
+  }
+  if (plan.direct != Direct::kLecture)
+    notes->push_back("shadow photons are not traced: only the lecture's direct estimator reads them");
+  if (plan.direct == Direct::kShadowRays) notes->push_back("direct photons are not stored: shadow rays");
+  if (plan.indirect != Indirect::kPhotons)
+    notes->push_back(std::string("indirect photons are not traced: indirect light ") +
+                     (plan.indirect == Indirect::kPaths ? "by paths" : "is off"));
+}
+
+void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
+  if (!needs.specular || !needs.any_light) return;
+  if (plan->caustics == Caustic::kPaths && needs.only_delta_lights)
+    plan->notes.push_back(
+        "paths cannot hit point, spot or distant lamps: their caustics are missing; use --caustics photons");
+  if (plan->caustics == Caustic::kOff && plan->indirect == Indirect::kPaths && needs.only_delta_lights)
+    plan->notes.push_back(
+        "caustics are off: light of point, spot or distant lamps through specular surfaces is missing "
+        "from the indirect light too");
+  if (plan->caustics == Caustic::kOff && needs.diffuse)
+    plan->notes.push_back(
+        "caustics are off: light that reaches a diffuse surface through mirror or glass is left out");
+}
+
+}  // namespace
+
+EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs) {
+  EstimatorPlan plan = preset(settings.method);
+  if (settings.direct) plan.direct = *settings.direct;
+  if (settings.caustics) plan.caustics = *settings.caustics;
+  if (settings.indirect) plan.indirect = *settings.indirect;
+  leave_out(settings, needs, &plan);
+  plan.notes.insert(plan.notes.begin(),
+                    fmt::format("method {}: direct {}, caustics {}, indirect {}", name_of(settings.method),
+                                name_of(plan.direct), name_of(plan.caustics), name_of(plan.indirect)));
+  note_photon_kinds(plan, &plan.notes);
+  note_limits(needs, &plan);
+  return plan;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,24 @@
+#pragma once
+// What every estimator reads (const, shared by all threads) and what it counts (one per tile).
+
+#include "render/photon_maps.h"
+#include "render/renderer.h"
+
+namespace kaustik::render {
+
+struct RenderContext {
+  const Scene& scene;
+  const accel::Bvh& bvh;
+  const RenderSettings& settings;
+  const EstimatorPlan& plan;
+  const PhotonMaps& maps;
+};
+
+// Exact counters of one tile, merged by integer sums.
+struct TileCounters {
+  RayCounters rays;
+  LectureCounters lecture;
+  photon::GatherCounters gather;
+};
+
+}  // namespace kaustik::render

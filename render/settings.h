@@ -1,0 +1,60 @@
+#pragma once
+// Everything a render can be told. The command line and the scene file's Integrator "photonmap" line fill the
+// same struct.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/light/light_types.h"
+#include "photon/kernel.h"
+
+namespace kaustik::render {
+
+enum class Method { kAuto, kRaytrace, kMc, kHybrid, kPhoton };
+enum class DirectEstimator { kShadowRays, kPhotons, kLecture };
+enum class CausticEstimator { kPhotons, kPaths, kOff };
+enum class IndirectEstimator { kPaths, kPhotons, kOff };
+using Kernel = photon::KernelType;
+enum class Lookup { kExact, kLeaf };
+
+struct CropWindow {
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // pixels, half open; empty = whole image
+  bool empty() const { return x1 <= x0 || y1 <= y0; }
+};
+
+struct RenderSettings {
+  Method method = Method::kAuto;
+  // Unset: what the method chooses.
+  std::optional<DirectEstimator> direct;
+  std::optional<CausticEstimator> caustics;
+  std::optional<IndirectEstimator> indirect;
+
+  uint64_t photons = 1'000'000;  // emitted
+  std::optional<float> radius;   // gather radius r0 in metres; unset = auto
+  uint32_t nearest = 0;          // K > 0: radius shrinks to the K-th nearest photon
+  Kernel kernel = Kernel::kConstant;
+  float cone_k = 1.1f;         // k >= 1 of the cone filter
+  uint32_t min_photons = 8;    // M0 of the lecture's test
+  uint32_t node_photons = 64;  // N0: octree nodes with at most so many photons are leaves
+  Lookup lookup = Lookup::kExact;
+  EmissionMode emission = EmissionMode::kCosine;
+  int max_bounces = 16;
+  int spp = 16;
+  uint64_t seed = 0;
+  int threads = 0;            // 0 = all the process may use
+  int width = 0, height = 0;  // 0 = as the scene says
+  CropWindow crop;
+  std::vector<std::string> aov;  // layers to write besides the image; empty = none, "all" = all
+};
+
+// The estimators that a render uses, settled from method, overrides and the scene's needs.
+struct EstimatorPlan {
+  DirectEstimator direct = DirectEstimator::kShadowRays;
+  CausticEstimator caustics = CausticEstimator::kOff;
+  IndirectEstimator indirect = IndirectEstimator::kOff;
+  std::vector<std::string> notes;  // what was chosen and left out, and why: one sentence each
+};
+
+}  // namespace kaustik::render

@@ -1,0 +1,57 @@
+#pragma once
+// A surface point seen from a direction: the BSDF in world space, with the checks that shading normals need.
+
+#include <optional>
+
+#include "core/sampling/sampler.h"
+#include "core/scene/scene.h"
+
+namespace kaustik::render {
+
+struct ShadingPoint {
+  SurfaceInteraction si;
+  Vector3 wo{0};  // unit, world, to the viewer (or to the previous vertex of the camera path)
+  Frame frame;    // about si.ns
+  Vector3 wo_local{0};
+  const Bsdf* bsdf = nullptr;
+
+  // Where wo lies on different sides of the geometric and the shading surface of a non-specular material, the
+  // geometric normal is shaded: the interpolated one means nothing there.
+  ShadingPoint(const Scene& scene, const SurfaceInteraction& interaction, const Vector3& to_viewer)
+      : si(interaction), wo(to_viewer), bsdf(&scene.bsdf(interaction)) {
+    if (!is_specular(*bsdf) && glm::dot(wo, si.n) * glm::dot(wo, si.ns) <= 0) si.ns = si.n;
+    frame = Frame::from_z(si.ns);
+    wo_local = frame.to_local(wo);
+  }
+
+  bool specular() const { return is_specular(*bsdf); }
+};
+
+// f(wo, wi) |wi . ns| in 1/sr. Zero where wi lies on different sides of the geometric and the shading
+// surface: light does not leak through (Veach 1997, section 5.3).
+inline Rgb f_cos(const ShadingPoint& x, const Vector3& wi) {
+  const Vector3 local = x.frame.to_local(wi);
+  if (!(glm::dot(wi, x.si.n) * local.z > 0)) return Rgb(0);
+  return std::visit([&](const auto& b) { return b.f(x.wo_local, local); }, *x.bsdf) * std::abs(local.z);
+}
+
+// Density of scatter() per solid angle.
+inline float scatter_pdf(const ShadingPoint& x, const Vector3& wi) {
+  const Vector3 local = x.frame.to_local(wi);
+  return std::visit([&](const auto& b) { return b.pdf(x.wo_local, local); }, *x.bsdf);
+}
+
+// BsdfSample with wi in world space. Draws three dimensions, always: uc, then a pair.
+inline std::optional<BsdfSample> scatter(const ShadingPoint& x, Sampler& sampler) {
+  const float uc = sampler.next_1d();
+  const Point2 u = sampler.next_2d();
+  auto s = std::visit([&](const auto& b) { return b.sample_f(x.wo_local, uc, u, TransportMode::kRadiance); },
+                      *x.bsdf);
+  if (!s) return {};
+  const bool above = s->transmission ? glm::dot(x.wo, x.si.n) < 0 : glm::dot(x.wo, x.si.n) > 0;
+  s->wi = x.frame.to_world(s->wi);
+  if ((glm::dot(s->wi, x.si.n) > 0) != above) return {};
+  return s;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,132 @@
+#include "render/statistics_json.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/version.h"
+#include "render/names.h"
+
+namespace kaustik::render {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
+  Json out;
+  out["method"] = name_of(s.method);
+  out["direct"] = name_of(plan.direct);
+  out["caustics"] = name_of(plan.caustics);
+  out["indirect"] = name_of(plan.indirect);
+  out["photons"] = s.photons;
+  out["radius"] = s.radius ? Json(*s.radius) : Json("auto");
+  out["nearest"] = s.nearest;
+  out["kernel"] = name_of(s.kernel);
+  out["cone_k"] = s.cone_k;
+  out["min_photons"] = s.min_photons;
+  out["node_photons"] = s.node_photons;
+  out["lookup"] = name_of(s.lookup);
+  out["emission"] = name_of(s.emission);
+  out["max_bounces"] = s.max_bounces;
+  out["spp"] = s.spp;
+  out["seed"] = s.seed;
+  return out;
+}
+
+Json photons_json(const RenderStatistics& s) {
+  Json stored;
+  for (int k = 0; k < photon::kPhotonKinds; ++k)
+    stored[std::string(photon::kPhotonKindNames[size_t(k)])] = s.photons.stored[size_t(k)];
+  return {{"emitted", s.photons.emitted},
+          {"stored", stored},
+          {"dropped_invalid", s.photons.dropped_invalid},
+          {"bytes", s.photon_bytes}};
+}
+
+Json rays_json(const RenderStatistics& s) {
+  return {{"camera", s.rays.camera}, {"specular", s.rays.specular}, {"shadow", s.rays.shadow},
+          {"bounce", s.rays.bounce}, {"photon", s.photons.rays},    {"photon_shadow", s.photons.shadow_rays}};
+}
+
+Json lecture_json(const LectureCounters& l) {
+  return {{"from_photons", l.from_photons},
+          {"climbed", l.climbed},
+          {"fallback_few", l.fallback_few},
+          {"fallback_shadow", l.fallback_shadow},
+          {"fallback_face", l.fallback_face}};
+}
+
+Json seconds_json(const RenderStatistics& s, const OuterTimes& t) {
+  return {{"load", t.load},
+          {"bvh", t.bvh},
+          {"photon_trace", s.photon_trace_s},
+          {"photon_build", s.photon_build_s},
+          {"render", s.render_s},
+          {"write", t.write},
+          {"total", t.total}};
+}
+
+Json needs_json(const SceneNeeds& needs) {
+  return {{"specular", needs.specular},
+          {"diffuse", needs.diffuse},
+          {"only_delta_lights", needs.only_delta_lights},
+          {"infinite_light", needs.infinite_light},
+          {"any_light", needs.any_light},
+          {"left_out", needs.left_out()}};
+}
+
+}  // namespace
+
+uint64_t peak_memory_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("VmHWM:", 0) == 0) return std::stoull(line.substr(6)) * 1024;
+  return 0;
+}
+
+std::string statistics_json(const RenderResult& result, const RenderSettings& settings,
+                            const SceneNeeds& needs, const OuterTimes& times) {
+  const RenderStatistics& s = result.statistics;
+  Json out;
+  out["version"] = version();
+  out["build"] = build_id();
+  out["seed"] = settings.seed;
+  out["width"] = result.film.width();
+  out["height"] = result.film.height();
+  out["cancelled"] = result.cancelled;
+  out["settings"] = settings_json(settings, result.plan);
+  out["photons"] = photons_json(s);
+  out["rays"] = rays_json(s);
+  out["gather"] = {
+      {"queries", s.gather_queries}, {"candidates", s.gather_candidates}, {"accepted", s.gather_accepted}};
+  out["fallbacks"] = lecture_json(s.lecture);
+  out["radius"] = s.radius;
+  out["radii"] = {
+      {"direct", s.direct_radius}, {"caustic", s.caustic_radius}, {"indirect", s.indirect_radius}};
+  out["seconds"] = seconds_json(s, times);
+  out["peak_memory_bytes"] = peak_memory_bytes();
+  out["dropped_samples"] = s.dropped_samples;
+  out["dropped_examples"] = s.dropped_examples;
+  out["needs"] = needs_json(needs);
+  out["left_out"] = result.plan.notes;
+  return out.dump(2) + "\n";
+}
+
+Metadata metadata_of(const RenderResult& result, const RenderSettings& settings) {
+  Metadata out = {{"Software", fmt::format("kaustik {} ({})", version(), build_id())}};
+  const Json json = settings_json(settings, result.plan);
+  for (const auto& [key, value] : json.items())
+    out.emplace_back("kaustik:" + key, value.is_string() ? value.get<std::string>() : value.dump());
+  const RenderStatistics& s = result.statistics;
+  out.emplace_back("kaustik:radius_used", fmt::format("{}", s.radius));
+  out.emplace_back("kaustik:photons_emitted", fmt::format("{}", s.photons.emitted));
+  for (int k = 0; k < photon::kPhotonKinds; ++k)
+    out.emplace_back(fmt::format("kaustik:photons_stored_{}", photon::kPhotonKindNames[size_t(k)]),
+                     fmt::format("{}", s.photons.stored[size_t(k)]));
+  out.emplace_back("kaustik:dropped_samples", fmt::format("{}", s.dropped_samples));
+  return out;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,29 @@
+#pragma once
+// What a render counted and measured, as JSON for `--stats` and as string attributes for image files.
+
+#include <string>
+
+#include "render/image_io.h"
+#include "render/renderer.h"
+
+namespace kaustik::render {
+
+// Seconds of the phases that the renderer does not see itself.
+struct OuterTimes {
+  double load = 0, bvh = 0, write = 0, total = 0;
+};
+
+// Peak resident memory of this process in bytes (VmHWM of /proc/self/status); 0 where it cannot be read.
+uint64_t peak_memory_bytes();
+
+// The JSON text (UTF-8, indented, ends in a newline): version, seed, settings, plan, photons emitted and
+// stored per kind, rays per kind, gather counts, the lecture's fallbacks, seconds per phase, peak memory,
+// radii, the scene's needs and what was left out. 64-bit counts are exact.
+std::string statistics_json(const RenderResult& result, const RenderSettings& settings,
+                            const SceneNeeds& needs, const OuterTimes& times);
+
+// Settings, version, seed and counts for write_film. Holds nothing that changes between equal renders, so
+// that equal renders give equal files.
+Metadata metadata_of(const RenderResult& result, const RenderSettings& settings);
+
+}  // namespace kaustik::render

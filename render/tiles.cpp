@@ -1,0 +1,144 @@
+#include "render/tiles.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <mutex>
+#include <tuple>
+
+#include "core/sampling/sampler.h"
+#include "render/photon_integrator.h"
+
+namespace kaustik::render {
+
+namespace {
+
+constexpr size_t kDropExamples = 10;
+constexpr uint64_t kCameraStream = 0xca3e;  // keeps the image's random numbers apart from the photons'
+
+struct DroppedSample {
+  int y = 0, x = 0, sample = 0;
+  bool operator<(const DroppedSample& o) const {
+    return std::tie(y, x, sample) < std::tie(o.y, o.x, o.sample);
+  }
+};
+
+struct TileResult {
+  TileCounters counters;
+  uint64_t dropped = 0;
+  std::vector<DroppedSample> examples;
+};
+
+// Mean of a pixel's samples, summed in double.
+struct PixelMean {
+  glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
+  double depth = 0, photons = 0;
+  int count = 0;
+
+  void add(const PixelResult& s) {
+    emitted += s.emitted, direct += s.direct, caustic += s.caustic, indirect += s.indirect;
+    albedo += s.albedo, normal += s.normal, depth += s.depth, photons += s.photons;
+    ++count;
+  }
+  PixelResult mean() const {
+    PixelResult out;
+    if (count == 0) return out;
+    const double w = 1.0 / count;
+    out.emitted = Rgb(emitted * w), out.direct = Rgb(direct * w), out.caustic = Rgb(caustic * w);
+    out.indirect = Rgb(indirect * w), out.albedo = Rgb(albedo * w), out.normal = Vector3(normal * w);
+    out.depth = float(depth * w), out.photons = float(photons * w);
+    return out;
+  }
+};
+
+bool valid_radiance(const PixelResult& s) {
+  for (const Rgb* c : {&s.emitted, &s.direct, &s.caustic, &s.indirect})
+    if (!is_finite(*c) || c->x < 0 || c->y < 0 || c->z < 0) return false;
+  return true;
+}
+
+// Pixel (x, y) of the full image. The box filter is uniform over the pixel.
+PixelResult render_pixel(const RenderContext& ctx, uint64_t pass, int x, int y, TileResult* tile) {
+  const uint64_t pixel = uint64_t(y) * uint64_t(ctx.scene.camera.width) + uint64_t(x);
+  const uint64_t stream = hash_combine(hash_combine(ctx.settings.seed, kCameraStream), pass);
+  PixelMean mean;
+  for (int i = 0; i < ctx.settings.spp; ++i) {
+    Sampler sampler(hash_combine(stream, pixel), uint64_t(i));
+    const Point2 u = sampler.next_2d();
+    const Ray ray = ctx.scene.camera.generate_ray({float(x) + u.x, float(y) + u.y});
+    const PixelResult sample = trace_camera_ray(ctx, ray, sampler, tile->counters);
+    if (valid_radiance(sample)) {
+      mean.add(sample);
+      continue;
+    }
+    ++tile->dropped;
+    if (tile->examples.size() < kDropExamples) tile->examples.push_back({y, x, i});
+  }
+  return mean.mean();
+}
+
+TileResult render_tile(const RenderContext& ctx, uint64_t pass, int tile_x, int tile_y, Film* film) {
+  TileResult tile;
+  const int x1 = std::min(film->width(), (tile_x + 1) * kTileSize);
+  const int y1 = std::min(film->height(), (tile_y + 1) * kTileSize);
+  for (int y = tile_y * kTileSize; y < y1; ++y)
+    for (int x = tile_x * kTileSize; x < x1; ++x)
+      film->at(x, y) = render_pixel(ctx, pass, film->x0() + x, film->y0() + y, &tile);
+  return tile;
+}
+
+// Integer sums and a sorted list: the order in which tiles finish leaves no trace.
+struct MergedTiles {
+  TileResult total;
+
+  void add(const TileResult& tile) {
+    total.counters.rays += tile.counters.rays;
+    total.counters.lecture += tile.counters.lecture;
+    total.counters.gather += tile.counters.gather;
+    total.dropped += tile.dropped;
+    total.examples.insert(total.examples.end(), tile.examples.begin(), tile.examples.end());
+    std::sort(total.examples.begin(), total.examples.end());
+    if (total.examples.size() > kDropExamples) total.examples.resize(kDropExamples);
+  }
+
+  void fill(RenderStatistics* s) const {
+    s->rays += total.counters.rays;
+    s->lecture += total.counters.lecture;
+    s->gather_queries += total.counters.gather.queries;
+    s->gather_candidates += total.counters.gather.candidates;
+    s->gather_accepted += total.counters.gather.accepted;
+    s->dropped_samples += total.dropped;
+    for (const DroppedSample& d : total.examples)
+      s->dropped_examples.push_back(fmt::format("pixel {} {} sample {}", d.x, d.y, d.sample));
+  }
+};
+
+}  // namespace
+
+bool render_tiles(const RenderContext& ctx, uint64_t pass, const ProgressCallback& progress, Film* film,
+                  RenderStatistics* statistics) {
+  const int columns = (film->width() + kTileSize - 1) / kTileSize;
+  const int rows = (film->height() + kTileSize - 1) / kTileSize;
+  const int tiles = columns * rows;
+  std::mutex mutex;
+  std::atomic<bool> cancelled{false};
+  MergedTiles merged;
+  uint64_t done = 0;
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, tiles, 1),
+      [&](const tbb::blocked_range<int>& range) {
+        for (int i = range.begin(); i < range.end() && !cancelled; ++i) {
+          const TileResult tile = render_tile(ctx, pass, i % columns, i / columns, film);
+          const std::lock_guard lock(mutex);
+          merged.add(tile);
+          ++done;
+          if (progress && !progress({"render", done, uint64_t(tiles)})) cancelled = true;
+        }
+      },
+      tbb::simple_partitioner());
+  merged.fill(statistics);
+  return !cancelled;
+}
+
+}  // namespace kaustik::render
