@@ -1,0 +1,37 @@
+#pragma once
+// One line that shows how far a render is and when it will be done.
+
+#include <chrono>
+#include <string>
+
+#include "apps/console/console.h"
+#include "render/renderer.h"
+
+namespace kaustik::app {
+
+// "photons  [########------------]  40 %  1:05 left". left: seconds, negative when unknown.
+std::string progress_line(std::string_view phase, double fraction, double left);
+
+// On a terminal the line is redrawn in place; elsewhere a new line comes every few seconds; nothing when
+// quiet. update() is not thread-safe: the renderer serialises its calls.
+class ProgressBar {
+ public:
+  explicit ProgressBar(const Console& console) : console_(console) {}
+  ~ProgressBar() { clear(); }
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void update(const render::Progress& progress);
+  // Takes the bar off the terminal.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const Console& console_;
+  std::string phase_;
+  Clock::time_point phase_start_, last_drawn_;
+  bool visible_ = false;
+};
+
+}  // namespace kaustik::app

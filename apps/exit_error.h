@@ -1,0 +1,21 @@
+#pragma once
+// How a command ends early: caught in run(), which prints the message and returns the code.
+
+#include <stdexcept>
+#include <string>
+
+#include "apps/run.h"
+
+namespace kaustik::app {
+
+// An empty message prints nothing: everything has been said.
+class ExitError : public std::runtime_error {
+ public:
+  ExitError(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+}  // namespace kaustik::app

@@ -1,0 +1,24 @@
+#pragma once
+// What directives set for the shapes and lights that follow (pharr 2023, appendix C.2).
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene/description.h"
+
+namespace kaustik::pbrt {
+
+// Defaults set by Attribute, by target. Shared between the states of the stack: a push copies a pointer.
+using Defaults = std::shared_ptr<const std::vector<Parameter>>;
+
+struct GraphicsState {
+  glm::dmat4 ctm{1};  // from the current space to the world; before WorldBegin: from the world to the camera
+  MaterialReference material;
+  std::optional<uint32_t> area_light;
+  bool reverse_orientation = false;
+  std::map<std::string, Defaults, std::less<>> defaults;  // "shape", "light", "material"
+};
+
+}  // namespace kaustik::pbrt

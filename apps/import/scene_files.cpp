@@ -1,0 +1,68 @@
+#include "apps/import/scene_files.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace kaustik::pbrt {
+
+namespace fs = std::filesystem;
+
+// Columns and lines are 32-bit numbers.
+constexpr uint64_t kLargestSceneFile = 0xffffffffu;
+
+fs::path resolve_path(const std::string& name, const fs::path& naming_file, const fs::path& main_file) {
+  const fs::path path(name);
+  if (path.is_absolute()) return path;
+  const fs::path beside = naming_file.parent_path() / path;
+  std::error_code ignored;
+  if (fs::exists(beside, ignored)) return beside;
+  const fs::path beside_main = main_file.parent_path() / path;
+  return fs::exists(beside_main, ignored) ? beside_main : beside;
+}
+
+std::optional<std::string> read_bytes(const fs::path& path, uint64_t max_bytes, std::string& error) {
+  const std::string name = path.string();
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (!fs::exists(status)) {
+    error = fmt::format("cannot open \"{}\": no such file", name);
+    return std::nullopt;
+  }
+  if (!fs::is_regular_file(status)) {
+    error = fmt::format("cannot read \"{}\": not a regular file", name);
+    return std::nullopt;
+  }
+  const uint64_t size = fs::file_size(path, code);
+  if (code || size > max_bytes) {
+    error = fmt::format("cannot read \"{}\": {}", name,
+                        code ? code.message() : fmt::format("more than {} bytes", max_bytes));
+    return std::nullopt;
+  }
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) {
+    error = fmt::format("cannot open \"{}\": {}", name, std::strerror(errno));
+    return std::nullopt;
+  }
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<size_t>(in.gcount()));
+  return bytes;
+}
+
+std::optional<uint32_t> SceneFiles::open(const fs::path& path, std::string& error) {
+  std::error_code ignored;
+  const std::string key = fs::weakly_canonical(path, ignored).string();
+  const auto found = by_canonical_path_.find(key);
+  if (found != by_canonical_path_.end()) return found->second;
+  auto text = read_bytes(path, kLargestSceneFile, error);
+  if (!text) return std::nullopt;
+  const uint32_t file = files_.add(path.string(), std::move(*text));
+  by_canonical_path_.emplace(key, file);
+  return file;
+}
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,153 @@
+// Materials, lights, shapes, objects and included files.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/import/parameter_parser.h"
+#include "apps/import/scene_parser.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+constexpr size_t kDeepestInclude = 64;
+// Files that include others twice each grow without end long before they are deep.
+constexpr uint64_t kMostBytes = uint64_t{8} << 30;
+
+}  // namespace
+
+void SceneParser::on_material(const Token& word) {
+  MaterialDescription material;
+  if (!read_directive(word, "material", material)) return;
+  state_.material = {static_cast<uint32_t>(scene_.materials.size()), {}, material.location};
+  scene_.materials.push_back(std::move(material));
+}
+
+void SceneParser::on_make_named_material(const Token& word) {
+  MaterialDescription material;
+  if (!read_directive(word, "material", material)) return;
+  material.name = std::exchange(material.type, {});
+  material.name_location = material.type_location;
+  const Parameter* type = material.find("type");
+  if (!type || type->strings.size() != 1) {
+    diagnostics_.error(
+        material.name_location,
+        fmt::format("material `{}` needs its type: \"string type\" \"diffuse\"", material.name));
+    return;
+  }
+  material.type = type->strings[0];
+  material.type_location = type->value_location(0);
+  std::erase_if(material.parameters, [](const Parameter& p) { return p.name == "type"; });
+  scene_.materials.push_back(std::move(material));
+}
+
+void SceneParser::on_named_material(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (name) state_.material = {std::nullopt, unescape(name->text), name->location};
+}
+
+void SceneParser::on_area_light(const Token& word) {
+  Directive light;
+  if (!read_directive(word, "light", light)) return;
+  state_.area_light = static_cast<uint32_t>(scene_.area_lights.size());
+  scene_.area_lights.push_back(std::move(light));
+}
+
+void SceneParser::on_light(const Token& word) {
+  LightDescription light;
+  if (!read_directive(word, "light", light)) return;
+  light.light_to_world = state_.ctm;
+  scene_.lights.push_back(std::move(light));
+}
+
+void SceneParser::on_shape(const Token& word) {
+  ShapeDescription shape;
+  if (!read_directive(word, "shape", shape)) return;
+  shape.object_to_world = state_.ctm;
+  shape.reverse_orientation = state_.reverse_orientation;
+  shape.material = state_.material;
+  shape.area_light = state_.area_light;
+  (open_object_ ? scene_.objects[*open_object_].shapes : scene_.shapes).push_back(std::move(shape));
+}
+
+void SceneParser::on_object_begin(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  push(true, word.location);
+  if (open_object_) {
+    diagnostics_.error(word.location, "an object inside another one",
+                       {{scene_.objects[*open_object_].location, "the outer one"}});
+    return;
+  }
+  const std::string text = unescape(name->text);
+  const auto [found, is_new] = objects_.emplace(text, scene_.objects.size());
+  if (!is_new) {
+    diagnostics_.error(name->location, fmt::format("object `{}` is defined twice", text),
+                       {{scene_.objects[found->second].location, "first defined here"}});
+  }
+  open_object_ = scene_.objects.size();
+  scene_.objects.push_back({text, name->location, {}});
+}
+
+void SceneParser::on_object_end(const Token& word) {
+  const size_t open = stack_.size();
+  pop(true, word);
+  const bool inside_another =
+      std::any_of(stack_.begin(), stack_.end(), [](const Open& o) { return o.object; });
+  if (stack_.size() < open && !inside_another) open_object_.reset();
+}
+
+void SceneParser::on_object_instance(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  if (open_object_) {
+    return diagnostics_.error(word.location, "an instance inside an object",
+                              {{scene_.objects[*open_object_].location, "the object"}});
+  }
+  scene_.instances.push_back({unescape(name->text), name->location, state_.ctm});
+}
+
+void SceneParser::on_include(const Token& word) {
+  include(word, true);
+}
+
+void SceneParser::on_import(const Token& word) {
+  include(word, false);
+}
+
+void SceneParser::include(const Token& word, bool keep_state) {
+  const auto name = quoted("a file name", word);
+  if (!name) return;
+  if (open_files_.size() >= kDeepestInclude) {
+    return diagnostics_.error(name->location,
+                              fmt::format("more than {} files included inside each other", kDeepestInclude));
+  }
+  const std::filesystem::path naming(diagnostics_.files.name(open_files_.back()));
+  std::string error;
+  const auto file = files_.open(resolve_path(unescape(name->text), naming, main_file_), error);
+  if (!file) return diagnostics_.error(name->location, error);
+  if (std::find(open_files_.begin(), open_files_.end(), *file) != open_files_.end()) {
+    return diagnostics_.error(name->location,
+                              fmt::format("\"{}\" includes itself", diagnostics_.files.name(*file)));
+  }
+  bytes_read_ += diagnostics_.files.text(*file).size() + 1;
+  if (bytes_read_ > kMostBytes) {
+    if (!stopped_)
+      diagnostics_.error(name->location, "the included files are too long in all: reading stops here");
+    stopped_ = true;
+    return;
+  }
+  const GraphicsState before = state_;
+  parse_file(*file);
+  if (!keep_state) state_ = before;
+}
+
+void SceneParser::on_not_rendered(const Token& word) {
+  const std::string_view what = word.text == "Texture" ? "colours are constant, \"rgb\" parameters"
+                                                       : "there is nothing between surfaces";
+  diagnostics_.error(word.location, fmt::format("pbrt's `{}` is not rendered: {}", word.text, what));
+  skip_arguments();
+}
+
+}  // namespace kaustik::pbrt

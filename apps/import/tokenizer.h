@@ -1,0 +1,51 @@
+#pragma once
+// Words, strings, numbers and brackets of a pbrt file, with their places.
+
+#include <string>
+#include <string_view>
+
+#include "core/diagnostics/diagnostics.h"
+
+namespace kaustik::pbrt {
+
+enum class TokenKind { kWord, kString, kNumber, kOpen, kClose, kEnd };
+
+struct Token {
+  TokenKind kind = TokenKind::kEnd;
+  std::string_view text;  // of strings: between the quotes, escapes as written
+  SourceLocation location;
+
+  bool is(TokenKind k) const { return kind == k; }
+};
+
+// Splits a file's text, which must outlive the tokens. Comments (# to the end of the line) and blanks are
+// skipped. Strings that are not closed on their line and characters that belong to no token are reported, and
+// reading goes on.
+class Tokenizer {
+ public:
+  Tokenizer(uint32_t file, std::string_view text, DiagnosticList& diagnostics);
+
+  Token next();
+  const Token& peek();
+
+ private:
+  Token read();
+  Token read_string();
+  Token read_bare();
+  void skip_blanks();
+  SourceLocation here() const;
+
+  uint32_t file_;
+  std::string_view text_;
+  DiagnosticList& diagnostics_;
+  size_t position_ = 0;
+  size_t line_start_ = 0;
+  uint32_t line_ = 1;
+  bool has_peeked_ = false;
+  Token peeked_;
+};
+
+// The string that was meant: \" \\ \n \t and the like resolved.
+std::string unescape(std::string_view text);
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,103 @@
+#include "apps/scene_loading.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "apps/exit_error.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// Prints all that was found. Scene and settings are reported together, so that one run shows every error of a
+// file.
+void print_diagnostics(const Diagnostics& diagnostics, const Console& console) {
+  console.err << diagnostics.format_all();
+}
+
+[[noreturn]] void refuse_scene(const std::string& path, size_t errors) {
+  throw ExitError(kBadScene, fmt::format("{}: {} error{}", path, errors, errors == 1 ? "" : "s"));
+}
+
+// The scene could not be built: look at its settings too before giving up.
+[[noreturn]] void report_broken_scene(const std::string& path, const Diagnostics& diagnostics,
+                                      const Console& console) {
+  print_diagnostics(diagnostics, console);
+  Diagnostics again;
+  DiagnosticList settings_only;
+  if (const auto description = pbrt::import_scene(path, again))
+    settings_from_scene(*description, settings_only);
+  for (const Diagnostic& diagnostic : settings_only.entries()) console.err << again.format(diagnostic);
+  refuse_scene(path, diagnostics.error_count() + settings_only.error_count());
+}
+
+// The image's size: the scene's, or the command line's with the missing side in proportion.
+void resolve_size(const SceneSettings& file, const render::RenderSettings& settings,
+                  PerspectiveCamera& camera) {
+  int width = settings.width, height = settings.height;
+  const double aspect = double(file.width) / double(file.height);
+  if (width == 0 && height == 0) width = file.width, height = file.height;
+  if (height == 0) height = std::max(1, static_cast<int>(std::lround(width / aspect)));
+  if (width == 0) width = std::max(1, static_cast<int>(std::lround(height * aspect)));
+  camera.width = width;
+  camera.height = height;
+  if (!file.fixed_screen_window) camera.set_default_screen_window();
+}
+
+void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides,
+                  const PerspectiveCamera& camera, render::RenderSettings& settings, const Console& console) {
+  const bool same_size = camera.width == file.width && camera.height == file.height;
+  if (!overrides.sets("crop") && !settings.crop.empty() && !same_size) {
+    settings.crop = {};
+    console.note("the scene's crop window is for another image size: the whole image is rendered");
+  }
+  const render::CropWindow& crop = settings.crop;
+  if (!crop.empty() && (crop.x1 > camera.width || crop.y1 > camera.height)) {
+    throw ExitError(kBadCommandLine,
+                    fmt::format("--crop {} {} {} {} reaches out of the {} x {} image", crop.x0, crop.x1,
+                                crop.y0, crop.y1, camera.width, camera.height));
+  }
+}
+
+}  // namespace
+
+std::string grouped(uint64_t n) {
+  if (n < 1000) return fmt::format("{}", n);
+  return fmt::format("{},{:03}", grouped(n / 1000), n % 1000);
+}
+
+std::string scene_summary(const Scene& scene) {
+  uint64_t primitives = 0;
+  for (const Shape& shape : scene.shapes) primitives += primitive_count(shape);
+  const auto counted = [](uint64_t n, std::string_view noun) {
+    return fmt::format("{} {}{}", grouped(n), noun, n == 1 ? "" : "s");
+  };
+  return fmt::format("{}, {}, {}, {}", counted(scene.shapes.size(), "shape"),
+                     counted(primitives, "primitive"), counted(scene.materials.size(), "material"),
+                     counted(scene.lights.size(), "light"));
+}
+
+Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console) {
+  const auto start = std::chrono::steady_clock::now();
+  Diagnostics diagnostics;
+  std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics);
+  if (!loaded) report_broken_scene(path, diagnostics, console);
+  const SceneSettings file = settings_from_scene(loaded->description, diagnostics);
+  print_diagnostics(diagnostics, console);
+  if (diagnostics.has_errors()) refuse_scene(path, diagnostics.error_count());
+
+  Job job{.scene = std::move(loaded->scene), .settings = file.settings, .scene_output = file.output};
+  overrides.apply(job.settings);
+  resolve_size(file, job.settings.render, job.scene.camera);
+  resolve_crop(file, overrides, job.scene.camera, job.settings.render, console);
+  job.settings.render.width = job.scene.camera.width;
+  job.settings.render.height = job.scene.camera.height;
+  job.load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  console.note(fmt::format("{}: {}", path, scene_summary(job.scene)));
+  for (const std::string& note : file.notes) console.note(note);
+  return job;
+}
+
+}  // namespace kaustik::app

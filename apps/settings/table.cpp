@@ -1,0 +1,332 @@
+#include "apps/settings/table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+
+#include "apps/settings/values.h"
+#include "core/diagnostics/nearest_name.h"
+#include "render/film.h"
+#include "render/names.h"
+
+namespace kaustik::app {
+
+namespace {
+
+using render::RenderSettings;
+using Complaint = std::optional<std::string>;
+using Texts = std::span<const std::string>;
+
+template <class T>
+std::optional<T> whole_in_range(std::string_view text, uint64_t least, uint64_t most) {
+  const std::optional<uint64_t> value = parse_count(text);
+  if (!value || *value < least || *value > most) return std::nullopt;
+  return static_cast<T>(*value);
+}
+
+// 10000000 as "10M", 1500 as "1500".
+std::string count_text(uint64_t n) {
+  constexpr std::pair<uint64_t, char> kSuffixes[] = {{1000000000, 'G'}, {1000000, 'M'}, {1000, 'k'}};
+  for (const auto& [unit, suffix] : kSuffixes) {
+    if (n >= unit && n % unit == 0) return fmt::format("{}{}", n / unit, suffix);
+  }
+  return fmt::format("{}", n);
+}
+
+// A whole number, suffixes allowed. zero: what 0 means in the table, when it has a meaning of its own.
+template <class T>
+Setting count(std::string_view name, std::string_view unit, T RenderSettings::*field, uint64_t least,
+              uint64_t most, std::string_view zero, std::string_view doc) {
+  Setting s{.name = name, .kind = ValueKind::kCount, .value_name = "COUNT", .unit = unit, .doc = doc};
+  const uint64_t preset = static_cast<uint64_t>(RenderSettings{}.*field);
+  s.default_text = preset == 0 && !zero.empty() ? std::string(zero) : count_text(preset);
+  const bool any_size = most == std::numeric_limits<uint64_t>::max();
+  s.range = any_size ? fmt::format("{} or more", least) : fmt::format("{} to {}", least, count_text(most));
+  s.assign = [=, range = s.range](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<T> value = whole_in_range<T>(texts[0], least, most);
+    if (!value)
+      return fmt::format("`{}`: expected a whole number, {} (like 250, 10k, 2.5M, 1G)", texts[0], range);
+    settings.render.*field = *value;
+    return std::nullopt;
+  };
+  return s;
+}
+
+template <size_t N>
+Complaint not_a_choice(const std::string& text, const std::array<std::string_view, N>& names) {
+  return fmt::format("`{}` is none of its values{}", text, name_hint(text, names));
+}
+
+// One name of several. Field: a pointer to an enum, or to an optional of one whose default is the method's.
+template <class Enum, class Field, size_t N>
+Setting choice(std::string_view name, Field RenderSettings::*field,
+               const std::array<std::string_view, N>& names, std::string default_text, std::string_view doc) {
+  Setting s{.name = name, .kind = ValueKind::kChoice, .value_name = "NAME", .doc = doc};
+  s.choices.assign(names.begin(), names.end());
+  s.range = fmt::format("{}", fmt::join(names, ", "));
+  s.default_text = std::move(default_text);
+  s.assign = [field, names](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<Enum> value = render::from_name<Enum>(names, texts[0]);
+    if (!value) return not_a_choice(texts[0], names);
+    settings.render.*field = *value;
+    return std::nullopt;
+  };
+  return s;
+}
+
+template <class Enum, size_t N>
+Setting choice(std::string_view name, Enum RenderSettings::*field,
+               const std::array<std::string_view, N>& names, std::string_view doc) {
+  return choice<Enum>(name, field, names, std::string(names[static_cast<size_t>(RenderSettings{}.*field)]),
+                      doc);
+}
+
+Setting radius_setting() {
+  Setting s{
+      .name = "radius",
+      .kind = ValueKind::kNumber,
+      .value_name = "R",
+      .unit = "m",
+      .range = "above 0, or auto",
+      .default_text = "auto",
+      .doc =
+          "Gather radius r0 of the photon maps. auto: for each map the distance that typically holds "
+          "64 (direct), 50 (caustic, shrinking where there are more) or 256 (indirect) of its photons."};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    if (texts[0] == "auto") {
+      settings.render.radius.reset();
+      return std::nullopt;
+    }
+    const std::optional<float> value = parse_number(texts[0]);
+    if (!value || *value <= 0)
+      return fmt::format("`{}`: expected a radius in metres above 0, or auto", texts[0]);
+    settings.render.radius = *value;
+    return std::nullopt;
+  };
+  return s;
+}
+
+Setting cone_k_setting() {
+  Setting s{.name = "cone-k",
+            .kind = ValueKind::kNumber,
+            .value_name = "K",
+            .range = "1 or more",
+            .default_text = fmt::format("{}", RenderSettings{}.cone_k),
+            .doc =
+                "Slope of the cone kernel, whose weight is 1 - d / (k r0): 1 falls to zero at r0, larger is "
+                "flatter."};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<float> value = parse_number(texts[0]);
+    if (!value || *value < 1) return fmt::format("`{}`: expected a number, 1 or more", texts[0]);
+    settings.render.cone_k = *value;
+    return std::nullopt;
+  };
+  return s;
+}
+
+Setting crop_setting() {
+  Setting s{.name = "crop",
+            .kind = ValueKind::kInteger,
+            .value_name = "X0 X1 Y0 Y1",
+            .unit = "pixels",
+            .range = "X0 < X1, Y0 < Y1",
+            .default_text = "whole image",
+            .doc = "Renders only columns X0 to X1 - 1 and rows Y0 to Y1 - 1, row 0 on top.",
+            .values = 4};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    std::array<int, 4> edges{};
+    for (size_t i = 0; i < edges.size(); ++i) {
+      const std::optional<int64_t> value = parse_integer(texts[i]);
+      if (!value || *value < 0 || *value > std::numeric_limits<int>::max()) {
+        return fmt::format("`{}`: expected a pixel coordinate, 0 or more", texts[i]);
+      }
+      edges[i] = static_cast<int>(*value);
+    }
+    const render::CropWindow crop{edges[0], edges[1], edges[2], edges[3]};
+    if (crop.empty()) {
+      return fmt::format("`{}`: the window is empty; expected X0 X1 Y0 Y1 with X0 < X1 and Y0 < Y1",
+                         fmt::join(texts, " "));
+    }
+    settings.render.crop = crop;
+    return std::nullopt;
+  };
+  return s;
+}
+
+std::vector<std::string> split_at_commas(Texts texts) {
+  std::vector<std::string> parts;
+  for (const std::string& text : texts) {
+    for (size_t begin = 0; begin <= text.size();) {
+      const size_t end = std::min(text.find(',', begin), text.size());
+      parts.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+  return parts;
+}
+
+Setting aov_setting() {
+  Setting s{.name = "aov",
+            .kind = ValueKind::kNames,
+            .value_name = "NAMES",
+            .range = fmt::format("{}, all, none", fmt::join(render::kLayerNames, ", ")),
+            .default_text = "none",
+            .doc = "Layers that EXR files get besides the image, separated by commas."};
+  s.choices.assign(render::kLayerNames.begin(), render::kLayerNames.end());
+  s.choices.insert(s.choices.end(), {"all", "none"});
+  s.assign = [names = s.choices](Settings& settings, Texts texts) -> Complaint {
+    std::vector<std::string> layers = split_at_commas(texts);
+    for (const std::string& layer : layers) {
+      if (std::find(names.begin(), names.end(), layer) == names.end()) {
+        return fmt::format("`{}` is no layer{}", layer, name_hint(layer, names));
+      }
+    }
+    std::erase(layers, "none");
+    settings.render.aov = std::move(layers);
+    return std::nullopt;
+  };
+  return s;
+}
+
+Setting exposure_setting() {
+  Setting s{.name = "exposure",
+            .kind = ValueKind::kNumber,
+            .value_name = "STOPS",
+            .unit = "stops",
+            .range = "-64 to 64",
+            .default_text = "0",
+            .doc = "Brightens PNG and JPEG files by 2^STOPS; EXR files keep the radiance."};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<float> value = parse_number(texts[0]);
+    if (!value || std::abs(*value) > 64) return fmt::format("`{}`: expected stops, -64 to 64", texts[0]);
+    settings.tone.exposure = *value;
+    return std::nullopt;
+  };
+  return s;
+}
+
+Setting tonemap_setting() {
+  Setting s{
+      .name = "tonemap",
+      .kind = ValueKind::kChoice,
+      .value_name = "NAME",
+      .range = fmt::format("{}", fmt::join(render::kTonemapNames, ", ")),
+      .default_text = std::string(render::kTonemapNames[static_cast<size_t>(render::ToneSettings{}.tonemap)]),
+      .doc = "How PNG and JPEG files bring radiance into range. srgb clips."};
+  s.choices.assign(render::kTonemapNames.begin(), render::kTonemapNames.end());
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<render::Tonemap> value = render::tonemap_from_name(texts[0]);
+    if (!value) return not_a_choice(texts[0], render::kTonemapNames);
+    settings.tone.tonemap = *value;
+    return std::nullopt;
+  };
+  return s;
+}
+
+constexpr uint64_t kMaxInt = std::numeric_limits<int>::max();
+constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
+constexpr uint64_t kMaxUint64 = std::numeric_limits<uint64_t>::max();
+constexpr std::string_view kByMethod = "by the method";
+
+// Which estimator computes which paths.
+void add_methods(std::vector<Setting>& table) {
+  table.push_back(
+      choice("method", &RenderSettings::method, render::kMethodNames,
+             "Preset of the three estimators below. raytrace: direct light by shadow rays, mirrors and glass "
+             "seen, nothing else. mc: path tracing, the reference. hybrid: direct light by the lecture's "
+             "test, caustics from photons, indirect light by paths. photon: everything from photons. auto: "
+             "the cheapest mix for what the scene needs."));
+  table.push_back(choice<render::DirectEstimator>(
+      "direct", &RenderSettings::direct, render::kDirectNames, std::string(kByMethod),
+      "Direct light: shadow-rays, photons, or lecture (photons where they suffice, else shadow rays)."));
+  table.push_back(choice<render::CausticEstimator>(
+      "caustics", &RenderSettings::caustics, render::kCausticNames, std::string(kByMethod),
+      "Light that reaches a diffuse surface through mirrors and glass only."));
+  table.push_back(choice<render::IndirectEstimator>(
+      "indirect", &RenderSettings::indirect, render::kIndirectNames, std::string(kByMethod),
+      "Light after a diffuse reflection before the one that is seen."));
+}
+
+void add_photons(std::vector<Setting>& table) {
+  table.push_back(
+      count("photons", "photons", &RenderSettings::photons, 1, kMaxUint64, {}, "Photons to emit."));
+  table.push_back(radius_setting());
+  table.push_back(count("nearest", "photons", &RenderSettings::nearest, 0, kMaxUint32, "0 (off)",
+                        "K above 0: the radius shrinks to the K-th nearest photon where more are in reach."));
+  table.push_back(choice("kernel", &RenderSettings::kernel, render::kKernelNames,
+                         "Weight of a photon by its distance, normalised over the disc of radius r0."));
+  table.push_back(cone_k_setting());
+  table.push_back(count("min-photons", "photons", &RenderSettings::min_photons, 0, kMaxUint32, {},
+                        "M0 of the lecture's test: a node answers only when it holds more photons."));
+  table.push_back(count("node-photons", "photons", &RenderSettings::node_photons, 1, kMaxUint32, {},
+                        "N0: an octree node of at most so many photons is not divided."));
+  table.push_back(choice("lookup", &RenderSettings::lookup, render::kLookupNames,
+                         "exact: every photon in reach. leaf: the lecture's, those of one octree node."));
+  table.push_back(
+      choice("emission", &RenderSettings::emission, render::kEmissionNames,
+             "Photon directions of area lamps. cosine: equal flux each. uniform-angle: the lecture's, "
+             "uniform in angle and weighted."));
+  table.push_back(count("max-bounces", "bounces", &RenderSettings::max_bounces, 1, 65535, {},
+                        "Longest chain of reflections and refractions of photons and paths."));
+}
+
+void add_image(std::vector<Setting>& table) {
+  table.push_back(count("spp", "samples", &RenderSettings::spp, 1, kMaxInt, {}, "Camera samples per pixel."));
+  table.push_back(count("seed", {}, &RenderSettings::seed, 0, kMaxUint64, {},
+                        "Random seed. The same seed gives the same bits."));
+  table.push_back(count("threads", "threads", &RenderSettings::threads, 0, 65535, "0 (every core)",
+                        "Upper bound on the threads of the process. The image does not depend on it."));
+  table.push_back(count("width", "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
+                        "Image width. Given alone, the height follows in proportion."));
+  table.push_back(count("height", "pixels", &RenderSettings::height, 0, 65535, "0 (the scene's)",
+                        "Image height. Given alone, the width follows in proportion."));
+  table.push_back(crop_setting());
+  table.push_back(aov_setting());
+  table.push_back(exposure_setting());
+  table.push_back(tonemap_setting());
+}
+
+std::vector<Setting> make_table() {
+  std::vector<Setting> table;
+  add_methods(table);
+  add_photons(table);
+  add_image(table);
+  return table;
+}
+
+// Equal but for dashes.
+bool same_name(std::string_view a, std::string_view b) {
+  size_t i = 0, j = 0;
+  for (;;) {
+    while (i < a.size() && a[i] == '-') ++i;
+    while (j < b.size() && b[j] == '-') ++j;
+    if (i == a.size() || j == b.size()) return i == a.size() && j == b.size();
+    if (a[i++] != b[j++]) return false;
+  }
+}
+
+}  // namespace
+
+const std::vector<Setting>& settings_table() {
+  static const std::vector<Setting> table = make_table();
+  return table;
+}
+
+const Setting* find_setting(std::string_view name) {
+  for (const Setting& setting : settings_table()) {
+    if (same_name(setting.name, name)) return &setting;
+  }
+  return nullptr;
+}
+
+std::string settings_markdown() {
+  std::string text = "| option | default | unit | values | meaning |\n| --- | --- | --- | --- | --- |\n";
+  for (const Setting& s : settings_table()) {
+    text += fmt::format("| `--{} {}` | {} | {} | {} | {} |\n", s.name, s.value_name, s.default_text, s.unit,
+                        s.range, s.doc);
+  }
+  return text;
+}
+
+}  // namespace kaustik::app

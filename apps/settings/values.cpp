@@ -1,0 +1,108 @@
+#include "apps/settings/values.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace kaustik::app {
+
+namespace {
+
+// Decimal digits and the power of ten that they are multiplied by.
+struct Decimal {
+  std::string digits;
+  int exponent = 0;
+};
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// Power of ten of a suffix; zero for any other character.
+int suffix_exponent(char c) {
+  switch (c) {
+    case 'k':
+    case 'K':
+      return 3;
+    case 'M':
+      return 6;
+    case 'G':
+      return 9;
+    case 'T':
+      return 12;
+    default:
+      return 0;
+  }
+}
+
+// digits [. digits] [e exponent], all of text.
+std::optional<Decimal> parse_decimal(std::string_view text) {
+  Decimal decimal;
+  size_t i = 0;
+  for (; i < text.size() && is_digit(text[i]); ++i) decimal.digits += text[i];
+  if (i < text.size() && text[i] == '.') {
+    for (++i; i < text.size() && is_digit(text[i]); ++i, --decimal.exponent) decimal.digits += text[i];
+  }
+  if (decimal.digits.empty()) return std::nullopt;
+  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+    const std::optional<int64_t> power = parse_integer(text.substr(i + 1));
+    if (!power || std::abs(*power) > 1000) return std::nullopt;
+    decimal.exponent += static_cast<int>(*power);
+    i = text.size();
+  }
+  if (i != text.size()) return std::nullopt;
+  return decimal;
+}
+
+}  // namespace
+
+std::optional<uint64_t> parse_count(std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  const int suffix = suffix_exponent(text.back());
+  if (suffix > 0) text.remove_suffix(1);
+  std::optional<Decimal> decimal = parse_decimal(text);
+  if (!decimal) return std::nullopt;
+  decimal->exponent += suffix;
+  std::string& digits = decimal->digits;
+  for (; decimal->exponent < 0 && !digits.empty() && digits.back() == '0'; ++decimal->exponent)
+    digits.pop_back();
+  if (digits.empty()) return 0;
+  if (decimal->exponent < 0) return std::nullopt;
+  uint64_t value = 0;
+  const auto push = [&value](uint64_t digit) {
+    if (value > (std::numeric_limits<uint64_t>::max() - digit) / 10) return false;
+    value = 10 * value + digit;
+    return true;
+  };
+  for (const char c : digits) {
+    if (!push(static_cast<uint64_t>(c - '0'))) return std::nullopt;
+  }
+  for (int i = 0; i < decimal->exponent && value != 0; ++i) {
+    if (!push(0)) return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<int64_t> parse_integer(std::string_view text) {
+  if (!text.empty() && text.front() == '+') {
+    text.remove_prefix(1);
+    if (text.empty() || !is_digit(text.front())) return std::nullopt;
+  }
+  int64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || text.empty()) return std::nullopt;
+  return value;
+}
+
+std::optional<float> parse_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  float value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || text.empty() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace kaustik::app

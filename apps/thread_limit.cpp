@@ -1,0 +1,21 @@
+#include "apps/thread_limit.h"
+
+#include <OpenImageIO/imageio.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+namespace kaustik::app {
+
+void with_thread_limit(int threads, const std::function<void()>& work) {
+  const int limit = threads > 0 ? threads : tbb::info::default_concurrency();
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(limit));
+  // Two pools of its own, one in OpenImageIO and one in OpenEXR: both off, or the sum would be above the
+  // bound.
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
+  tbb::task_arena arena(limit);
+  arena.execute(work);
+}
+
+}  // namespace kaustik::app

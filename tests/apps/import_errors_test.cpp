@@ -1,0 +1,241 @@
+// The wording and the places of messages.
+#include "tests/apps/import_support.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+class ImportErrors : public ImportTest {};
+
+TEST_F(ImportErrors, OneRunShowsThemAll) {
+  EXPECT_EQ(messages("Camera \"perspectiv\"\n"
+                     "WorldBegin\n"
+                     "\tMaterial \"difuse\"\n"
+                     "Material \"diffuse\" \"rgb reflectanc\" [ .5 .5 .5 ]\n"
+                     "Shpae \"sphere\"\n"
+                     "Shape \"sphere\" \"float radius\" [ -1 ]  # no\n"
+                     "Translate 1 2 x\n"
+                     "Shape \"plymesh\" \"string filename\" \"none.ply\"\n"),
+            "scene.pbrt:1:8: error: unknown camera \"perspectiv\"; did you mean `perspective`?\n"
+            "Camera \"perspectiv\"\n"
+            "       ^\n"
+            "scene.pbrt:3:11: error: unknown material \"difuse\"; did you mean `diffuse`? known: diffuse, "
+            "orennayar, "
+            "dielectric, conductor, mirror, interface\n"
+            "\tMaterial \"difuse\"\n"
+            "\t         ^\n"
+            "scene.pbrt:4:20: error: material \"diffuse\" has no parameter `reflectanc`; did you mean "
+            "`reflectance`?\n"
+            "Material \"diffuse\" \"rgb reflectanc\" [ .5 .5 .5 ]\n"
+            "                   ^\n"
+            "scene.pbrt:5:1: error: unknown directive `Shpae`; did you mean `Shape`?\n"
+            "Shpae \"sphere\"\n"
+            "^\n"
+            "scene.pbrt:6:33: error: `radius` of shape \"sphere\" must be > 0, not -1\n"
+            "Shape \"sphere\" \"float radius\" [ -1 ]  # no\n"
+            "                                ^\n"
+            "scene.pbrt:7:15: error: `Translate` takes 3 numbers: expected number 3, not `x`\n"
+            "Translate 1 2 x\n"
+            "              ^\n"
+            "scene.pbrt:8:35: error: cannot open \"none.ply\": no such file\n"
+            "Shape \"plymesh\" \"string filename\" \"none.ply\"\n"
+            "                                  ^\n");
+}
+
+struct Case {
+  std::string_view text, message;
+};
+
+class ImportErrorTable : public ImportTest, public testing::WithParamInterface<Case> {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(KAUSTIK_TEST_OUTPUT_DIR) / "import" / "error_table";
+    folder_ += std::to_string(std::hash<std::string_view>()(GetParam().text));
+    std::filesystem::create_directories(folder_);
+  }
+};
+
+TEST_P(ImportErrorTable, SaysWhatIsWrong) {
+  EXPECT_EQ(first_lines(std::string(GetParam().text)), std::string(GetParam().message) + "\n");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Parameters, ImportErrorTable,
+    testing::Values(
+        Case{
+            R"(Material "diffuse" "spectrum reflectance" "metal-Cu-eta")",
+            R"(2:20: error: "spectrum reflectance" is not rendered: material "diffuse" takes "rgb reflectance" only)"},
+        Case{
+            R"(Material "diffuse" "texture reflectance" "wood")",
+            R"(2:20: error: "texture reflectance" is not rendered: material "diffuse" takes "rgb reflectance" only)"},
+        Case{R"(LightSource "point" "blackbody I" 3000)",
+             R"(2:21: error: "blackbody I" is not rendered: light "point" takes "rgb I" only)"},
+        Case{
+            R"(Material "diffuse" "float reflectance" .5)",
+            R"(2:20: error: "float reflectance" has the wrong type: material "diffuse" takes "rgb reflectance")"},
+        Case{
+            R"(Material "conductor" "string k" "x")",
+            R"(2:22: error: "string k" has the wrong type: material "conductor" takes "rgb k" or "float k")"},
+        Case{R"(Material "conductor" "float k" [1 2])",
+             R"(2:22: error: `k` of material "conductor" takes 1 or 3 values, not 2)"},
+        Case{R"(Material "diffuse" "rgb reflectance" [.5 .5])",
+             R"(2:20: error: `reflectance` of material "diffuse" takes 3 values, not 2)"},
+        Case{R"(Material "diffuse" "rgb reflectance" [.5 1.5 .5])",
+             R"(2:42: error: `reflectance` of material "diffuse" must be >= 0 and <= 1, not 1.5)"},
+        Case{R"(Material "orennayar" "float sigma" 91)",
+             R"(2:36: error: `sigma` of material "orennayar" must be >= 0 and <= 90, not 91)"},
+        Case{
+            R"(Material "dielectric" "float roughness" .1)",
+            R"(2:41: error: `roughness` of material "dielectric": only smooth surfaces are rendered: must be 0)"},
+        Case{
+            R"(Material "coateddiffuse")",
+            R"(2:10: error: pbrt's material "coateddiffuse" is not rendered; there are: diffuse, orennayar, )"
+            R"(dielectric, conductor, mirror, interface)"},
+        Case{R"(Material "diffuse" "string normalmap" "n.png")",
+             R"(2:20: warning: `normalmap` of material "diffuse" is ignored: normal map)"},
+        Case{R"(Shape "sphere" "float radius" 1 "float radius" 2)",
+             R"(2:33: error: `radius` of shape "sphere" is given twice)"},
+        Case{R"(Shape "curve")",
+             R"(2:7: error: pbrt's shape "curve" is not rendered; there are: trianglemesh, plymesh, )"
+             R"(sphere, disk, bilinearmesh)"},
+        Case{R"(Shape "sphere" "float zmin" -.5)",
+             R"(2:29: error: `zmin` = -0.5 cuts the sphere of radius 1: only whole spheres are rendered)"},
+        Case{R"(Shape "disk" "float phimax" 90)",
+             R"(2:29: error: `phimax` of shape "disk": only full turns are rendered: must be 360)"},
+        Case{R"(Shape "disk" "float innerradius" 1)",
+             R"(2:34: error: `innerradius` = 1 leaves nothing of a disk of radius 1)"},
+        Case{R"(Shape "trianglemesh" "integer indices" [0 1 2])",
+             R"(2:7: error: shape "trianglemesh" needs `P`)"},
+        Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 3])",
+             R"(2:76: error: index 3 is out of range: there are 3 vertices)"},
+        Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2 0])",
+             R"(2:53: error: `indices` of shape "trianglemesh" come in groups of 3, not 4 in all)"},
+        Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "normal N" [0 0 1])",
+             R"(2:53: error: `N` has 1 entries for 3 vertices)"},
+        Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1])",
+             R"(2:22: error: `P` of shape "trianglemesh" takes 9 values or more, in groups of 3, not 8)"},
+        Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 2 0 0])",
+             R"(2:1: warning: 1 of 1 triangles have no area and are left out)"},
+        Case{R"(Scale 1 0 1 Shape "sphere")",
+             R"(2:13: error: the transform of this shape cannot be inverted)"},
+        Case{R"(Scale 1e30 1 1 Scale 1e30 1 1 Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0])",
+             R"(2:31: error: the transform of this shape cannot be inverted)"},
+        Case{R"(Scale 1 2 1 AreaLightSource "diffuse" Shape "sphere")",
+             R"(2:39: error: a sphere that is scaled unevenly cannot be a lamp)"},
+        Case{R"(Material "interface" AreaLightSource "diffuse" Shape "sphere")",
+             R"(2:48: warning: the area light is ignored: material "interface" is no surface)"},
+        Case{R"(LightSource "point" "rgb I" [0 0 0] "float power" 3)",
+             R"(2:51: error: `power` of a light that emits nothing)"},
+        Case{R"(LightSource "infinite" "string filename" "sky.exr")",
+             R"(2:42: error: `filename` of light "infinite": images as lamps are not rendered)"},
+        Case{R"(LightSource "spot" "point3 to" [0 0 0])",
+             R"(2:33: error: `from` and `to` must be two points)"},
+        Case{R"(AreaLightSource "difuse" Shape "sphere")",
+             R"(2:17: error: unknown area light "difuse"; did you mean `diffuse`?)"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Directives, ImportErrorTable,
+    testing::Values(
+        Case{R"(Texture "a" "spectrum" "imagemap" "string filename" "a.png")",
+             R"(2:1: error: pbrt's `Texture` is not rendered: colours are constant, "rgb" parameters)"},
+        Case{R"(MakeNamedMedium "fog" "string type" "homogeneous")",
+             R"(2:1: error: pbrt's `MakeNamedMedium` is not rendered: there is nothing between surfaces)"},
+        Case{R"(MediumInterface "" "fog")",
+             R"(2:1: error: pbrt's `MediumInterface` is not rendered: there is nothing between surfaces)"},
+        Case{R"(ActiveTransform EndTime)",
+             R"(2:1: error: moving things are not rendered: there is `ActiveTransform All` only)"},
+        Case{R"(WorldEnd)", R"(2:1: error: `WorldEnd` is not of pbrt-v4: its scenes end with the file)"},
+        Case{R"(WorldBegin)", R"(2:1: error: a second `WorldBegin`)"},
+        Case{R"(Film "rgb")", R"(2:1: error: `Film` belongs before `WorldBegin`)"},
+        Case{R"(ColorSpace "rec2020")",
+             R"(2:12: error: color space "rec2020" is not rendered; there are: srgb, rec709)"},
+        Case{R"(CoordSysTransform "wrold")",
+             R"(2:19: error: no coordinate system is named `wrold`; did you mean `world`?)"},
+        Case{
+            R"(LookAt 0 0 0  0 1 0  0 1 0)",
+            R"(2:1: error: `LookAt` needs an eye, another point to look at, and an up vector that does not point )"
+            R"(along the view)"},
+        Case{R"(Rotate 90 0 0 0)", R"(2:1: error: the axis of `Rotate` has length zero)"},
+        Case{R"(Transform [1 2 3])",
+             R"(2:17: error: `Transform` takes 16 numbers: expected number 4, not `]`)"},
+        Case{R"(Translate 1e40 0 0)", R"(2:11: error: `1e40` is beyond the range of floats)"},
+        Case{R"(AttributeEnd)", R"(2:1: error: `AttributeEnd` closes nothing)"},
+        Case{R"(AttributeBegin)", R"(2:1: error: this block is not closed: expected `AttributeEnd`)"},
+        Case{"ObjectBegin \"a\"\nAttributeEnd\nObjectEnd",
+             R"(3:1: error: `AttributeEnd` does not close this block)"},
+        Case{"ObjectBegin \"a\" ObjectEnd\nObjectBegin \"a\" ObjectEnd",
+             R"(3:13: error: object `a` is defined twice)"},
+        Case{"ObjectBegin \"a\"\nObjectInstance \"a\"\nObjectEnd",
+             R"(3:1: error: an instance inside an object)"},
+        Case{"ObjectBegin \"tree\" ObjectEnd\nObjectInstance \"tre\"",
+             R"(3:16: error: no object is named `tre`; did you mean `tree`?)"},
+        Case{R"(NamedMaterial "gold" Shape "sphere" Shape "sphere")",
+             R"(2:15: error: no material is named `gold`)"},
+        Case{R"(MakeNamedMaterial "gold" "rgb reflectance" [1 1 1])",
+             R"(2:19: error: material `gold` needs its type: "string type" "diffuse")"},
+        Case{"MakeNamedMaterial \"a\" \"string type\" \"mirror\"\nMakeNamedMaterial \"a\" \"string type\" "
+             "\"mirror\"",
+             R"(3:19: error: material `a` is defined twice)"},
+        Case{
+            R"(Attribute "shpae" "float radius" 2)",
+            R"(2:11: error: unknown target "shpae" of `Attribute`; did you mean `shape`? known: shape, light, material)"},
+        Case{R"(Attribute "shape" "float radiuss" 2)", R"(2:19: error: no shape has a parameter `radiuss`)"},
+        Case{R"(Include "none.pbrt")", R"(2:9: error: cannot open "none.pbrt": no such file)"},
+        Case{R"(Include "scene.pbrt")", R"(2:9: error: "scene.pbrt" includes itself)"},
+        Case{R"(Include ".")", R"(2:9: error: cannot read ".": not a regular file)"},
+        Case{R"(Shape sphere)", R"(2:7: error: `Shape` needs a type in quotes)"},
+        Case{R"(3 4)", R"(2:1: error: expected a directive, not `3`)"},
+        Case{R"(Shape "sphere" 3)",
+             R"(2:16: error: expected a parameter "type name" or a directive, not `3`)"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, ImportErrorTable,
+    testing::Values(
+        Case{R"(Shape "sphere" "radius" 3)",
+             R"(2:16: error: expected a parameter "type name", not "radius")"},
+        Case{R"(Shape "sphere" "flaot radius" 3)",
+             R"(2:16: error: unknown parameter type `flaot`; did you mean `float`?)"},
+        Case{R"(Shape "sphere" "float radius" "3")", R"(2:31: error: expected a number, not "3")"},
+        Case{R"(Shape "sphere" "float radius" [ 1 Shape "sphere")",
+             R"(2:35: error: expected a value or `]`, not `Shape`)"},
+        Case{R"(Shape "sphere" "float radius")",
+             R"(2:30: error: expected a number for `radius`, not the end of the file)"},
+        Case{R"(Shape "sphere" "float radius" 1.2.3)", R"(2:31: error: expected a number, not `1.2.3`)"},
+        Case{R"(Shape "sphere" "float radius" 1e400)",
+             R"(2:31: error: `1e400` is beyond the range of floats)"},
+        Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2.5])",
+             R"(2:76: error: expected an integer, not `2.5`)"},
+        Case{R"(AreaLightSource "diffuse" "bool twosided" 1)",
+             R"(2:43: error: expected true or false, not `1`)"},
+        Case{"Shape \"sphere", "2:7: error: this string is not closed on its line"}));
+
+TEST_F(ImportErrors, MissingWorldBeginIsSaidOnce) {
+  EXPECT_EQ(messages("Shape \"sphere\"\nShape \"sphere\"\n"),
+            "scene.pbrt:1:1: error: `Shape` belongs after `WorldBegin`\nShape \"sphere\"\n^\n");
+  EXPECT_EQ(messages("Scale 1 1 1\n"), "scene.pbrt: error: the file ends without `WorldBegin`\n");
+}
+
+TEST_F(ImportErrors, IgnoredParametersAreWarnedAboutOnce) {
+  EXPECT_EQ(first_lines("Shape \"sphere\" \"float alpha\" .5\nShape \"sphere\" \"float alpha\" .5\n"
+                        "Shape \"sphere\" \"float alpha\" 1\nShape \"disk\" \"texture alpha\" \"t\"\n"),
+            "2:16: warning: `alpha` of shape \"sphere\" is ignored: cut-outs\n"
+            "5:14: warning: `alpha` of shape \"disk\" is ignored: cut-outs\n");
+  EXPECT_TRUE(loaded_);
+}
+
+TEST_F(ImportErrors, OfIncludedFilesNameThoseFiles) {
+  write("sub/part.pbrt", "Shape \"spere\"\n");
+  EXPECT_EQ(messages("WorldBegin\nInclude \"sub/part.pbrt\"\n"),
+            "sub/part.pbrt:1:7: error: unknown shape \"spere\"; did you mean `sphere`? known: trianglemesh, "
+            "plymesh, "
+            "sphere, disk, bilinearmesh\nShape \"spere\"\n      ^\n");
+}
+
+TEST_F(ImportErrors, AFileThatIsNotThere) {
+  Diagnostics d;
+  EXPECT_FALSE(load_scene(folder_ / "none.pbrt", d));
+  EXPECT_EQ(d.format_all(),
+            "error: cannot open \"" + (folder_ / "none.pbrt").string() + "\": no such file\n");
+}
+
+}  // namespace
+}  // namespace kaustik::pbrt

@@ -1,0 +1,83 @@
+#pragma once
+// The program called in the test's own process, and a folder of its own to work in.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/run.h"
+
+namespace kaustik::app::testing {
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+inline Outcome run_kaustik(const std::vector<std::string>& arguments) {
+  std::vector<const char*> argv = {"kaustik"};
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  std::ostringstream out, err;
+  const int code = run(static_cast<int>(argv.size()), argv.data(), out, err);
+  return {code, out.str(), err.str()};
+}
+
+// A new folder per test, named after it, below the tests' output folder; emptied at the start and left for a
+// look.
+class ProgramTest : public ::testing::Test {
+ protected:
+  ProgramTest() {
+    const ::testing::TestInfo* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(KAUSTIK_TEST_OUTPUT_DIR) / info->test_suite_name() / info->name();
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name)) << text;
+    return path(name);
+  }
+  std::string read(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(path(name)); }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  // A lamp over a floor, with a glass sphere between them; `lines` come before WorldBegin.
+  std::string small_scene(const std::string& lines = "") const {
+    return write("small.pbrt", "LookAt 0 2 6  0 0.5 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\n" +
+                                   lines +
+                                   "\nWorldBegin\n"
+                                   "AttributeBegin\n  AreaLightSource \"diffuse\" \"rgb L\" [10 10 10]\n"
+                                   "  ReverseOrientation\n  Translate 0 3 0\n  Rotate -90 1 0 0\n"
+                                   "  Shape \"disk\" \"float radius\" 0.5\nAttributeEnd\n"
+                                   "Material \"diffuse\" \"rgb reflectance\" [0.7 0.6 0.5]\n"
+                                   "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
+                                   "[-3 0 3  3 0 3  3 0 -3  -3 0 -3]\n"
+                                   "Material \"dielectric\"\nTranslate 0 0.8 0\n"
+                                   "Shape \"sphere\" \"float radius\" 0.5\n");
+  }
+  static std::string film(int width, int height) {
+    return "Film \"rgb\" \"integer xresolution\" " + std::to_string(width) + " \"integer yresolution\" " +
+           std::to_string(height);
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace kaustik::app::testing

@@ -1,0 +1,110 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "apps/settings/table.h"
+
+namespace kaustik::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::optional<std::string> assign(Settings& settings, std::string_view name, std::vector<std::string> texts) {
+  const Setting* setting = find_setting(name);
+  if (!setting) return "no setting " + std::string(name);
+  return setting->assign(settings, texts);
+}
+
+TEST(SettingsTable, NamesAreUniqueAndEveryRowIsExplained) {
+  std::set<std::string_view> names;
+  for (const Setting& setting : settings_table()) {
+    EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
+    EXPECT_FALSE(setting.doc.empty()) << setting.name;
+    EXPECT_FALSE(setting.default_text.empty()) << setting.name;
+    EXPECT_FALSE(setting.range.empty()) << setting.name;
+  }
+}
+
+// Every choice of every setting is accepted by its own parser: the table's names and the parser's are the
+// same.
+TEST(SettingsTable, EveryListedChoiceIsAccepted) {
+  for (const Setting& setting : settings_table()) {
+    for (const std::string_view value : setting.choices) {
+      Settings settings;
+      const std::string text(value);
+      EXPECT_EQ(setting.assign(settings, {&text, 1}), std::nullopt) << setting.name << " " << value;
+    }
+  }
+}
+
+TEST(SettingsTable, DashesInNamesMayBeLeftOut) {
+  EXPECT_EQ(find_setting("conek"), find_setting("cone-k"));
+  EXPECT_NE(find_setting("conek"), nullptr);
+  EXPECT_EQ(find_setting("maxbounces"), find_setting("max-bounces"));
+  EXPECT_EQ(find_setting("cone"), nullptr);
+  EXPECT_EQ(find_setting(""), nullptr);
+}
+
+TEST(SettingsTable, ValuesReachTheirFields) {
+  Settings s;
+  EXPECT_EQ(assign(s, "method", {"hybrid"}), std::nullopt);
+  EXPECT_EQ(assign(s, "direct", {"lecture"}), std::nullopt);
+  EXPECT_EQ(assign(s, "photons", {"10G"}), std::nullopt);
+  EXPECT_EQ(assign(s, "radius", {"0.125"}), std::nullopt);
+  EXPECT_EQ(assign(s, "crop", {"1", "5", "2", "9"}), std::nullopt);
+  EXPECT_EQ(assign(s, "aov", {"direct,depth", "normal"}), std::nullopt);
+  EXPECT_EQ(assign(s, "exposure", {"-1.5"}), std::nullopt);
+  EXPECT_EQ(s.render.method, render::Method::kHybrid);
+  EXPECT_EQ(s.render.direct, render::DirectEstimator::kLecture);
+  EXPECT_EQ(s.render.photons, 10'000'000'000u);
+  EXPECT_EQ(s.render.radius, 0.125f);
+  EXPECT_EQ(s.render.crop.x0, 1);
+  EXPECT_EQ(s.render.crop.x1, 5);
+  EXPECT_EQ(s.render.crop.y0, 2);
+  EXPECT_EQ(s.render.crop.y1, 9);
+  EXPECT_THAT(s.render.aov, ::testing::ElementsAre("direct", "depth", "normal"));
+  EXPECT_EQ(s.tone.exposure, -1.5f);
+  EXPECT_EQ(assign(s, "radius", {"auto"}), std::nullopt);
+  EXPECT_EQ(s.render.radius, std::nullopt);
+}
+
+TEST(SettingsTable, ComplaintsNameTheNearestValueAndLeaveTheSettingsAlone) {
+  Settings s;
+  const auto complaint = assign(s, "kernel", {"cones"});
+  ASSERT_TRUE(complaint.has_value());
+  EXPECT_THAT(*complaint, HasSubstr("`cones`"));
+  EXPECT_THAT(*complaint, HasSubstr("did you mean `cone`"));
+  EXPECT_TRUE(assign(s, "photons", {"0"}).has_value());
+  EXPECT_TRUE(assign(s, "photons", {"-5"}).has_value());
+  EXPECT_TRUE(assign(s, "radius", {"0"}).has_value());
+  EXPECT_TRUE(assign(s, "radius", {"automatic"}).has_value());
+  EXPECT_TRUE(assign(s, "cone-k", {"0.9"}).has_value());
+  EXPECT_TRUE(assign(s, "crop", {"5", "5", "0", "9"}).has_value());
+  EXPECT_TRUE(assign(s, "crop", {"-1", "5", "0", "9"}).has_value());
+  EXPECT_TRUE(assign(s, "aov", {"direct,dept"}).has_value());
+  EXPECT_TRUE(assign(s, "max-bounces", {"65536"}).has_value());
+  const Settings untouched;
+  EXPECT_EQ(s.render.kernel, untouched.render.kernel);
+  EXPECT_EQ(s.render.photons, untouched.render.photons);
+  EXPECT_EQ(s.render.radius, untouched.render.radius);
+  EXPECT_TRUE(s.render.crop.empty());
+  EXPECT_TRUE(s.render.aov.empty());
+}
+
+// On failure the table as it should stand lies in the tests' output folder.
+TEST(SettingsTable, IsWhatTheManualShows) {
+  std::ifstream file(std::string(KAUSTIK_SOURCE_DIR) + "/docs/cli.md");
+  std::stringstream manual;
+  manual << file.rdbuf();
+  const std::string expected = settings_markdown();
+  if (manual.str().find(expected) == std::string::npos) {
+    std::ofstream(std::string(KAUSTIK_TEST_OUTPUT_DIR) + "/settings.md") << expected;
+    FAIL() << "docs/cli.md lacks the table in " << KAUSTIK_TEST_OUTPUT_DIR << "/settings.md";
+  }
+}
+
+}  // namespace
+}  // namespace kaustik::app

@@ -1,0 +1,102 @@
+// The same bits: for any number of threads, for a crop, for a scene scaled by a power of two.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/render/image_statistics.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+RenderSettings settings_of(Method method) {
+  RenderSettings settings;
+  settings.method = method;
+  settings.spp = 4;
+  settings.photons = 50'000;
+  return settings;
+}
+
+static_assert(sizeof(PixelResult) == 20 * sizeof(float), "no padding: bytes are compared");
+
+bool same_bytes(const Film& a, const Film& b) {
+  if (a.width() != b.width() || a.height() != b.height()) return false;
+  const size_t bytes = sizeof(PixelResult) * size_t(a.width()) * size_t(a.height());
+  return std::memcmp(&a.at(0, 0), &b.at(0, 0), bytes) == 0;
+}
+
+class Determinism : public ::testing::TestWithParam<Method> {};
+
+TEST_P(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
+  const Scene scene = cornell(40);
+  const auto one = render_with_threads(scene, settings_of(GetParam()), 1);
+  EXPECT_GT(total_mean(one.film), 0);
+  for (const int threads : {2, 3, 8}) {
+    const auto many = render_with_threads(scene, settings_of(GetParam()), threads);
+    EXPECT_TRUE(same_bytes(one.film, many.film)) << threads << " threads";
+    EXPECT_EQ(one.statistics.rays.bounce, many.statistics.rays.bounce);
+    EXPECT_EQ(one.statistics.gather_accepted, many.statistics.gather_accepted);
+    EXPECT_EQ(one.statistics.photons.stored, many.statistics.photons.stored);
+    EXPECT_EQ(one.statistics.radius, many.statistics.radius);
+    write_if_failed(many.film, "threads_" + std::to_string(threads));
+  }
+}
+
+TEST_P(Determinism, CropIsAPartOfTheImage) {
+  const Scene scene = cornell(40);
+  RenderSettings settings = settings_of(GetParam());
+  const auto whole = render_with_threads(scene, settings);
+  settings.crop = {7, 30, 11, 29};
+  const auto part = render_with_threads(scene, settings);
+  ASSERT_EQ(part.film.width(), 23);
+  ASSERT_EQ(part.film.height(), 18);
+  EXPECT_EQ(part.film.x0(), 7);
+  EXPECT_EQ(part.film.y0(), 11);
+  for (int y = 0; y < part.film.height(); ++y)
+    for (int x = 0; x < part.film.width(); ++x)
+      ASSERT_EQ(std::memcmp(&part.film.at(x, y), &whole.film.at(7 + x, 11 + y), sizeof(PixelResult)), 0)
+          << x << y;
+}
+
+TEST_P(Determinism, SeedsGiveOtherNoise) {
+  const Scene scene = cornell(16);
+  RenderSettings settings = settings_of(GetParam());
+  const auto a = render_with_threads(scene, settings);
+  settings.seed = 1;
+  EXPECT_FALSE(same_bytes(a.film, render_with_threads(scene, settings).film));
+}
+
+// Twelve decades: 2^-20 to 2^20. Lamp radiance stays, so the picture stays; depth and radius scale.
+TEST_P(Determinism, ScaledSceneGivesTheSameBits) {
+  const auto one = render_with_threads(cornell(24), settings_of(GetParam()));
+  for (const int exponent : {-20, -3, 20}) {
+    const float scale = std::ldexp(1.0f, exponent);
+    auto scaled = render_with_threads(cornell(24, scale), settings_of(GetParam()));
+    EXPECT_EQ(scaled.statistics.radius, one.statistics.radius * scale);
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 24; ++x) scaled.film.at(x, y).depth /= scale;
+    EXPECT_TRUE(same_bytes(one.film, scaled.film)) << "2^" << exponent;
+    write_if_failed(scaled.film, "scaled");
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Methods, Determinism,
+                         ::testing::Values(Method::kRaytrace, Method::kMc, Method::kHybrid, Method::kPhoton));
+
+// The leaf lookup, the nearest-K rule and the kernels are functions of the query alone, too.
+TEST(DeterminismOptions, LookupsAndKernels) {
+  const Scene scene = cornell(24);
+  for (const Kernel kernel : {Kernel::kCone, Kernel::kEpanechnikov}) {
+    RenderSettings settings = settings_of(Method::kPhoton);
+    settings.kernel = kernel;
+    settings.nearest = kernel == Kernel::kCone ? 50 : 0;
+    settings.lookup = kernel == Kernel::kCone ? Lookup::kExact : Lookup::kLeaf;
+    settings.emission = EmissionMode::kUniformAngle;
+    EXPECT_TRUE(same_bytes(render_with_threads(scene, settings, 1).film,
+                           render_with_threads(scene, settings, 3).film));
+  }
+}
+
+}  // namespace
+}  // namespace kaustik::render

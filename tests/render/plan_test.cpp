@@ -1,0 +1,90 @@
+// Which estimators a render uses.
+
+#include <gtest/gtest.h>
+
+#include "render/renderer.h"
+
+namespace kaustik::render {
+namespace {
+
+using Direct = DirectEstimator;
+using Caustic = CausticEstimator;
+using Indirect = IndirectEstimator;
+
+SceneNeeds needs_of(bool specular, bool delta_only = false) {
+  SceneNeeds needs;
+  needs.specular = specular;
+  needs.diffuse = needs.any_light = true;
+  needs.only_delta_lights = delta_only;
+  return needs;
+}
+
+bool mentions(const EstimatorPlan& plan, const std::string& text) {
+  for (const std::string& note : plan.notes)
+    if (note.find(text) != std::string::npos) return true;
+  return false;
+}
+
+struct Row {
+  Method method;
+  Direct direct;
+  Caustic caustics;
+  Indirect indirect;
+};
+
+TEST(Plan, PresetsOfASceneThatNeedsEverything) {
+  const Row table[] = {
+      {Method::kRaytrace, Direct::kShadowRays, Caustic::kOff, Indirect::kOff},
+      {Method::kMc, Direct::kShadowRays, Caustic::kPaths, Indirect::kPaths},
+      {Method::kHybrid, Direct::kLecture, Caustic::kPhotons, Indirect::kPaths},
+      {Method::kPhoton, Direct::kPhotons, Caustic::kPhotons, Indirect::kPhotons},
+      {Method::kAuto, Direct::kShadowRays, Caustic::kPhotons, Indirect::kPhotons},
+  };
+  for (const Row& row : table) {
+    RenderSettings settings;
+    settings.method = row.method;
+    const EstimatorPlan plan = make_plan(settings, needs_of(true));
+    EXPECT_EQ(plan.direct, row.direct) << int(row.method);
+    EXPECT_EQ(plan.caustics, row.caustics) << int(row.method);
+    EXPECT_EQ(plan.indirect, row.indirect) << int(row.method);
+    EXPECT_FALSE(plan.notes.empty());
+  }
+}
+
+TEST(Plan, NoSpecularSurfaceNoCausticPass) {
+  for (const Method method : {Method::kMc, Method::kHybrid, Method::kPhoton, Method::kAuto}) {
+    RenderSettings settings;
+    settings.method = method;
+    const EstimatorPlan plan = make_plan(settings, needs_of(false));
+    EXPECT_EQ(plan.caustics, Caustic::kOff) << int(method);
+    EXPECT_TRUE(mentions(plan, "no specular surface: no caustic pass"));
+  }
+}
+
+TEST(Plan, OverridesWin) {
+  RenderSettings settings;
+  settings.method = Method::kPhoton;
+  settings.direct = Direct::kShadowRays;
+  settings.caustics = Caustic::kPaths;
+  settings.indirect = Indirect::kOff;
+  const EstimatorPlan plan = make_plan(settings, needs_of(false));
+  EXPECT_EQ(plan.direct, Direct::kShadowRays);
+  EXPECT_EQ(plan.caustics, Caustic::kPaths);
+  EXPECT_EQ(plan.indirect, Indirect::kOff);
+  EXPECT_TRUE(mentions(plan, "no photon pass"));
+}
+
+TEST(Plan, NotesNameWhatIsMissing) {
+  RenderSettings settings;
+  settings.method = Method::kMc;
+  EXPECT_TRUE(mentions(make_plan(settings, needs_of(true, true)), "their caustics are missing"));
+  EXPECT_FALSE(mentions(make_plan(settings, needs_of(true, false)), "their caustics are missing"));
+  settings.method = Method::kHybrid;
+  EXPECT_FALSE(mentions(make_plan(settings, needs_of(true)), "shadow photons are not traced"));
+  settings.method = Method::kPhoton;
+  EXPECT_TRUE(mentions(make_plan(settings, needs_of(true)), "shadow photons are not traced"));
+  EXPECT_TRUE(mentions(make_plan(settings, SceneNeeds{}), "no lamp: the image is black"));
+}
+
+}  // namespace
+}  // namespace kaustik::render

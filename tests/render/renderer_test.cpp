@@ -1,0 +1,197 @@
+// What render() promises besides the picture: invalid samples, cancelling, bad settings, statistics.
+
+#include "render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "render/statistics_json.h"
+#include "tests/render/image_statistics.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+// The left half of the floor reflects NaN.
+Scene half_broken(const Rgb& reflectance) {
+  Scene scene;
+  const uint32_t good = add_material(scene, Lambertian{Rgb(0.5f)});
+  const uint32_t bad = add_material(scene, Lambertian{reflectance});
+  add_shape(scene, horizontal({-1, 0, 0}, 1, 2, true, bad));
+  add_shape(scene, horizontal({1, 0, 0}, 1, 2, true, good));
+  scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(1)});
+  look_at(scene, {0, 3, 0}, {0, 0, 0}, {0, 0, -1}, 30, 8, 8);
+  finalize_scene(scene);
+  return scene;
+}
+
+TEST(InvalidSamples, AreDroppedCountedAndNamed) {
+  for (const float value : {std::nanf(""), -1.0f, kInfinity}) {
+    RenderSettings settings;
+    settings.method = Method::kRaytrace;
+    settings.spp = 2;
+    const auto result = render_with_threads(half_broken(Rgb(value)), settings, 3);
+    EXPECT_EQ(result.statistics.dropped_samples, 8u * 4u * 2u) << value;
+    ASSERT_EQ(result.statistics.dropped_examples.size(), 10u);
+    EXPECT_EQ(result.statistics.dropped_examples[0], "pixel 0 0 sample 0");
+    EXPECT_EQ(result.statistics.dropped_examples[9], "pixel 0 1 sample 1");
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) {
+        const Rgb L = result.film.at(x, y).radiance();
+        EXPECT_TRUE(x < 4 ? is_black(L) : L.x > 0 && is_finite(L)) << x << " " << y;
+      }
+  }
+}
+
+TEST(Render, CancelsInEveryPhase) {
+  const Scene scene = cornell(40);
+  RenderSettings settings;
+  settings.method = Method::kPhoton;
+  settings.photons = 50'000;
+  settings.spp = 1;
+  const accel::Bvh bvh(scene);
+  for (const std::string_view phase : {"photons", "build", "render"}) {
+    const auto result = render(scene, bvh, settings, [&](const Progress& p) { return p.phase != phase; });
+    EXPECT_TRUE(result.cancelled) << phase;
+  }
+  EXPECT_FALSE(render(scene, bvh, settings).cancelled);
+}
+
+TEST(Render, ReportsEveryTile) {
+  const Scene scene = cornell(40);
+  RenderSettings settings;
+  settings.method = Method::kRaytrace;
+  settings.spp = 1;
+  uint64_t last = 0;
+  render(scene, accel::Bvh(scene), settings, [&](const Progress& p) {
+    EXPECT_EQ(p.phase, "render");
+    EXPECT_EQ(p.total, 9u);  // 40 pixels are three tiles of 16
+    EXPECT_EQ(p.done, last + 1);
+    last = p.done;
+    return true;
+  });
+  EXPECT_EQ(last, 9u);
+}
+
+TEST(Render, RefusesSenselessSettings) {
+  const Scene scene = cornell(8);
+  const accel::Bvh bvh(scene);
+  const auto refused = [&](auto change) {
+    RenderSettings settings;
+    settings.method = Method::kRaytrace;
+    change(settings);
+    EXPECT_THROW(render(scene, bvh, settings), std::invalid_argument);
+  };
+  refused([](RenderSettings& s) { s.spp = 0; });
+  refused([](RenderSettings& s) { s.max_bounces = 0; });
+  refused([](RenderSettings& s) { s.radius = 0.0f; });
+  refused([](RenderSettings& s) { s.radius = std::nanf(""); });
+  refused([](RenderSettings& s) { s.crop = {0, 9, 0, 8}; });
+  refused([](RenderSettings& s) { s.crop = {-1, 4, 0, 8}; });
+}
+
+// A path of one event is direct light only; a scene without lamps is black by every method.
+TEST(Render, BounceLimitAndDarkness) {
+  Scene scene = cornell(16);
+  RenderSettings settings;
+  settings.method = Method::kMc;
+  settings.spp = 8;
+  settings.max_bounces = 1;
+  const auto direct_only = render_with_threads(scene, settings);
+  EXPECT_GT(layer_mean(direct_only.film, Layer::kDirect), 0);
+  EXPECT_EQ(layer_mean(direct_only.film, Layer::kIndirect), 0);
+  EXPECT_EQ(layer_mean(direct_only.film, Layer::kCaustic), 0);
+
+  scene.lights.clear();
+  for (Shape& shape : scene.shapes) shape.light = kNoIndex;
+  finalize_scene(scene);
+  for (const Method method :
+       {Method::kAuto, Method::kRaytrace, Method::kMc, Method::kHybrid, Method::kPhoton}) {
+    settings.method = method;
+    settings.photons = 1000;
+    const auto dark = render_with_threads(scene, settings);
+    EXPECT_EQ(total_mean(dark.film), 0);
+    EXPECT_GT(dark.film.at(8, 8).depth, 0);
+  }
+}
+
+// The pilot's rule: about 64 photons in reach of a typical visible point, for any number of photons.
+TEST(AutoRadius, GathersAboutSixtyFourPhotons) {
+  const Scene scene = cornell(24);
+  for (const uint64_t photons : {20'000u, 200'000u}) {
+    RenderSettings settings;
+    settings.method = Method::kPhoton;
+    settings.caustics = CausticEstimator::kOff;
+    settings.indirect = IndirectEstimator::kOff;
+    settings.photons = photons;
+    settings.spp = 1;
+    const auto result = render_with_threads(scene, settings);
+    EXPECT_GT(result.statistics.radius, 0);
+    EXPECT_EQ(result.statistics.radius, result.statistics.direct_radius);
+    EXPECT_EQ(result.statistics.caustic_radius, 0);
+    std::vector<float> counts;
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 24; ++x) counts.push_back(result.film.at(x, y).photons);
+    std::nth_element(counts.begin(), counts.begin() + counts.size() / 2, counts.end());
+    // The median over 1024 pilot points of the radius for 64; 576 pixels and the direct light's variation
+    // over the scene leave the median count within a factor of two.
+    EXPECT_GT(counts[counts.size() / 2], 32);
+    EXPECT_LT(counts[counts.size() / 2], 128);
+  }
+}
+
+TEST(Statistics, JsonHoldsWhatWasCounted) {
+  const Scene scene = cornell_with_table(16);
+  RenderSettings settings;
+  settings.method = Method::kHybrid;
+  settings.photons = 20'000;
+  settings.spp = 2;
+  settings.seed = 0xffffffffffffffffull;
+  const auto result = render_with_threads(scene, settings);
+  OuterTimes times;
+  times.load = 0.5;
+  times.total = 3;
+  const auto json = nlohmann::json::parse(statistics_json(result, settings, scene.needs, times));
+  EXPECT_EQ(json["seed"].get<uint64_t>(), settings.seed);
+  EXPECT_EQ(json["photons"]["emitted"].get<uint64_t>(), 20'000u);
+  for (const char* kind : {"direct", "shadow", "caustic"})
+    EXPECT_GT(json["photons"]["stored"][kind], 0) << kind;
+  EXPECT_EQ(json["photons"]["stored"]["indirect"], 0);
+  EXPECT_EQ(json["rays"]["camera"], 16 * 16 * 2);
+  for (const char* ray : {"specular", "shadow", "bounce", "photon", "photon_shadow"})
+    EXPECT_GT(json["rays"][ray], 0);
+  for (const char* phase : {"load", "bvh", "photon_trace", "photon_build", "render", "write", "total"})
+    EXPECT_TRUE(json["seconds"][phase].is_number()) << phase;
+  EXPECT_EQ(json["seconds"]["load"], 0.5);
+  EXPECT_GT(json["peak_memory_bytes"].get<uint64_t>(), 1'000'000u);
+  EXPECT_GT(json["radius"], 0);
+  EXPECT_TRUE(json["needs"]["specular"]);
+  EXPECT_EQ(json["settings"]["direct"], "lecture");
+  EXPECT_TRUE(json["left_out"].is_array());
+  EXPECT_GT(
+      json["fallbacks"]["from_photons"].get<uint64_t>() + json["fallbacks"]["fallback_few"].get<uint64_t>(),
+      0u);
+}
+
+// Equal renders give equal files.
+TEST(Statistics, MetadataIsReproducible) {
+  const Scene scene = cornell(8);
+  RenderSettings settings;
+  settings.method = Method::kPhoton;
+  settings.photons = 5000;
+  settings.spp = 1;
+  const auto a = metadata_of(render_with_threads(scene, settings, 1), settings);
+  const auto b = metadata_of(render_with_threads(scene, settings, 2), settings);
+  EXPECT_EQ(a, b);
+  const auto has = [&](const std::string& key, const std::string& value) {
+    return std::find(a.begin(), a.end(), std::make_pair(key, value)) != a.end();
+  };
+  EXPECT_TRUE(has("kaustik:seed", "0"));
+  EXPECT_TRUE(has("kaustik:method", "photon"));
+  EXPECT_TRUE(has("kaustik:photons_emitted", "5000"));
+}
+
+}  // namespace
+}  // namespace kaustik::render
