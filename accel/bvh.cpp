@@ -19,10 +19,8 @@
 #include <cmath>
 #include <new>
 #include <optional>
-#include <stdexcept>
-#include <string>
 
-#include "accel/embree_api.h"
+#include "accel/embree_error.h"
 
 namespace kaustik::accel {
 
@@ -35,16 +33,6 @@ struct QuadricGroup {
   unsigned geometry_id = 0;
   float to_scene = 1, to_embree = 1;  // lengths
 };
-
-[[noreturn]] void throw_embree(RTCError code, const std::string& what) {
-  if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::runtime_error("Embree: out of memory while " + what);
-  throw std::runtime_error("Embree: error " + std::to_string(static_cast<int>(code)) + " while " + what);
-}
-
-void check(RTCDevice device, const std::string& what) {
-  const RTCError code = rtcGetDeviceError(device);
-  if (code != RTC_ERROR_NONE) throw_embree(code, what);
-}
 
 bool count_memory(void* user, ssize_t bytes, bool /*post*/) {
   static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);

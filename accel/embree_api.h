@@ -32,6 +32,26 @@ inline void embree_occluded(RTCScene scene, RTCRay* query) {
 }
 #endif
 
+// Calls fn(primitive) for every primitive whose box comes within radius of the point, in any order; stops
+// when fn returns false. Box distances are rounded: make the radius a little larger than what matters.
+template <class Fn>
+void embree_visit_near(RTCScene scene, float x, float y, float z, float radius, Fn& fn) {
+  RTCPointQuery query;
+  query.x = x;
+  query.y = y;
+  query.z = z;
+  query.time = 0;
+  query.radius = radius;
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto visit = [](RTCPointQueryFunctionArguments* args) {
+    if ((*static_cast<Fn*>(args->userPtr))(args->primID)) return false;
+    args->query->radius = 0;  // reaches nothing more
+    return true;
+  };
+  rtcPointQuery(scene, &query, &context, visit, &fn);
+}
+
 // Embree marks an occluded ray by this far end.
 inline constexpr float kEmbreeOccluded = -std::numeric_limits<float>::infinity();
 

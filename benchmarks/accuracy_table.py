@@ -34,7 +34,7 @@ def seconds(stats):
 
 
 def fallback_share(stats):
-    lecture = stats["lecture"]
+    lecture = stats["fallbacks"]
     fallbacks = lecture["fallback_few"] + lecture["fallback_shadow"] + lecture["fallback_face"]
     return fallbacks / max(1, fallbacks + lecture["from_photons"])
 

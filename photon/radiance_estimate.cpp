@@ -4,6 +4,8 @@
 
 #include <variant>
 
+#include "photon/boundary_correction.h"
+
 namespace kaustik::photon {
 
 namespace {
@@ -54,8 +56,10 @@ Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const 
   if (settings.nearest > 0) query.radius = nearest_radius(map, query, settings.nearest, counters);
   if (settings.leaf) query.within = map.find_cell(si.p, settings.node_photons, query.radius).range;
   const Frame frame = Frame::from_z(si.ns);
-  return std::visit(ReflectedRadiance{map, query, settings.kernel, frame, frame.to_local(wo), counters},
-                    bsdf);
+  const Rgb Lr =
+      std::visit(ReflectedRadiance{map, query, settings.kernel, frame, frame.to_local(wo), counters}, bsdf);
+  if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
+  return Lr / float(surface_share(*settings.edges, si, settings.kernel, query.radius));
 }
 
 }  // namespace kaustik::photon

@@ -1,6 +1,7 @@
 #pragma once
 // Reflected radiance from a photon map.
 
+#include "accel/edge_index.h"
 #include "core/bsdf/bsdf.h"
 #include "core/geometry/interaction.h"
 #include "photon/photon_map.h"
@@ -13,12 +14,17 @@ struct EstimateSettings {
   uint32_t nearest = 0;        // K > 0: the radius shrinks to the K-th nearest photon
   bool leaf = false;           // the lecture's leaf lookup instead of the exact search
   uint32_t node_photons = 64;  // N0 of the leaf lookup
+  // Where surfaces end; null: discs are taken to lie on the surface as a whole. Not read by the leaf lookup,
+  // whose cells cut the disc anyway.
+  const accel::EdgeIndex* edges = nullptr;
 };
 
 // Lr(x, wo) = sum over photons p in reach of f_r(x, wo, wi_p) flux_p K(|x - x_p|)   in W/(m^2 sr)
 // Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", equations 7.3 to 7.6. No cosine: flux per
 // area already holds it. wo: unit, world, away from the surface. Bias: that of the kernel, O(radius^2) where
-// light is smooth. Zero for specular BSDFs and empty maps. Thread-safe.
+// light is smooth. With settings.edges the sum is divided by the kernel's share on the surface
+// (surface_share), without it is too dark by up to half within radius of the surface's border. Zero for
+// specular BSDFs and empty maps. Thread-safe.
 Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
                       const EstimateSettings& settings, GatherCounters& counters);
 

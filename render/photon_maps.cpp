@@ -63,6 +63,15 @@ void settle_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSetting
   maps->lecture = {radii.direct, settings.node_photons, settings.min_photons};
 }
 
+// Of the scene alone: every pass would find the same.
+void find_edges(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings, PhotonMaps* maps) {
+  if (settings.lookup == Lookup::kLeaf) return;
+  maps->edges =
+      std::make_unique<accel::EdgeIndex>(accel::without_continued(find_boundary_edges(scene.shapes), bvh));
+  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect})
+    read->estimate.edges = maps->edges.get();
+}
+
 }  // namespace
 
 photon::KindMask kinds_needed(const EstimatorPlan& plan) {
@@ -92,6 +101,7 @@ bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSet
   const auto build_start = std::chrono::steady_clock::now();
   build_maps(scene, settings, std::move(shot), maps);
   settle_radii(scene, bvh, settings, plan, maps, statistics);
+  find_edges(scene, bvh, settings, maps);
   for (const photon::PhotonMap* map :
        {&maps->direct.map, &maps->caustic.map, &maps->indirect.map, &maps->shadow})
     statistics->photon_bytes += map->memory_bytes();

@@ -1,6 +1,9 @@
 #pragma once
 // The photon maps of one pass: which kinds are needed, the shoot, the builds, the gather radii.
 
+#include <memory>
+
+#include "accel/edge_index.h"
 #include "photon/photon_map.h"
 #include "photon/radiance_estimate.h"
 #include "photon/shadow_classifier.h"
@@ -19,6 +22,7 @@ struct PhotonMaps {
   ReadMap direct, caustic, indirect;
   photon::PhotonMap shadow;  // only for the lecture's direct estimator
   photon::LectureSettings lecture;
+  std::unique_ptr<const accel::EdgeIndex> edges;  // where surfaces end; the estimates point to it
 };
 
 // The kinds that the plan's estimators read; only these are traced and stored.

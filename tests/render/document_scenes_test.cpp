@@ -4,20 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
-#include "apps/import/pbrt_importer.h"
 #include "tests/render/class_agreement.h"
+#include "tests/render/scene_files.h"
 #include "tests/render/wave_scene.h"
 
 namespace kaustik::render::test {
 namespace {
 
-Scene scene_from(const std::string& file) {
-  Diagnostics diagnostics;
-  auto loaded = pbrt::load_scene(std::filesystem::path(KAUSTIK_SCENES_DIR) / file, diagnostics);
-  if (!loaded) throw std::runtime_error(file + " does not load");
-  Scene scene = std::move(loaded->scene);
+Scene document_scene(const std::string& file) {
+  Scene scene = scene_from(file);
   scene.camera.width = scene.camera.height = kSize;
   scene.camera.set_default_screen_window();
   return scene;
@@ -33,11 +28,11 @@ void expect_programs_agree_with_paths(const Scene& scene, float radius, const st
 }
 
 TEST(DocumentScenes, LectureRoomAgreesWithPaths) {
-  expect_programs_agree_with_paths(scene_from("tncg15-room/tncg15-room.pbrt"), 0.3f, "lecture");
+  expect_programs_agree_with_paths(document_scene("tncg15-room/tncg15-room.pbrt"), 0.3f, "lecture");
 }
 
 TEST(DocumentScenes, ReportSquareLampAgreesWithPaths) {
-  expect_programs_agree_with_paths(scene_from("cornell-spheres/square-lamp-2.pbrt"), 0.06f, "report");
+  expect_programs_agree_with_paths(document_scene("cornell-spheres/square-lamp-2.pbrt"), 0.06f, "report");
 }
 
 // Paths cannot meet a point lamp through glass. So the direct class is compared with shadow rays, and the
@@ -45,7 +40,7 @@ TEST(DocumentScenes, ReportSquareLampAgreesWithPaths) {
 // photons.
 TEST(DocumentScenes, ReportPointLampsAgree) {
   for (const char* name : {"point-lamp", "square-lamp-1"}) {
-    const Scene scene = scene_from("cornell-spheres/" + std::string(name) + ".pbrt");
+    const Scene scene = document_scene("cornell-spheres/" + std::string(name) + ".pbrt");
     const auto by_paths = films(scene, settings_of(Method::kHybrid, 256, 0.03f, 100));
     const Comparison c(scene, by_paths, Method::kPhoton, 0.06f);
     c.expect_agreement_everywhere(Layer::kIndirect);

@@ -1,0 +1,57 @@
+// Does a surface go on behind an edge that no two triangles share?
+
+#include <tbb/parallel_for.h>
+
+#include "accel/bvh.h"
+#include "accel/edge_index.h"
+
+namespace kaustik::accel {
+
+namespace {
+
+constexpr float kStep = 1e-3f;        // of the facet's edge or height, whichever is shorter
+constexpr float kSameSurface = 0.5f;  // cosine
+constexpr int kMaxLayers = 8;         // of other surfaces between the probe's start and its end
+
+// A facet of the edge's group within `reach` of p along the edge's normal.
+bool finds_surface(const Bvh& bvh, const BoundaryEdge& edge, const Point3& p, float reach) {
+  Ray ray{p + reach * edge.n, -edge.n, 2 * reach};
+  for (int layer = 0; layer < kMaxLayers && ray.t_max > 0; ++layer) {
+    SurfaceInteraction si;
+    if (!bvh.intersect(ray, &si)) return false;
+    if (si.surface_group == edge.surface_group && abs_dot(si.n, edge.n) > kSameSurface) return true;
+    const Ray next = si.spawn(ray.d);
+    ray.t_max -= glm::dot(next.o - ray.o, ray.d);
+    ray.o = next.o;
+  }
+  return false;
+}
+
+bool goes_on(const Bvh& bvh, const BoundaryEdge& edge) {
+  if (edge.beyond != Normal3(0)) return false;
+  const float length = glm::distance(glm::dvec3(edge.a), glm::dvec3(edge.b));
+  int found = 0;
+  for (const float t : {0.25f, 0.5f, 0.75f}) {
+    const Point3 p = edge.a + t * (edge.b - edge.a);
+    // Well above the rounding of p, of the moved point and of the hit.
+    const float resolution = 4 * surface_error(max_abs_component(p), length);
+    const float step = std::max(kStep * std::min(length, edge.height), resolution);
+    found += finds_surface(bvh, edge, p + step * edge.outward, 2 * step);
+  }
+  return found >= 2;
+}
+
+}  // namespace
+
+std::vector<BoundaryEdge> without_continued(std::vector<BoundaryEdge> edges, const Bvh& bvh) {
+  std::vector<uint8_t> continued(edges.size());
+  tbb::parallel_for(size_t(0), edges.size(), [&](size_t i) { continued[i] = goes_on(bvh, edges[i]); });
+  size_t kept = 0;
+  for (size_t i = 0; i < edges.size(); ++i)
+    if (!continued[i]) edges[kept++] = edges[i];
+  edges.resize(kept);
+  edges.shrink_to_fit();
+  return edges;
+}
+
+}  // namespace kaustik::accel

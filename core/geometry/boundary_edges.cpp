@@ -1,0 +1,236 @@
+// Two stages, to keep memory low: flat edges inside one mesh go by vertex index; what is left is matched by
+// position over all meshes of a group.
+
+#include "core/geometry/boundary_edges.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <bit>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+#include "core/geometry/surface_bounds.h"
+
+namespace kaustik {
+namespace {
+
+using PointBits = std::array<uint32_t, 3>;
+
+PointBits bits_of(const Point3& p) {
+  // Adding zero makes -0 and 0 one position.
+  return {std::bit_cast<uint32_t>(p.x + 0.0f), std::bit_cast<uint32_t>(p.y + 0.0f),
+          std::bit_cast<uint32_t>(p.z + 0.0f)};
+}
+
+Point3 point_of(const PointBits& bits) {
+  return {std::bit_cast<float>(bits[0]), std::bit_cast<float>(bits[1]), std::bit_cast<float>(bits[2])};
+}
+
+Normal3 winding_normal(const TriangleMesh& mesh, uint32_t triangle) {
+  const auto [i0, i1, i2] = mesh.indices[triangle];
+  return triangle_normal(mesh.P[i1] - mesh.P[i0], mesh.P[i2] - mesh.P[i0]);
+}
+
+// +1 or -1: from the winding's normal to the one that make_interaction gives.
+float orientation(const TriangleMesh& mesh, uint32_t triangle, const Normal3& winding, bool flip_normal) {
+  if (mesh.N.empty()) return flip_normal ? -1.0f : 1.0f;
+  const auto [i0, i1, i2] = mesh.indices[triangle];
+  return glm::dot(winding, mesh.N[i0] + mesh.N[i1] + mesh.N[i2]) < 0 ? -1.0f : 1.0f;
+}
+
+// The side from corner % 3 to the next vertex of triangle corner / 3.
+struct MeshSide {
+  uint64_t vertices;  // welded, the lower one first
+  uint32_t corner;
+  bool forward;  // the winding runs from the lower vertex to the higher one
+};
+
+// A side that needs a look at the other meshes.
+struct OpenSide {
+  std::array<PointBits, 2> ends;  // sorted
+  uint32_t surface_group, shape, corner;
+};
+
+// For each vertex the first vertex at its position.
+std::vector<uint32_t> weld(const std::vector<Point3>& P) {
+  std::vector<uint32_t> order(P.size()), welded(P.size());
+  std::iota(order.begin(), order.end(), 0u);
+  tbb::parallel_sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
+    const PointBits a = bits_of(P[i]), b = bits_of(P[j]);
+    return a != b ? a < b : i < j;
+  });
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && bits_of(P[order[i]]) == bits_of(P[order[i - 1]]);
+    welded[order[i]] = same ? welded[order[i - 1]] : order[i];
+  }
+  return welded;
+}
+
+std::vector<MeshSide> sides_of(const TriangleMesh& mesh) {
+  const std::vector<uint32_t> welded = weld(mesh.P);
+  std::vector<MeshSide> sides;
+  sides.reserve(mesh.indices.size() * 3);
+  for (uint32_t t = 0; t < mesh.indices.size(); ++t) {
+    if (winding_normal(mesh, t) == Normal3(0)) continue;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t from = welded[mesh.indices[t][k]], to = welded[mesh.indices[t][(k + 1) % 3]];
+      if (from == to) continue;
+      sides.push_back({uint64_t{std::min(from, to)} << 32 | std::max(from, to), 3 * t + k, from < to});
+    }
+  }
+  tbb::parallel_sort(sides.begin(), sides.end(), [](const MeshSide& a, const MeshSide& b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.corner < b.corner;
+  });
+  return sides;
+}
+
+bool is_flat(const TriangleMesh& mesh, const MeshSide& a, const MeshSide& b) {
+  const float cosine = glm::dot(winding_normal(mesh, a.corner / 3), winding_normal(mesh, b.corner / 3));
+  // Windings that agree run along their common side in opposite directions.
+  return (a.forward != b.forward ? cosine : -cosine) > kBendCosine;
+}
+
+void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, std::vector<OpenSide>* open) {
+  const std::vector<MeshSide> sides = sides_of(mesh);
+  for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].vertices == sides[begin].vertices) ++end;
+    if (end - begin == 2 && is_flat(mesh, sides[begin], sides[begin + 1])) continue;
+    for (size_t i = begin; i < end; ++i) {
+      std::array<PointBits, 2> ends = {bits_of(mesh.P[sides[i].vertices >> 32]),
+                                       bits_of(mesh.P[sides[i].vertices & 0xffffffffu])};
+      std::sort(ends.begin(), ends.end());
+      open->push_back({ends, group, shape, sides[i].corner});
+    }
+  }
+}
+
+// An edge from a to b of the facet with the inner point c.
+BoundaryEdge make_edge(const Point3& a, const Point3& b, const Point3& c, const Normal3& n, uint32_t group) {
+  const glm::dvec3 along = glm::normalize(glm::dvec3(b) - glm::dvec3(a));
+  const glm::dvec3 to_c = glm::dvec3(c) - glm::dvec3(a);
+  const glm::dvec3 inward = to_c - glm::dot(to_c, along) * along;
+  const double height = glm::length(inward);
+  return {a, b, n, Normal3(0), Vector3(-inward / height), float(height), group};
+}
+
+// The sides of one edge, seen over all meshes.
+class Joint {
+ public:
+  Joint(const std::vector<Shape>& shapes, std::span<const OpenSide> sides) : sides_(sides) {
+    for (const OpenSide& side : sides) {
+      const auto& mesh = std::get<TriangleMesh>(shapes[side.shape].geometry);
+      const uint32_t t = side.corner / 3, k = side.corner % 3;
+      Facet facet;
+      facet.n = winding_normal(mesh, t);
+      facet.orientation = orientation(mesh, t, facet.n, shapes[side.shape].flip_normal);
+      facet.forward = bits_of(mesh.P[mesh.indices[t][k]]) == side.ends[0];
+      facet.third = mesh.P[mesh.indices[t][(k + 2) % 3]];
+      facets_.push_back(facet);
+    }
+  }
+
+  void add_edges(std::vector<BoundaryEdge>* edges) const {
+    for (size_t i = 0; i < facets_.size(); ++i) {
+      const size_t j = partner(i);
+      if (j != i && glm::dot(facets_[i].n, turned(i, j)) > kBendCosine) continue;
+      const Facet& facet = facets_[i];
+      BoundaryEdge edge = make_edge(point_of(sides_[i].ends[0]), point_of(sides_[i].ends[1]), facet.third,
+                                    facet.orientation * facet.n, sides_[i].surface_group);
+      if (!(edge.height > 0)) continue;
+      // Where the partner goes on in a third facet, this one just ends at both.
+      if (j != i && partner(j) == i) edge.beyond = facet.orientation * turned(i, j);
+      edges->push_back(edge);
+    }
+  }
+
+ private:
+  struct Facet {
+    Normal3 n;  // of the winding
+    float orientation;
+    bool forward;
+    Point3 third;
+  };
+
+  // The winding normal of j, turned to the side of i's.
+  Normal3 turned(size_t i, size_t j) const {
+    return facets_[i].forward != facets_[j].forward ? facets_[j].n : -facets_[j].n;
+  }
+  // The other facet that bends least from i; i itself when it is alone.
+  size_t partner(size_t i) const {
+    size_t best = i;
+    float best_cosine = -kInfinity;
+    for (size_t j = 0; j < facets_.size(); ++j) {
+      const float cosine = glm::dot(facets_[i].n, turned(i, j));
+      if (j == i || cosine <= best_cosine) continue;
+      best = j;
+      best_cosine = cosine;
+    }
+    return best;
+  }
+
+  std::span<const OpenSide> sides_;
+  std::vector<Facet> facets_;
+};
+
+// More triangles at one edge make no surface; matching them takes cubic time.
+constexpr size_t kMaxSidesOfJoint = 64;
+
+void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges) {
+  std::vector<OpenSide> open;
+  for (uint32_t i = 0; i < shapes.size(); ++i)
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[i].geometry))
+      add_open_sides(*mesh, i, shapes[i].surface_group, &open);
+  const auto key = [](const OpenSide& s) { return std::tie(s.surface_group, s.ends, s.shape, s.corner); };
+  tbb::parallel_sort(open.begin(), open.end(),
+                     [&](const OpenSide& a, const OpenSide& b) { return key(a) < key(b); });
+  for (size_t begin = 0, end = 0; begin < open.size(); begin = end) {
+    while (end < open.size() && open[end].surface_group == open[begin].surface_group &&
+           open[end].ends == open[begin].ends)
+      ++end;
+    if (end - begin <= kMaxSidesOfJoint)
+      Joint(shapes, std::span(open).subspan(begin, end - begin)).add_edges(edges);
+  }
+}
+
+// A polygon about the disk's outer rim, or inside its inner one: no point of the disk lies beyond its edges.
+void add_rim(const Disk& disk, const Shape& shape, bool outer, std::vector<BoundaryEdge>* edges) {
+  constexpr int kSides = 64;
+  const double step = 2 * std::numbers::pi / kSides;
+  const double radius = outer ? 1 / std::cos(0.5 * step) : double(disk.inner);
+  const auto corner = [&](int i) {
+    const double phi = step * (i % kSides);
+    return disk.to_world.point(Point3(radius * std::cos(phi), radius * std::sin(phi), 0));
+  };
+  const Normal3 n = shape.flip_normal ? -disk_normal(disk.to_world) : disk_normal(disk.to_world);
+  const Point3 center = disk.to_world.point(Point3(0));
+  for (int i = 0; i < kSides; ++i) {
+    BoundaryEdge edge = make_edge(corner(i), corner(i + 1), center, n, shape.surface_group);
+    if (!(edge.height > 0)) continue;
+    if (!outer) {
+      edge.outward = -edge.outward;
+      edge.height *= (1 - disk.inner) / disk.inner;
+    } else {
+      edge.height *= 1 - disk.inner;
+    }
+    edges->push_back(edge);
+  }
+}
+
+}  // namespace
+
+std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes) {
+  std::vector<BoundaryEdge> edges;
+  add_mesh_edges(shapes, &edges);
+  for (const Shape& shape : shapes) {
+    const auto* disk = std::get_if<Disk>(&shape.geometry);
+    if (!disk) continue;
+    add_rim(*disk, shape, true, &edges);
+    if (disk->inner > 0) add_rim(*disk, shape, false, &edges);
+  }
+  return edges;
+}
+
+}  // namespace kaustik
