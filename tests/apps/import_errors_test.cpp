@@ -45,7 +45,9 @@ struct Case {
   std::string_view text, message;
 };
 // The name that a failing case is reported under.
-void PrintTo(const Case& c, std::ostream* out) { *out << c.text.substr(0, 60); }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.text.substr(0, 60);
+}
 
 class ImportErrorTable : public ImportTest, public testing::WithParamInterface<Case> {
  protected:
