@@ -18,9 +18,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <functional>
 
 #include "accel/embree_api.h"
+#include "apps/import/pbrt_importer.h"
 #include "photon/shoot.h"
 
 namespace {
@@ -98,12 +100,36 @@ struct Recorder {
   }
 };
 
-// Triangle meshes alone in a plain Embree scene, robust as the renderer's.
+void quadric_bounds(const RTCBoundsFunctionArguments* args) {
+  const Bounds3 b = bounds_of(*static_cast<const Shape*>(args->geometryUserPtr));
+  *args->bounds_o = {b.min.x, b.min.y, b.min.z, 0, b.max.x, b.max.y, b.max.z, 0};
+}
+
+void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const Shape& shape = *static_cast<const Shape*>(args->geometryUserPtr);
+  auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const RTCRay& r = query.ray;
+  const Ray ray{{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
+  const auto* sphere = std::get_if<Sphere>(&shape.geometry);
+  Point2 uv;
+  const float t =
+      sphere ? intersect_sphere(*sphere, ray) : intersect_disk(std::get<Disk>(shape.geometry), ray, &uv);
+  if (!(t >= r.tnear && t < r.tfar)) return;
+  query.ray.tfar = t;
+  query.hit.geomID = args->geomID;
+  query.hit.primID = args->primID;
+}
+
+// The shapes alone in a plain Embree scene, robust as the renderer's.
 class BareScene {
  public:
   explicit BareScene(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    for (const Shape& shape : scene.shapes) add(std::get<TriangleMesh>(shape.geometry));
+    for (const Shape& shape : scene.shapes) {
+      const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+      mesh ? add(*mesh) : add_quadric(shape);
+    }
     rtcCommitScene(scene_);
   }
   ~BareScene() {
@@ -139,6 +165,17 @@ class BareScene {
     std::copy(mesh.P.begin(), mesh.P.end(), p);
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                                sizeof(mesh.indices[0]), mesh.indices.size());
+    attach(g);
+  }
+  void add_quadric(const Shape& shape) {
+    RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(g, 1);
+    rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
+    rtcSetGeometryBoundsFunction(g, quadric_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(g, quadric_intersect);
+    attach(g);
+  }
+  void attach(RTCGeometry g) {
     rtcCommitGeometry(g);
     rtcAttachGeometry(scene_, g);
     rtcReleaseGeometry(g);
@@ -222,9 +259,19 @@ void compare(const char* name, const Scene& scene, photon::TraceSettings setting
   }
   const double to_ns = 1e9 / static_cast<double>(record.rays.size());
   std::printf(
-      "%-28s %9zu rays  ns/ray: walk %6.1f  replay %6.1f  shoot %6.1f   walk/shoot %.2f  replay/shoot %.2f\n",
+      "%-34s %9zu rays  ns/ray: walk %6.1f  replay %6.1f  shoot %6.1f   walk/shoot %.2f  replay/shoot %.2f\n",
       name, record.rays.size(), to_ns * median(walks), to_ns * median(replays), to_ns * median(shoots),
       median(walk_ratios), median(replay_ratios));
+}
+
+void compare_file(const char* name, const photon::TraceSettings& settings, int rounds) {
+  Diagnostics diagnostics;
+  const auto loaded = pbrt::load_scene(std::filesystem::path(KAUSTIK_SCENES_DIR) / name, diagnostics);
+  if (!loaded) {
+    std::fprintf(stderr, "%s: not a scene\n", name);
+    std::exit(1);
+  }
+  compare(name, loaded->scene, settings, rounds);
 }
 
 }  // namespace
@@ -238,6 +285,8 @@ int main(int argc, char** argv) {
   const Scene small = room(0), large = room(300);
   settings.kinds = {true, false, true, true};
   compare("box, 14 triangles", small, settings, rounds);
+  compare_file("cornell-spheres/square-lamp-2.pbrt", settings, rounds);
+  compare_file("tncg15-room/tncg15-room.pbrt", settings, rounds);
   compare("sheets, 360k triangles", large, settings, rounds);
   settings.kinds = {true, false, false, false};
   compare("sheets, direct photons only", large, settings, rounds);

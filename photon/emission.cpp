@@ -2,19 +2,17 @@
 
 namespace kaustik::photon {
 
-std::optional<EmissionSample> emit_photon(const Scene& scene, Sampler& sampler, uint64_t total,
+std::optional<EmissionSample> emit_photon(const Scene& scene, const EmissionNumbers& u, uint64_t total,
                                           EmissionMode mode) {
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return std::nullopt;
-  const Point2 u_position = sampler.next_2d();
-  const Point2 u_direction = sampler.next_2d();
   uint32_t lamp = 0;
   double p_lamp = 1;
   if (scene.lights.size() > 1) {
-    const DiscreteDistribution::Sample chosen = scene.light_power.sample(sampler.next_1d());
+    const DiscreteDistribution::Sample chosen = scene.light_power.sample(u.lamp);
     lamp = chosen.index;
     p_lamp = chosen.pdf;
   }
-  auto start = std::visit([&](const auto& light) { return light.sample_Le(u_position, u_direction, mode); },
+  auto start = std::visit([&](const auto& light) { return light.sample_Le(u.position, u.direction, mode); },
                           scene.lights[lamp]);
   if (start) start->flux *= static_cast<float>(1 / (p_lamp * static_cast<double>(total)));
   return start;

@@ -12,11 +12,23 @@
 
 namespace kaustik::photon {
 
+// The random numbers of one start, in [0, 1).
+struct EmissionNumbers {
+  Point2 position, direction;
+  float lamp = 0;  // needed when there are several lamps
+};
+
+// The sampler's first five dimensions; the fifth is drawn only when it is needed.
+inline EmissionNumbers emission_numbers(const Scene& scene, Sampler& sampler) {
+  EmissionNumbers u{sampler.next_2d(), sampler.next_2d()};
+  if (scene.lights.size() > 1) u.lamp = sampler.next_1d();
+  return u;
+}
+
 // Ray (world space, unit direction, origin off the lamp) and flux in watts, already divided by `total` and by
 // the probability of the lamp: the sum over i of flux tends to the lamps' power. Nothing when there is no
-// lamp, or when the lamp emits nothing in the sampled direction. Draws the sampler's first five dimensions:
-// position, direction, and then, only when there are several lamps, the lamp. Thread-safe; unbiased.
-std::optional<EmissionSample> emit_photon(const Scene& scene, Sampler& sampler, uint64_t total,
+// lamp, or when the lamp emits nothing in the sampled direction. Thread-safe; unbiased.
+std::optional<EmissionSample> emit_photon(const Scene& scene, const EmissionNumbers& u, uint64_t total,
                                           EmissionMode mode);
 
 }  // namespace kaustik::photon

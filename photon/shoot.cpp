@@ -5,6 +5,8 @@
 
 #include <atomic>
 
+#include "photon/packing_lanes.h"
+
 namespace kaustik::photon {
 
 namespace {
@@ -19,10 +21,14 @@ void trace_block(const Scene& scene, const accel::Bvh& bvh, const TraceSettings&
                  Block& block) {
   for (auto& records : block.records) records.clear();
   TraceCounters counters;
+  std::array<RecordPacker, kPhotonKinds> packers;
+  packers.fill(RecordPacker(flux_unit));
   const auto sink = [&](PhotonKind kind, const Photon& photon) {
-    block.records[static_cast<size_t>(kind)].push_back(pack(photon, flux_unit));
+    const size_t k = static_cast<size_t>(kind);
+    packers[k].add(photon, block.records[k]);
   };
   trace_photons(scene, bvh, settings, block.first, block.end, sink, counters);
+  for (size_t k = 0; k < packers.size(); ++k) packers[k].flush(block.records[k]);
   block.counters = counters;
 }
 

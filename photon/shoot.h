@@ -15,8 +15,8 @@ struct ShootResult {
   TraceCounters counters;                          // emitted < settings.photons when cancelled
 };
 
-// Photons per block.
-inline constexpr uint64_t kShootBlock = 1u << 14;
+// Photons per block: its records stay within the caches until they are joined.
+inline constexpr uint64_t kShootBlock = 1u << 12;
 
 // The power of two near the mean flux of one photon: the scale of the compact records.
 float flux_unit_of(const Scene& scene, uint64_t photons);

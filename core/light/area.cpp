@@ -114,7 +114,8 @@ float DiffuseAreaLight::pdf_Li(const Point3& ref, const Vector3& wi,
 
 std::optional<EmissionSample> DiffuseAreaLight::sample_Le(const Point2& u_pos, const Point2& u_dir,
                                                           EmissionMode mode) const {
-  const SurfaceSample s = std::visit([&](const auto& e) { return sample_surface(e, u_pos); }, surface);
+  // Filled where it is returned: a copy of what has just been written waits for the writes.
+  std::optional<EmissionSample> start;
   Point2 u = u_dir;
   float side = 1;
   if (twosided) {
@@ -132,9 +133,13 @@ std::optional<EmissionSample> DiffuseAreaLight::sample_Le(const Point2& u_pos, c
     local = {theta.y * phi.x, theta.y * phi.y, theta.x};
     factor = kPi * theta.x * theta.y;
   }
-  if (!(local.z > 0) || factor == 0) return std::nullopt;
-  const Vector3 w = Frame::from_z(side * s.n).to_world(local);
-  return EmissionSample{{s.p + (side * s.p_error) * s.n, w}, power() * factor};
+  if (!(local.z > 0) || factor == 0) return start;
+  const SurfaceSample s = std::visit([&](const auto& e) { return sample_surface(e, u_pos); }, surface);
+  start.emplace();
+  start->ray.o = s.p + (side * s.p_error) * s.n;
+  start->ray.d = Frame::from_z(side * s.n).to_world(local);
+  start->flux = power() * factor;
+  return start;
 }
 
 }  // namespace kaustik

@@ -17,10 +17,20 @@ DiscreteDistribution::DiscreteDistribution(const std::vector<double>& weights) :
   std::fill(cdf_.begin() + static_cast<ptrdiff_t>(last_positive), cdf_.end(), 1.0);
 }
 
+size_t DiscreteDistribution::first_above(double u) const {
+  // Few entries are counted instead of searched: a search branches on random numbers.
+  constexpr size_t kFew = 16;
+  if (cdf_.size() > kFew) {
+    return static_cast<size_t>(std::upper_bound(cdf_.begin(), cdf_.end(), u) - cdf_.begin());
+  }
+  size_t below = 0;
+  for (const double c : cdf_) below += c <= u ? 1 : 0;
+  return below;
+}
+
 DiscreteDistribution::Sample DiscreteDistribution::sample(float u) const {
   if (cdf_.size() == 1) return {0, 1, u};
-  const auto it = std::upper_bound(cdf_.begin(), cdf_.end(), static_cast<double>(u));
-  const size_t i = static_cast<size_t>(it - cdf_.begin());
+  const size_t i = first_above(static_cast<double>(u));
   const double low = i > 0 ? cdf_[i - 1] : 0;
   const double width = cdf_[i] - low;
   const float remapped = static_cast<float>((u - low) / width);

@@ -25,7 +25,8 @@ class DiscreteDistribution {
   size_t size() const { return cdf_.size(); }
 
  private:
-  std::vector<double> cdf_;  // cdf_[i] = sum of weights 0..i, divided by total_
+  size_t first_above(double u) const;  // index of the first cdf_ entry above u
+  std::vector<double> cdf_;            // cdf_[i] = sum of weights 0..i, divided by total_
   double total_ = 0;
 };
 

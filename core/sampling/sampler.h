@@ -20,6 +20,15 @@ constexpr uint64_t hash_combine(uint64_t a, uint64_t b) {
   return mix64(a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2)));
 }
 
+// What the points of one sequence share in one Sobol set: the seeds of its scramblings.
+struct SobolSetKeys {
+  uint32_t index;
+  uint32_t dimensions[4];
+};
+
+// Of points whose index has this upper half (see Sampler), in dimensions 4 set .. 4 set + 3.
+inline SobolSetKeys sobol_set_keys(uint64_t seed, uint64_t upper_half, uint32_t set);
+
 // Point `index` of the sequence `seed`; dimensions are drawn in order. Index may use all 64 bits: the upper
 // 32 choose an independently scrambled sequence. Values lie in [0, 1).
 //
@@ -47,6 +56,7 @@ class Sampler {
   uint32_t dimension() const { return dimension_; }
 
  private:
+  friend SobolSetKeys sobol_set_keys(uint64_t seed, uint64_t upper_half, uint32_t set);
   static constexpr uint32_t kNoSet = 0xffffffffu;
   static constexpr uint64_t kGoldenRatio = 0x9e3779b97f4a7c15ull;
 
@@ -54,15 +64,17 @@ class Sampler {
     const uint32_t set = dimension >> 2;
     if (set != set_) {
       set_ = set;
-      const uint64_t set_key = (uint64_t{1} << 32) | set;
-      shuffled_ = reverse_bits(laine_karras(reversed_index_, hash(set_key)));
+      shuffled_ = reverse_bits(laine_karras(reversed_index_, hash(seed_, index_key(set))));
     }
     const uint32_t scrambled =
-        reverse_bits(laine_karras(sobol_reversed(shuffled_, dimension & 3u), hash(dimension)));
+        reverse_bits(laine_karras(sobol_reversed(shuffled_, dimension & 3u), hash(seed_, dimension)));
     // Truncated, not rounded: a point never moves into the next stratum, nor to 1.
     return static_cast<float>(scrambled >> 8) * 0x1p-24f;
   }
-  uint32_t hash(uint64_t key) const { return static_cast<uint32_t>(mix64(seed_ + key * kGoldenRatio)); }
+  static constexpr uint64_t index_key(uint32_t set) { return (uint64_t{1} << 32) | set; }
+  static uint32_t hash(uint64_t seed, uint64_t key) {
+    return static_cast<uint32_t>(mix64(seed + key * kGoldenRatio));
+  }
 
   uint64_t seed_;
   uint32_t reversed_index_;
@@ -70,6 +82,13 @@ class Sampler {
   uint32_t set_ = kNoSet;
   uint32_t shuffled_ = 0;
 };
+
+inline SobolSetKeys sobol_set_keys(uint64_t seed, uint64_t upper_half, uint32_t set) {
+  const uint64_t sequence = hash_combine(seed, upper_half);
+  SobolSetKeys keys{Sampler::hash(sequence, Sampler::index_key(set)), {}};
+  for (uint32_t d = 0; d < 4; ++d) keys.dimensions[d] = Sampler::hash(sequence, 4 * set + d);
+  return keys;
+}
 
 // The value that Sampler draws; exposed for tests.
 float sobol_owen(uint32_t index, uint64_t seed, uint32_t dimension);

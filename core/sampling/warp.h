@@ -80,12 +80,8 @@ inline constexpr float kUniformSpherePdf = 0.25f * kInvPi;
 
 // Barycentrics (b1, b2) of a uniform point of a triangle, pdf 1/area (Heitz 2019's low-distortion map).
 inline Point2 sample_uniform_triangle(const Point2& u) {
-  if (u.x > u.y) {
-    const float b2 = 0.5f * u.y;
-    return {u.x - b2, b2};
-  }
-  const float b1 = 0.5f * u.x;
-  return {b1, u.y - b1};
+  const float half = 0.5f * std::min(u.x, u.y);
+  return {u.x - half, u.y - half};
 }
 
 }  // namespace kaustik

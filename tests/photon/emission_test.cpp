@@ -18,7 +18,7 @@ Emitted emit_all(const Scene& scene, EmissionMode mode = EmissionMode::kCosine, 
   Emitted e;
   for (uint64_t i = 0; i < kCount; ++i) {
     Sampler sampler(99, i);
-    const auto sample = emit_photon(scene, sampler, total, mode);
+    const auto sample = emit_photon(scene, emission_numbers(scene, sampler), total, mode);
     if (!sample) continue;
     e.samples.push_back(*sample);
     e.sum += glm::dvec3(sample->flux);
