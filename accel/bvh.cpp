@@ -20,7 +20,7 @@
 #include <new>
 #include <optional>
 
-#include "accel/embree_error.h"
+#include "accel/embree_handles.h"
 
 namespace kaustik::accel {
 
@@ -121,20 +121,11 @@ void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
 }  // namespace
 
 struct Bvh::Impl {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
   std::atomic<int64_t> bytes{0};
+  EmbreeHandles embree;
   uint32_t shapes = 0;                // geometry ids below are meshes
   float to_scene = 1, to_embree = 1;  // lengths: powers of two
   QuadricGroup spheres, disks;
-
-  Impl() = default;
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
 
   void open();
   void set_scale(const Bounds3& bounds);
@@ -148,29 +139,28 @@ struct Bvh::Impl {
 
 void Bvh::Impl::open() {
   // No "threads=" here: Embree would cap the whole process by it. commit() caps the build alone.
-  device = rtcNewDevice(nullptr);
-  if (!device) throw_embree(rtcGetDeviceError(nullptr), "opening the device");
-  rtcSetDeviceMemoryMonitorFunction(device, count_memory, &bytes);
-  scene = rtcNewScene(device);
-  check(device, "making the scene");
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+  embree.open_device();
+  rtcSetDeviceMemoryMonitorFunction(embree.device, count_memory, &bytes);
+  embree.scene = rtcNewScene(embree.device);
+  check(embree.device, "making the scene");
+  rtcSetSceneFlags(embree.scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(embree.scene, RTC_BUILD_QUALITY_MEDIUM);
 }
 
 void Bvh::Impl::attach(RTCGeometry geometry, unsigned geometry_id) {
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, geometry_id);
+  rtcAttachGeometryByID(embree.scene, geometry, geometry_id);
   rtcReleaseGeometry(geometry);
-  check(device, "adding a shape");
+  check(embree.device, "adding a shape");
 }
 
 void Bvh::Impl::add_mesh(const TriangleMesh& mesh, uint32_t shape) {
   if (mesh.indices.empty()) return;
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree pads its own buffer: it reads 16 bytes at each vertex, 4 past the last one.
   auto* vertices = static_cast<Point3*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Point3), mesh.P.size()));
-  check(device, "copying vertices");
+  check(embree.device, "copying vertices");
   std::transform(mesh.P.begin(), mesh.P.end(), vertices, [this](const Point3& p) { return to_embree * p; });
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                              sizeof(mesh.indices[0]), mesh.indices.size());
@@ -183,7 +173,7 @@ void Bvh::Impl::add_group(QuadricGroup& group, unsigned geometry_id) {
   group.geometry_id = geometry_id;
   group.to_scene = to_scene;
   group.to_embree = to_embree;
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(group.members.size()));
   rtcSetGeometryUserData(geometry, &group);
   rtcSetGeometryBoundsFunction(geometry, quadric_bounds, nullptr);
@@ -218,8 +208,8 @@ void Bvh::Impl::add_shapes(const std::vector<Shape>& all) {
 void Bvh::Impl::commit(int threads) {
   std::optional<tbb::global_control> cap;
   if (threads > 0) cap.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
-  rtcCommitScene(scene);
-  check(device, "building the tree");
+  rtcCommitScene(embree.scene);
+  check(embree.device, "building the tree");
 }
 
 Bvh::Bvh(const Scene& scene, int threads) : scene_(&scene), impl_(std::make_unique<Impl>()) {
@@ -242,7 +232,7 @@ Hit Bvh::intersect(const Ray& ray) const {
   fill(query.ray, ray, impl_->to_embree);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  embree_intersect(impl_->scene, &query);
+  embree_intersect(impl_->embree.scene, &query);
   Hit hit;
   const uint32_t geometry = query.hit.geomID;
   if (geometry == RTC_INVALID_GEOMETRY_ID) return hit;
@@ -261,7 +251,7 @@ Hit Bvh::intersect(const Ray& ray) const {
 bool Bvh::occluded(const Ray& ray) const {
   RTCRay query;
   fill(query, ray, impl_->to_embree);
-  embree_occluded(impl_->scene, &query);
+  embree_occluded(impl_->embree.scene, &query);
   return query.tfar == kEmbreeOccluded;
 }
 

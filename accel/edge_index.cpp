@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accel/embree_error.h"
+#include "accel/embree_handles.h"
 #include "core/math/error_bounds.h"
 
 namespace kaustik::accel {
@@ -24,18 +24,9 @@ bool reaches(const BoundaryEdge& edge, const glm::dvec3& p, double radius) {
 }  // namespace
 
 struct EdgeIndex::Impl {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  EmbreeHandles embree;
   float to_embree = 1;
   std::vector<BoundaryEdge> const* edges = nullptr;  // while the tree is built
-
-  Impl() = default;
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
 
   void set_scale();
   void build();
@@ -60,19 +51,18 @@ void EdgeIndex::Impl::bounds(const RTCBoundsFunctionArguments* args) {
 
 void EdgeIndex::Impl::build() {
   set_scale();
-  device = rtcNewDevice(nullptr);
-  if (!device) throw_embree(rtcGetDeviceError(nullptr), "opening the device");
-  scene = rtcNewScene(device);
-  check(device, "making the scene of edges");
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  embree.open_device();
+  embree.scene = rtcNewScene(embree.device);
+  check(embree.device, "making the scene of edges");
+  RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(edges->size()));
   rtcSetGeometryUserData(geometry, this);
   rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
+  rtcAttachGeometry(embree.scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  check(device, "building the tree of edges");
+  rtcCommitScene(embree.scene);
+  check(embree.device, "building the tree of edges");
   edges = nullptr;
 }
 
@@ -110,7 +100,8 @@ size_t EdgeIndex::find(const Point3& p, float radius, uint32_t surface_group, st
   // Embree rounds differences and their squares: a few parts in 2^23.
   constexpr float kSlack = 1 + 0x1p-16f;
   const Point3 scaled = impl_->to_embree * p;
-  embree_visit_near(impl_->scene, scaled.x, scaled.y, scaled.z, kSlack * impl_->to_embree * radius, visit);
+  embree_visit_near(impl_->embree.scene, scaled.x, scaled.y, scaled.z, kSlack * impl_->to_embree * radius,
+                    visit);
   count = std::min(count, out.size() + 1);
   std::sort(out.begin(), out.begin() + std::ptrdiff_t(std::min(count, out.size())));
   return count;
