@@ -21,6 +21,7 @@
 #include <optional>
 
 #include "accel/embree_handles.h"
+#include "core/geometry/sphere_lanes.h"
 
 namespace kaustik::accel {
 
@@ -38,6 +39,22 @@ bool count_memory(void* user, ssize_t bytes, bool /*post*/) {
   static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
   return true;
 }
+
+// In trees so small, packets of rays from all over the scene are fastest as bundles of like directions; in
+// larger ones their rays soon part (measured: docs/performance.md).
+constexpr uint64_t kFewPrimitives = 64;
+
+uint64_t primitive_count(const std::vector<Shape>& shapes) {
+  uint64_t count = 0;
+  for (const Shape& shape : shapes) {
+    const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+    count += mesh ? mesh->indices.size() : 1;
+  }
+  return count;
+}
+
+constexpr size_t kPacket = 16;
+static_assert(kRayLanes % kPacket == 0 && kNoIndex == RTC_INVALID_GEOMETRY_ID);
 
 // Embree accepts tnear <= t <= tfar where we want 0 < t < t_max: the next floats inside. An empty range stays
 // empty.
@@ -61,17 +78,20 @@ void fill(RTCRay& r, const Ray& ray, float to_embree) {
   r.flags = 0;
 }
 
-// The inverse of fill(): scene units and a half-open range again.
-Ray to_ray(const RTCRay& r, float to_scene) {
-  const float t_max = std::bit_cast<float>(std::bit_cast<uint32_t>(r.tfar) + 1);
-  return {to_scene * Point3(r.org_x, r.org_y, r.org_z), {r.dir_x, r.dir_y, r.dir_z}, to_scene * t_max};
+// The inverse of fill() for ray i of N: scene units and a half-open range again.
+Ray to_ray(RTCRayN* rays, unsigned N, unsigned i, float to_scene) {
+  const float t_max = std::bit_cast<float>(std::bit_cast<uint32_t>(RTCRayN_tfar(rays, N, i)) + 1);
+  const Point3 o(RTCRayN_org_x(rays, N, i), RTCRayN_org_y(rays, N, i), RTCRayN_org_z(rays, N, i));
+  const Vector3 d(RTCRayN_dir_x(rays, N, i), RTCRayN_dir_y(rays, N, i), RTCRayN_dir_z(rays, N, i));
+  return {to_scene * o, d, to_scene * t_max};
 }
 
 // t in Embree's units.
 template <class Geometry>
-float intersect_quadric(const QuadricGroup& group, uint32_t primitive, const RTCRay& query, Point2* uv) {
+float intersect_quadric(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, unsigned i,
+                        Point2* uv) {
   const auto& geometry = std::get<Geometry>((*group.shapes)[group.members[primitive]].geometry);
-  const Ray ray = to_ray(query, group.to_scene);
+  const Ray ray = to_ray(rays, N, i, group.to_scene);
   if constexpr (std::is_same_v<Geometry, Sphere>) {
     return group.to_embree * intersect_sphere(geometry, ray);
   } else {
@@ -86,36 +106,74 @@ void quadric_bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
 }
 
-// A hit replaces what the query holds when it is nearer, or as near and earlier in the scene.
-bool replaces(const RTCRayHit& query, float t, unsigned geometry_id, unsigned primitive) {
-  if (t != query.ray.tfar) return t < query.ray.tfar;
-  return query.hit.geomID == RTC_INVALID_GEOMETRY_ID || query.hit.geomID > geometry_id ||
-         (query.hit.geomID == geometry_id && query.hit.primID > primitive);
+// Whether a hit replaces what the ray holds: when it is nearer, or as near and earlier in the scene.
+bool replaces(float held_t, unsigned held_geometry, unsigned held_primitive, float t, unsigned geometry,
+              unsigned primitive) {
+  if (t != held_t) return t < held_t;
+  return held_geometry == RTC_INVALID_GEOMETRY_ID || held_geometry > geometry ||
+         (held_geometry == geometry && held_primitive > primitive);
+}
+
+// Of all N rays, valid or not: t in Embree's units, and uv of disks.
+template <class Geometry>
+void intersect_all(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, float* t,
+                   Point2* uv) {
+  for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<Geometry>(group, primitive, rays, N, i, &uv[i]);
+}
+
+template <>
+void intersect_all<Sphere>(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, float* t,
+                           Point2* uv) {
+  if (N == 1) {
+    t[0] = intersect_quadric<Sphere>(group, primitive, rays, 1, 0, uv);
+    return;
+  }
+  alignas(64) float o[3][kPacket], d[3][kPacket], t_max[kPacket];
+  for (unsigned i = 0; i < N; ++i) {
+    const Ray ray = to_ray(rays, N, i, group.to_scene);
+    for (int c = 0; c < 3; ++c) {
+      o[c][i] = ray.o[c];
+      d[c][i] = ray.d[c];
+    }
+    t_max[i] = ray.t_max;
+  }
+  const auto& sphere = std::get<Sphere>((*group.shapes)[group.members[primitive]].geometry);
+  intersect_sphere_lanes(sphere, {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, t_max}, N, t);
+  for (unsigned i = 0; i < N; ++i) t[i] *= group.to_embree;
 }
 
 template <class Geometry>
 void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
-  if (!args->valid[0]) return;
   const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
-  auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  Point2 uv(0);
-  const float t = intersect_quadric<Geometry>(group, args->primID, query.ray, &uv);
-  if (!replaces(query, t, group.geometry_id, args->primID)) return;
-  query.ray.tfar = t;
-  query.hit.u = uv.x;
-  query.hit.v = uv.y;
-  query.hit.primID = args->primID;
-  query.hit.geomID = group.geometry_id;
-  query.hit.instID[0] = args->context->instID[0];
+  const unsigned N = args->N, primitive = args->primID, geometry = group.geometry_id;
+  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, N);
+  RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, N);
+  alignas(64) float t[kPacket];
+  Point2 uv[kPacket] = {};
+  intersect_all<Geometry>(group, primitive, rays, N, t, uv);
+  for (unsigned i = 0; i < N; ++i) {
+    if (!args->valid[i] || !replaces(RTCRayN_tfar(rays, N, i), RTCHitN_geomID(hits, N, i),
+                                     RTCHitN_primID(hits, N, i), t[i], geometry, primitive))
+      continue;
+    RTCRayN_tfar(rays, N, i) = t[i];
+    RTCHitN_u(hits, N, i) = uv[i].x;
+    RTCHitN_v(hits, N, i) = uv[i].y;
+    RTCHitN_primID(hits, N, i) = primitive;
+    RTCHitN_geomID(hits, N, i) = geometry;
+    RTCHitN_instID(hits, N, i, 0) = args->context->instID[0];
+  }
 }
 
 template <class Geometry>
 void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
-  if (!args->valid[0]) return;
   const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
-  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  Point2 uv(0);
-  if (intersect_quadric<Geometry>(group, args->primID, ray, &uv) <= ray.tfar) ray.tfar = kEmbreeOccluded;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    Point2 uv(0);
+    float& t_far = RTCRayN_tfar(args->ray, args->N, i);
+    if (intersect_quadric<Geometry>(group, args->primID, args->ray, args->N, i, &uv) <= t_far)
+      t_far = kEmbreeOccluded;
+  }
 }
 
 }  // namespace
@@ -126,6 +184,7 @@ struct Bvh::Impl {
   uint32_t shapes = 0;                // geometry ids below are meshes
   float to_scene = 1, to_embree = 1;  // lengths: powers of two
   QuadricGroup spheres, disks;
+  bool coherent = false;  // how packets go through the tree
 
   void open();
   void set_scale(const Bounds3& bounds);
@@ -135,6 +194,10 @@ struct Bvh::Impl {
   void add_group(QuadricGroup& group, unsigned geometry_id);
   void attach(RTCGeometry geometry, unsigned geometry_id);
   void commit(int threads);
+  void start_packets(RTCRayHit16* query) const;
+  void load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query) const;
+  void store_packet(const RTCRayHit16& query, size_t first, HitLanes* hits) const;
+  uint32_t shape_of(uint32_t geometry, uint32_t primitive) const;
 };
 
 void Bvh::Impl::open() {
@@ -203,6 +266,7 @@ void Bvh::Impl::add_shapes(const std::vector<Shape>& all) {
   }
   add_group<Sphere>(spheres, shapes);
   add_group<Disk>(disks, shapes + 1);
+  coherent = primitive_count(all) <= kFewPrimitives;
 }
 
 void Bvh::Impl::commit(int threads) {
@@ -238,14 +302,62 @@ Hit Bvh::intersect(const Ray& ray) const {
   if (geometry == RTC_INVALID_GEOMETRY_ID) return hit;
   hit.t = query.ray.tfar * impl_->to_scene;
   hit.uv = {query.hit.u, query.hit.v};
-  if (geometry < impl_->shapes) {
-    hit.shape = geometry;
-    hit.primitive = query.hit.primID;
-  } else {
-    const QuadricGroup& group = geometry == impl_->shapes ? impl_->spheres : impl_->disks;
-    hit.shape = group.members[query.hit.primID];
-  }
+  hit.shape = impl_->shape_of(geometry, query.hit.primID);
+  hit.primitive = geometry < impl_->shapes ? query.hit.primID : 0;
   return hit;
+}
+
+uint32_t Bvh::Impl::shape_of(uint32_t geometry, uint32_t primitive) const {
+  if (geometry < shapes) return geometry;
+  return (geometry == shapes ? spheres : disks).members[primitive];
+}
+
+// What packets share.
+void Bvh::Impl::start_packets(RTCRayHit16* query) const {
+  std::fill_n(query->ray.tnear, kPacket, kNear);
+  std::fill_n(query->ray.time, kPacket, 0.0f);
+  std::fill_n(query->ray.mask, kPacket, 0xffffffffu);
+  std::fill_n(query->ray.id, kPacket, 0u);
+  std::fill_n(query->ray.flags, kPacket, 0u);
+}
+
+void Bvh::Impl::load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query) const {
+  float* const o[] = {query->ray.org_x, query->ray.org_y, query->ray.org_z};
+  float* const d[] = {query->ray.dir_x, query->ray.dir_y, query->ray.dir_z};
+  for (int c = 0; c < 3; ++c) {
+    for (size_t i = 0; i < kPacket; ++i) o[c][i] = rays.o[c][first + i] * to_embree;
+    std::copy_n(rays.d[c] + first, kPacket, d[c]);
+  }
+  std::fill_n(query->ray.tfar, kPacket, far_end(kInfinity));
+  std::fill_n(query->hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(query->hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+}
+
+void Bvh::Impl::store_packet(const RTCRayHit16& query, size_t first, HitLanes* hits) const {
+  for (size_t i = 0; i < kPacket; ++i) hits->t[first + i] = query.ray.tfar[i] * to_scene;
+  std::copy_n(query.hit.u, kPacket, hits->u + first);
+  std::copy_n(query.hit.v, kPacket, hits->v + first);
+  std::copy_n(query.hit.primID, kPacket, hits->primitive + first);
+  std::copy_n(query.hit.geomID, kPacket, hits->shape + first);
+  if (spheres.members.empty() && disks.members.empty()) return;
+  for (size_t i = 0; i < kPacket; ++i) {
+    const uint32_t geometry = query.hit.geomID[i];
+    if (geometry < shapes || geometry == RTC_INVALID_GEOMETRY_ID) continue;
+    hits->shape[first + i] = shape_of(geometry, query.hit.primID[i]);
+    hits->primitive[first + i] = 0;
+  }
+}
+
+void Bvh::intersect(const RayLanes& rays, size_t count, HitLanes* hits) const {
+  RTCRayHit16 query;
+  alignas(64) int valid[kPacket];
+  impl_->start_packets(&query);
+  for (size_t first = 0; first < count; first += kPacket) {
+    for (size_t i = 0; i < kPacket; ++i) valid[i] = first + i < count ? -1 : 0;
+    impl_->load_packet(rays, first, &query);
+    embree_intersect(impl_->embree.scene, valid, impl_->coherent, &query);
+    impl_->store_packet(query, first, hits);
+  }
 }
 
 bool Bvh::occluded(const Ray& ray) const {

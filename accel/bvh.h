@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "accel/ray_lanes.h"
 #include "core/scene/scene.h"
 
 namespace kaustik::accel {
@@ -21,6 +22,9 @@ class Bvh {
   Hit intersect(const Ray& ray) const;
   // True when anything blocks the open segment 0 < t < ray.t_max.
   bool occluded(const Ray& ray) const;
+  // Nearest hits of the first `count` rays, in packets: the bits of intersect(), save that of surfaces met at
+  // exactly the same distance (a ray through an edge) another may be named, depending on the other rays.
+  void intersect(const RayLanes& rays, size_t count, HitLanes* hits) const;
   // Nearest hit as a surface point; false when the ray escapes.
   bool intersect(const Ray& ray, SurfaceInteraction* si) const;
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/geometry/interaction.h"
+#include "core/geometry/sphere_lanes.h"
 #include "tests/core/statistics.h"
 #include "tests/core/test_tracer.h"
 
@@ -151,6 +154,40 @@ TEST(Shape, AreasAndBounds) {
   shape.geometry = Disk{Transform::from_matrix(affine({2, 0, 0, 0, 3, 0, 0, 0, 1}, {0, 0, 5})), 0.5f};
   EXPECT_NEAR(surface_area(shape), std::numbers::pi * 6 * 0.75, 1e-9);
   EXPECT_EQ(primitive_count(shape), 1u);
+}
+
+// Ellipsoids and spheres of all sizes, from inside, outside and on the surface, with and without an end, and
+// counts that fill no lanes.
+TEST(IntersectSphere, LanesAreTheScalarCodeBitForBit) {
+  IndependentRandom random(5);
+  int hits = 0;
+  for (int i = 0; i < 20000; ++i) {
+    glm::dmat3 linear(std::ldexp(1.0, static_cast<int>(random.between(-20, 20))));
+    if (i % 2) linear[1] *= 3.0;
+    const Point3 center = 10.0f * random.direction();
+    const Sphere sphere{Transform::from_matrix(affine(linear, center))};
+    alignas(64) float o[3][kSphereLanes], d[3][kSphereLanes], t_max[kSphereLanes], t[kSphereLanes];
+    const float size = static_cast<float>(linear[0][0]);
+    std::array<Ray, kSphereLanes> rays;
+    for (size_t k = 0; k < kSphereLanes; ++k) {
+      const float reach = k % 4 == 0 ? 1.0f : random.between(0, 3);
+      const Point3 from = center + reach * size * random.direction();
+      const Point3 to = center + random.between(0, 1.5f) * size * random.direction();
+      rays[k] = {from, random.between(0.1f, 10) * (to - from), k % 3 ? kInfinity : random.between(0, 2)};
+      for (int c = 0; c < 3; ++c) {
+        o[c][k] = rays[k].o[c];
+        d[c][k] = rays[k].d[c];
+      }
+      t_max[k] = rays[k].t_max;
+    }
+    const size_t count = i % 3 == 0 ? kSphereLanes : static_cast<size_t>(1 + i % 15);
+    intersect_sphere_lanes(sphere, {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, t_max}, count, t);
+    for (size_t k = 0; k < count; ++k) {
+      ASSERT_EQ(t[k], intersect_sphere(sphere, rays[k])) << i << ' ' << k;
+      hits += t[k] < kInfinity;
+    }
+  }
+  EXPECT_GT(hits, 50000);
 }
 
 }  // namespace

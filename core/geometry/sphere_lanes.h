@@ -1,0 +1,22 @@
+#pragma once
+// intersect_sphere() for many rays at once in SIMD lanes.
+
+#include <cstddef>
+
+#include "core/geometry/shape.h"
+
+namespace kaustik {
+
+// Most rays per call.
+inline constexpr size_t kSphereLanes = 16;
+
+// By columns, aligned to 64 bytes and readable for kSphereLanes rays.
+struct SphereRays {
+  const float *o[3], *d[3], *t_max;
+};
+
+// t[k] = intersect_sphere(sphere, ray k) for the first `count` rays, bit for bit on every instruction set;
+// writes up to kSphereLanes. Thread-safe.
+void intersect_sphere_lanes(const Sphere& sphere, const SphereRays& rays, size_t count, float* t);
+
+}  // namespace kaustik

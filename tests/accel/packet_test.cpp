@@ -1,0 +1,83 @@
+// Packets of rays against single rays.
+
+#include <gtest/gtest.h>
+
+#include "accel/bvh.h"
+#include "tests/accel/random_scenes.h"
+
+namespace kaustik::accel {
+namespace {
+
+using testing::Placement;
+using testing::Random;
+
+void expect_same(const Hit& got, const Hit& expected, size_t ray) {
+  ASSERT_EQ(got.shape, expected.shape) << ray;
+  if (!expected.valid()) return;
+  ASSERT_EQ(got.primitive, expected.primitive) << ray;
+  ASSERT_EQ(got.t, expected.t) << ray;
+  ASSERT_EQ(got.uv, expected.uv) << ray;
+}
+
+// Every lane is what a ray alone finds, bit for bit, whatever the count. Random rays meet no two surfaces at
+// the same distance.
+void expect_packets_are_single_rays(const Scene& scene, const Placement& place, Random& random) {
+  const Bvh bvh(scene);
+  RayLanes rays{};
+  HitLanes hits{};
+  size_t met = 0, traced = 0;
+  for (const size_t count : {size_t{1}, size_t{15}, size_t{16}, size_t{17}, size_t{50}, kRayLanes}) {
+    for (int round = 0; round < 40; ++round) {
+      const Vector3 main = random.direction();
+      for (size_t k = 0; k < count; ++k) {
+        const Point3 o = place.point(1.5f * random.in_cube());
+        const Vector3 d = round % 2 ? random.direction() : main + 0.2f * random.direction();
+        for (int c = 0; c < 3; ++c) {
+          rays.o[c][k] = o[c];
+          rays.d[c][k] = d[c];
+        }
+      }
+      bvh.intersect(rays, count, &hits);
+      for (size_t k = 0; k < count; ++k) {
+        expect_same(hits.get(k), bvh.intersect(rays.get(k)), k);
+        met += hits.valid(k);
+        ++traced;
+      }
+    }
+  }
+  EXPECT_GT(met, traced / 10);
+  EXPECT_LT(met, traced);
+}
+
+TEST(BvhPackets, AreSingleRaysInScenesOfFewPrimitives) {
+  Random random(11);
+  Scene scene;
+  testing::add_triangles(scene, random, {}, 20, 1.0f);
+  testing::add_spheres(scene, random, {}, 8, true);
+  testing::add_disks(scene, random, {}, 8);
+  testing::finish(scene);
+  expect_packets_are_single_rays(scene, {}, random);
+}
+
+TEST(BvhPackets, AreSingleRaysInScenesOfManyPrimitives) {
+  Random random(12);
+  Scene scene;
+  const Placement place{0x1p-15f, {3, -2, 1}};
+  testing::add_triangles(scene, random, place, 2000, 0.2f);
+  testing::add_spheres(scene, random, place, 100, true);
+  testing::add_disks(scene, random, place, 100);
+  testing::finish(scene);
+  expect_packets_are_single_rays(scene, place, random);
+}
+
+TEST(BvhPackets, EmptySceneLetsAllRaysEscape) {
+  Scene scene;
+  testing::finish(scene);
+  RayLanes rays{};
+  HitLanes hits{};
+  Bvh(scene).intersect(rays, kRayLanes, &hits);
+  for (size_t k = 0; k < kRayLanes; ++k) EXPECT_FALSE(hits.valid(k));
+}
+
+}  // namespace
+}  // namespace kaustik::accel
