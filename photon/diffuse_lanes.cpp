@@ -8,68 +8,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "photon/vector_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Floats = hn::CappedTag<float, DiffuseLanes::kLanes>;
 using Doubles = hn::CappedTag<double, DiffuseLanes::kLanes / 2>;
 using HalfFloats = hn::Rebind<float, Doubles>;
-using Vf = hn::Vec<Floats>;
 using Vd = hn::Vec<Doubles>;
-using Mask = hn::Mask<Floats>;
-using Columns3 = DiffuseLanes::Column[3];
-
-// Three numbers per lane.
-template <class V>
-struct Vec3 {
-  V x, y, z;
-};
-
-template <class V>
-HWY_INLINE Vec3<V> operator*(V s, const Vec3<V>& v) {
-  return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)};
-}
-template <class V>
-HWY_INLINE Vec3<V> operator*(const Vec3<V>& a, const Vec3<V>& b) {
-  return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
-}
-template <class V>
-HWY_INLINE Vec3<V> operator+(const Vec3<V>& a, const Vec3<V>& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-template <class V>
-HWY_INLINE Vec3<V> operator-(const Vec3<V>& a, const Vec3<V>& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-template <class V>
-HWY_INLINE V Dot(const Vec3<V>& a, const Vec3<V>& b) {
-  const Vec3<V> t = a * b;
-  return hn::Add(hn::Add(t.x, t.y), t.z);
-}
-template <class V>
-HWY_INLINE Vec3<V> Cross(const Vec3<V>& a, const Vec3<V>& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(b.y, a.z)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(b.z, a.x)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(b.x, a.y))};
-}
-HWY_INLINE Vf Largest(const Vec3<Vf>& v) {
-  return hn::Max(v.x, hn::Max(v.y, v.z));
-}
-HWY_INLINE Vf LargestMagnitude(const Vec3<Vf>& v) {
-  return Largest({hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)});
-}
-
-HWY_INLINE Vec3<Vf> Load(const Columns3& c, size_t k) {
-  const Floats d;
-  return {hn::Load(d, c[0] + k), hn::Load(d, c[1] + k), hn::Load(d, c[2] + k)};
-}
-HWY_INLINE void Store(const Vec3<Vf>& v, Columns3& c, size_t k) {
-  const Floats d;
-  hn::Store(v.x, d, c[0] + k);
-  hn::Store(v.y, d, c[1] + k);
-  hn::Store(v.z, d, c[2] + k);
-}
 
 // Difference of two corners, rounded to float as everywhere, then widened.
 HWY_INLINE Vec3<Vd> WideEdge(const Columns3& to, const Columns3& from, size_t k) {
@@ -105,11 +51,11 @@ void LocateLanes(DiffuseLanes& lanes, size_t count) {
   for (size_t k = 0; k < count; k += hn::Lanes(d)) {
     const Vec3<Vf> p0 = Load(lanes.corner[0], k);
     const Vec3<Vf> e1 = Load(lanes.corner[1], k) - p0, e2 = Load(lanes.corner[2], k) - p0;
-    const Vf b1 = hn::Load(d, lanes.uv[0] + k), b2 = hn::Load(d, lanes.uv[1] + k);
+    const Vf b1 = hn::Load(d, lanes.hit.u + k), b2 = hn::Load(d, lanes.hit.v + k);
     const Vec3<Vf> p = p0 + (b1 * e1 + b2 * e2);
     Store(p, lanes.p, k);
     const Vec3<Vf> n = Load(lanes.n, k);
-    const Vf cos_in = Dot(Load(lanes.d, k), n);
+    const Vf cos_in = Dot(Load(lanes.ray.d, k), n);
     hn::Store(cos_in, d, lanes.cos_in + k);
     const Mask along = hn::Gt(cos_in, hn::Zero(d));
     const auto turned = [&](Vf c) HWY_ATTR { return hn::IfThenElse(along, hn::Neg(c), c); };
@@ -118,50 +64,6 @@ void LocateLanes(DiffuseLanes& lanes, size_t count) {
     const Vf position_error = hn::Mul(hn::Set(d, gamma_bound(6)), LargestMagnitude(p));
     hn::Store(hn::Add(position_error, hn::Mul(hn::Set(d, gamma_bound(16)), extent)), d, lanes.p_error + k);
   }
-}
-
-// c0 + x (c1 + x (c2 ...)), for the polynomials of cos_sin_octant().
-template <class... Rest>
-HWY_INLINE Vf Horner(Vf x, float first, Rest... rest) {
-  const Vf c = hn::Set(Floats(), first);
-  if constexpr (sizeof...(rest) == 0) {
-    return c;
-  } else {
-    return hn::Add(c, hn::Mul(x, Horner(x, rest...)));
-  }
-}
-
-// sample_cosine_hemisphere().
-HWY_INLINE Vec3<Vf> SampleCosineHemisphere(Vf u0, Vf u1) {
-  const Floats d;
-  const Vf one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
-  const Vf a = hn::Sub(hn::Mul(two, u0), one), b = hn::Sub(hn::Mul(two, u1), one);
-  const Mask along_x = hn::Gt(hn::Abs(a), hn::Abs(b));
-  const Vf longer = hn::IfThenElse(along_x, a, b), shorter = hn::IfThenElse(along_x, b, a);
-  const Vf ratio = hn::IfThenZeroElse(hn::Eq(longer, zero), hn::Div(shorter, longer));
-  const Vf x = hn::Mul(hn::Set(d, 0.25f * kPi), ratio), x2 = hn::Mul(x, x);
-  const Vf sine =
-      hn::Add(x, hn::Mul(hn::Mul(x, x2), Horner(x2, -1.0f / 6, 1.0f / 120, -1.0f / 5040, 1.0f / 362880)));
-  const Vf cosine = Horner(x2, 1.0f, -0.5f, 1.0f / 24, -1.0f / 720, 1.0f / 40320, -1.0f / 3628800);
-  const Mask negative = hn::Lt(longer, zero);
-  const Vf c = hn::IfThenElse(negative, hn::Neg(cosine), cosine);
-  const Vf s = hn::IfThenElse(negative, hn::Neg(sine), sine);
-  const Vf r = hn::Abs(longer);
-  const Vf z = hn::Sqrt(hn::Mul(hn::Sub(one, r), hn::Add(one, r)));
-  return {hn::Mul(r, hn::IfThenElse(along_x, c, s)), hn::Mul(r, hn::IfThenElse(along_x, s, c)), z};
-}
-
-// Frame::from_z(z).to_world(v).
-HWY_INLINE Vec3<Vf> ToWorld(const Vec3<Vf>& z, const Vec3<Vf>& v) {
-  const Floats d;
-  const Vf one = hn::Set(d, 1.0f);
-  const Vf sign = hn::CopySign(one, z.z);
-  const Vf a = hn::Div(hn::Neg(one), hn::Add(sign, z.z));
-  const Vf b = hn::Mul(hn::Mul(z.x, z.y), a);
-  const Vec3<Vf> x{hn::Add(one, hn::Mul(hn::Mul(hn::Mul(sign, z.x), z.x), a)), hn::Mul(sign, b),
-                   hn::Mul(hn::Neg(sign), z.x)};
-  const Vec3<Vf> y{b, hn::Add(sign, hn::Mul(hn::Mul(z.y, z.y), a)), hn::Neg(z.y)};
-  return v.x * x + v.y * y + v.z * z;
 }
 
 // The next direction in `out`, and where there is one.
@@ -208,13 +110,13 @@ void ScatterLanes(DiffuseLanes& lanes, const SobolLanes& numbers, size_t count) 
     const Mask scattered = SampleDirection(lanes, numbers, k, w);
     const auto fate = Roulette(lanes, hn::Load(d, numbers.u[2] + k), k, flux);
     hn::Store(hn::IfThenElseZero(hn::RebindMask(i, scattered), fate), i, lanes.fate + k);
-    Store(w, lanes.next_d, k);
+    Store(w, lanes.next.d, k);
     Store(flux, lanes.next_flux, k);
     // offset_origin()
     const Vec3<Vf> n = Load(lanes.n, k), p = Load(lanes.p, k);
     const Vf p_error = hn::Load(d, lanes.p_error + k);
     const Mask behind = hn::Lt(Dot(w, n), hn::Zero(d));
-    Store(p + hn::IfThenElse(behind, hn::Neg(p_error), p_error) * n, lanes.next_o, k);
+    Store(p + hn::IfThenElse(behind, hn::Neg(p_error), p_error) * n, lanes.next.o, k);
   }
 }
 

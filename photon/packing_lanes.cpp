@@ -15,7 +15,7 @@ namespace kaustik::photon::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, RecordPacker::kLanes>;
+using Floats = hn::CappedTag<float, 16>;
 using Words = hn::RebindToUnsigned<Floats>;
 using Ints = hn::RebindToSigned<Floats>;
 using Vf = hn::Vec<Floats>;
@@ -28,9 +28,8 @@ HWY_INLINE Vu Truncate(Vf x) {
 }
 
 template <int kBits>
-HWY_INLINE Vu PackOctahedral(const float (&w)[3][RecordPacker::kLanes], size_t k) {
+HWY_INLINE Vu PackOctahedral(Vf wx, Vf wy, Vf wz) {
   const Floats d;
-  const Vf wx = hn::Load(d, w[0] + k), wy = hn::Load(d, w[1] + k), wz = hn::Load(d, w[2] + k);
   const Vf sum = hn::Add(hn::Add(hn::Abs(wx), hn::Abs(wy)), hn::Abs(wz));
   const Vf one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   const auto some = hn::Gt(sum, zero);
@@ -53,7 +52,7 @@ HWY_INLINE Vf PowerOfTwo(Vi e) {
   return hn::BitCast(Floats(), hn::ShiftLeft<23>(hn::Add(e, hn::Set(Ints(), 127))));
 }
 
-HWY_INLINE Vu PackRgb9e5(const float (&flux)[3][RecordPacker::kLanes], size_t k, float per_unit) {
+HWY_INLINE Vu PackRgb9e5(const float* const (&flux)[3], size_t k, float per_unit) {
   const Floats d;
   const Ints i;
   const Vf zero = hn::Zero(d), half = hn::Set(d, 0.5f);
@@ -78,14 +77,16 @@ HWY_INLINE Vu PackRgb9e5(const float (&flux)[3][RecordPacker::kLanes], size_t k,
   return hn::IfThenElseZero(hn::RebindMask(Words(), hn::Gt(largest, zero)), bits);
 }
 
-void PackColumns(const RecordPacker::Columns& c, float per_unit, uint32_t* direction, uint32_t* power,
-                 uint32_t* surface) {
+void PackLanes(const PhotonLanes& from, size_t count, float per_unit, PackedLanes& to) {
   const Words u;
-  for (size_t k = 0; k < RecordPacker::kLanes; k += hn::Lanes(u)) {
-    hn::Store(PackOctahedral<16>(c.wi, k), u, direction + k);
-    hn::Store(PackRgb9e5(c.flux, k, per_unit), u, power + k);
-    const Vu group = hn::ShiftLeft<16>(hn::LoadU(u, c.surface_group + k));
-    hn::Store(hn::Or(PackOctahedral<8>(c.n, k), group), u, surface + k);
+  const Floats d;
+  for (size_t k = 0; k < count; k += hn::Lanes(u)) {
+    const auto towards = [&](int c) HWY_ATTR { return hn::Neg(hn::Load(d, from.d[c] + k)); };
+    const auto n = [&](int c) HWY_ATTR { return hn::Load(d, from.n[c] + k); };
+    hn::Store(PackOctahedral<16>(towards(0), towards(1), towards(2)), u, to.direction + k);
+    hn::Store(PackRgb9e5(from.flux, k, per_unit), u, to.power + k);
+    const Vu group = hn::ShiftLeft<16>(hn::Load(u, from.surface_group + k));
+    hn::Store(hn::Or(PackOctahedral<8>(n(0), n(1), n(2)), group), u, to.surface + k);
   }
 }
 
@@ -95,15 +96,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace kaustik::photon {
 
-HWY_EXPORT(PackColumns);
+HWY_EXPORT(PackLanes);
+
+void pack_lanes(const PhotonLanes& photons, size_t count, float flux_unit, PackedLanes* packed) {
+  HWY_DYNAMIC_DISPATCH(PackLanes)(photons, count, 1 / flux_unit, *packed);
+}
 
 void RecordPacker::flush(std::vector<PhotonRecord>& records) {
   if (waiting_ == 0) return;
-  alignas(64) uint32_t direction[kLanes], power[kLanes], surface[kLanes];
-  HWY_DYNAMIC_DISPATCH(PackColumns)(columns_, 1 / flux_unit_, direction, power, surface);
-  const auto& p = columns_.p;
+  PackedLanes packed;
+  pack_lanes({{d_[0], d_[1], d_[2]}, {flux_[0], flux_[1], flux_[2]}, {n_[0], n_[1], n_[2]}, surface_group_},
+             waiting_, flux_unit_, &packed);
   for (size_t k = 0; k < waiting_; ++k) {
-    records.push_back({p[0][k], p[1][k], p[2][k], direction[k], power[k], surface[k]});
+    records.push_back(
+        {p_[0][k], p_[1][k], p_[2][k], packed.direction[k], packed.power[k], packed.surface[k]});
   }
   waiting_ = 0;
 }

@@ -18,9 +18,9 @@ struct PhotonRecord {
 };
 static_assert(sizeof(PhotonRecord) == 24);
 
-// Photons of one kind before the build, in the order of their emission. flux_unit is a power of two near the
-// mean flux of one photon, so that the shared-exponent format keeps its range at any scale of scene and any
-// photon count.
+// Photons of one kind before the build, as shoot() left them. flux_unit is a power of two near the mean flux
+// of one photon, so that the shared-exponent format keeps its range at any scale of scene and any photon
+// count.
 struct PhotonBuffer {
   std::vector<PhotonRecord> records;
   float flux_unit = 1;

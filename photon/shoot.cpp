@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "photon/packing_lanes.h"
+#include "photon/record_sink.h"
 
 namespace kaustik::photon {
 
@@ -13,7 +13,7 @@ namespace {
 
 struct Block {
   uint64_t first = 0, end = 0;  // photon indices
-  std::array<std::vector<PhotonRecord>, kPhotonKinds> records;
+  RecordsByKind records;
   TraceCounters counters;
 };
 
@@ -21,14 +21,9 @@ void trace_block(const Scene& scene, const accel::Bvh& bvh, const TraceSettings&
                  Block& block) {
   for (auto& records : block.records) records.clear();
   TraceCounters counters;
-  std::array<RecordPacker, kPhotonKinds> packers;
-  packers.fill(RecordPacker(flux_unit));
-  const auto sink = [&](PhotonKind kind, const Photon& photon) {
-    const size_t k = static_cast<size_t>(kind);
-    packers[k].add(photon, block.records[k]);
-  };
+  RecordSink sink(flux_unit, block.records);
   trace_photons(scene, bvh, settings, block.first, block.end, sink, counters);
-  for (size_t k = 0; k < packers.size(); ++k) packers[k].flush(block.records[k]);
+  sink.flush();
   block.counters = counters;
 }
 

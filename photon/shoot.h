@@ -25,10 +25,10 @@ float flux_unit_of(const Scene& scene, uint64_t photons);
 // returning false cancels the shoot.
 using ShootProgress = std::function<bool(uint64_t done, uint64_t total)>;
 
-// Traces photons 0 ... settings.photons - 1 on the calling arena's threads. The photons of each kind come in
-// the order of their emission. Peak memory is that of the result plus a few blocks per thread. When
-// cancelled, what the finished blocks left is returned, divided by settings.photons as if all had been
-// emitted. Nothing is emitted when no kind is asked for.
+// Traces photons 0 ... settings.photons - 1 on the calling arena's threads. The order of the photons of a
+// kind is a pure function of (scene, settings). Peak memory is that of the result plus a few blocks per
+// thread. When cancelled, what the finished blocks left is returned, divided by settings.photons as if all
+// had been emitted. Nothing is emitted when no kind is asked for.
 ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
                   const ShootProgress& progress = {});
 

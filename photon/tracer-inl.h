@@ -1,16 +1,19 @@
 #pragma once
 // How photons walk. Included by tracer.h only.
 //
-// A group of photons takes each step together: first all its rays are traced, then what can be computed side
-// by side is (random numbers, and all of the commonest vertices: DiffuseLanes), then each photon leaves its
-// record and goes on by itself.
+// Photons wait in eight queues, one for each octant of ray directions. A group from one queue takes a step
+// together: its rays are traced in packets, what can be computed side by side is (random numbers, and all of
+// the commonest vertices: DiffuseLanes), each leaves its record, and those that go on join the queues again.
+// New photons are emitted when no queue holds a whole group, so packets are full and their rays alike until
+// the last photons are under way.
 
 #include <cmath>
-#include <new>
+#include <memory>
 #include <type_traits>
 #include <variant>
 
 #include "photon/tracer.h"
+#include "photon/walker_queue.h"
 
 namespace kaustik::photon {
 
@@ -46,206 +49,235 @@ inline Vector3 unit(const Vector3& w) {
   return (1.5f - 0.5f * length_squared(w)) * w;
 }
 
-// What one photon has met, between vertices. Its ray and flux are columns of DiffuseLanes.
-struct Met {
-  bool specular = false, diffuse = false;
-
-  PhotonKind kind() const {
-    if (diffuse) return PhotonKind::kIndirect;
-    return specular ? PhotonKind::kCaustic : PhotonKind::kDirect;
-  }
-};
-
 // A photon at a vertex, for what is not computed in lanes.
 struct Arrival {
   Ray ray;
   Rgb flux;
 };
 
-// The keys of a stream's Sobol sets, which all photons share: made when first asked for.
-class StreamKeys {
- public:
-  explicit StreamKeys(uint64_t stream) : stream_(stream) {}
-  const SobolSetKeys& get(uint64_t upper_half, uint32_t set) {
-    if (upper_half != upper_half_) made_ = 0;
-    upper_half_ = upper_half;
-    if (set >= kKept) return last_ = sobol_set_keys(stream_, upper_half, set);
-    for (; made_ <= set; ++made_) keys_[made_] = sobol_set_keys(stream_, upper_half, made_);
-    return keys_[set];
-  }
-
- private:
-  static constexpr uint32_t kKept = 20;
-  uint64_t stream_, upper_half_ = 0;
-  uint32_t made_ = 0;
-  std::array<SobolSetKeys, kKept> keys_;
-  SobolSetKeys last_;
-};
-
-// A triangle mesh that the hit lies on, or null.
-inline const TriangleMesh* mesh_of(const Scene& scene, const Hit& hit) {
-  return hit.valid() ? std::get_if<TriangleMesh>(&scene.shapes[hit.shape].geometry) : nullptr;
+// The triangle mesh that a lane's hit lies on, or null.
+inline const TriangleMesh* mesh_of(const Scene& scene, const accel::HitLanes& hits, size_t k) {
+  return hits.valid(k) ? std::get_if<TriangleMesh>(&scene.shapes[hits.shape[k]].geometry) : nullptr;
 }
 
 // A hit names a triangle; its vertices lie two dependent loads away, often out of cache. Asking for all of a
-// group's before any is needed hides most of that wait.
-inline void prefetch_indices(const Scene& scene, const Hit& hit) {
-  if (const TriangleMesh* mesh = mesh_of(scene, hit)) __builtin_prefetch(&mesh->indices[hit.primitive]);
-}
-inline void prefetch_vertices(const Scene& scene, const Hit& hit) {
-  const TriangleMesh* mesh = mesh_of(scene, hit);
-  if (!mesh) return;
-  for (uint32_t vertex : mesh->indices[hit.primitive]) {
-    __builtin_prefetch(&mesh->P[vertex]);
-    if (!mesh->N.empty()) __builtin_prefetch(&mesh->N[vertex]);
+// group's before any is needed hides most of that wait. Inlined always: GCC 12 takes a function that only
+// prefetches for one without effects, and drops the call.
+[[gnu::always_inline]] inline void prefetch_triangles(const Scene& scene, const accel::HitLanes& hits,
+                                                      size_t count) {
+  for (size_t k = 0; k < count; ++k) {
+    if (const auto* mesh = mesh_of(scene, hits, k)) __builtin_prefetch(&mesh->indices[hits.primitive[k]]);
+  }
+  for (size_t k = 0; k < count; ++k) {
+    const TriangleMesh* mesh = mesh_of(scene, hits, k);
+    if (!mesh) continue;
+    for (uint32_t vertex : mesh->indices[hits.primitive[k]]) {
+      __builtin_prefetch(&mesh->P[vertex]);
+      if (!mesh->N.empty()) __builtin_prefetch(&mesh->N[vertex]);
+    }
   }
 }
 
-// Walks one group after the other.
+// In packets, where the tree knows them.
+template <class Accel>
+void intersect_lanes(const Accel& bvh, const accel::RayLanes& rays, size_t count, accel::HitLanes* hits) {
+  if constexpr (requires { bvh.intersect(rays, count, hits); }) {
+    bvh.intersect(rays, count, hits);
+  } else {
+    for (size_t k = 0; k < count; ++k) hits->set(k, bvh.intersect(rays.get(k)));
+  }
+}
+
+// Walks photons whose indices agree in their upper halves.
 template <class Accel, class Sink>
 class Tracer {
  public:
-  Tracer(const Scene& scene, const Accel& bvh, const TraceSettings& settings, Sink& sink,
+  Tracer(const Scene& scene, const Accel& bvh, const TraceSettings& settings, uint64_t upper_half, Sink& sink,
          TraceCounters& counters)
       : scene_(scene),
         bvh_(bvh),
         settings_(settings),
         sink_(sink),
         counters_(counters),
-        keys_(photon_stream(settings)) {}
+        keys_(photon_stream(settings), upper_half) {}
 
-  // Photons first .. first + count - 1, at most kGroupSize, whose indices agree in their upper halves.
-  void trace_group(uint64_t first, size_t count) {
+  void trace(uint64_t first, uint64_t end) {
     if (settings_.max_bounces < 1) {
-      counters_.emitted += count;
+      counters_.emitted += end - first;
       return;
     }
-    size_t alive = start(first, count);
-    for (int vertex = 1; alive > 0; ++vertex) {
-      follow_rays(alive);
-      const bool last = vertex >= settings_.max_bounces;
-      const bool all_in_lanes = fill_lanes(alive);
-      if (!last) {
-        // Diffuse reflection does without the fourth number.
-        draw(first >> 32, kFirstVertexSet + static_cast<uint32_t>(vertex - 1), alive, all_in_lanes ? 3 : 4,
-             numbers_);
+    for (;;) {
+      WalkerQueue& queue = fullest();
+      if (queue.size() >= kGroupSize) {
+        step(queue, kGroupSize);
+      } else if (first < end) {
+        const uint64_t count = std::min(kGroupSize, end - first);
+        emit(first, static_cast<size_t>(count));
+        first += count;
+      } else if (queue.size() > 0) {
+        step(queue, queue.size());
+      } else {
+        return;
       }
-      locate_lanes(lanes_, alive);
-      if (settings_.kinds.indirect && !last) scatter_lanes(lanes_, numbers_, alive);
-      for (size_t k = 0; k < alive; ++k) goes_on_[k] = arrive(k, last);
-      alive = close_ranks(alive);
     }
   }
 
  private:
-  // Those that go on move up, to the segments that they go on along; returns how many they are. All are moved
-  // and some counted: nobody could predict a branch on that.
-  size_t close_ranks(size_t alive) {
-    size_t going_on = 0;
-    for (size_t k = 0; k < alive; ++k) {
-      lanes_.move(k, going_on);
-      reversed_indices_[going_on] = reversed_indices_[k];
-      met_[going_on] = met_[k];
-      going_on += goes_on_[k];
-    }
-    return going_on;
-  }
-
   static constexpr uint32_t kFirstVertexSet = kEmissionDimensions / 4;
   static_assert(kVertexDimensions == 4 && kEmissionDimensions % 4 == 0, "a vertex has one Sobol set");
+  static constexpr uint8_t kNothing = kPhotonKinds;  // left at a vertex
 
-  // From one Sobol set for the first `count` walks.
-  void draw(uint64_t upper_half, uint32_t set, size_t count, int dimensions, SobolLanes& numbers) {
-    draw_sobol_lanes(keys_.get(upper_half, set), reversed_indices_.data(), count, dimensions, &numbers);
+  WalkerQueue& fullest() {
+    WalkerQueue* best = &queues_[0];
+    for (WalkerQueue* q = best + 1; q < &queues_[8]; ++q) best = q->size() > best->size() ? q : best;
+    return *best;
+  }
+  WalkerQueue& queue_of(const Vector3& d) { return queues_[WalkerQueue::octant(d)]; }
+
+  // From one Sobol set for all of the first `count` lanes.
+  void draw_from(uint32_t set, size_t count, int dimensions, SobolLanes& numbers) {
+    sets_.fill(set);
+    keys_.make(set);
+    draw_sobol_lanes(keys_, sets_.data(), reversed_indices_.data(), count, dimensions, &numbers);
   }
 
-  // Emits; returns how many have something to carry.
-  size_t start(uint64_t first, size_t count) {
+  void emit(uint64_t first, size_t count) {
     counters_.emitted += count;
     for (size_t k = 0; k < count; ++k) reversed_indices_[k] = reverse_bits(static_cast<uint32_t>(first + k));
-    SobolLanes lamp;
-    draw(first >> 32, 0, count, 4, numbers_);
-    if (scene_.lights.size() > 1) draw(first >> 32, 1, count, 3, lamp);
-    size_t alive = 0;
-    for (size_t k = 0; k < count; ++k) {
-      const auto& u = numbers_.u;
-      const float u_lamp = scene_.lights.size() > 1 ? lamp.u[0][k] : 0;
-      const auto sample = emit_photon(scene_, {{u[0][k], u[1][k]}, {u[2][k], u[3][k]}, u_lamp},
-                                      settings_.photons, settings_.emission);
-      if (!sample || is_black(sample->flux) || !valid(sample->flux)) continue;
-      reversed_indices_[alive] = reversed_indices_[k];
-      lanes_.set_segment(alive, sample->ray, sample->flux);
-      met_[alive++] = {};
+    if (scene_.lights.size() > 1) {
+      draw_from(1, count, 3, numbers_);
+      std::copy_n(numbers_.u[0], count, starts_.u_lamp);
     }
-    return alive;
+    draw_from(0, count, 4, starts_.position_direction);
+    emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_);
+    for (size_t k = 0; k < count; ++k) {
+      const Rgb flux = DiffuseLanes::get(starts_.flux, k);
+      if (!starts_.emitted[k] || is_black(flux) || !valid(flux)) continue;
+      const Ray ray = starts_.ray.get(k);
+      queue_of(ray.d).push(ray.o, ray.d, flux, reversed_indices_[k], {});
+    }
   }
 
-  void follow_rays(size_t alive) {
-    counters_.rays += alive;
-    // Rays are laid down well before they are read, and hits made in place: wide reads of what narrow writes
-    // have just left wait until those are through.
-    for (size_t k = 0; k < alive; ++k) rays_[k] = ray(k);
-    for (size_t k = 0; k < alive; ++k) {
-      ::new (&hits_[k]) Hit(bvh_.intersect(rays_[k]));
-      prefetch_indices(scene_, hits_[k]);
+  void step(WalkerQueue& queue, size_t count) {
+    queue.take(count, lanes_, reversed_indices_.data(), states_.data());
+    intersect_lanes(bvh_, lanes_.ray, count, &lanes_.hit);
+    prefetch_triangles(scene_, lanes_.hit, count);
+    const bool all_in_lanes = fill_lanes(count);
+    locate_lanes(lanes_, count);
+    if (settings_.kinds.indirect || !all_in_lanes) draw_vertex_numbers(count, all_in_lanes ? 3 : 4);
+    if (settings_.kinds.indirect) scatter_lanes(lanes_, numbers_, count);
+    for (size_t k = 0; k < count; ++k) arrive(k);
+    leave_photons_of_lanes(count);
+    for (size_t k = 0; k < count; ++k) {
+      const Vector3 d = DiffuseLanes::get(lanes_.next.d, k);
+      queue_of(d).push(DiffuseLanes::get(lanes_.next.o, k), d, DiffuseLanes::get(lanes_.next_flux, k),
+                       reversed_indices_[k], states_[k], goes_on_[k]);
     }
-    for (size_t k = 0; k < alive; ++k) prefetch_vertices(scene_, hits_[k]);
+  }
+
+  // Diffuse reflection does without the fourth number.
+  void draw_vertex_numbers(size_t count, int dimensions) {
+    uint32_t last = 0;
+    for (size_t k = 0; k < count; ++k) {
+      // Straight rays use none.
+      sets_[k] = kFirstVertexSet + (states_[k].is_straight() ? 0 : states_[k].rays());
+      last = std::max(last, sets_[k]);
+    }
+    std::fill(sets_.begin() + static_cast<std::ptrdiff_t>(count), sets_.end(), kFirstVertexSet);
+    keys_.make(last);
+    draw_sobol_lanes(keys_, sets_.data(), reversed_indices_.data(), count, dimensions, &numbers_);
   }
 
   // Hands the vertices that lanes_ can hold over to it and marks them in in_lanes_; true when it can hold
   // all.
-  bool fill_lanes(size_t alive) {
+  bool fill_lanes(size_t count) {
     bool all = true;
-    for (size_t k = 0; k < alive; ++k) {
-      const Hit& hit = hits_[k];
+    for (size_t k = 0; k < count; ++k) {
       in_lanes_[k] = false;
-      if (!hit.valid()) continue;
-      const Shape& shape = scene_.shapes[hit.shape];
+      if (!lanes_.hit.valid(k)) continue;
+      const Shape& shape = scene_.shapes[lanes_.hit.shape[k]];
       const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
       const auto* bsdf = std::get_if<Lambertian>(&scene_.materials[shape.material]);
       in_lanes_[k] = mesh && bsdf && mesh->N.empty();
       all &= in_lanes_[k];
       if (!in_lanes_[k]) continue;
-      lanes_.set_vertex(k, *mesh, shape.flip_normal, hit, bsdf->reflectance);
+      lanes_.set_vertex(k, *mesh, shape.flip_normal, bsdf->reflectance);
+      surface_groups_[k] = shape.surface_group;
     }
     return all;
   }
 
-  // Photon k at its vertex: deposit, then scatter into next_*. False when its life ends here.
-  bool arrive(size_t k, bool last) {
-    if (!hits_[k].valid()) return false;
-    if (in_lanes_[k] && !leaves_shadows(k)) return leave_photon_of_lane(k) && !last && survives_in_lane(k);
-    const Arrival photon{rays_[k], DiffuseLanes::get(lanes_.flux, k)};
-    const SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, hits_[k]);
-    return std::visit(
+  // Photon k at its vertex: what it leaves, and whether and how it goes on, in goes_on_, states_ and the next
+  // segment of lanes_.
+  void arrive(size_t k) {
+    const bool straight = states_[k].is_straight();
+    ++(straight ? counters_.shadow_rays : counters_.rays);
+    left_[k] = kNothing;
+    goes_on_[k] = false;
+    if (!lanes_.hit.valid(k)) return;
+    if (in_lanes_[k]) return arrive_in_lane(k);
+    const Arrival photon{lanes_.ray.get(k), DiffuseLanes::get(lanes_.flux, k)};
+    const SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
+    std::visit(
         [&]<class B>(const B& bsdf) {
-          return (B::kSpecular ? meet_specular(k) : leave_photon(k, si, photon)) && !last &&
-                 scatter(k, bsdf, si, photon);
+          if (!B::kSpecular) leave_photon(k, si, photon);
+          if (straight) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
+          const bool wanted = settings_.kinds.indirect || (B::kSpecular && settings_.kinds.caustic);
+          goes_on_[k] = wanted && !is_last(k) && scatter(k, bsdf, si, photon);
+          states_[k] = B::kSpecular ? states_[k].behind_specular() : states_[k].behind_diffuse();
         },
         scene_.bsdf(si));
   }
 
-  Ray ray(size_t k) const { return {DiffuseLanes::get(lanes_.o, k), DiffuseLanes::get(lanes_.d, k)}; }
-  bool leaves_shadows(size_t k) const {
-    return settings_.kinds.shadow && met_[k].kind() == PhotonKind::kDirect;
-  }
-
-  // leave_photon() for what lanes_ has computed. The flux was found valid when it was made.
-  bool leave_photon_of_lane(size_t k) {
-    const PhotonKind kind = met_[k].kind();
+  // The same for what lanes_ has computed. The flux was found valid when it was made.
+  void arrive_in_lane(size_t k) {
+    const PhotonKind kind = states_[k].kind();
     if (settings_.kinds[kind] && lanes_.cos_in[k] != 0) {
-      ++counters_.stored[static_cast<size_t>(kind)];
-      sink_(kind, Photon{DiffuseLanes::get(lanes_.p, k), -DiffuseLanes::get(lanes_.d, k),
-                         DiffuseLanes::get(lanes_.flux, k), DiffuseLanes::get(lanes_.facing, k),
-                         scene_.shapes[hits_[k].shape].surface_group});
+      left_[k] = static_cast<uint8_t>(kind);
+      ++counters_.stored[left_[k]];
     }
-    met_[k].diffuse = true;
-    return settings_.kinds.indirect;
+    if (settings_.kinds.shadow && (kind == PhotonKind::kDirect || kind == PhotonKind::kShadow)) {
+      const Vector3 d = DiffuseLanes::get(lanes_.ray.d, k);
+      const Ray on{
+          offset_origin(DiffuseLanes::get(lanes_.p, k), lanes_.p_error[k], DiffuseLanes::get(lanes_.n, k), d),
+          d};
+      const Rgb flux = DiffuseLanes::get(lanes_.flux, k);
+      if (kind == PhotonKind::kShadow) return go_straight_on(k, on, flux);
+      start_straight(k, on, flux);
+    }
+    if (settings_.kinds.indirect && !is_last(k)) {
+      counters_.dropped_invalid += lanes_.fate[k] == DiffuseLanes::kInvalid;
+      goes_on_[k] = lanes_.fate[k] == DiffuseLanes::kAlive;
+    }
+    states_[k] = states_[k].behind_diffuse();
   }
 
-  bool survives_in_lane(size_t k) {
-    counters_.dropped_invalid += lanes_.fate[k] == DiffuseLanes::kInvalid;
-    return lanes_.fate[k] == DiffuseLanes::kAlive;
+  bool is_last(size_t k) const {
+    return states_[k].rays() + 1 >= static_cast<uint32_t>(settings_.max_bounces);
+  }
+
+  // The straight ray behind the first surface.
+  void start_straight(size_t k, const Ray& on, const Rgb& flux) {
+    queue_of(on.d).push(on.o, on.d, flux, reversed_indices_[k], WalkState::straight());
+  }
+  void go_straight_on(size_t k, const Ray& on, const Rgb& flux) {
+    lanes_.set_next(k, on, flux);
+    states_[k] = states_[k].behind_any();
+    goes_on_[k] = states_[k].rays() < kMaxStraightSurfaces;
+  }
+
+  void leave_photons_of_lanes(size_t count) {
+    if constexpr (requires { sink_(lanes_, left_.data(), surface_groups_.data(), count); }) {
+      sink_(lanes_, left_.data(), surface_groups_.data(), count);
+    } else {
+      for (size_t k = 0; k < count; ++k) {
+        if (left_[k] == kNothing) continue;
+        sink_(static_cast<PhotonKind>(left_[k]),
+              Photon{DiffuseLanes::get(lanes_.p, k), -DiffuseLanes::get(lanes_.ray.d, k),
+                     DiffuseLanes::get(lanes_.flux, k), DiffuseLanes::get(lanes_.facing, k),
+                     surface_groups_[k]});
+      }
+    }
   }
 
   // Counts and refuses what must never reach a map.
@@ -255,37 +287,19 @@ class Tracer {
     return false;
   }
 
+  void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon) {
+    const PhotonKind kind = states_[k].kind();
+    if (settings_.kinds[kind]) record(kind, si, photon);
+    if (settings_.kinds.shadow && kind == PhotonKind::kDirect)
+      start_straight(k, si.spawn(photon.ray.d), photon.flux);
+  }
+
   void record(PhotonKind kind, const SurfaceInteraction& si, const Arrival& photon) {
     const Vector3 wi = -photon.ray.d;
     const Rgb deposit = shading_correction(si, wi, glm::dot(wi, si.ns)) * photon.flux;
     if (is_black(deposit) || !valid(deposit)) return;
     ++counters_.stored[static_cast<size_t>(kind)];
     sink_(kind, Photon{si.p, wi, deposit, glm::dot(wi, si.n) < 0 ? -si.n : si.n, si.surface_group});
-  }
-
-  // The straight ray behind the first surface.
-  void leave_shadows(SurfaceInteraction si, const Arrival& photon) {
-    for (int i = 0; i < kMaxStraightSurfaces; ++i) {
-      ++counters_.shadow_rays;
-      const Ray ray = si.spawn(photon.ray.d);
-      const Hit hit = bvh_.intersect(ray);
-      if (!hit.valid()) return;
-      si = make_interaction(scene_.shapes, ray, hit);
-      if (!is_specular(scene_.bsdf(si))) record(PhotonKind::kShadow, si, photon);
-    }
-  }
-
-  // At a vertex of either sort: false when nothing that is asked for can follow.
-  bool meet_specular(size_t k) {
-    met_[k].specular = true;
-    return settings_.kinds.caustic || settings_.kinds.indirect;
-  }
-  bool leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon) {
-    const PhotonKind kind = met_[k].kind();
-    if (settings_.kinds[kind]) record(kind, si, photon);
-    if (leaves_shadows(k)) leave_shadows(si, photon);
-    met_[k].diffuse = true;
-    return settings_.kinds.indirect;
   }
 
   // Samples the next direction and plays Russian roulette; false when the photon is absorbed. Numbers of the
@@ -307,9 +321,7 @@ class Tracer {
     if (is_black(next) || !valid(next)) return false;
     const float scale = roulette(photon.flux, next, u(kChoosesLobe<B> ? 3 : 2));
     if (scale == 0) return false;
-    DiffuseLanes::set(lanes_.next_o, k, si.spawn(wi).o);
-    DiffuseLanes::set(lanes_.next_d, k, wi);
-    DiffuseLanes::set(lanes_.next_flux, k, scale * next);
+    lanes_.set_next(k, si.spawn(wi), scale * next);
     return true;
   }
 
@@ -326,15 +338,19 @@ class Tracer {
   const TraceSettings& settings_;
   Sink& sink_;
   TraceCounters& counters_;
-  StreamKeys keys_;
-  // Of the group, step by step. Lanes nobody has set are zero, not leftovers of the stack: slow denormals.
-  std::array<uint32_t, kGroupSize> reversed_indices_{};  // lower halves of the photons' indices
-  std::array<Met, kGroupSize> met_;
-  std::array<Ray, kGroupSize> rays_;
-  std::array<Hit, kGroupSize> hits_;
-  std::array<bool, kGroupSize> in_lanes_{}, goes_on_{};
-  SobolLanes numbers_{};
+  SobolKeyTable keys_;
+  std::unique_ptr<WalkerQueue[]> queues_ = std::make_unique_for_overwrite<WalkerQueue[]>(8);
+  // Of the group that takes a step. Lanes nobody has set are zero, not leftovers of the stack: slow
+  // denormals.
   DiffuseLanes lanes_{};
+  SobolLanes numbers_{};
+  EmissionLanes starts_{};
+  std::array<uint32_t, kGroupSize> reversed_indices_{};            // lower halves of the photons' indices
+  std::array<uint32_t, kGroupSize> sets_{};                        // Sobol sets to draw from
+  alignas(64) std::array<uint32_t, kGroupSize> surface_groups_{};  // where in lanes
+  std::array<WalkState, kGroupSize> states_;
+  std::array<bool, kGroupSize> in_lanes_{}, goes_on_{};
+  std::array<uint8_t, kGroupSize> left_{};  // kind of the photon left by a vertex in lanes, or kNothing
 };
 
 }  // namespace detail
@@ -342,13 +358,13 @@ class Tracer {
 template <class Accel, class Sink>
 void trace_photons(const Scene& scene, const Accel& bvh, const TraceSettings& settings, uint64_t first,
                    uint64_t end, Sink&& sink, TraceCounters& counters) {
-  detail::Tracer<Accel, std::remove_reference_t<Sink>> tracer(scene, bvh, settings, sink, counters);
   constexpr uint64_t kHalf = uint64_t{1} << 32;
   while (first < end) {
-    const uint64_t same_upper_half = kHalf - first % kHalf;
-    const uint64_t count = std::min({kGroupSize, end - first, same_upper_half});
-    tracer.trace_group(first, static_cast<size_t>(count));
-    first += count;
+    const uint64_t stop = std::min(end, (first / kHalf + 1) * kHalf);
+    detail::Tracer<Accel, std::remove_reference_t<Sink>> tracer(scene, bvh, settings, first / kHalf, sink,
+                                                                counters);
+    tracer.trace(first, stop);
+    first = stop;
   }
 }
 

@@ -17,7 +17,7 @@
 
 #include "accel/bvh.h"
 #include "photon/diffuse_lanes.h"
-#include "photon/emission.h"
+#include "photon/emission_lanes.h"
 #include "photon/photon.h"
 
 namespace kaustik::photon {
@@ -61,16 +61,19 @@ inline constexpr uint32_t kEmissionDimensions = 8;
 inline constexpr uint32_t kVertexDimensions = 4;
 
 // A straight ray leaves at most so many shadow photons: no scene in use comes near.
-inline constexpr int kMaxStraightSurfaces = 1 << 16;
+inline constexpr uint32_t kMaxStraightSurfaces = 1 << 16;
 
-// Photons that walk side by side.
+// Photons that take a step side by side.
 inline constexpr uint64_t kGroupSize = DiffuseLanes::kLanes;
 
 // Traces photons first ... end - 1 of settings.photons and calls sink(PhotonKind, const Photon&) for each
-// photon of a kind in settings.kinds. Photons walk in groups of kGroupSize counted from `first`, a vertex of
-// each in turn: that is the order of the calls. What a photon leaves is a pure function of (scene, settings,
-// index), save that a kind that is not asked for may shorten its path: the photons of the other kinds do not
-// change. Photons without flux are not handed over; those of invalid flux are counted. counters are added to.
+// photon of a kind in settings.kinds. A sink may also be called with whole lanes: see RecordSink. The order
+// of the calls is a pure function of (scene, settings, first, end). What a photon leaves is one of (scene,
+// settings, index), save that
+//   - a kind that is not asked for may shorten its path: the photons of the other kinds do not change;
+//   - of two surfaces met at exactly the same distance, as by a ray through an edge, the photons that are
+//     traced beside it may decide which one is named.
+// Photons without flux are not handed over; those of invalid flux are counted. counters are added to.
 // Accel: accel::Bvh or anything with its Hit intersect(const Ray&) const. Thread-safe.
 template <class Accel, class Sink>
 void trace_photons(const Scene& scene, const Accel& bvh, const TraceSettings& settings, uint64_t first,

@@ -36,11 +36,11 @@ HWY_INLINE Vu ReverseBits(Vu x) {
 #endif
 
 // laine_karras() of each lane.
-HWY_INLINE Vu LaineKarras(Vu x, uint32_t seed) {
+HWY_INLINE Vu LaineKarras(Vu x, Vu seed) {
   const Words d;
   x = hn::Xor(x, hn::Mul(x, hn::Set(d, 0x3d20adeau)));
-  x = hn::Add(x, hn::Set(d, seed));
-  x = hn::Mul(x, hn::Set(d, (seed >> 16) | 1u));
+  x = hn::Add(x, seed);
+  x = hn::Mul(x, hn::Or(hn::ShiftRight<16>(seed), hn::Set(d, 1u)));
   x = hn::Xor(x, hn::Mul(x, hn::Set(d, 0x05526c56u)));
   return hn::Xor(x, hn::Mul(x, hn::Set(d, 0x53a22864u)));
 }
@@ -90,7 +90,7 @@ HWY_INLINE void SobolByColumns(Vu index, Vu (&sums)[2]) {
   }
 }
 
-HWY_INLINE void StoreCanonical(Vu reversed, uint32_t key, float* u) {
+HWY_INLINE void StoreCanonical(Vu reversed, Vu key, float* u) {
   const hn::RebindToFloat<Words> f;
   const hn::RebindToSigned<Words> s;
   const Vu bits = hn::ShiftRight<8>(ReverseBits(LaineKarras(reversed, key)));
@@ -98,24 +98,28 @@ HWY_INLINE void StoreCanonical(Vu reversed, uint32_t key, float* u) {
 }
 
 template <int kDimensions>
-HWY_INLINE void Draw(const SobolSetKeys& keys, const uint32_t* reversed_index, size_t count,
-                     SobolLanes& numbers) {
+HWY_INLINE void Draw(const SobolKeyTable& keys, const uint32_t* set, const uint32_t* reversed_index,
+                     size_t count, SobolLanes& numbers) {
   const Words d;
+  const hn::RebindToSigned<Words> s;
+  static_assert(SobolKeyTable::kRowWords == 8);
   for (size_t k = 0; k < count; k += hn::Lanes(d)) {
-    const Vu index = ReverseBits(LaineKarras(hn::LoadU(d, reversed_index + k), keys.index));
+    const auto row = hn::BitCast(s, hn::ShiftLeft<3>(hn::LoadU(d, set + k)));
+    const auto key = [&](int word) HWY_ATTR { return hn::GatherIndex(d, keys.words() + word, row); };
+    const Vu index = ReverseBits(LaineKarras(hn::LoadU(d, reversed_index + k), key(0)));
     Vu by_columns[2];
     SobolByColumns<kDimensions - 2>(index, by_columns);
-    StoreCanonical(index, keys.dimensions[0], numbers.u[0] + k);
-    StoreCanonical(SobolPascal(index), keys.dimensions[1], numbers.u[1] + k);
-    StoreCanonical(by_columns[0], keys.dimensions[2], numbers.u[2] + k);
-    if (kDimensions > 3) StoreCanonical(by_columns[1], keys.dimensions[3], numbers.u[3] + k);
+    StoreCanonical(index, key(1), numbers.u[0] + k);
+    StoreCanonical(SobolPascal(index), key(2), numbers.u[1] + k);
+    StoreCanonical(by_columns[0], key(3), numbers.u[2] + k);
+    if (kDimensions > 3) StoreCanonical(by_columns[1], key(4), numbers.u[3] + k);
   }
 }
 
-void DrawSobolLanes(const SobolSetKeys& keys, const uint32_t* reversed_index, size_t count, int dimensions,
-                    SobolLanes* numbers) {
-  if (dimensions > 3) return Draw<4>(keys, reversed_index, count, *numbers);
-  Draw<3>(keys, reversed_index, count, *numbers);
+void DrawSobolLanes(const SobolKeyTable& keys, const uint32_t* set, const uint32_t* reversed_index,
+                    size_t count, int dimensions, SobolLanes* numbers) {
+  if (dimensions > 3) return Draw<4>(keys, set, reversed_index, count, *numbers);
+  Draw<3>(keys, set, reversed_index, count, *numbers);
 }
 
 }  // namespace kaustik::HWY_NAMESPACE
@@ -126,9 +130,10 @@ namespace kaustik {
 
 HWY_EXPORT(DrawSobolLanes);
 
-void draw_sobol_lanes(const SobolSetKeys& keys, const uint32_t reversed_index[kSobolLanes], size_t count,
-                      int dimensions, SobolLanes* numbers) {
-  HWY_DYNAMIC_DISPATCH(DrawSobolLanes)(keys, reversed_index, count, dimensions, numbers);
+void draw_sobol_lanes(const SobolKeyTable& keys, const uint32_t set[kSobolLanes],
+                      const uint32_t reversed_index[kSobolLanes], size_t count, int dimensions,
+                      SobolLanes* numbers) {
+  HWY_DYNAMIC_DISPATCH(DrawSobolLanes)(keys, set, reversed_index, count, dimensions, numbers);
 }
 
 }  // namespace kaustik

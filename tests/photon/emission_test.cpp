@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
+#include "photon/emission_lanes.h"
 #include "tests/photon/trace_scenes.h"
 
 namespace kaustik::photon {
@@ -129,6 +132,71 @@ TEST(Emission, NothingWithoutLampsOrPower) {
   EXPECT_TRUE(emit_all(dark).samples.empty());
   const Emitted black = emit_all(with_light(PointLight{{0, 0, 0}, Rgb(0)}));
   EXPECT_EQ(black.sum, glm::dvec3(0));
+}
+
+// Several kinds of lamp side by side, a two-sided one of many triangles among them.
+Scene many_lamps() {
+  Scene scene = testing::lit_room(Rgb(0.5f), {1, 2, 3});
+  TriangleMesh mesh;
+  for (int i = 0; i <= 40; ++i) {
+    const float x = -0.5f + 0.025f * float(i);
+    mesh.P.push_back({x, 0.1f * std::sin(9 * x), -0.2f});
+    mesh.P.push_back({x, 0.1f * std::sin(7 * x), 0.2f});
+  }
+  for (uint32_t i = 0; i + 3 < mesh.P.size(); ++i) mesh.indices.push_back({i, i + 1, i + 2});
+  Shape shape;
+  shape.geometry = mesh;
+  scene.lights.emplace_back(*DiffuseAreaLight::make(shape, {3, 1, 2}, true));
+  scene.lights.emplace_back(*DiffuseAreaLight::make(testing::sphere({0, 0.5f, 0}, 0.1f, 0), Rgb(5), false));
+  scene.lights.emplace_back(PointLight{{0.1f, 0.2f, 0.3f}, {1, 2, 3}});
+  scene.lights.emplace_back(DistantLight{glm::normalize(Vector3(1, 2, 3)), {1, 1, 2}});
+  finalize_scene(scene);
+  return scene;
+}
+
+void expect_lanes_are_emit_photon(const Scene& scene, EmissionMode mode) {
+  auto lanes = std::make_unique<EmissionLanes>();
+  uint64_t in_any = 0;
+  for (const size_t count : {size_t{1}, size_t{37}, DiffuseLanes::kLanes}) {
+    for (uint64_t first = 0; first < 2048; first += DiffuseLanes::kLanes) {
+      std::vector<std::optional<EmissionSample>> expected;
+      for (size_t k = 0; k < count; ++k) {
+        Sampler sampler(7, first + k);
+        const EmissionNumbers u = emission_numbers(scene, sampler);
+        const float numbers[] = {u.position.x, u.position.y, u.direction.x, u.direction.y};
+        for (int d = 0; d < 4; ++d) lanes->position_direction.u[d][k] = numbers[d];
+        lanes->u_lamp[k] = u.lamp;
+        expected.push_back(emit_photon(scene, u, kCount, mode));
+      }
+      emit_lanes(scene, kCount, mode, count, *lanes);
+      for (size_t k = 0; k < count; ++k) {
+        ASSERT_EQ(lanes->emitted[k] != 0, expected[k].has_value());
+        if (!expected[k]) continue;
+        ++in_any;
+        ASSERT_EQ(lanes->ray.get(k).o, expected[k]->ray.o);
+        ASSERT_EQ(lanes->ray.get(k).d, expected[k]->ray.d);
+        ASSERT_EQ(DiffuseLanes::get(lanes->flux, k), expected[k]->flux);
+      }
+    }
+  }
+  EXPECT_GT(in_any, 3000u);
+}
+
+TEST(EmissionLanes, AreEmitPhotonBitForBit) {
+  for (const EmissionMode mode : {EmissionMode::kCosine, EmissionMode::kUniformAngle}) {
+    expect_lanes_are_emit_photon(testing::lit_room(Rgb(0.5f), {1, 2, 3}), mode);
+    expect_lanes_are_emit_photon(with_light(PointLight{{0, 0, 0}, {1, 2, 3}}), mode);
+    expect_lanes_are_emit_photon(many_lamps(), mode);
+  }
+}
+
+TEST(EmissionLanes, DarkScenesEmitNothing) {
+  Scene dark;
+  finalize_scene(dark);
+  auto lanes = std::make_unique<EmissionLanes>();
+  lanes->emitted[3] = 1;
+  emit_lanes(dark, kCount, EmissionMode::kCosine, 8, *lanes);
+  for (size_t k = 0; k < 8; ++k) EXPECT_EQ(lanes->emitted[k], 0);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "core/bsdf/lambertian.h"
 #include "photon/diffuse_lanes.h"
-#include "photon/packing_lanes.h"
+#include "photon/record_sink.h"
 #include "tests/photon/photon_sets.h"
 
 namespace kaustik::photon {
@@ -45,8 +45,11 @@ Vertices make_vertices(uint64_t seed) {
 void fill(const Vertices& v, DiffuseLanes& lanes) {
   for (size_t k = 0; k < DiffuseLanes::kLanes; ++k) {
     const auto& mesh = std::get<TriangleMesh>(v.shapes[k].geometry);
-    lanes.set_segment(k, {Point3(0), v.d[k]}, v.flux[k]);
-    lanes.set_vertex(k, mesh, v.shapes[k].flip_normal, v.hits[k], v.reflectance[k]);
+    DiffuseLanes::set(lanes.ray.o, k, Point3(0));
+    DiffuseLanes::set(lanes.ray.d, k, v.d[k]);
+    DiffuseLanes::set(lanes.flux, k, v.flux[k]);
+    lanes.hit.set(k, v.hits[k]);
+    lanes.set_vertex(k, mesh, v.shapes[k].flip_normal, v.reflectance[k]);
   }
 }
 
@@ -81,8 +84,8 @@ void expect_scattered(const DiffuseLanes& lanes, const Vertices& v, const float 
   if (!alive) return;
   const Vector3 w = frame.to_world(sample->wi);
   const Vector3 wi = (1.5f - 0.5f * length_squared(w)) * w;
-  ASSERT_EQ(DiffuseLanes::get(lanes.next_d, k), wi);
-  ASSERT_EQ(DiffuseLanes::get(lanes.next_o, k), si.spawn(wi).o);
+  ASSERT_EQ(DiffuseLanes::get(lanes.next.d, k), wi);
+  ASSERT_EQ(DiffuseLanes::get(lanes.next.o, k), si.spawn(wi).o);
   ASSERT_EQ(DiffuseLanes::get(lanes.next_flux, k), (after < before ? before / after : 1.0f) * next);
 }
 
@@ -140,6 +143,35 @@ TEST(RecordPacker, RecordsAreThoseOfPack) {
   packer.flush(records);
   ASSERT_EQ(records.size(), expected.size());
   EXPECT_EQ(std::memcmp(records.data(), expected.data(), records.size() * sizeof(PhotonRecord)), 0);
+}
+
+// Whole lanes and single photons end in the records that pack() makes of them.
+TEST(RecordSink, LanesAreThoseOfPack) {
+  const Vertices v = make_vertices(9);
+  DiffuseLanes lanes{};
+  fill(v, lanes);
+  locate_lanes(lanes, DiffuseLanes::kLanes);
+  alignas(64) uint32_t groups[DiffuseLanes::kLanes];
+  uint8_t kinds[DiffuseLanes::kLanes];
+  constexpr float kUnit = 0x1p-3f;
+  constexpr size_t kCount = 61;
+  RecordsByKind records, expected;
+  for (size_t k = 0; k < DiffuseLanes::kLanes; ++k) {
+    groups[k] = static_cast<uint32_t>(70000 * k);
+    kinds[k] = static_cast<uint8_t>(k % (kPhotonKinds + 1));  // every fifth leaves nothing
+    if (k >= kCount || kinds[k] == kPhotonKinds) continue;
+    const Photon photon{DiffuseLanes::get(lanes.p, k), -v.d[k], v.flux[k], DiffuseLanes::get(lanes.facing, k),
+                        groups[k]};
+    expected[kinds[k]].push_back(pack(photon, kUnit));
+  }
+  RecordSink sink(kUnit, records);
+  sink(lanes, kinds, groups, kCount);
+  sink.flush();
+  for (size_t k = 0; k < kPhotonKinds; ++k) {
+    ASSERT_EQ(records[k].size(), expected[k].size());
+    EXPECT_EQ(std::memcmp(records[k].data(), expected[k].data(), records[k].size() * sizeof(PhotonRecord)),
+              0);
+  }
 }
 
 }  // namespace

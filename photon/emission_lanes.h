@@ -1,0 +1,29 @@
+#pragma once
+// Photon starts, many at once: lamps of triangles in SIMD lanes, the others one by one.
+
+#include "photon/diffuse_lanes.h"
+#include "photon/emission.h"
+
+namespace kaustik::photon {
+
+struct EmissionLanes {
+  using Column = DiffuseLanes::Column;
+
+  // In: the random numbers of emit_photon(). u_lamp is needed when there are several lamps.
+  SobolLanes position_direction;
+  Column u_lamp;
+
+  // Out: rays and fluxes as emit_photon() makes them; emitted is zero where it makes none.
+  accel::RayLanes ray;
+  alignas(64) Column flux[3];
+  int32_t emitted[DiffuseLanes::kLanes];
+
+  // Between: for lamps of triangles, the numbers left for the point and the direction, and the triangle
+  // chosen with its normal on the side that emits.
+  alignas(64) Column u[4], p0[3], e1[3], e2[3], n[3];
+};
+
+// The first `count` starts, bit for bit those of emit_photon() on every instruction set. Thread-safe.
+void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t count, EmissionLanes& lanes);
+
+}  // namespace kaustik::photon
