@@ -125,8 +125,8 @@ std::string info_text(const std::string& path, const Job& job) {
       fmt::format("{}: {}\nimage      {} x {}, {} samples per pixel\n", path, scene_summary(scene),
                   scene.camera.width, scene.camera.height, job.settings.render.spp);
   for (const Json& s : shapes_json(scene)) {
-    text += fmt::format("shape      {} x {}, {} primitives\n", s["shapes"].get<uint64_t>(),
-                        s["type"].get<std::string>(), grouped(s["primitives"].get<uint64_t>()));
+    text += fmt::format("shape      {} x {}, {}\n", s["shapes"].get<uint64_t>(), s["type"].get<std::string>(),
+                        counted(s["primitives"].get<uint64_t>(), "primitive"));
   }
   text +=
       fmt::format("bounds     {} to {} m\n", triple_text(scene.bounds.min), triple_text(scene.bounds.max));
@@ -139,8 +139,9 @@ std::string info_text(const std::string& path, const Job& job) {
     text += fmt::format("light      {}, power {} W\n", type_name(light), triple_text(power(light)));
   }
   for (const Json& g : groups_json(scene)) {
-    text += fmt::format("surface    {}: {} shapes share their photons\n", g["name"].get<std::string>(),
-                        g["shapes"].get<uint64_t>());
+    const uint64_t shapes = g["shapes"].get<uint64_t>();
+    text += fmt::format("surface    {}: {}{}\n", g["name"].get<std::string>(), counted(shapes, "shape"),
+                        shapes > 1 ? " that share their photons" : "");
   }
   for (const std::string& line : scene.needs.left_out()) text += fmt::format("left out   {}\n", line);
   for (const std::string& note : render::make_plan(job.settings.render, scene.needs).notes) {

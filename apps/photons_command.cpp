@@ -13,6 +13,7 @@
 #include "apps/scene_loading.h"
 #include "apps/thread_limit.h"
 #include "core/diagnostics/nearest_name.h"
+#include "photon/memory_forecast.h"
 #include "photon/ply_export.h"
 #include "photon/shoot.h"
 #include "render/image_io.h"
@@ -82,6 +83,7 @@ int shoot_and_write(const Options& options, const photon::KindMask& mask, const 
                                     .max_bounces = settings.max_bounces,
                                     .emission = settings.emission,
                                     .kinds = mask};
+  photon::check_memory(job.scene, bvh, trace, photon::PhotonUse::kRecords, settings.photon_memory);
   photon::ShootResult shot;
   {
     ProgressBar bar(console);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 
 #include "apps/commands.h"
@@ -11,11 +10,12 @@
 #include "apps/exit_error.h"
 #include "apps/interrupt.h"
 #include "apps/output_files.h"
+#include "apps/render_job.h"
 #include "apps/scene_loading.h"
+#include "apps/stopwatch.h"
 #include "apps/thread_limit.h"
 #include "render/image_io.h"
 #include "render/names.h"
-#include "render/statistics_json.h"
 
 namespace kaustik::app {
 
@@ -28,16 +28,6 @@ struct RenderOptions {
   SettingOverrides overrides;
 };
 
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 // What -o says, or the scene's Film "filename", or the scene's name as EXR in the working directory.
 std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job) {
   if (!options.outputs.empty()) return options.outputs;
@@ -48,24 +38,14 @@ std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job
   return {name};
 }
 
-struct Outcome {
-  render::RenderResult result;
-  render::OuterTimes times;
-};
-
-Outcome render_job(const Job& job, const InterruptGuard& interrupt, const Console& console) {
-  Outcome outcome;
+RenderOutcome render_with_bar(const Job& job, const InterruptGuard& interrupt, const Console& console) {
   const render::EstimatorPlan plan = render::make_plan(job.settings.render, job.scene.needs);
   for (const std::string& note : plan.notes) console.note(note);
-  const Stopwatch bvh_watch;
-  const accel::Bvh bvh(job.scene, job.settings.render.threads);
-  outcome.times.bvh = bvh_watch.seconds();
   ProgressBar bar(console);
-  outcome.result = render::render(job.scene, bvh, job.settings.render, [&](const render::Progress& progress) {
+  return render_job(job.scene, job.settings.render, [&](const render::Progress& progress) {
     bar.update(progress);
     return !interrupt.requested();
   });
-  return outcome;
 }
 
 void write_outputs(const std::vector<std::string>& outputs, const Job& job,
@@ -122,7 +102,7 @@ int run_render(const RenderOptions& options, const Console& console) {
 
   int code = kDone;
   with_thread_limit(job.settings.render.threads, [&] {
-    Outcome outcome = render_job(job, interrupt, console);
+    RenderOutcome outcome = render_with_bar(job, interrupt, console);
     if (outcome.result.cancelled || interrupt.requested()) {
       console.error("interrupted; no picture was written");
       code = kInterrupted;

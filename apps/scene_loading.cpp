@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "apps/exit_error.h"
+#include "apps/usable_memory.h"
 
 namespace kaustik::app {
 
@@ -18,10 +20,18 @@ void print_diagnostics(const Diagnostics& diagnostics, const Console& console) {
 }
 
 [[noreturn]] void refuse_scene(const std::string& path, size_t errors) {
-  throw ExitError(kBadScene, fmt::format("{}: {} error{}", path, errors, errors == 1 ? "" : "s"));
+  throw ExitError(kBadScene, fmt::format("{}: {}", path, counted(errors, "error")));
 }
 
-// The scene could not be built: look at its settings too before giving up.
+bool names_place(const DiagnosticList& diagnostics, const SourceLocation& place) {
+  return std::any_of(diagnostics.entries().begin(), diagnostics.entries().end(), [&](const Diagnostic& d) {
+    return d.location.file == place.file && d.location.line == place.line &&
+           d.location.column == place.column;
+  });
+}
+
+// The scene could not be built: look at its settings too before giving up. What is out of range for the
+// scene's schema and for the setting that it becomes is said once.
 [[noreturn]] void report_broken_scene(const std::string& path, const Diagnostics& diagnostics,
                                       const Console& console) {
   print_diagnostics(diagnostics, console);
@@ -29,8 +39,13 @@ void print_diagnostics(const Diagnostics& diagnostics, const Console& console) {
   DiagnosticList settings_only;
   if (const auto description = pbrt::import_scene(path, again))
     settings_from_scene(*description, settings_only);
-  for (const Diagnostic& diagnostic : settings_only.entries()) console.err << again.format(diagnostic);
-  refuse_scene(path, diagnostics.error_count() + settings_only.error_count());
+  size_t errors = diagnostics.error_count();
+  for (const Diagnostic& diagnostic : settings_only.entries()) {
+    if (names_place(diagnostics, diagnostic.location)) continue;
+    console.err << again.format(diagnostic);
+    errors += diagnostic.severity == Severity::kError;
+  }
+  refuse_scene(path, errors);
 }
 
 // The image's size: the scene's, or the command line's with the missing side in proportion.
@@ -68,12 +83,13 @@ std::string grouped(uint64_t n) {
   return fmt::format("{},{:03}", grouped(n / 1000), n % 1000);
 }
 
+std::string counted(uint64_t n, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(n), noun, n == 1 ? "" : "s");
+}
+
 std::string scene_summary(const Scene& scene) {
   uint64_t primitives = 0;
   for (const Shape& shape : scene.shapes) primitives += primitive_count(shape);
-  const auto counted = [](uint64_t n, std::string_view noun) {
-    return fmt::format("{} {}{}", grouped(n), noun, n == 1 ? "" : "s");
-  };
   return fmt::format("{}, {}, {}, {}", counted(scene.shapes.size(), "shape"),
                      counted(primitives, "primitive"), counted(scene.materials.size(), "material"),
                      counted(scene.lights.size(), "light"));
@@ -90,6 +106,7 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
 
   Job job{.scene = std::move(loaded->scene), .settings = file.settings, .scene_output = file.output};
   overrides.apply(job.settings);
+  job.settings.render.photon_memory = usable_memory();
   resolve_size(file, job.settings.render, job.scene.camera);
   resolve_crop(file, overrides, job.scene.camera, job.settings.render, console);
   job.settings.render.width = job.scene.camera.width;

@@ -2,6 +2,7 @@
 // From a path to a scene that is ready to trace, with the settings that hold for it.
 
 #include <string>
+#include <string_view>
 
 #include "apps/console/console.h"
 #include "apps/import/pbrt_importer.h"
@@ -27,5 +28,8 @@ std::string scene_summary(const Scene& scene);
 
 // 1234567 as "1,234,567".
 std::string grouped(uint64_t n);
+
+// "1 shape", "1,234 shapes".
+std::string counted(uint64_t n, std::string_view noun);
 
 }  // namespace kaustik::app

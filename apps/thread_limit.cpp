@@ -2,13 +2,14 @@
 
 #include <OpenImageIO/imageio.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/task_arena.h>
+
+#include "apps/usable_cores.h"
 
 namespace kaustik::app {
 
 void with_thread_limit(int threads, const std::function<void()>& work) {
-  const int limit = threads > 0 ? threads : tbb::info::default_concurrency();
+  const int limit = threads > 0 ? threads : core_limits().usable();
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(limit));
   // Two pools of its own, one in OpenImageIO and one in OpenEXR: both off, or the sum would be above the
   // bound.

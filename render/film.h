@@ -28,13 +28,36 @@ struct PixelResult {
   Rgb radiance() const { return emitted + direct + caustic + indirect; }
 };
 
+// Sums over samples, in double: passes add to them.
+struct PixelSum {
+  glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
+  double depth = 0, photons = 0;
+  uint64_t count = 0;
+
+  void add(const PixelResult& s) {
+    emitted += s.emitted, direct += s.direct, caustic += s.caustic, indirect += s.indirect;
+    albedo += s.albedo, normal += s.normal, depth += s.depth, photons += s.photons;
+    ++count;
+  }
+  PixelResult mean() const {
+    PixelResult out;
+    if (count == 0) return out;
+    const double w = 1.0 / static_cast<double>(count);
+    out.emitted = Rgb(emitted * w), out.direct = Rgb(direct * w), out.caustic = Rgb(caustic * w);
+    out.indirect = Rgb(indirect * w), out.albedo = Rgb(albedo * w), out.normal = Vector3(normal * w);
+    out.depth = float(depth * w), out.photons = float(photons * w);
+    return out;
+  }
+};
+
 // A window of width x height pixels whose upper left corner is pixel (x0, y0) of an image of full_width x
 // full_height. at(x, y) counts from the window's corner.
-class Film {
+template <class Pixel>
+class PixelWindow {
  public:
-  Film() = default;
-  Film(int width, int height) : Film(width, height, 0, 0, width, height) {}
-  Film(int width, int height, int x0, int y0, int full_width, int full_height)
+  PixelWindow() = default;
+  PixelWindow(int width, int height) : PixelWindow(width, height, 0, 0, width, height) {}
+  PixelWindow(int width, int height, int x0, int y0, int full_width, int full_height)
       : width_(width),
         height_(height),
         x0_(x0),
@@ -48,14 +71,23 @@ class Film {
   int y0() const { return y0_; }
   int full_width() const { return full_width_; }
   int full_height() const { return full_height_; }
-  PixelResult& at(int x, int y) { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
-  const PixelResult& at(int x, int y) const { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
+  Pixel& at(int x, int y) { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
+  const Pixel& at(int x, int y) const { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
 
  private:
   int width_ = 0, height_ = 0;
   int x0_ = 0, y0_ = 0, full_width_ = 0, full_height_ = 0;
-  std::vector<PixelResult> pixels_;
+  std::vector<Pixel> pixels_;
 };
+using Film = PixelWindow<PixelResult>;
+using FilmSums = PixelWindow<PixelSum>;
+
+inline Film mean_of(const FilmSums& sums) {
+  Film film(sums.width(), sums.height(), sums.x0(), sums.y0(), sums.full_width(), sums.full_height());
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) film.at(x, y) = sums.at(x, y).mean();
+  return film;
+}
 
 // The total radiance as a plain picture.
 inline Image image_of(const Film& film) {

@@ -8,6 +8,7 @@
 #include "photon/radiance_estimate.h"
 #include "photon/shadow_classifier.h"
 #include "photon/shoot.h"
+#include "render/passes.h"
 #include "render/renderer.h"
 
 namespace kaustik::render {
@@ -28,11 +29,11 @@ struct PhotonMaps {
 // The kinds that the plan's estimators read; only these are traced and stored.
 photon::KindMask kinds_needed(const EstimatorPlan& plan);
 
-// Shoots and builds what the plan reads, and settles the radii; fills the photon fields of statistics. False
-// when progress cancelled. The result is a function of scene, settings and plan only, whatever the number of
-// threads.
+// Shoots and builds what the plan reads in one pass, in place of the maps of the pass before; the first pass
+// settles edges and radii, for all. Adds to the photon fields of statistics. False when progress cancelled.
+// The result is a function of scene, settings, plan and pass only, whatever the number of threads.
 bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                      const EstimatorPlan& plan, const ProgressCallback& progress, PhotonMaps* maps,
-                      RenderStatistics* statistics);
+                      const EstimatorPlan& plan, const PassRange& pass, const ProgressCallback& progress,
+                      PhotonMaps* maps, RenderStatistics* statistics);
 
 }  // namespace kaustik::render

@@ -19,7 +19,15 @@ inline constexpr uint32_t kCausticNearest = 50;
 // kCausticNearest): around 1024 of its photons, since caustics are small. Fewer neighbours where a map has
 // fewer photons. Deterministic, a function of scene and settings only; scales with the scene exactly for
 // powers of two.
+// maps are those of a pass, which holds one in pass.passes of the photons: k is divided accordingly.
 GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const PhotonMaps& maps);
+                         const PassRange& pass, const PhotonMaps& maps);
+
+// How many of a pass's photons stand for so many of all: not so few that their distance says nothing.
+inline uint32_t photons_in_reach(uint32_t of_all, uint64_t passes) {
+  constexpr uint64_t kFewest = 8;
+  const uint64_t rounded = (of_all + passes / 2) / passes;
+  return static_cast<uint32_t>(std::clamp<uint64_t>(rounded, std::min<uint64_t>(kFewest, of_all), of_all));
+}
 
 }  // namespace kaustik::render

@@ -1,6 +1,7 @@
 #pragma once
 // What every estimator reads (const, shared by all threads) and what it counts (one per tile).
 
+#include "render/passes.h"
 #include "render/photon_maps.h"
 #include "render/renderer.h"
 
@@ -12,6 +13,7 @@ struct RenderContext {
   const RenderSettings& settings;
   const EstimatorPlan& plan;
   const PhotonMaps& maps;
+  PassRange pass;
 };
 
 // Exact counters of one tile, merged by integer sums.

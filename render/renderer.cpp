@@ -32,9 +32,9 @@ void check_settings(const RenderSettings& s, const PerspectiveCamera& camera) {
                               s.crop.x1, s.crop.y0, s.crop.y1, camera.width, camera.height));
 }
 
-Film make_film(const CropWindow& crop, const PerspectiveCamera& camera) {
-  if (crop.empty()) return Film(camera.width, camera.height);
-  return Film(crop.x1 - crop.x0, crop.y1 - crop.y0, crop.x0, crop.y0, camera.width, camera.height);
+FilmSums make_film(const CropWindow& crop, const PerspectiveCamera& camera) {
+  if (crop.empty()) return FilmSums(camera.width, camera.height);
+  return FilmSums(crop.x1 - crop.x0, crop.y1 - crop.y0, crop.x0, crop.y0, camera.width, camera.height);
 }
 
 // One caller at a time.
@@ -44,6 +44,15 @@ ProgressCallback serialised(const ProgressCallback& progress) {
     const std::lock_guard lock(*mutex);
     return progress(p);
   };
+}
+
+bool render_pass(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
+                 RenderStatistics* statistics) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool finished = render_tiles(ctx, progress, film, statistics);
+  statistics->render_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  statistics->passes += finished;
+  return finished;
 }
 
 }  // namespace
@@ -70,20 +79,19 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   check_settings(settings, scene.camera);
   const ProgressCallback progress = serialised(callback);
   RenderResult result;
+  RenderStatistics& statistics = result.statistics;
   result.plan = make_plan(settings, scene.needs);
-  result.film = make_film(settings.crop, scene.camera);
-
+  const uint64_t passes = choose_passes(scene, bvh, settings, &result.plan);
+  FilmSums film = make_film(settings.crop, scene.camera);
   PhotonMaps maps;
-  if (!make_photon_maps(scene, bvh, settings, result.plan, progress, &maps, &result.statistics)) {
-    result.cancelled = true;
-    return result;
+  for (uint64_t p = 0; p < passes && !result.cancelled; ++p) {
+    const PassRange pass = pass_range(p, passes, settings.photons, settings.spp);
+    const RenderContext ctx{scene, bvh, settings, result.plan, maps, pass};
+    result.cancelled =
+        !make_photon_maps(scene, bvh, settings, result.plan, pass, progress, &maps, &statistics) ||
+        !render_pass(ctx, progress, &film, &statistics);
   }
-  const auto start = std::chrono::steady_clock::now();
-  const RenderContext ctx{scene, bvh, settings, result.plan, maps};
-  constexpr uint64_t kPass = 0;
-  result.cancelled = !render_tiles(ctx, kPass, progress, &result.film, &result.statistics);
-  result.statistics.render_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.film = mean_of(film);
   return result;
 }
 

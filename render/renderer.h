@@ -37,12 +37,15 @@ struct RenderStatistics {
   double photon_trace_s = 0, photon_build_s = 0, render_s = 0;
   float radius = 0;  // r0 used, metres: the largest of the maps' radii; 0 when no map was read
   float direct_radius = 0, caustic_radius = 0, indirect_radius = 0;  // 0 where the map was not built
-  uint64_t photon_bytes = 0;                                         // maps, index included
+  uint64_t photon_bytes = 0;  // maps of a pass, index included; the largest
+  uint64_t octree_nodes = 0;  // of all maps
+  uint64_t passes = 0;        // finished
 };
 
 struct Progress {
-  std::string_view phase;  // "photons", "build", "render"
-  uint64_t done = 0, total = 0;
+  std::string_view phase;         // "photons", "build", "render"
+  uint64_t done = 0, total = 0;   // of the phase in this pass
+  uint64_t pass = 0, passes = 1;  // photons, build, render follow each other in each pass
 };
 // Called from worker threads, serialised by the renderer; returning false cancels.
 using ProgressCallback = std::function<bool(const Progress&)>;
@@ -62,7 +65,7 @@ EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs)
 // Renders within the calling task arena. settings.width/height are already applied to scene.camera by the
 // caller; settings.crop selects the film's window. Bit-identical for any number of threads, and for a scene
 // scaled by a power of two. Throws std::invalid_argument for a crop outside the image or senseless settings
-// (spp < 1, max_bounces < 1, radius not positive and finite).
+// (spp < 1, max_bounces < 1, radius not positive and finite, more passes than photons).
 RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                     const ProgressCallback& progress = {});
 

@@ -3,6 +3,7 @@
 // same struct.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,9 @@ struct RenderSettings {
   int width = 0, height = 0;  // 0 = as the scene says
   CropWindow crop;
   std::vector<std::string> aov;  // layers to write besides the image; empty = none, "all" = all
+  uint64_t passes = 0;           // 0 = as many as it takes for the photons of one to fit into photon_memory
+  // Bytes that the photons of a pass may take while they are shot and their maps built.
+  uint64_t photon_memory = std::numeric_limits<uint64_t>::max();
 };
 
 // The estimators that a render uses, settled from method, overrides and the scene's needs.

@@ -14,27 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
-  Json out;
-  out["method"] = name_of(s.method);
-  out["direct"] = name_of(plan.direct);
-  out["caustics"] = name_of(plan.caustics);
-  out["indirect"] = name_of(plan.indirect);
-  out["photons"] = s.photons;
-  out["radius"] = s.radius ? Json(*s.radius) : Json("auto");
-  out["nearest"] = s.nearest;
-  out["kernel"] = name_of(s.kernel);
-  out["cone_k"] = s.cone_k;
-  out["min_photons"] = s.min_photons;
-  out["node_photons"] = s.node_photons;
-  out["lookup"] = name_of(s.lookup);
-  out["emission"] = name_of(s.emission);
-  out["max_bounces"] = s.max_bounces;
-  out["spp"] = s.spp;
-  out["seed"] = s.seed;
-  return out;
-}
-
 Json photons_json(const RenderStatistics& s) {
   Json stored;
   for (int k = 0; k < photon::kPhotonKinds; ++k)
@@ -42,7 +21,9 @@ Json photons_json(const RenderStatistics& s) {
   return {{"emitted", s.photons.emitted},
           {"stored", stored},
           {"dropped_invalid", s.photons.dropped_invalid},
-          {"bytes", s.photon_bytes}};
+          {"bytes", s.photon_bytes},
+          {"octree_nodes", s.octree_nodes},
+          {"passes", s.passes}};
 }
 
 Json rays_json(const RenderStatistics& s) {
@@ -86,6 +67,37 @@ uint64_t peak_memory_bytes() {
   return 0;
 }
 
+Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
+  Json out;
+  out["method"] = name_of(s.method);
+  out["direct"] = name_of(plan.direct);
+  out["caustics"] = name_of(plan.caustics);
+  out["indirect"] = name_of(plan.indirect);
+  out["photons"] = s.photons;
+  out["radius"] = s.radius ? Json(*s.radius) : Json("auto");
+  out["nearest"] = s.nearest;
+  out["kernel"] = name_of(s.kernel);
+  out["cone_k"] = s.cone_k;
+  out["min_photons"] = s.min_photons;
+  out["node_photons"] = s.node_photons;
+  out["lookup"] = name_of(s.lookup);
+  out["emission"] = name_of(s.emission);
+  out["max_bounces"] = s.max_bounces;
+  out["spp"] = s.spp;
+  out["seed"] = s.seed;
+  return out;
+}
+
+Json counters_json(const RenderStatistics& s) {
+  return {
+      {"photons", photons_json(s)},
+      {"rays", rays_json(s)},
+      {"gather",
+       {{"queries", s.gather_queries}, {"candidates", s.gather_candidates}, {"accepted", s.gather_accepted}}},
+      {"fallbacks", lecture_json(s.lecture)},
+      {"dropped_samples", s.dropped_samples}};
+}
+
 std::string statistics_json(const RenderResult& result, const RenderSettings& settings,
                             const SceneNeeds& needs, const OuterTimes& times) {
   const RenderStatistics& s = result.statistics;
@@ -97,17 +109,12 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
   out["height"] = result.film.height();
   out["cancelled"] = result.cancelled;
   out["settings"] = settings_json(settings, result.plan);
-  out["photons"] = photons_json(s);
-  out["rays"] = rays_json(s);
-  out["gather"] = {
-      {"queries", s.gather_queries}, {"candidates", s.gather_candidates}, {"accepted", s.gather_accepted}};
-  out["fallbacks"] = lecture_json(s.lecture);
+  out.update(counters_json(s));
   out["radius"] = s.radius;
   out["radii"] = {
       {"direct", s.direct_radius}, {"caustic", s.caustic_radius}, {"indirect", s.indirect_radius}};
   out["seconds"] = seconds_json(s, times);
   out["peak_memory_bytes"] = peak_memory_bytes();
-  out["dropped_samples"] = s.dropped_samples;
   out["dropped_examples"] = s.dropped_examples;
   out["needs"] = needs_json(needs);
   out["left_out"] = result.plan.notes;
@@ -120,6 +127,7 @@ Metadata metadata_of(const RenderResult& result, const RenderSettings& settings)
   for (const auto& [key, value] : json.items())
     out.emplace_back("kaustik:" + key, value.is_string() ? value.get<std::string>() : value.dump());
   const RenderStatistics& s = result.statistics;
+  out.emplace_back("kaustik:passes", fmt::format("{}", s.passes));
   out.emplace_back("kaustik:radius_used", fmt::format("{}", s.radius));
   out.emplace_back("kaustik:photons_emitted", fmt::format("{}", s.photons.emitted));
   for (int k = 0; k < photon::kPhotonKinds; ++k)

@@ -1,6 +1,7 @@
 #pragma once
 // What a render counted and measured, as JSON for `--stats` and as string attributes for image files.
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "render/image_io.h"
@@ -16,9 +17,16 @@ struct OuterTimes {
 // Peak resident memory of this process in bytes (VmHWM of /proc/self/status); 0 where it cannot be read.
 uint64_t peak_memory_bytes();
 
-// The JSON text (UTF-8, indented, ends in a newline): version, seed, settings, plan, photons emitted and
-// stored per kind, rays per kind, gather counts, the lecture's fallbacks, seconds per phase, peak memory,
-// radii, the scene's needs and what was left out. 64-bit counts are exact.
+// Settings that decide what is computed, the plan's estimators among them. Of photons and samples, not of the
+// picture's size.
+nlohmann::ordered_json settings_json(const RenderSettings& settings, const EstimatorPlan& plan);
+
+// Every count of a render: photons, rays, gathers, the lecture's fallbacks, dropped samples, sizes of the
+// maps. Whole numbers only, the same in every run of the same program on any number of threads.
+nlohmann::ordered_json counters_json(const RenderStatistics& statistics);
+
+// The JSON text (UTF-8, indented, ends in a newline): version, seed, settings, plan, the counters, seconds
+// per phase, peak memory, radii, the scene's needs and what was left out. 64-bit counts are exact.
 std::string statistics_json(const RenderResult& result, const RenderSettings& settings,
                             const SceneNeeds& needs, const OuterTimes& times);
 

@@ -30,61 +30,37 @@ struct TileResult {
   std::vector<DroppedSample> examples;
 };
 
-// Mean of a pixel's samples, summed in double.
-struct PixelMean {
-  glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
-  double depth = 0, photons = 0;
-  int count = 0;
-
-  void add(const PixelResult& s) {
-    emitted += s.emitted, direct += s.direct, caustic += s.caustic, indirect += s.indirect;
-    albedo += s.albedo, normal += s.normal, depth += s.depth, photons += s.photons;
-    ++count;
-  }
-  PixelResult mean() const {
-    PixelResult out;
-    if (count == 0) return out;
-    const double w = 1.0 / count;
-    out.emitted = Rgb(emitted * w), out.direct = Rgb(direct * w), out.caustic = Rgb(caustic * w);
-    out.indirect = Rgb(indirect * w), out.albedo = Rgb(albedo * w), out.normal = Vector3(normal * w);
-    out.depth = float(depth * w), out.photons = float(photons * w);
-    return out;
-  }
-};
-
 bool valid_radiance(const PixelResult& s) {
   for (const Rgb* c : {&s.emitted, &s.direct, &s.caustic, &s.indirect})
     if (!is_finite(*c) || c->x < 0 || c->y < 0 || c->z < 0) return false;
   return true;
 }
 
-// Pixel (x, y) of the full image. The box filter is uniform over the pixel.
-PixelResult render_pixel(const RenderContext& ctx, uint64_t pass, int x, int y, TileResult* tile) {
+// Adds the pass's samples of pixel (x, y) of the full image. The box filter is uniform over the pixel.
+void render_pixel(const RenderContext& ctx, int x, int y, PixelSum* sum, TileResult* tile) {
   const uint64_t pixel = uint64_t(y) * uint64_t(ctx.scene.camera.width) + uint64_t(x);
-  const uint64_t stream = hash_combine(hash_combine(ctx.settings.seed, kCameraStream), pass);
-  PixelMean mean;
-  for (int i = 0; i < ctx.settings.spp; ++i) {
-    Sampler sampler(hash_combine(stream, pixel), uint64_t(i));
+  const uint64_t stream = hash_combine(hash_combine(ctx.settings.seed, kCameraStream), pixel);
+  for (int i = ctx.pass.first_sample; i < ctx.pass.end_sample; ++i) {
+    Sampler sampler(stream, uint64_t(i));
     const Point2 u = sampler.next_2d();
     const Ray ray = ctx.scene.camera.generate_ray({float(x) + u.x, float(y) + u.y});
     const PixelResult sample = trace_camera_ray(ctx, ray, sampler, tile->counters);
     if (valid_radiance(sample)) {
-      mean.add(sample);
+      sum->add(sample);
       continue;
     }
     ++tile->dropped;
     if (tile->examples.size() < kDropExamples) tile->examples.push_back({y, x, i});
   }
-  return mean.mean();
 }
 
-TileResult render_tile(const RenderContext& ctx, uint64_t pass, int tile_x, int tile_y, Film* film) {
+TileResult render_tile(const RenderContext& ctx, int tile_x, int tile_y, FilmSums* film) {
   TileResult tile;
   const int x1 = std::min(film->width(), (tile_x + 1) * kTileSize);
   const int y1 = std::min(film->height(), (tile_y + 1) * kTileSize);
   for (int y = tile_y * kTileSize; y < y1; ++y)
     for (int x = tile_x * kTileSize; x < x1; ++x)
-      film->at(x, y) = render_pixel(ctx, pass, film->x0() + x, film->y0() + y, &tile);
+      render_pixel(ctx, film->x0() + x, film->y0() + y, &film->at(x, y), &tile);
   return tile;
 }
 
@@ -116,7 +92,7 @@ struct MergedTiles {
 
 }  // namespace
 
-bool render_tiles(const RenderContext& ctx, uint64_t pass, const ProgressCallback& progress, Film* film,
+bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
                   RenderStatistics* statistics) {
   const int columns = (film->width() + kTileSize - 1) / kTileSize;
   const int rows = (film->height() + kTileSize - 1) / kTileSize;
@@ -129,11 +105,12 @@ bool render_tiles(const RenderContext& ctx, uint64_t pass, const ProgressCallbac
       tbb::blocked_range<int>(0, tiles, 1),
       [&](const tbb::blocked_range<int>& range) {
         for (int i = range.begin(); i < range.end() && !cancelled; ++i) {
-          const TileResult tile = render_tile(ctx, pass, i % columns, i / columns, film);
+          const TileResult tile = render_tile(ctx, i % columns, i / columns, film);
           const std::lock_guard lock(mutex);
           merged.add(tile);
           ++done;
-          if (progress && !progress({"render", done, uint64_t(tiles)})) cancelled = true;
+          if (progress && !progress({"render", done, uint64_t(tiles), ctx.pass.pass, ctx.pass.passes}))
+            cancelled = true;
         }
       },
       tbb::simple_partitioner());

@@ -32,9 +32,12 @@ std::string progress_line(std::string_view phase, double fraction, double left) 
 void ProgressBar::update(const render::Progress& progress) {
   if (console_.quiet) return;
   const Clock::time_point now = Clock::now();
-  const bool new_phase = phase_ != progress.phase;
+  const std::string phase = progress.passes > 1
+                                ? fmt::format("{} {}/{}", progress.phase, progress.pass + 1, progress.passes)
+                                : std::string(progress.phase);
+  const bool new_phase = phase_ != phase;
   if (new_phase) {
-    phase_ = progress.phase;
+    phase_ = phase;
     phase_start_ = last_drawn_ = now;
   }
   const std::chrono::duration<double> since_drawn = now - last_drawn_, elapsed = now - phase_start_;

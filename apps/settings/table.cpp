@@ -25,15 +25,6 @@ std::optional<T> whole_in_range(std::string_view text, uint64_t least, uint64_t 
   return static_cast<T>(*value);
 }
 
-// 10000000 as "10M", 1500 as "1500".
-std::string count_text(uint64_t n) {
-  constexpr std::pair<uint64_t, char> kSuffixes[] = {{1000000000, 'G'}, {1000000, 'M'}, {1000, 'k'}};
-  for (const auto& [unit, suffix] : kSuffixes) {
-    if (n >= unit && n % unit == 0) return fmt::format("{}{}", n / unit, suffix);
-  }
-  return fmt::format("{}", n);
-}
-
 // A whole number, suffixes allowed. zero: what 0 means in the table, when it has a meaning of its own.
 template <class T>
 Setting count(std::string_view name, std::string_view unit, T RenderSettings::*field, uint64_t least,
@@ -251,6 +242,10 @@ void add_methods(std::vector<Setting>& table) {
 void add_photons(std::vector<Setting>& table) {
   table.push_back(
       count("photons", "photons", &RenderSettings::photons, 1, kMaxUint64, {}, "Photons to emit."));
+  table.push_back(
+      count("passes", "passes", &RenderSettings::passes, 0, kMaxInt, "0 (as memory allows)",
+            "Share photons and samples out over so many passes, each with maps of its own that only "
+            "one pass holds in memory. 0: one, or as many as it takes for the maps to fit."));
   table.push_back(radius_setting());
   table.push_back(count("nearest", "photons", &RenderSettings::nearest, 0, kMaxUint32, "0 (off)",
                         "K above 0: the radius shrinks to the K-th nearest photon where more are in reach."));
@@ -275,7 +270,7 @@ void add_image(std::vector<Setting>& table) {
   table.push_back(count("spp", "samples", &RenderSettings::spp, 1, kMaxInt, {}, "Camera samples per pixel."));
   table.push_back(count("seed", {}, &RenderSettings::seed, 0, kMaxUint64, {},
                         "Random seed. The same seed gives the same bits."));
-  table.push_back(count("threads", "threads", &RenderSettings::threads, 0, 65535, "0 (every core)",
+  table.push_back(count("threads", "threads", &RenderSettings::threads, 0, 65535, "0 (every usable core)",
                         "Upper bound on the threads of the process. The image does not depend on it."));
   table.push_back(count("width", "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
                         "Image width. Given alone, the height follows in proportion."));

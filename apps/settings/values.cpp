@@ -1,9 +1,10 @@
 #include "apps/settings/values.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace kaustik::app {
 
@@ -82,6 +83,14 @@ std::optional<uint64_t> parse_count(std::string_view text) {
     if (!push(0)) return std::nullopt;
   }
   return value;
+}
+
+std::string count_text(uint64_t n) {
+  constexpr std::pair<uint64_t, char> kSuffixes[] = {{1000000000, 'G'}, {1000000, 'M'}, {1000, 'k'}};
+  for (const auto& [unit, suffix] : kSuffixes) {
+    if (n >= unit && n % unit == 0) return fmt::format("{}{}", n / unit, suffix);
+  }
+  return fmt::format("{}", n);
 }
 
 std::optional<int64_t> parse_integer(std::string_view text) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace kaustik::app {
@@ -11,6 +12,9 @@ namespace kaustik::app {
 // 1000), e.g. "10M", "2.5G", "1e6", "250". Nothing when it is not one, is no whole number or does not fit in
 // 64 bits.
 std::optional<uint64_t> parse_count(std::string_view text);
+
+// The other way, as short as it is exact: 10000000 as "10M", 1500 as "1500".
+std::string count_text(uint64_t n);
 
 // A whole number with sign, no suffix.
 std::optional<int64_t> parse_integer(std::string_view text);

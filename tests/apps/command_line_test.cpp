@@ -95,6 +95,16 @@ TEST_F(CommandLine, OutputsThatCannotBeWrittenAreFoundFirst) {
   EXPECT_THAT(files(), IsEmpty());
 }
 
+// 10^12 photons take 24 TB at least, more than any machine that runs this.
+TEST_F(CommandLine, PhotonsThatDoNotFitInMemoryExitWithOne) {
+  const Outcome outcome =
+      run_kaustik({"photons", small_scene(film(8, 8)), "-o", path("a.ply"), "--photons", "1T"});
+  EXPECT_EQ(outcome.code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("1000000000000 photons would need about"));
+  EXPECT_THAT(outcome.err, HasSubstr("emit at most about"));
+  EXPECT_FALSE(exists("a.ply"));
+}
+
 TEST_F(CommandLine, BadScenesExitWithThree) {
   const Outcome missing = run_kaustik({"render", path("missing.pbrt"), "-o", path("a.exr")});
   EXPECT_EQ(missing.code, kBadScene);
@@ -120,6 +130,14 @@ TEST_F(CommandLine, AllErrorsOfAFileComeInOneRun) {
   EXPECT_EQ(outcome.code, kBadScene);
   EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:3:"));
   EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:4:"));
+}
+
+// The number is out of range for the scene's schema and for --spp.
+TEST_F(CommandLine, OneMistakeIsOneError) {
+  const Outcome outcome = run_kaustik({"info", small_scene("Sampler \"halton\" \"integer pixelsamples\" 0")});
+  EXPECT_EQ(outcome.code, kBadScene);
+  EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:3:41: error: `pixelsamples`"));
+  EXPECT_THAT(outcome.err, HasSubstr("small.pbrt: 1 error\n"));
 }
 
 }  // namespace

@@ -2,31 +2,22 @@
 
 #include <gmock/gmock.h>
 
-#include <atomic>
-#include <chrono>
-#include <csignal>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "render/image_io.h"
 #include "tests/apps/program.h"
+#include "tests/apps/watching.h"
 
 namespace kaustik::app {
 namespace {
 
+using testing::count_threads;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::Outcome;
 using testing::run_kaustik;
-
-// Returns once the command answers to this signal (or `stop` says that it has ended): from then on it is at
-// work.
-void wait_until_handled(int signal, const std::atomic<bool>& stop) {
-  struct sigaction current {};
-  while (!stop && sigaction(signal, nullptr, &current) == 0 && current.sa_handler == SIG_DFL) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-}
+using testing::ThreadCounts;
+using testing::wait_until_handled;
 
 class RenderCommand : public testing::ProgramTest {
  protected:
@@ -178,32 +169,16 @@ TEST_F(RenderCommand, AnInterruptLeavesNoPictureAndExitsWith130) {
   EXPECT_THAT(files(), ElementsAre("small.pbrt"));
 }
 
-int thread_count() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("Threads:")) return std::stoi(line.substr(8));
-  }
-  return 0;
-}
-
 TEST_F(RenderCommand, ThreadsBoundsEveryThreadOfTheProcess) {
   const std::string scene = small_scene(film(64, 64));
-  std::atomic<bool> stop = false;
-  std::atomic<int> most = 0;
-  std::thread watcher([&] {
-    while (!stop) {
-      most = std::max(most.load(), thread_count());
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+  int code = -1;
+  const ThreadCounts threads = count_threads([&] {
+    code = run_kaustik({"render", scene, "-o", path("a.exr"), "-o", path("a.png"), "--photons", "50k",
+                        "--spp", "4", "--threads", "2", "-q"})
+               .code;
   });
-  const int before = thread_count();  // this one, the watcher, and workers that earlier tests left
-  const int code = run_kaustik({"render", scene, "-o", path("a.exr"), "-o", path("a.png"), "--photons", "50k",
-                                "--spp", "4", "--threads", "2", "-q"})
-                       .code;
-  stop = true;
-  watcher.join();
   EXPECT_EQ(code, kDone);
-  EXPECT_LE(most, before + 1);
+  EXPECT_LE(threads.most, threads.before + 1);
 }
 
 TEST_F(RenderCommand, PhotonsWritesACloudAndAView) {

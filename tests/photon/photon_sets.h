@@ -1,6 +1,7 @@
 #pragma once
 // Sets of photons, random and degenerate, for the tests of maps and searches.
 
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -13,6 +14,10 @@ struct PhotonSet {
   std::string name;
   std::vector<Photon> photons;
 };
+// The name that a test of one set is listed under.
+inline void PrintTo(const PhotonSet& set, std::ostream* out) {
+  *out << set.name;
+}
 
 class PhotonMaker {
  public:

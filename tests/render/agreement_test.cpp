@@ -19,10 +19,20 @@ TEST(CornellAgreement, EachClassAgreesWithPaths) {
   }
 }
 
+enum class Eye { kAbove, kBelow };
+
+std::string_view name_of(Eye eye) {
+  return eye == Eye::kAbove ? "above" : "below";
+}
+
+void PrintTo(Eye eye, std::ostream* out) {
+  *out << name_of(eye);
+}
+
 // A wide pool: water of index 1.33 over a diffuse bottom, under a wide lamp. Radiance scales by eta^2 along
 // the camera path and along the paths of mc, flux does not: the classes agree only if both do it right, for
 // an eye above and one below the surface.
-Scene pool(bool eye_below) {
+Scene pool(Eye looking_from) {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(0.6f)});
   const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
@@ -30,13 +40,13 @@ Scene pool(bool eye_below) {
   add_shape(scene, horizontal({0, 0, 0}, 2, 2, true, white));
   add_shape(scene, horizontal({0, 0.5f, 0}, 2, 2, true, water));
   make_lamp(scene, add_shape(scene, horizontal({0, 2, 0}, 1, 1, false, black)), Rgb(2));
-  const Point3 eye = eye_below ? Point3(0, 0.45f, 0.3f) : Point3(0.1f, 1.2f, 0.8f);
+  const Point3 eye = looking_from == Eye::kBelow ? Point3(0, 0.45f, 0.3f) : Point3(0.1f, 1.2f, 0.8f);
   look_at(scene, eye, {0, 0, 0}, {0, 1, 0}, 30, kSize, kSize);
   finalize_scene(scene);
   return scene;
 }
 
-class PoolAgreement : public ::testing::TestWithParam<bool> {};
+class PoolAgreement : public ::testing::TestWithParam<Eye> {};
 
 TEST_P(PoolAgreement, LightUnderWaterAgreesWithPaths) {
   const Scene scene = pool(GetParam());
@@ -44,9 +54,9 @@ TEST_P(PoolAgreement, LightUnderWaterAgreesWithPaths) {
   const Comparison c(scene, by_paths, Method::kPhoton, 0.1f);
   c.expect_agreement_everywhere(Layer::kCaustic);
   c.expect_agreement(Layer::kIndirect, -1, 0.5);  // few of these photons reach the part that is seen
-  c.write_pictures(std::string("pool_") + (GetParam() ? "below" : "above"));
+  c.write_pictures("pool_" + std::string(name_of(GetParam())));
 }
-INSTANTIATE_TEST_SUITE_P(Eye, PoolAgreement, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Eyes, PoolAgreement, ::testing::Values(Eye::kAbove, Eye::kBelow));
 
 // Whichever estimators are chosen, every path is counted once: the sum of the layers stays the same. The
 // kernel's bias of each class is measured once, with all classes from photons.

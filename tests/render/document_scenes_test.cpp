@@ -18,8 +18,9 @@ Scene document_scene(const std::string& file) {
   return scene;
 }
 
-void expect_programs_agree_with_paths(const Scene& scene, float radius, const std::string& name) {
-  const auto by_paths = films(scene, settings_of(Method::kMc, 256, radius, 100));
+// spp: of the paths, enough that their noise leaves something to compare.
+void expect_programs_agree_with_paths(const Scene& scene, int spp, float radius, const std::string& name) {
+  const auto by_paths = films(scene, settings_of(Method::kMc, spp, radius, 100));
   for (const Method method : {Method::kHybrid, Method::kPhoton}) {
     const Comparison c(scene, by_paths, method, radius);
     for (const Layer layer : kClasses) c.expect_agreement_everywhere(layer);
@@ -28,11 +29,12 @@ void expect_programs_agree_with_paths(const Scene& scene, float radius, const st
 }
 
 TEST(DocumentScenes, LectureRoomAgreesWithPaths) {
-  expect_programs_agree_with_paths(document_scene("tncg15-room/tncg15-room.pbrt"), 0.3f, "lecture");
+  expect_programs_agree_with_paths(document_scene("tncg15-room/tncg15-room.pbrt"), 512, 0.3f, "lecture");
 }
 
 TEST(DocumentScenes, ReportSquareLampAgreesWithPaths) {
-  expect_programs_agree_with_paths(document_scene("cornell-spheres/square-lamp-2.pbrt"), 0.06f, "report");
+  expect_programs_agree_with_paths(document_scene("cornell-spheres/square-lamp-2.pbrt"), 256, 0.06f,
+                                   "report");
 }
 
 // Paths cannot meet a point lamp through glass. So the direct class is compared with shadow rays, and the

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/renderer.h"
+#include "tests/render/print_names.h"
 
 namespace kaustik::render {
 namespace {
@@ -44,9 +45,9 @@ TEST(Plan, PresetsOfASceneThatNeedsEverything) {
     RenderSettings settings;
     settings.method = row.method;
     const EstimatorPlan plan = make_plan(settings, needs_of(true));
-    EXPECT_EQ(plan.direct, row.direct) << int(row.method);
-    EXPECT_EQ(plan.caustics, row.caustics) << int(row.method);
-    EXPECT_EQ(plan.indirect, row.indirect) << int(row.method);
+    EXPECT_EQ(plan.direct, row.direct) << name_of(row.method);
+    EXPECT_EQ(plan.caustics, row.caustics) << name_of(row.method);
+    EXPECT_EQ(plan.indirect, row.indirect) << name_of(row.method);
     EXPECT_FALSE(plan.notes.empty());
   }
 }
@@ -56,7 +57,7 @@ TEST(Plan, NoSpecularSurfaceNoCausticPass) {
     RenderSettings settings;
     settings.method = method;
     const EstimatorPlan plan = make_plan(settings, needs_of(false));
-    EXPECT_EQ(plan.caustics, Caustic::kOff) << int(method);
+    EXPECT_EQ(plan.caustics, Caustic::kOff) << name_of(method);
     EXPECT_TRUE(mentions(plan, "no specular surface: no caustic pass"));
   }
 }

@@ -9,6 +9,7 @@
 
 #include "core/scene/scene.h"
 #include "render/renderer.h"
+#include "tests/render/print_names.h"
 
 namespace kaustik::render::test {
 

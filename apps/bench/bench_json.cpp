@@ -1,0 +1,148 @@
+#include "apps/bench/bench_json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace kaustik::app {
+
+namespace {
+
+constexpr int kFormat = 1;  // grows when a reader of the old format would misread the new one
+
+Json spread_json(const Spread& s) {
+  return {{"median", s.median}, {"min", s.min}, {"max", s.max}};
+}
+
+template <size_t N>
+Json spreads_json(const std::array<Spread, N>& spreads, const std::array<std::string_view, N>& names) {
+  Json out;
+  for (size_t i = 0; i < N; ++i) out[std::string(names[i])] = spread_json(spreads[i]);
+  return out;
+}
+
+template <class Value>
+Json by_phase(Value&& value) {
+  Json out;
+  for (size_t i = 0; i < kPhases; ++i) {
+    const std::optional<double> v = value(static_cast<Phase>(i));
+    out[std::string(kPhaseNames[i])] = v ? Json(*v) : Json(nullptr);
+  }
+  return out;
+}
+
+Json point_json(const BenchResult& result, const BenchPoint& point) {
+  Json out;
+  out["photons"] = point.photons;
+  out["threads"] = point.threads;
+  out["seconds"] = spreads_json(point.seconds, kPhaseNames);
+  out["per_second"] = spreads_json(point.per_second, kRateNames);
+  out["busy_cores"] = spread_json(point.busy_cores);
+  out["peak_memory_bytes"] = spread_json(point.peak_memory_bytes);
+  out["speed_up"] = by_phase([&](Phase phase) -> std::optional<double> {
+    const std::optional<Spread> gain = speed_up(result, point, phase);
+    return gain ? std::optional(gain->median) : std::nullopt;
+  });
+  out["efficiency"] = by_phase([&](Phase phase) { return efficiency(result, point, phase); });
+  out["counters"] = point.counters;
+  return out;
+}
+
+[[noreturn]] void refuse(std::string_view key, std::string_view expected) {
+  throw std::runtime_error(fmt::format("\"{}\": expected {}", key, expected));
+}
+
+const Json& field(const Json& object, std::string_view key) {
+  const auto found = object.is_object() ? object.find(std::string(key)) : object.end();
+  if (found == object.end()) throw std::runtime_error(fmt::format("\"{}\" is missing", key));
+  return *found;
+}
+
+uint64_t whole(const Json& object, std::string_view key, uint64_t least, uint64_t most) {
+  const Json& value = field(object, key);
+  if (!value.is_number_unsigned() || value.get<uint64_t>() < least || value.get<uint64_t>() > most)
+    refuse(key, fmt::format("a whole number, {} to {}", least, most));
+  return value.get<uint64_t>();
+}
+
+std::string text_of(const Json& object, std::string_view key) {
+  const Json& value = field(object, key);
+  if (!value.is_string()) refuse(key, "a text");
+  return value.get<std::string>();
+}
+
+const Json& object_of(const Json& object, std::string_view key) {
+  const Json& value = field(object, key);
+  if (!value.is_object()) refuse(key, "an object");
+  return value;
+}
+
+double measure_of(const Json& object, std::string_view key) {
+  const Json& value = field(object, key);
+  if (!value.is_number() || !(value.get<double>() >= 0) || !std::isfinite(value.get<double>()))
+    refuse(key, "a finite number, 0 or more");
+  return value.get<double>();
+}
+
+Spread read_spread(const Json& object, std::string_view key) {
+  const Json& in = field(object, key);
+  const Spread s{measure_of(in, "median"), measure_of(in, "min"), measure_of(in, "max")};
+  if (!(s.min <= s.median && s.median <= s.max)) refuse(key, "min <= median <= max");
+  return s;
+}
+
+template <size_t N>
+std::array<Spread, N> read_spreads(const Json& object, const std::array<std::string_view, N>& names) {
+  std::array<Spread, N> out;
+  for (size_t i = 0; i < N; ++i) out[i] = read_spread(object, names[i]);
+  return out;
+}
+
+BenchPoint read_point(const Json& in) {
+  BenchPoint point;
+  point.photons = whole(in, "photons", 1, std::numeric_limits<uint64_t>::max());
+  point.threads = static_cast<int>(whole(in, "threads", 1, 65535));
+  point.seconds = read_spreads(object_of(in, "seconds"), kPhaseNames);
+  point.per_second = read_spreads(object_of(in, "per_second"), kRateNames);
+  point.busy_cores = read_spread(in, "busy_cores");
+  point.peak_memory_bytes = read_spread(in, "peak_memory_bytes");
+  point.counters = object_of(in, "counters");
+  return point;
+}
+
+}  // namespace
+
+std::string bench_json(const BenchResult& result) {
+  Json out;
+  out["kaustik_bench"] = kFormat;
+  out["version"] = result.version;
+  out["build"] = result.build;
+  out["scene"] = result.scene;
+  out["machine"] = result.machine;
+  out["settings"] = result.settings;
+  out["repeat"] = result.repeat;
+  out["points"] = Json::array();
+  for (const BenchPoint& point : result.points) out["points"].push_back(point_json(result, point));
+  return out.dump(2) + "\n";
+}
+
+BenchResult bench_from_json(const std::string& text) {
+  const Json in = Json::parse(text, nullptr, false);
+  if (in.is_discarded()) throw std::runtime_error("this is no JSON");
+  whole(in, "kaustik_bench", kFormat, kFormat);
+  BenchResult result;
+  result.version = text_of(in, "version");
+  result.build = text_of(in, "build");
+  result.scene = text_of(in, "scene");
+  result.machine = object_of(in, "machine");
+  result.settings = object_of(in, "settings");
+  result.repeat = whole(in, "repeat", 1, std::numeric_limits<uint64_t>::max());
+  const Json& points = field(in, "points");
+  if (!points.is_array() || points.empty()) refuse("points", "an array of at least one point");
+  for (const Json& point : points) result.points.push_back(read_point(point));
+  return result;
+}
+
+}  // namespace kaustik::app

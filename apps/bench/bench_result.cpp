@@ -1,0 +1,32 @@
+#include "apps/bench/bench_result.h"
+
+#include <algorithm>
+
+namespace kaustik::app {
+
+Spread spread_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return {(values[(n - 1) / 2] + values[n / 2]) / 2, values.front(), values.back()};
+}
+
+const BenchPoint& baseline_of(const BenchResult& result, const BenchPoint& point) {
+  const auto same = [&](const BenchPoint& p) { return p.photons == point.photons; };
+  const auto found = std::find_if(result.points.begin(), result.points.end(), same);
+  return found != result.points.end() ? *found : point;
+}
+
+std::optional<Spread> speed_up(const BenchResult& result, const BenchPoint& point, Phase phase) {
+  const double base = baseline_of(result, point)[phase].median;
+  const Spread& here = point[phase];
+  if (!(base > 0) || !(here.min > 0)) return std::nullopt;
+  return Spread{base / here.median, base / here.max, base / here.min};
+}
+
+std::optional<double> efficiency(const BenchResult& result, const BenchPoint& point, Phase phase) {
+  const std::optional<Spread> gain = speed_up(result, point, phase);
+  if (!gain) return std::nullopt;
+  return gain->median * baseline_of(result, point).threads / point.threads;
+}
+
+}  // namespace kaustik::app

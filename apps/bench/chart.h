@@ -1,0 +1,42 @@
+#pragma once
+// Curves on two logarithmic axes, as SVG. Values outside 1e-30 to 1e30, zero among
+// them, are left out. Not handled: other scales.
+
+#include <string>
+#include <vector>
+
+namespace kaustik::app {
+
+struct Sample {
+  double x = 0, y = 0;
+  double low = 0, high = 0;  // of y: a bar when they differ
+};
+
+struct Curve {
+  std::string name;
+  std::vector<Sample> samples;
+};
+
+// A dashed line from (x0, y0) to (x1, y1): straight on these axes for any power law.
+struct Guide {
+  double x0 = 1, y0 = 1, x1 = 1, y1 = 1;
+};
+
+struct Axis {
+  std::string label;
+  std::vector<double> ticks;  // empty: round numbers over what is drawn
+};
+
+struct Chart {
+  std::string title;
+  std::vector<std::string> subtitles;  // one line each
+  Axis x, y;
+  std::vector<Curve> curves;  // colours and marks repeat after six
+  std::vector<Guide> guides;
+  std::string guide_name;  // in the legend, for all guides
+};
+
+// Texts are UTF-8; what XML cannot hold is left out. Ends in a newline.
+std::string draw_svg(const Chart& chart);
+
+}  // namespace kaustik::app

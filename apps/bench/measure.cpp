@@ -1,0 +1,132 @@
+#include "apps/bench/measure.h"
+
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include "apps/bench/peak_memory.h"
+#include "apps/render_job.h"
+#include "apps/stopwatch.h"
+#include "apps/thread_limit.h"
+
+namespace kaustik::app {
+
+namespace {
+
+struct Run {
+  std::array<double, kPhases> seconds{};
+  std::array<double, kRates> per_second{};
+  double busy_cores = 0;
+  double peak_memory_bytes = 0;
+  Json counters;
+};
+
+// All runs of one point.
+struct PointRuns {
+  uint64_t photons = 1;
+  int threads = 1;
+  std::vector<Run> runs;
+};
+
+std::array<double, kPhases> seconds_of(const RenderOutcome& outcome) {
+  const render::RenderStatistics& s = outcome.result.statistics;
+  const double bvh = outcome.times.bvh;
+  return {bvh, s.photon_trace_s, s.photon_build_s, s.render_s,
+          bvh + s.photon_trace_s + s.photon_build_s + s.render_s};
+}
+
+std::array<double, kRates> rates_of(const render::RenderStatistics& s) {
+  const auto rate = [](uint64_t n, double seconds) {
+    return seconds > 0 ? static_cast<double>(n) / seconds : 0.0;
+  };
+  const auto traced = [&](uint64_t n) { return rate(n, s.photon_trace_s); };
+  const auto rendered = [&](uint64_t n) { return rate(n, s.render_s); };
+  return {traced(s.photons.emitted), traced(s.photons.rays),     traced(s.photons.shadow_rays),
+          rendered(s.rays.camera),   rendered(s.rays.specular),  rendered(s.rays.shadow),
+          rendered(s.rays.bounce),   rendered(s.gather_queries), rendered(s.gather_candidates)};
+}
+
+// Of all threads of the process.
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::optional<Run> run_once(const Scene& scene, render::RenderSettings settings, const PointRuns& point,
+                            const render::ProgressCallback& go_on) {
+  settings.photons = point.photons;
+  settings.threads = point.threads;
+  std::optional<Run> run;
+  with_thread_limit(point.threads, [&] {
+    restart_peak_memory();
+    const Stopwatch watch;
+    const double cpu_before = cpu_seconds();
+    const RenderOutcome outcome = render_job(scene, settings, go_on);
+    const double busy = (cpu_seconds() - cpu_before) / watch.seconds();
+    if (outcome.result.cancelled) return;
+    run = Run{seconds_of(outcome), rates_of(outcome.result.statistics), busy,
+              static_cast<double>(render::peak_memory_bytes()),
+              render::counters_json(outcome.result.statistics)};
+  });
+  return run;
+}
+
+// The promise of the renderer, checked by every benchmark.
+void check_counters(const std::vector<PointRuns>& all, const PointRuns& point, const Json& counters) {
+  for (const PointRuns& other : all) {
+    if (other.photons != point.photons || other.runs.empty() || other.runs.front().counters == counters)
+      continue;
+    throw std::runtime_error(fmt::format("{} photons count differently on {} and {} threads: {} and {}",
+                                         point.photons, other.threads, point.threads,
+                                         other.runs.front().counters.dump(), counters.dump()));
+  }
+}
+
+std::vector<PointRuns> points_of(const BenchPlan& plan) {
+  std::vector<PointRuns> points;
+  for (const uint64_t photons : plan.photons)
+    for (const int threads : plan.threads) points.push_back({photons, threads, {}});
+  return points;
+}
+
+BenchPoint summarise(const PointRuns& point) {
+  const auto spread = [&](const auto& value) {
+    std::vector<double> values;
+    for (const Run& run : point.runs) values.push_back(value(run));
+    return spread_of(std::move(values));
+  };
+  BenchPoint out;
+  out.photons = point.photons;
+  out.threads = point.threads;
+  for (size_t i = 0; i < kPhases; ++i) out.seconds[i] = spread([i](const Run& r) { return r.seconds[i]; });
+  for (size_t i = 0; i < kRates; ++i)
+    out.per_second[i] = spread([i](const Run& r) { return r.per_second[i]; });
+  out.busy_cores = spread([](const Run& r) { return r.busy_cores; });
+  out.peak_memory_bytes = spread([](const Run& r) { return r.peak_memory_bytes; });
+  out.counters = point.runs.front().counters;
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::vector<BenchPoint>> measure(const Scene& scene, const render::RenderSettings& settings,
+                                               const BenchPlan& plan, const BenchProgress& progress) {
+  std::vector<PointRuns> points = points_of(plan);
+  uint64_t done = 0;
+  for (uint64_t round = 0; round < plan.repeat; ++round) {
+    for (PointRuns& point : points) {
+      const auto go_on = [&](const render::Progress&) { return progress(done); };
+      std::optional<Run> run = run_once(scene, settings, point, go_on);
+      if (!run) return std::nullopt;
+      check_counters(points, point, run->counters);
+      point.runs.push_back(std::move(*run));
+      if (!progress(++done)) return std::nullopt;
+    }
+  }
+  std::vector<BenchPoint> out;
+  for (const PointRuns& point : points) out.push_back(summarise(point));
+  return out;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,17 @@
+#include "apps/render_job.h"
+
+#include "apps/stopwatch.h"
+
+namespace kaustik::app {
+
+RenderOutcome render_job(const Scene& scene, const render::RenderSettings& settings,
+                         const render::ProgressCallback& progress) {
+  RenderOutcome outcome;
+  const Stopwatch watch;
+  const accel::Bvh bvh(scene, settings.threads);
+  outcome.times.bvh = watch.seconds();
+  outcome.result = render::render(scene, bvh, settings, progress);
+  return outcome;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,18 @@
+#pragma once
+// Wall-clock seconds since it was made.
+
+#include <chrono>
+
+namespace kaustik::app {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace kaustik::app

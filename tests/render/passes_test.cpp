@@ -1,0 +1,106 @@
+// Passes: shares, the same light in any number of them, the same bits for any number of threads.
+
+#include "render/passes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/render/class_agreement.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+TEST(Passes, ShareOutEveryPhotonAndSample) {
+  for (const uint64_t passes : {uint64_t{1}, uint64_t{2}, uint64_t{7}, uint64_t{64}}) {
+    for (const uint64_t photons : {uint64_t{64}, uint64_t{1'000'003}, ~uint64_t{0}}) {
+      for (const int spp : {1, 16, 1000}) {
+        uint64_t total = 0;
+        int next_sample = 0;
+        for (uint64_t p = 0; p < passes; ++p) {
+          const PassRange range = pass_range(p, passes, photons, spp);
+          EXPECT_EQ(range.first_sample, next_sample);
+          EXPECT_GT(range.end_sample, range.first_sample);
+          EXPECT_LE(range.photons - photons / passes, 1u);
+          next_sample = range.end_sample;
+          total += range.photons;
+        }
+        EXPECT_EQ(total, photons);
+        EXPECT_EQ(next_sample, std::max(spp, int(passes)));
+      }
+    }
+  }
+}
+
+// With a given radius the estimate is linear in the photons, so passes have the same expectation in every
+// class of paths and block of pixels: what is left is noise.
+TEST(Passes, GiveTheSameLight) {
+  const Scene scene = cornell(kSize);
+  for (const Method method : {Method::kPhoton, Method::kHybrid}) {
+    RenderSettings settings = settings_of(method, 8, 0.15f, 300);
+    const auto whole = films(scene, settings);
+    settings.passes = 5;
+    settings.seed = 400;
+    const auto parts = films(scene, settings);
+    for (const Layer layer : kClasses) {
+      for (int block = -1; block < kSize / kBlock * (kSize / kBlock); ++block) {
+        const Estimate a = block_estimate(whole, layer, block), b = block_estimate(parts, layer, block);
+        EXPECT_NEAR(a.mean, b.mean, kErrors * std::hypot(a.standard_error, b.standard_error) + 1e-6 * a.mean)
+            << kLayerNames[size_t(layer)] << " block " << block;
+      }
+    }
+    write_if_failed(parts[0], "passes");
+  }
+}
+
+TEST(Passes, AreAsManyAsMemoryAsksFor) {
+  const Scene scene = cornell(kSize);
+  RenderSettings settings = settings_of(Method::kPhoton, 8, 0.15f, 1);
+  const auto one = render_with_threads(scene, settings);
+  EXPECT_EQ(one.statistics.passes, 1u);
+  settings.photon_memory = one.statistics.photon_bytes / 2;
+  const auto several = render_with_threads(scene, settings);
+  EXPECT_GE(several.statistics.passes, 3u);  // maps and what their build needs
+  EXPECT_LE(several.statistics.photon_bytes, settings.photon_memory);
+  EXPECT_EQ(several.statistics.photons.emitted, settings.photons);
+  EXPECT_EQ(several.statistics.rays.camera, one.statistics.rays.camera);
+  EXPECT_TRUE(std::any_of(several.plan.notes.begin(), several.plan.notes.end(),
+                          [](const std::string& note) { return note.find("passes") != std::string::npos; }));
+}
+
+TEST(Passes, SameBitsForAnyNumberOfThreads) {
+  const Scene scene = cornell(kSize);
+  RenderSettings settings = settings_of(Method::kAuto, 4, 0.15f, 1);
+  settings.radius.reset();
+  settings.passes = 3;
+  const auto one = render_with_threads(scene, settings, 1), many = render_with_threads(scene, settings, 3);
+  ASSERT_EQ(one.film.width(), many.film.width());
+  EXPECT_EQ(std::memcmp(&one.film.at(0, 0), &many.film.at(0, 0), sizeof(PixelResult) * kSize * kSize), 0);
+  EXPECT_EQ(one.statistics.photons.stored, many.statistics.photons.stored);
+}
+
+// The radius that is chosen is that of all photons, not of one pass's: fewer neighbours stand for as many.
+TEST(Passes, ChosenRadiiAreThoseOfAllPhotons) {
+  const Scene scene = cornell(kSize);
+  RenderSettings settings = settings_of(Method::kPhoton, 8, 0, 1);
+  settings.radius.reset();
+  const auto one = render_with_threads(scene, settings);
+  settings.passes = 4;
+  const auto four = render_with_threads(scene, settings);
+  // The distance to the k-th of 1/4 of the photons, k = 16 and 64: its median over the image varies by about
+  // 1 / (2 sqrt(k)), 13 and 6 %, at one point, and less over 1024.
+  EXPECT_NEAR(four.statistics.direct_radius / one.statistics.direct_radius, 1, 0.13);
+  EXPECT_NEAR(four.statistics.indirect_radius / one.statistics.indirect_radius, 1, 0.06);
+}
+
+TEST(Passes, MoreThanPhotonsAreRefused) {
+  RenderSettings settings = settings_of(Method::kPhoton, 1, 0.15f, 1);
+  settings.photons = 3;
+  settings.passes = 4;
+  EXPECT_THROW(render_with_threads(cornell(8), settings), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kaustik::render
