@@ -1,0 +1,33 @@
+#pragma once
+// The photon map of this program as a PhotonIndex.
+
+#include "benchmarks/photon_index.h"
+#include "photon/photon_map.h"
+
+namespace kaustik::benchmarks {
+
+class PhotonMapIndex {
+ public:
+  static constexpr std::string_view kName = "PhotonMap";
+
+  static PhotonMapIndex build(photon::PhotonBuffer&& photons, float /*radius*/) {
+    PhotonMapIndex index;
+    index.map_ = photon::PhotonMap::build(std::move(photons));
+    return index;
+  }
+  Rgb flux_density(const photon::GatherQuery& query, photon::GatherCounters& counters) const {
+    return map_.gather_flux(query, {}, counters);
+  }
+  template <class Fn>
+  void for_each(const photon::GatherQuery& query, photon::GatherCounters& counters, Fn&& fn) const {
+    map_.for_each(
+        query, [&](const photon::Photon& photon, float) { fn(photon.flux); }, counters);
+  }
+  uint64_t memory_bytes() const { return map_.memory_bytes(); }
+
+ private:
+  photon::PhotonMap map_;
+};
+static_assert(PhotonIndex<PhotonMapIndex>);
+
+}  // namespace kaustik::benchmarks
