@@ -69,18 +69,17 @@ void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
   const auto stored = forecast_stored(scene, bvh, settings);
   const double bytes = peak_bytes(stored, use), largest = *std::max_element(stored.begin(), stored.end());
   if (bytes > bytes_limit) {
-    throw std::runtime_error(
-        fmt::format("{} photons would need about {} of memory, but {} are available: emit at most about {}, "
-                    "or store fewer "
-                    "kinds",
-                    settings.photons, size_text(bytes), size_text(bytes_limit),
-                    rounded_count(photons * bytes_limit / bytes)));
+    throw std::runtime_error(fmt::format(
+        "{} photons would need about {} of memory, but {} are available: emit at most about {} at a time, or "
+        "store fewer kinds",
+        settings.photons, size_text(bytes), size_text(bytes_limit),
+        rounded_count(photons * bytes_limit / bytes)));
   }
   if (use == PhotonUse::kMaps && largest > kMostInMap) {
-    throw std::runtime_error(fmt::format(
-        "{} photons would leave about {:.3g} in one map, which holds {:.0f} at most: emit at most "
-        "about {}",
-        settings.photons, largest, kMostInMap, rounded_count(photons * kMostInMap / largest)));
+    throw std::runtime_error(
+        fmt::format("{} photons would leave about {:.3g} in one map, which holds {:.0f} at most: emit at "
+                    "most about {} at a time",
+                    settings.photons, largest, kMostInMap, rounded_count(photons * kMostInMap / largest)));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "photon/memory_forecast.h"
@@ -37,12 +38,19 @@ uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSe
   if (settings.passes > 0) {
     if (settings.passes > std::max<uint64_t>(1, settings.photons))
       throw std::invalid_argument("there must be at least as many photons as passes");
+    const PassRange largest = pass_range(0, settings.passes, settings.photons, settings.spp);
+    photon::check_memory(scene, bvh, trace_settings(settings, *plan, largest), photon::PhotonUse::kMaps,
+                         settings.photon_memory);
     return settings.passes;
   }
   if (!kinds_needed(*plan).any()) return 1;
   const PassRange whole = pass_range(0, 1, settings.photons, settings.spp);
   const uint64_t passes =
       photon::shoots_that_fit(scene, bvh, trace_settings(settings, *plan, whole), settings.photon_memory);
+  if (passes > std::numeric_limits<int>::max()) {  // a sample of each pixel in each
+    throw std::runtime_error(
+        fmt::format("{} photons would need {} passes to fit into memory", settings.photons, passes));
+  }
   if (passes > 1) {
     plan->notes.push_back(
         fmt::format("the photons come in {} passes, since the maps of all would not fit into "

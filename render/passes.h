@@ -29,7 +29,8 @@ photon::TraceSettings trace_settings(const RenderSettings& settings, const Estim
 
 // settings.passes, or as many as it takes for the photons of each to fit into settings.photon_memory, which
 // adds a note to the plan when it is more than one. Then the image depends on that memory, but for noise
-// only; settings.passes makes it independent. Throws std::invalid_argument for more passes than photons.
+// only; settings.passes makes it independent. Throws std::invalid_argument for more passes than photons,
+// std::runtime_error when the photons of one would not fit, or would only in 2^31 passes or more.
 uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                        EstimatorPlan* plan);
 

@@ -130,7 +130,8 @@ TEST_F(BenchCommand, ThreadsBoundsEveryThreadOfTheProcess) {
                .code;
   });
   EXPECT_EQ(code, kDone);
-  EXPECT_LE(threads.most, threads.before + 1);
+  // One worker, and one of the run before that may still be ending: oneTBB does not wait for it.
+  EXPECT_LE(threads.most, threads.before + 2);
 }
 
 TEST_F(BenchCommand, PlotsWhileMeasuringAndFromTheFileAlike) {

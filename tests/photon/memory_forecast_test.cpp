@@ -53,7 +53,7 @@ TEST(MemoryForecast, RefusesWhatDoesNotFitAndSaysWhatWould) {
   EXPECT_EQ(
       refusal(kRoom, settings, PhotonUse::kMaps, 26'000'000'000),
       "1000000000 photons would need about 52 GB of memory, but 26 GB are available: emit at most about "
-      "500M, or store fewer kinds");
+      "500M at a time, or store fewer kinds");
   EXPECT_NE(refusal(kRoom, settings, PhotonUse::kRecords, 23'999'999'999), "");
 }
 
@@ -62,7 +62,7 @@ TEST(MemoryForecast, RefusesMorePhotonsThanAMapCanNumber) {
   EXPECT_EQ(
       refusal(kRoom, settings, PhotonUse::kMaps, kUnlimited),
       "8589934588 photons would leave about 8.59e+09 in one map, which holds 4294967294 at most: emit at "
-      "most about 4.2G");
+      "most about 4.2G at a time");
   EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kRecords, kUnlimited), "");
 }
 

@@ -102,5 +102,24 @@ TEST(Passes, MoreThanPhotonsAreRefused) {
   EXPECT_THROW(render_with_threads(cornell(8), settings), std::invalid_argument);
 }
 
+// A number of passes that is asked for is not raised.
+TEST(Passes, MapsThatDoNotFitAreRefused) {
+  const Scene scene = cornell(8);
+  const accel::Bvh bvh(scene);
+  RenderSettings settings = settings_of(Method::kPhoton, 1, 0.15f, 1);
+  settings.photons = 1'000'000'000'000;
+  settings.photon_memory = 1'000'000'000;
+  EstimatorPlan plan = make_plan(settings, scene.needs);
+  EXPECT_GT(choose_passes(scene, bvh, settings, &plan), 1u);
+  settings.passes = 1;
+  EXPECT_THROW(choose_passes(scene, bvh, settings, &plan), std::runtime_error);
+  settings.passes = 1'000'000;  // 10^6 photons each
+  EXPECT_EQ(choose_passes(scene, bvh, settings, &plan), settings.passes);
+  settings.passes = 0;
+  settings.photons = ~uint64_t{0};
+  settings.photon_memory = 10'000;
+  EXPECT_THROW(choose_passes(scene, bvh, settings, &plan), std::runtime_error);  // above 10^15 passes
+}
+
 }  // namespace
 }  // namespace kaustik::render
