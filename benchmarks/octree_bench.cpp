@@ -1,14 +1,29 @@
-// Building the photon map against a radix sort of the same keys, in one run. Arguments: photons; give more
-// with
-//   octree_bench --benchmark_filter=/10000000
-// The map's time holds everything: bounds, keys, sort, octree, and the copy of the records into columns.
+// Building the photon map from unsorted records against its roof, a radix sort of the same keys alone, and
+// against what it replaces: nanoflann's kd-tree and the lecture's octree, to which photons are added one by
+// one. Arguments: photons, threads. Compare within one run, e.g.
+//   octree_bench --benchmark_filter=/photons:10000000/ --benchmark_enable_random_interleaving=true
+//     --benchmark_repetitions=7 --benchmark_min_time=0.01 --benchmark_report_aggregates_only=true
+// The map's time holds everything: bounds, keys, sort, octree, the records' way into columns, and the
+// system's work for fresh memory, which the sort does not need. The column CPU is that of all threads.
+//   --reuse-memory  memory stays with the program from one repetition to the next: the system's work is left
+//                   out (glibc), and no peak is measured
+//   --100M          maps and sorts of 100 M photons, nothing else, in 6 GB
 
 #include <benchmark/benchmark.h>
-#include <tbb/parallel_for.h>
+#include <malloc.h>
+#include <tbb/global_control.h>
 
+#include <limits>
+#include <optional>
+
+#include "apps/bench/peak_memory.h"
+#include "benchmarks/rivals/kd_tree.h"
+#include "benchmarks/rivals/lsd_radix_sort.h"
+#include "benchmarks/rivals/pointer_octree.h"
+#include "benchmarks/take_flag.h"
 #include "benchmarks/wall_photons.h"
 #include "photon/photon_map.h"
-#include "photon/radix_sort.h"
+#include "render/statistics_json.h"
 
 namespace kaustik::benchmarks {
 namespace {
@@ -16,105 +31,112 @@ namespace {
 using photon::MortonCube;
 using photon::PhotonBuffer;
 using photon::PhotonMap;
-using photon::UninitialisedArray;
 
-void BM_BuildPhotonMap(benchmark::State& state) {
+// The threads of a benchmark, from its last argument.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(const benchmark::State& state)
+      : limit_(tbb::global_control::max_allowed_parallelism, size_t(state.range(1))) {}
+
+ private:
+  tbb::global_control limit_;
+};
+
+// peak_per_photon: bytes at the highest point of the build, the records included.
+void BM_BuildPhotonMap(benchmark::State& state, bool with_peak) {
+  const ThreadLimit limit(state);
+  const double photons = double(state.range(0));
+  double stored = 0, peak = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    if (with_peak) app::restart_peak_memory();
+    const double before = double(render::peak_memory_bytes());
+    PhotonBuffer buffer = wall_photons(size_t(state.range(0)));
+    std::optional<PhotonMap> map;
+    state.ResumeTiming();
+    map.emplace(PhotonMap::build(std::move(buffer)));
+    state.PauseTiming();
+    stored = double(map->memory_bytes());
+    peak = std::max(peak, double(render::peak_memory_bytes()) - before);
+    map.reset();
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+  state.counters["bytes_per_photon"] = stored / photons;
+  if (with_peak) state.counters["peak_per_photon"] = peak / photons;
+}
+
+template <int kBits>
+void BM_LsdRadixSort(benchmark::State& state) {
+  const ThreadLimit limit(state);
+  const PhotonBuffer photons = wall_photons(size_t(state.range(0)));
+  const MortonCube cube = MortonCube::around({Point3(0), Point3(kRoom)});
+  KeyIndices pairs = make_key_indices(photons.records.size()), spare = make_key_indices(pairs.size());
+  fill_key_indices(photons.records, cube, spare);
+  for (auto _ : state) {
+    state.PauseTiming();
+    fill_key_indices(photons.records, cube, pairs);
+    state.ResumeTiming();
+    lsd_radix_sort<kBits>(pairs, spare);
+    benchmark::DoNotOptimize(pairs.data());
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+
+// Serial. The time of freeing does not count.
+template <PhotonIndex Index>
+void BM_BuildRival(benchmark::State& state) {
   const PhotonBuffer photons = wall_photons(size_t(state.range(0)));
   for (auto _ : state) {
     state.PauseTiming();
     PhotonBuffer copy = photons;
+    std::optional<Index> index;
     state.ResumeTiming();
-    benchmark::DoNotOptimize(PhotonMap::build(std::move(copy)));
-  }
-  state.SetItemsProcessed(state.iterations() * state.range(0));
-}
-
-struct Keys {
-  UninitialisedArray<uint64_t> keys;
-  UninitialisedArray<uint32_t> values;
-};
-
-Keys wall_keys(const PhotonBuffer& photons) {
-  const MortonCube cube = MortonCube::around({Point3(0), Point3(kRoom)});
-  Keys made{UninitialisedArray<uint64_t>(photons.records.size()),
-            UninitialisedArray<uint32_t>(photons.records.size())};
-  tbb::parallel_for(size_t(0), photons.records.size(), [&](size_t i) {
-    const photon::PhotonRecord& r = photons.records[i];
-    made.keys[i] = photon::morton_key(cube.cell({r.x, r.y, r.z}));
-    made.values[i] = uint32_t(i);
-  });
-  return made;
-}
-
-template <class Sort>
-void time_sort(benchmark::State& state, const Sort& sort) {
-  const PhotonBuffer photons = wall_photons(size_t(state.range(0)));
-  for (auto _ : state) {
+    index.emplace(Index::build(std::move(copy), 0));
     state.PauseTiming();
-    Keys keys = wall_keys(photons);
+    index.reset();
     state.ResumeTiming();
-    sort(keys);
-    benchmark::DoNotOptimize(keys.keys.data());
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-void BM_OurRadixSort(benchmark::State& state) {
-  time_sort(state, [](Keys& keys) { radix_sort(keys.keys, keys.values); });
+// Free memory is kept, whatever its size.
+void reuse_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TOP_PAD, 1 << 26);
+#endif
 }
 
-// The rival, on its own: a parallel least-significant-digit radix sort of (key, index) pairs, 8 bits a pass.
-struct Pair {
-  uint64_t key;
-  uint32_t value;
-};
+using Sizes = std::vector<int64_t>;
 
-void plain_radix_pass(const std::vector<Pair>& from, std::vector<Pair>& to, int shift) {
-  constexpr size_t kBlocks = 64;
-  const size_t block = (from.size() + kBlocks - 1) / kBlocks;
-  std::vector<std::array<size_t, 256>> counts(kBlocks);
-  const auto each_block = [&](const auto& fn) {
-    tbb::parallel_for(size_t(0), kBlocks, [&](size_t b) {
-      for (size_t i = b * block; i < std::min(from.size(), (b + 1) * block); ++i) {
-        fn(counts[b][from[i].key >> shift & 255], from[i]);
-      }
-    });
-  };
-  each_block([](size_t& count, const Pair&) { ++count; });
-  size_t sum = 0;
-  for (size_t d = 0; d < 256; ++d) {
-    for (size_t b = 0; b < kBlocks; ++b) sum += std::exchange(counts[b][d], sum);
-  }
-  each_block([&](size_t& place, const Pair& pair) { to[place++] = pair; });
+template <class Fn>
+void add(const std::string& name, const Fn& fn, const Sizes& sizes, const Sizes& threads) {
+  const auto bench = benchmark::RegisterBenchmark(name.c_str(), fn);
+  bench->ArgNames({"photons", "threads"})->ArgsProduct({sizes, threads});
+  bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 }
 
-void BM_PlainRadixSort(benchmark::State& state) {
-  const PhotonBuffer photons = wall_photons(size_t(state.range(0)));
-  const Keys keys = wall_keys(photons);
-  std::vector<Pair> from(photons.records.size()), to(photons.records.size());
-  for (auto _ : state) {
-    state.PauseTiming();
-    for (size_t i = 0; i < from.size(); ++i) from[i] = {keys.keys[i], keys.values[i]};
-    state.ResumeTiming();
-    for (int shift = 0; shift < 64; shift += 8) {
-      plain_radix_pass(from, to, shift);
-      std::swap(from, to);
-    }
-    benchmark::DoNotOptimize(from.data());
-  }
-  state.SetItemsProcessed(state.iterations() * state.range(0));
+void add_all(bool large, bool reuse) {
+  const Sizes few{1'000'000, 10'000'000}, many{100'000'000}, &sizes = large ? many : few;
+  add("map", [reuse](benchmark::State& state) { BM_BuildPhotonMap(state, !reuse); }, sizes, {1, 2});
+  add("lsd_radix_sort_11", BM_LsdRadixSort<11>, sizes, {1, 2});
+  add("lsd_radix_sort_8", BM_LsdRadixSort<8>, sizes, {1, 2});
+  if (large) return;
+  add("nanoflann", BM_BuildRival<KdTree>, sizes, {1});
+  add("pointer_octree", BM_BuildRival<PointerOctree>, sizes, {1});
 }
-
-void sizes(benchmark::internal::Benchmark* bench) {
-  bench->ArgName("photons")->Unit(benchmark::kMillisecond)->UseRealTime();
-  bench->Arg(1'000'000)->Arg(10'000'000);
-}
-
-BENCHMARK(BM_BuildPhotonMap)->Apply(sizes);
-BENCHMARK(BM_OurRadixSort)->Apply(sizes);
-BENCHMARK(BM_PlainRadixSort)->Apply(sizes);
 
 }  // namespace
 }  // namespace kaustik::benchmarks
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  using namespace kaustik::benchmarks;
+  const bool large = take_flag(argc, argv, "--100M"), reuse = take_flag(argc, argv, "--reuse-memory");
+  if (reuse) reuse_memory();
+  add_all(large, reuse);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

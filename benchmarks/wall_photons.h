@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/sampling/sampler.h"
+#include "photon/memory_pages.h"
 #include "photon/photon_record.h"
 
 namespace kaustik::benchmarks {
@@ -39,9 +40,13 @@ inline float room_area() {
   return 2 * (wall_area(0) + wall_area(2) + wall_area(4));
 }
 
-// Evenly spread over the area, in the order of shooting: no two neighbours in the buffer are near.
+// Evenly spread over the area, in the order of shooting: no two neighbours in the buffer are near. In large
+// pages, as the shoot's are.
 inline photon::PhotonBuffer wall_photons(size_t count) {
-  photon::PhotonBuffer buffer{std::vector<photon::PhotonRecord>(count), 1};
+  photon::PhotonBuffer buffer;
+  buffer.records.reserve(count);
+  photon::prefer_large_pages(buffer.records.data(), count * sizeof(photon::PhotonRecord));
+  buffer.records.resize(count);
   tbb::parallel_for(size_t(0), count, [&](size_t i) {
     float area = canonical(i, 0) * room_area();
     uint32_t wall = 0;

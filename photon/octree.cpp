@@ -1,8 +1,11 @@
-// The octree, built level by level from sorted keys, and the lecture's cell rules.
+// The octree from sorted photons, and the lecture's cell rules.
 
 #include "photon/octree.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+
+#include "photon/morton_lanes.h"
 
 namespace kaustik::photon {
 
@@ -11,13 +14,18 @@ namespace {
 // Where the octants of one node begin; the ninth entry is the node's end.
 using Splits = std::array<uint64_t, 9>;
 
-// first[i] of the octants of a node of `depth` whose photons are [begin, end).
-Splits find_splits(std::span<const uint64_t> keys, uint64_t begin, uint64_t end, int depth) {
+// Of a node of `depth` whose photons are [begin, end); key_at(i) is the key of photon i.
+template <class KeyAt>
+Splits find_splits(const KeyAt& key_at, uint64_t begin, uint64_t end, int depth) {
   const auto split = [&](uint64_t from, uint64_t to, uint32_t octant) {
-    const auto below = [&](uint64_t key) { return morton_octant(key, depth + 1) < octant; };
-    return uint64_t(
-        std::partition_point(keys.begin() + ptrdiff_t(from), keys.begin() + ptrdiff_t(to), below) -
-        keys.begin());
+    while (from < to) {
+      const uint64_t middle = from + (to - from) / 2;
+      if (morton_octant(key_at(middle), depth + 1) < octant)
+        from = middle + 1;
+      else
+        to = middle;
+    }
+    return from;
   };
   Splits s{};
   s[0] = begin;
@@ -42,58 +50,90 @@ uint32_t children_of(const Splits& splits) {
   return bits;
 }
 
-constexpr size_t kGrain = 256;
-
-template <class Fn>
-void for_each_index(size_t size, const Fn& fn) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, size, kGrain),
-                    [&](const tbb::blocked_range<size_t>& block) {
-                      for (size_t i = block.begin(); i < block.end(); ++i) fn(i);
-                    });
+// Divides the node and appends its children.
+template <class KeyAt>
+void divide(const KeyAt& key_at, size_t index, int depth, std::vector<OctreeNode>& nodes) {
+  const Splits splits = find_splits(key_at, nodes[index].begin, nodes[index].end, depth);
+  nodes[index].children = children_of(splits);
+  nodes[index].first_child = uint32_t(nodes.size());
+  for (size_t o = 0; o < 8; ++o) {
+    if (splits[o] < splits[o + 1]) nodes.push_back({uint32_t(splits[o]), uint32_t(splits[o + 1]), 0, 0});
+  }
 }
 
-// Nodes [first, last) of one level.
-struct Level {
-  size_t first, last;
-};
-
-// Appends the children of the level's nodes.
-Level build_next_level(std::span<const uint64_t> keys, int depth, Level level,
-                       std::vector<OctreeNode>& nodes) {
-  std::vector<Splits> splits(level.last - level.first);
-  for_each_index(splits.size(), [&](size_t i) {
-    OctreeNode& node = nodes[level.first + i];
-    if (node.range().size() <= Octree::kLeafPhotons) return;
-    splits[i] = find_splits(keys, node.begin, node.end, depth);
-    node.children = children_of(splits[i]);
-  });
-
-  size_t total = nodes.size();
-  for (size_t i = level.first; i < level.last; ++i) {
-    nodes[i].first_child = uint32_t(total);
-    total += size_t(std::popcount(nodes[i].child_mask()));
-  }
-  nodes.resize(total);
-  for_each_index(splits.size(), [&](size_t i) {
-    const OctreeNode& node = nodes[level.first + i];
-    for (uint32_t octant = 0; octant < 8; ++octant) {
-      if (!node.has_child(octant)) continue;
-      nodes[node.child(octant)] = {uint32_t(splits[i][octant]), uint32_t(splits[i][octant + 1]), 0, 0};
+// Divides the last of `nodes`, of `depth`, and its descendants, level by level, while they hold more than
+// `limit` photons. leave(node, depth) is called for the others.
+template <class KeyAt, class Fn>
+void divide_levels(const KeyAt& key_at, uint64_t limit, int depth, std::vector<OctreeNode>& nodes,
+                   const Fn& leave) {
+  size_t level = nodes.size() - 1;
+  for (; level < nodes.size(); ++depth) {
+    const size_t end = nodes.size();
+    for (; level < end; ++level) {
+      if (depth < kMortonBits && nodes[level].range().size() > limit)
+        divide(key_at, level, depth, nodes);
+      else
+        leave(level, depth);
     }
+  }
+}
+
+// A node whose descendants are made on their own, from keys that are computed once.
+struct Subtree {
+  size_t root;
+  int depth;
+  std::vector<OctreeNode> nodes;  // from the root on; first_child counts from here
+  size_t first = 0;               // place in the octree of the nodes below the root
+};
+constexpr uint64_t kSubtreePhotons = 1 << 15;
+
+void build_subtree(const MortonCube& cube, const PhotonPositions& p, Subtree& subtree,
+                   UninitialisedArray<uint64_t>& keys) {
+  const OctreeNode& root = subtree.nodes.front();
+  if (keys.size() == 0) keys = UninitialisedArray<uint64_t>(kSubtreePhotons);
+  morton_keys(cube, p.x + root.begin, p.y + root.begin, p.z + root.begin, {keys.data(), root.range().size()});
+  const auto key_at = [first = keys.data(), begin = root.begin](uint64_t i) { return first[i - begin]; };
+  divide_levels(key_at, Octree::kLeafPhotons, subtree.depth, subtree.nodes, [](size_t, int) {});
+}
+
+// The nodes above the subtrees, level by level; the subtrees, with nothing but their roots.
+std::vector<OctreeNode> build_top(const MortonCube& cube, const PhotonPositions& p, uint64_t size,
+                                  std::vector<Subtree>& subtrees) {
+  std::vector<OctreeNode> top{{0, uint32_t(size), 0, 0}};
+  const auto key_at = [&](uint64_t i) { return morton_key(cube.cell(p[i])); };
+  divide_levels(key_at, kSubtreePhotons, 0, top, [&](size_t node, int depth) {
+    const bool divisible = depth < kMortonBits && top[node].range().size() > Octree::kLeafPhotons;
+    if (divisible) subtrees.push_back({node, depth, {top[node]}});
   });
-  return {level.last, total};
+  return top;
 }
 
 }  // namespace
 
-Octree::Octree(const MortonCube& cube, std::span<const uint64_t> keys) : cube_(cube), size_(keys.size()) {
-  if (keys.empty()) return;
-  nodes_.push_back({0, uint32_t(keys.size()), 0, 0});
-  Level level{0, 1};
-  for (int depth = 0; depth < kMortonBits && level.first < level.last; ++depth) {
-    level = build_next_level(keys, depth, level, nodes_);
+Octree::Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_t size)
+    : cube_(cube), size_(size) {
+  if (size == 0) return;
+  std::vector<Subtree> subtrees;
+  const std::vector<OctreeNode> top = build_top(cube, positions, size, subtrees);
+  tbb::enumerable_thread_specific<UninitialisedArray<uint64_t>> keys;
+  tbb::parallel_for(size_t(0), subtrees.size(),
+                    [&](size_t i) { build_subtree(cube, positions, subtrees[i], keys.local()); });
+
+  size_t total = top.size();
+  for (Subtree& subtree : subtrees) {
+    subtree.first = total;
+    total += subtree.nodes.size() - 1;
   }
-  nodes_.shrink_to_fit();
+  nodes_ = UninitialisedArray<OctreeNode>(total);
+  std::ranges::copy(top, nodes_.begin());
+  tbb::parallel_for(size_t(0), subtrees.size(), [&](size_t i) {
+    Subtree& subtree = subtrees[i];
+    for (OctreeNode& node : subtree.nodes) {
+      if (!node.leaf()) node.first_child += uint32_t(subtree.first - 1);
+    }
+    nodes_[subtree.root] = subtree.nodes.front();
+    std::copy(subtree.nodes.begin() + 1, subtree.nodes.end(), nodes_.begin() + subtree.first);
+  });
 }
 
 PhotonRange Octree::child_range(const PhotonPositions& positions, PhotonRange range, uint64_t key,

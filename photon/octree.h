@@ -15,9 +15,9 @@ namespace kaustik::photon {
 
 // The children of a node lie next to each other, in octant order.
 struct OctreeNode {
-  uint32_t begin = 0, end = 0;  // photons
-  uint32_t first_child = 0;     // index of the node
-  uint32_t children = 0;        // bit o: octant o is not empty; bits 8 + 3 o up: how many come before it
+  uint32_t begin, end;   // photons
+  uint32_t first_child;  // index of the node
+  uint32_t children;     // bit o: octant o is not empty; bits 8 + 3 o up: how many come before it
 
   bool leaf() const { return children == 0; }
   PhotonRange range() const { return {begin, end}; }
@@ -49,14 +49,14 @@ class Octree {
   static constexpr uint64_t kLeafPhotons = 64;
 
   Octree() = default;
-  // keys: ascending, fewer than 2^32. Built level by level: the children of all nodes of a level are counted
-  // in parallel, and a prefix sum gives each its place. The result does not depend on the number of threads.
-  Octree(const MortonCube& cube, std::span<const uint64_t> keys);
+  // positions: of `size` photons by ascending key, fewer than 2^32. The result does not depend on the number
+  // of threads.
+  Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_t size);
 
   const MortonCube& cube() const { return cube_; }
   uint64_t size() const { return size_; }  // photons
-  std::span<const OctreeNode> nodes() const { return nodes_; }
-  uint64_t memory_bytes() const { return nodes_.capacity() * sizeof(OctreeNode); }
+  std::span<const OctreeNode> nodes() const { return {nodes_.data(), nodes_.size()}; }
+  uint64_t memory_bytes() const { return nodes_.size() * sizeof(OctreeNode); }
 
   // fn(PhotonRange) for ranges in ascending order that together hold every photon of `within` that is at most
   // radius from p (and others): all leaves that meet the sphere, adjacent ones joined.
@@ -90,7 +90,7 @@ class Octree {
   PhotonRange child_range(const PhotonPositions& positions, PhotonRange range, uint64_t key, int depth) const;
 
   MortonCube cube_;
-  std::vector<OctreeNode> nodes_;
+  UninitialisedArray<OctreeNode> nodes_;
   uint64_t size_ = 0;
 };
 

@@ -4,13 +4,15 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "photon/memory_pages.h"
 #include "photon/packing.h"
-#include "photon/radix_sort.h"
 
 namespace kaustik::photon {
 
@@ -42,20 +44,10 @@ Bounds3 bounds_of(std::span<const PhotonRecord> records) {
       });
 }
 
-// order[i] is the photon at place i of the Morton order. The keys are freed on return.
-Octree sort_photons(std::span<const PhotonRecord> records, const MortonCube& cube,
-                    UninitialisedArray<uint32_t>& order) {
-  if (records.size() >= std::numeric_limits<uint32_t>::max()) {
-    throw std::length_error("a photon map holds fewer than 2^32 - 1 photons: shoot fewer per pass");
+void check_size(uint64_t size) {
+  if (size > std::numeric_limits<uint32_t>::max()) {
+    throw std::length_error("a photon map holds at most 2^32 - 1 photons: shoot fewer per pass");
   }
-  UninitialisedArray<uint64_t> keys(records.size());
-  order = UninitialisedArray<uint32_t>(records.size());
-  for_each_index(records.size(), [&](size_t i) {
-    keys[i] = morton_key(cube.cell(Point3(records[i].x, records[i].y, records[i].z)));
-    order[i] = uint32_t(i);
-  });
-  radix_sort(keys, order);
-  return Octree(cube, {keys.data(), keys.size()});
 }
 
 // Ranges on their way from the octree to the SIMD loop.
@@ -95,67 +87,58 @@ class NearestSet {
 
 }  // namespace
 
-PhotonMap::Writer PhotonMap::allocate(uint64_t size, bool f32_power) {
+RecordColumns PhotonMap::allocate(uint64_t size, bool f32_power) {
   const uint64_t stride = (size + kGatherPadding) * sizeof(uint32_t), columns = f32_power ? 8 : 6;
   size_ = size;
   // Bytes, in which the columns' floats and words may begin their lives.
   storage_ = UninitialisedArray<std::byte>(stride * columns);
+  prefer_large_pages(storage_.data(), storage_.size());
   for (uint64_t c = 0; c < columns; ++c) {
     std::fill_n(storage_.data() + (c + 1) * stride - kGatherPadding * sizeof(uint32_t),
                 kGatherPadding * sizeof(uint32_t), std::byte(0));
   }
   const auto words = [&](uint64_t c) { return reinterpret_cast<uint32_t*>(storage_.data() + c * stride); };
   const auto floats = [&](uint64_t c) { return reinterpret_cast<float*>(storage_.data() + c * stride); };
-  Writer to{floats(0), floats(1), floats(2), words(3), words(4), nullptr, {}};
-  if (f32_power) {
-    for (uint64_t c = 0; c < 3; ++c) to.power_f32[c] = floats(5 + c);
-  } else {
-    to.power = words(5);
-  }
-  columns_ = {to.x, to.y, to.z, to.direction, to.surface, to.power, {}};
-  std::copy_n(to.power_f32, 3, columns_.power_f32);
+  const RecordColumns to{floats(0), floats(1), floats(2), words(3), words(5), words(4)};
+  columns_ = {to.x, to.y, to.z, to.direction, to.surface, f32_power ? nullptr : to.power, {}};
+  for (uint64_t c = 0; f32_power && c < 3; ++c) columns_.power_f32[c] = floats(5 + c);
   return to;
 }
 
-void PhotonMap::Writer::write(uint64_t i, const PhotonRecord& record) const {
-  x[i] = record.x;
-  y[i] = record.y;
-  z[i] = record.z;
-  direction[i] = record.direction;
-  surface[i] = record.surface;
+RecordColumns PhotonMap::fill(std::vector<PhotonRecord>&& records, const MapSettings& settings,
+                              bool f32_power) {
+  const MortonCube cube = MortonCube::around(settings.bounds.value_or(bounds_of(records)));
+  const RecordColumns to = allocate(records.size(), f32_power);
+  sort_into_columns(records, cube, to);
+  tbb::parallel_invoke([&] { octree_ = Octree(cube, positions(), size_); },
+                       [&] { std::vector<PhotonRecord>().swap(records); });
+  return to;
 }
 
 PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
-  const PhotonBuffer from = std::move(buffer);
-  buffer = {};
-  const std::vector<PhotonRecord>& records = from.records;
+  check_size(buffer.records.size());
+  PhotonBuffer taken = std::exchange(buffer, {});
   PhotonMap map;
-  map.flux_unit_ = from.flux_unit;
-  UninitialisedArray<uint32_t> order;
-  map.octree_ =
-      sort_photons(records, MortonCube::around(settings.bounds.value_or(bounds_of(records))), order);
-  const Writer to = map.allocate(records.size(), false);
-  for_each_index(records.size(), [&](size_t i) {
-    const PhotonRecord& record = records[order[i]];
-    to.write(i, record);
-    to.power[i] = record.power;
-  });
+  map.flux_unit_ = taken.flux_unit;
+  map.fill(std::move(taken.records), settings, false);
   return map;
 }
 
 PhotonMap PhotonMap::build_f32(std::span<const Photon> photons, float flux_unit,
                                const MapSettings& settings) {
+  check_size(photons.size());
   std::vector<PhotonRecord> records(photons.size());
-  for_each_index(photons.size(), [&](size_t i) { records[i] = pack(photons[i], flux_unit); });
+  for_each_index(photons.size(), [&](size_t i) {
+    records[i] = pack(photons[i], flux_unit);
+    records[i].power = uint32_t(i);  // stands for the power until the order is known
+  });
   PhotonMap map;
   map.flux_unit_ = flux_unit;
-  UninitialisedArray<uint32_t> order;
-  map.octree_ =
-      sort_photons(records, MortonCube::around(settings.bounds.value_or(bounds_of(records))), order);
-  const Writer to = map.allocate(records.size(), true);
-  for_each_index(records.size(), [&](size_t i) {
-    to.write(i, records[order[i]]);
-    for (int c = 0; c < 3; ++c) to.power_f32[c][i] = photons[order[i]].flux[c] / flux_unit;
+  const RecordColumns filled = map.fill(std::move(records), settings, true);
+  auto* const power = reinterpret_cast<float*>(filled.power);  // and the two columns after it
+  for_each_index(photons.size(), [&](size_t i) {
+    const Rgb flux = photons[filled.power[i]].flux;
+    for (size_t c = 0; c < 3; ++c) power[c * (map.size_ + kGatherPadding) + i] = flux[int(c)] / flux_unit;
   });
   return map;
 }

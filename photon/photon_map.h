@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "photon/gather.h"
+#include "photon/morton_sort.h"
 #include "photon/octree.h"
 #include "photon/photon_record.h"
 
@@ -25,7 +26,8 @@ class PhotonMap {
   PhotonMap() = default;
 
   // Takes the buffer's memory and frees it. The result does not depend on the number of threads. Peak memory:
-  // 52 bytes per photon, the buffer included. At most 2^32 - 1 photons (std::length_error beyond).
+  // 48 bytes per photon, the buffer included, and a few megabytes per thread. At most 2^32 - 1 photons
+  // (std::length_error beyond).
   static PhotonMap build(PhotonBuffer&& buffer, const MapSettings& settings = {});
   // The same with the power kept as 3 x f32 instead of RGB9E5 (32 bytes per photon): the reference for what
   // the packed power loses.
@@ -62,14 +64,10 @@ class PhotonMap {
   PhotonPositions positions() const { return {columns_.x, columns_.y, columns_.z}; }
 
  private:
-  // The columns while they are filled.
-  struct Writer {
-    float *x, *y, *z;
-    uint32_t *direction, *surface, *power;
-    float* power_f32[3];
-    void write(uint64_t i, const PhotonRecord& record) const;  // all but the power
-  };
-  Writer allocate(uint64_t size, bool f32_power);
+  // The columns to fill. Where the power is kept as f32, the first of its columns takes the records' words.
+  RecordColumns allocate(uint64_t size, bool f32_power);
+  // Columns and octree of the records, whose memory is freed.
+  RecordColumns fill(std::vector<PhotonRecord>&& records, const MapSettings& settings, bool f32_power);
 
   Octree octree_;
   UninitialisedArray<std::byte> storage_;  // all columns, one after the other

@@ -5,6 +5,7 @@
 
 #include <atomic>
 
+#include "photon/memory_pages.h"
 #include "photon/record_sink.h"
 
 namespace kaustik::photon {
@@ -34,6 +35,7 @@ void append(std::vector<PhotonRecord>& all, const std::vector<PhotonRecord>& mor
   if (size > all.capacity()) {
     const double expected = static_cast<double>(size) / done_share;
     all.reserve(std::max(size, static_cast<size_t>(1.03 * expected + 5 * std::sqrt(expected))));
+    prefer_large_pages(all.data(), all.capacity() * sizeof(PhotonRecord));
   }
   all.insert(all.end(), more.begin(), more.end());
 }

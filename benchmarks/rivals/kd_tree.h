@@ -1,6 +1,6 @@
 #pragma once
 // nanoflann's kd-tree. Flux is summed as the search meets the photons: no list of indices is made. Photons
-// are first put into Morton order by our radix sort, which the build of the tree gains back and a search
+// are first put into Morton order by a radix sort, which the build of the tree gains back and a search
 // gains by a third.
 
 #include <limits>
@@ -8,9 +8,8 @@
 #include <nanoflann.hpp>
 
 #include "benchmarks/photon_index.h"
+#include "benchmarks/rivals/lsd_radix_sort.h"
 #include "benchmarks/rivals/plain_photon.h"
-#include "photon/morton.h"
-#include "photon/radix_sort.h"
 
 namespace kaustik::benchmarks {
 
@@ -59,17 +58,12 @@ class KdTree {
 
   static std::vector<PlainPhoton> in_morton_order(const photon::PhotonBuffer& buffer) {
     const std::vector<photon::PhotonRecord>& records = buffer.records;
-    const photon::MortonCube cube = photon::MortonCube::around(bounds_of(buffer));
-    photon::UninitialisedArray<uint64_t> keys(records.size());
-    photon::UninitialisedArray<uint32_t> order(records.size());
-    for (size_t i = 0; i < records.size(); ++i) {
-      keys[i] = photon::morton_key(cube.cell({records[i].x, records[i].y, records[i].z}));
-      order[i] = uint32_t(i);
-    }
-    photon::radix_sort(keys, order);
+    KeyIndices order(records.size()), spare(records.size());
+    fill_key_indices(records, photon::MortonCube::around(bounds_of(buffer)), order);
+    lsd_radix_sort<11>(order, spare);
     std::vector<PlainPhoton> photons;
     photons.reserve(records.size());
-    for (const uint32_t i : order) photons.push_back(plain_photon(records[i], buffer.flux_unit));
+    for (const KeyIndex& at : order) photons.push_back(plain_photon(records[at.index], buffer.flux_unit));
     return photons;
   }
 

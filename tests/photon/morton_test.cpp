@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "photon/morton_lanes.h"
 #include "tests/photon/photon_sets.h"
 
 namespace kaustik::photon {
@@ -18,6 +19,30 @@ TEST(Morton, InterleavesBitByBit) {
     }
     ASSERT_EQ(morton_key(cell), expected);
     ASSERT_EQ(morton_cell(expected), cell);
+  }
+}
+
+// Every length leaves another rest for the last vector; among the coordinates are those that clamp.
+TEST(Morton, KeysInLanesAreThoseOfOneByOne) {
+  PhotonMaker make(12);
+  const MortonCube cube = MortonCube::around({Point3(-1), Point3(2)});
+  const float special[] = {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(), 0, -0.0f,
+                           1e30f,     1e-40f};
+  const auto coordinate = [&] {
+    return make.bits() % 8 == 0 ? special[make.bits() % 7] : 5 * make.uniform() - 2;
+  };
+  for (size_t size = 0; size < 600; size += size < 40 ? 1 : 37) {
+    std::vector<PhotonRecord> records(size);
+    std::vector<float> x(size), y(size), z(size);
+    std::vector<uint64_t> expected(size), of_columns(size), of_records(size);
+    for (size_t i = 0; i < size; ++i) {
+      records[i] = {x[i] = coordinate(), y[i] = coordinate(), z[i] = coordinate(), 1, 2, 3};
+      expected[i] = morton_key(cube.cell({x[i], y[i], z[i]}));
+    }
+    morton_keys(cube, x.data(), y.data(), z.data(), of_columns);
+    morton_keys(cube, records.data(), of_records);
+    ASSERT_EQ(of_columns, expected);
+    ASSERT_EQ(of_records, expected);
   }
 }
 

@@ -57,6 +57,27 @@ TEST(Octree, NodesPartitionThePhotons) {
   }
 }
 
+// More photons than one subtree holds, at all depths: evenly spread, in one point, around one point ever more
+// densely.
+TEST(Octree, LargeTreesPartitionThePhotons) {
+  PhotonMaker make(21);
+  const Normal3 up(0, 0, 1);
+  for (const int count : {32768, 32769, 150000}) {
+    std::vector<Photon> even, point, funnel;
+    for (int i = 0; i < count; ++i) {
+      even.push_back(make.on_wall());
+      point.push_back(make.at(i % 4 == 0 ? 2.0f * make.direction() : Point3(0.5f), up, 0));
+      funnel.push_back(make.at(std::exp2(-30 * make.uniform()) * make.direction(), up, 0));
+    }
+    for (const std::vector<Photon>& photons : {even, point, funnel}) {
+      const PhotonMap map = PhotonMap::build(make_buffer(photons));
+      size_t visited = 0;
+      check_node(map, map.octree().nodes()[0], 0, visited);
+      EXPECT_EQ(visited, map.octree().nodes().size());
+    }
+  }
+}
+
 TEST(Octree, DescendFindsTheCellsOfBruteForce) {
   for (const PhotonSet& set : photon_sets()) {
     if (set.photons.size() > 5000) continue;
