@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Did performance get worse between two revisions? Exact counts, instructions, time: see docs/performance.md.
+
+scripts/perf-gate BASE_REV [--only counters,instructions,time] [--rounds 15] [--time-limit 10]
+scripts/perf-gate --update-baseline
+
+The head is the working tree as it is, local changes included. Prints a table, also into build/perf-gate/results/table.md.
+Exit code: 0 nothing got worse, 1 something did, 2 it could not be found out. Python 3 alone."""
+import argparse
+import pathlib
+import subprocess
+import sys
+
+import counters
+import instructions
+import wall_time
+from sides import BASE, HEAD, Side, git, snapshot
+from table import FAIL, failed, markdown
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CHECKS = ("counters", "instructions", "time")
+
+
+class CannotTell(Exception):
+    pass
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(prog="perf-gate", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("base", nargs="?", metavar="BASE_REV", help="revision to compare with")
+    parser.add_argument("--only", default=",".join(CHECKS), help="checks to make, separated by commas")
+    parser.add_argument("--rounds", type=int, default=15, help="runs of each side for the time (default: 15)")
+    parser.add_argument("--time-limit", type=float, default=10, metavar="PERCENT",
+                        help="slow-down that fails, where the U test finds one at all (default: 10)")
+    parser.add_argument("--update-baseline", action="store_true", help=f"count anew, into {counters.BASELINE}")
+    options = parser.parse_args(arguments)
+    options.only = options.only.split(",")
+    if bool(options.base) == options.update_baseline:
+        parser.error("give a revision to compare with, or --update-baseline")
+    if not set(options.only) <= set(CHECKS):
+        parser.error(f"--only takes {', '.join(CHECKS)}")
+    return options
+
+
+def require(side, target):
+    if not side.build(target):
+        raise CannotTell(f"{target} of {side.name} does not build: {side.log(target)}")
+
+
+def make_sides(options, head_commit):
+    head, base = Side(ROOT, HEAD), Side(ROOT, BASE)
+    head.check_out(head_commit)
+    if options.base:
+        base.check_out(git(ROOT, "rev-parse", "--verify", f"{options.base}^{{commit}}"))
+        base.take_driver(head_commit)
+    return base, head
+
+
+def make_checks(options, base, head, results):
+    rows = []
+    if "counters" in options.only:
+        require(head, "kaustik")
+        rows += counters.check(ROOT, base, head)
+    if "instructions" in options.only:
+        require(head, "perf_kernels")
+        rows += instructions.check(base, head, results)
+    if "time" in options.only:
+        require(head, "perf_kernels")
+        rows += wall_time.check(base, head, results, options.rounds, 1 + options.time_limit / 100)
+    return rows
+
+
+def compare(options, base, head, results):
+    rows = make_checks(options, base, head, results)
+    verdict = FAIL if failed(rows) else "passed"
+    text = f"perf-gate {base.commit[:10]} .. {head.commit[:10]}: {verdict}\n\n{markdown(rows)}\n"
+    (results / "table.md").write_text(text)
+    print(text)
+    return 1 if failed(rows) else 0
+
+
+def main(arguments):
+    options = parse_arguments(arguments)
+    results = ROOT / "build" / "perf-gate" / "results"
+    results.mkdir(parents=True, exist_ok=True)
+    try:
+        base, head = make_sides(options, snapshot(ROOT))
+        if not options.update_baseline:
+            return compare(options, base, head, results)
+        require(head, "kaustik")
+        if not counters.update(ROOT, head):
+            raise CannotTell("a render of the baseline failed")
+        print(f"perf-gate: wrote {counters.BASELINE}; say why in its commit: `Counters: reason`")
+        return 0
+    except (CannotTell, subprocess.CalledProcessError) as error:
+        print(f"perf-gate: {error}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
