@@ -11,9 +11,8 @@ namespace kaustik::app {
 void with_thread_limit(int threads, const std::function<void()>& work) {
   const int limit = threads > 0 ? threads : core_limits().usable();
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(limit));
-  // Two pools of its own, one in OpenImageIO and one in OpenEXR: both off, or the sum would be above the
-  // bound.
-  OIIO::attribute("threads", 1);
+  // OpenEXR's own pool stays empty. OpenImageIO's is never made (render/image_io.cpp): its attribute
+  // "threads" would first make it with a thread per core, then shrink it.
   OIIO::attribute("exr_threads", -1);
   tbb::task_arena arena(limit);
   arena.execute(work);

@@ -65,6 +65,7 @@ void write_pixels(const std::string& path, OIIO::ImageSpec spec, const Metadata&
   PendingFile file(path);
   auto out = OIIO::ImageOutput::create(file.temporary());
   if (!out) throw ImageError(path, OIIO::geterror());
+  out->threads(1);  // otherwise the library makes a pool of threads of its own
   if (!out->open(file.temporary(), spec)) throw ImageError(path, out->geterror());
   const bool written = out->write_image(type, pixels);
   const std::string message = written ? "" : out->geterror();
@@ -209,6 +210,7 @@ void write_image(const std::string& path, const Image& image, const ToneSettings
 Image read_image(const std::string& path) {
   auto in = OIIO::ImageInput::open(path);
   if (!in) throw ImageError(path, OIIO::geterror());
+  in->threads(1);
   const OIIO::ImageSpec spec = in->spec();
   const auto [first, count] = colour_channels(spec);
   std::vector<float> values(size_t(spec.width) * size_t(spec.height) * size_t(count));
