@@ -97,19 +97,19 @@ void set_start(EmissionLanes& lanes, size_t k, const ChosenLamp& lamp) {
     side = u[2][k] < 0.5f ? 1.0f : -1.0f;
     lanes.u[2][k] = u[2][k] < 0.5f ? 2 * u[2][k] : 2 * u[2][k] - 1;
   }
-  DiffuseLanes::set(lanes.p0, k, t.p0);
-  DiffuseLanes::set(lanes.e1, k, t.e1);
-  DiffuseLanes::set(lanes.e2, k, t.e2);
-  DiffuseLanes::set(lanes.n, k, side * t.n);
-  DiffuseLanes::set(lanes.flux, k, lamp.flux());
+  VertexLanes::set(lanes.p0, k, t.p0);
+  VertexLanes::set(lanes.e1, k, t.e1);
+  VertexLanes::set(lanes.e2, k, t.e2);
+  VertexLanes::set(lanes.n, k, side * t.n);
+  VertexLanes::set(lanes.flux, k, lamp.flux());
 }
 
 void set_start(EmissionLanes& lanes, size_t k, const std::optional<EmissionSample>& start) {
   lanes.emitted[k] = start.has_value();
   if (!start) return;
-  DiffuseLanes::set(lanes.ray.o, k, start->ray.o);
-  DiffuseLanes::set(lanes.ray.d, k, start->ray.d);
-  DiffuseLanes::set(lanes.flux, k, start->flux);
+  VertexLanes::set(lanes.ray.o, k, start->ray.o);
+  VertexLanes::set(lanes.ray.d, k, start->ray.d);
+  VertexLanes::set(lanes.flux, k, start->flux);
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t co
   std::fill_n(lanes.emitted, count, 0);
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return;
   ChosenLamp lamp(scene, total, mode);
-  bool in_lanes[DiffuseLanes::kLanes];
+  bool in_lanes[VertexLanes::kLanes];
   for (size_t k = 0; k < count; ++k) {
     lamp.choose(lanes.u_lamp[k]);
     in_lanes[k] = lamp.triangles() != nullptr;

@@ -1,13 +1,13 @@
 #pragma once
 // Photon starts, many at once: lamps of triangles in SIMD lanes, the others one by one.
 
-#include "photon/diffuse_lanes.h"
 #include "photon/emission.h"
+#include "photon/vertex_lanes.h"
 
 namespace kaustik::photon {
 
 struct EmissionLanes {
-  using Column = DiffuseLanes::Column;
+  using Column = VertexLanes::Column;
 
   // In: the random numbers of emit_photon(). u_lamp is needed when there are several lamps.
   SobolLanes position_direction;
@@ -16,7 +16,7 @@ struct EmissionLanes {
   // Out: rays and fluxes as emit_photon() makes them; emitted is zero where it makes none.
   accel::RayLanes ray;
   alignas(64) Column flux[3];
-  int32_t emitted[DiffuseLanes::kLanes];
+  int32_t emitted[VertexLanes::kLanes];
 
   // Between: for lamps of triangles, the numbers left for the point and the direction, and the triangle
   // chosen with its normal on the side that emits.

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "photon/diffuse_lanes.h"
 #include "photon/photon_record.h"
+#include "photon/vertex_lanes.h"
 
 namespace kaustik::photon {
 
@@ -17,11 +17,11 @@ struct PhotonLanes {
 };
 // Their records' words, aligned as well.
 struct PackedLanes {
-  alignas(64) uint32_t direction[DiffuseLanes::kLanes], power[DiffuseLanes::kLanes],
-      surface[DiffuseLanes::kLanes];
+  alignas(64) uint32_t direction[VertexLanes::kLanes], power[VertexLanes::kLanes],
+      surface[VertexLanes::kLanes];
 };
 
-// The first `count` lanes; at most DiffuseLanes::kLanes, and whole multiples of 16 are read and written.
+// The first `count` lanes; at most VertexLanes::kLanes, and whole multiples of 16 are read and written.
 void pack_lanes(const PhotonLanes& photons, size_t count, float flux_unit, PackedLanes* packed);
 
 // Photons of one kind on their way into records: as they are added, packed kLanes at a time.

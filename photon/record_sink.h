@@ -21,8 +21,7 @@ class RecordSink {
   }
   // The first `count` lanes, whose flux is what they leave at p. kind[k] is a PhotonKind, or kPhotonKinds for
   // nothing.
-  void operator()(const DiffuseLanes& lanes, const uint8_t* kind, const uint32_t* surface_group,
-                  size_t count);
+  void operator()(const VertexLanes& lanes, const uint8_t* kind, size_t count);
   // Packs what still waits.
   void flush() {
     for (size_t k = 0; k < packers_.size(); ++k) packers_[k].flush(records_[k]);

@@ -18,12 +18,12 @@ struct Block {
   TraceCounters counters;
 };
 
-void trace_block(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, float flux_unit,
-                 Block& block) {
+void trace_block(const Scene& scene, const SurfaceTable& surfaces, const accel::Bvh& bvh,
+                 const TraceSettings& settings, float flux_unit, Block& block) {
   for (auto& records : block.records) records.clear();
   TraceCounters counters;
   RecordSink sink(flux_unit, block.records);
-  trace_photons(scene, bvh, settings, block.first, block.end, sink, counters);
+  trace_photons(scene, surfaces, bvh, settings, block.first, block.end, sink, counters);
   sink.flush();
   block.counters = counters;
 }
@@ -67,6 +67,7 @@ ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
   for (PhotonBuffer& buffer : result.buffers) buffer.flux_unit = flux_unit;
   if (!settings.kinds.any()) return result;
 
+  const SurfaceTable surfaces(scene);
   // At most slots.size() blocks are under way and they retire in order, so block b may use slot b modulo
   // that.
   std::vector<Block> slots(4 * static_cast<size_t>(std::max(1, tbb::this_task_arena::max_concurrency())));
@@ -83,7 +84,7 @@ ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
     return &block;
   };
   const auto trace = [&](Block* block) {
-    trace_block(scene, bvh, settings, flux_unit, *block);
+    trace_block(scene, surfaces, bvh, settings, flux_unit, *block);
     return block;
   };
   const auto finish = [&](const Block* block) {

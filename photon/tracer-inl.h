@@ -3,7 +3,7 @@
 //
 // Photons wait in eight queues, one for each octant of ray directions. A group from one queue takes a step
 // together: its rays are traced in packets, what can be computed side by side is (random numbers, and all of
-// the commonest vertices: DiffuseLanes), each leaves its record, and those that go on join the queues again.
+// the commonest vertices: VertexLanes), each leaves its record, and those that go on join the queues again.
 // New photons are emitted when no queue holds a whole group, so packets are full and their rays alike until
 // the last photons are under way.
 
@@ -55,26 +55,18 @@ struct Arrival {
   Rgb flux;
 };
 
-// The triangle mesh that a lane's hit lies on, or null.
-inline const TriangleMesh* mesh_of(const Scene& scene, const accel::HitLanes& hits, size_t k) {
-  return hits.valid(k) ? std::get_if<TriangleMesh>(&scene.shapes[hits.shape[k]].geometry) : nullptr;
-}
-
 // A hit names a triangle; its vertices lie two dependent loads away, often out of cache. Asking for all of a
 // group's before any is needed hides most of that wait. Inlined always: GCC 12 takes a function that only
 // prefetches for one without effects, and drops the call.
-[[gnu::always_inline]] inline void prefetch_triangles(const Scene& scene, const accel::HitLanes& hits,
-                                                      size_t count) {
+[[gnu::always_inline]] inline void prefetch_triangles(const SurfaceTable& surfaces,
+                                                      const accel::HitLanes& hits, size_t count) {
+  const auto triangle = [&](size_t k, const SurfaceRow& surface) {
+    return &surface.indices[hits.primitive[k] & surface.primitives];
+  };
+  for (size_t k = 0; k < count; ++k) __builtin_prefetch(triangle(k, surfaces.row(hits.shape[k])));
   for (size_t k = 0; k < count; ++k) {
-    if (const auto* mesh = mesh_of(scene, hits, k)) __builtin_prefetch(&mesh->indices[hits.primitive[k]]);
-  }
-  for (size_t k = 0; k < count; ++k) {
-    const TriangleMesh* mesh = mesh_of(scene, hits, k);
-    if (!mesh) continue;
-    for (uint32_t vertex : mesh->indices[hits.primitive[k]]) {
-      __builtin_prefetch(&mesh->P[vertex]);
-      if (!mesh->N.empty()) __builtin_prefetch(&mesh->N[vertex]);
-    }
+    const SurfaceRow& surface = surfaces.row(hits.shape[k]);
+    for (uint32_t vertex : *triangle(k, surface)) __builtin_prefetch(&surface.P[vertex]);
   }
 }
 
@@ -92,9 +84,10 @@ void intersect_lanes(const Accel& bvh, const accel::RayLanes& rays, size_t count
 template <class Accel, class Sink>
 class Tracer {
  public:
-  Tracer(const Scene& scene, const Accel& bvh, const TraceSettings& settings, uint64_t upper_half, Sink& sink,
-         TraceCounters& counters)
+  Tracer(const Scene& scene, const SurfaceTable& surfaces, const Accel& bvh, const TraceSettings& settings,
+         uint64_t upper_half, Sink& sink, TraceCounters& counters)
       : scene_(scene),
+        surfaces_(surfaces),
         bvh_(bvh),
         settings_(settings),
         sink_(sink),
@@ -151,7 +144,7 @@ class Tracer {
     draw_from(0, count, 4, starts_.position_direction);
     emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_);
     for (size_t k = 0; k < count; ++k) {
-      const Rgb flux = DiffuseLanes::get(starts_.flux, k);
+      const Rgb flux = VertexLanes::get(starts_.flux, k);
       if (!starts_.emitted[k] || is_black(flux) || !valid(flux)) continue;
       const Ray ray = starts_.ray.get(k);
       queue_of(ray.d).push(ray.o, ray.d, flux, reversed_indices_[k], {});
@@ -161,21 +154,24 @@ class Tracer {
   void step(WalkerQueue& queue, size_t count) {
     queue.take(count, lanes_, reversed_indices_.data(), states_.data());
     intersect_lanes(bvh_, lanes_.ray, count, &lanes_.hit);
-    prefetch_triangles(scene_, lanes_.hit, count);
-    const bool all_in_lanes = fill_lanes(count);
-    locate_lanes(lanes_, count);
-    if (settings_.kinds.indirect || !all_in_lanes) draw_vertex_numbers(count, all_in_lanes ? 3 : 4);
-    if (settings_.kinds.indirect) scatter_lanes(lanes_, numbers_, count);
+    if (surfaces_.many_triangles()) prefetch_triangles(surfaces_, lanes_.hit, count);
+    const uint32_t traits = fill_lanes(count);
+    locate_lanes(lanes_, surfaces_.shapes(), count);
+    const bool chooses_lobes = traits & (kSpecularTrait | kScalarTrait);
+    if (settings_.kinds.indirect || (settings_.kinds.caustic && chooses_lobes)) {
+      // Diffuse reflection does without the fourth number.
+      draw_vertex_numbers(count, chooses_lobes ? 4 : 3);
+      scatter_lanes(lanes_, numbers_, count);
+    }
     for (size_t k = 0; k < count; ++k) arrive(k);
     leave_photons_of_lanes(count);
     for (size_t k = 0; k < count; ++k) {
-      const Vector3 d = DiffuseLanes::get(lanes_.next.d, k);
-      queue_of(d).push(DiffuseLanes::get(lanes_.next.o, k), d, DiffuseLanes::get(lanes_.next_flux, k),
+      const Vector3 d = VertexLanes::get(lanes_.next.d, k);
+      queue_of(d).push(VertexLanes::get(lanes_.next.o, k), d, VertexLanes::get(lanes_.next_flux, k),
                        reversed_indices_[k], states_[k], goes_on_[k]);
     }
   }
 
-  // Diffuse reflection does without the fourth number.
   void draw_vertex_numbers(size_t count, int dimensions) {
     uint32_t last = 0;
     for (size_t k = 0; k < count; ++k) {
@@ -188,35 +184,32 @@ class Tracer {
     draw_sobol_lanes(keys_, sets_.data(), reversed_indices_.data(), count, dimensions, &numbers_);
   }
 
-  // Hands the vertices that lanes_ can hold over to it and marks them in in_lanes_; true when it can hold
-  // all.
-  bool fill_lanes(size_t count) {
-    bool all = true;
+  // Hands the vertices over to lanes_; returns what their surfaces have for traits together.
+  uint32_t fill_lanes(size_t count) {
+    uint32_t traits = 0;
     for (size_t k = 0; k < count; ++k) {
-      in_lanes_[k] = false;
-      if (!lanes_.hit.valid(k)) continue;
-      const Shape& shape = scene_.shapes[lanes_.hit.shape[k]];
-      const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-      const auto* bsdf = std::get_if<Lambertian>(&scene_.materials[shape.material]);
-      in_lanes_[k] = mesh && bsdf && mesh->N.empty();
-      all &= in_lanes_[k];
-      if (!in_lanes_[k]) continue;
-      lanes_.set_vertex(k, *mesh, shape.flip_normal, bsdf->reflectance);
-      surface_groups_[k] = shape.surface_group;
+      const SurfaceRow& surface = surfaces_.row(lanes_.hit.shape[k]);
+      lanes_.set_vertex(k, surface);
+      traits |= surface.traits;
     }
-    return all;
+    return traits;
   }
 
   // Photon k at its vertex: what it leaves, and whether and how it goes on, in goes_on_, states_ and the next
   // segment of lanes_.
   void arrive(size_t k) {
-    const bool straight = states_[k].is_straight();
-    ++(straight ? counters_.shadow_rays : counters_.rays);
+    ++(states_[k].is_straight() ? counters_.shadow_rays : counters_.rays);
+    if (lanes_.traits[k] & kScalarTrait) return arrive_alone(k);
+    const WalkState before = states_[k];
+    arrive_in_lane(k);
+    if (settings_.kinds.shadow && lanes_.hit.valid(k)) cast_shadow(k, before);
+  }
+
+  void arrive_alone(size_t k) {
     left_[k] = kNothing;
     goes_on_[k] = false;
-    if (!lanes_.hit.valid(k)) return;
-    if (in_lanes_[k]) return arrive_in_lane(k);
-    const Arrival photon{lanes_.ray.get(k), DiffuseLanes::get(lanes_.flux, k)};
+    const bool straight = states_[k].is_straight();
+    const Arrival photon{lanes_.ray.get(k), VertexLanes::get(lanes_.flux, k)};
     const SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
     std::visit(
         [&]<class B>(const B& bsdf) {
@@ -229,27 +222,32 @@ class Tracer {
         scene_.bsdf(si));
   }
 
-  // The same for what lanes_ has computed. The flux was found valid when it was made.
+  // The same for what lanes_ has computed, but for shadow photons. The flux was found valid when it was made.
+  // Nobody could predict branches here.
   void arrive_in_lane(size_t k) {
+    const bool met = !(lanes_.traits[k] & kMissedTrait), specular = lanes_.traits[k] & kSpecularTrait;
     const PhotonKind kind = states_[k].kind();
-    if (settings_.kinds[kind] && lanes_.cos_in[k] != 0) {
-      left_[k] = static_cast<uint8_t>(kind);
-      ++counters_.stored[left_[k]];
-    }
-    if (settings_.kinds.shadow && (kind == PhotonKind::kDirect || kind == PhotonKind::kShadow)) {
-      const Vector3 d = DiffuseLanes::get(lanes_.ray.d, k);
-      const Ray on{
-          offset_origin(DiffuseLanes::get(lanes_.p, k), lanes_.p_error[k], DiffuseLanes::get(lanes_.n, k), d),
-          d};
-      const Rgb flux = DiffuseLanes::get(lanes_.flux, k);
-      if (kind == PhotonKind::kShadow) return go_straight_on(k, on, flux);
-      start_straight(k, on, flux);
-    }
-    if (settings_.kinds.indirect && !is_last(k)) {
-      counters_.dropped_invalid += lanes_.fate[k] == DiffuseLanes::kInvalid;
-      goes_on_[k] = lanes_.fate[k] == DiffuseLanes::kAlive;
-    }
-    states_[k] = states_[k].behind_diffuse();
+    const bool leaves = met & !specular & settings_.kinds[kind] & (lanes_.cos_in[k] != 0);
+    left_[k] = leaves ? static_cast<uint8_t>(kind) : kNothing;
+    counters_.stored[static_cast<size_t>(kind)] += leaves;
+    const bool wanted = settings_.kinds.indirect | (specular & settings_.kinds.caustic);
+    const bool asked = met & wanted & !states_[k].is_straight() & !is_last(k);
+    counters_.dropped_invalid += asked & (lanes_.fate[k] == VertexLanes::kInvalid);
+    goes_on_[k] = asked & (lanes_.fate[k] == VertexLanes::kAlive);
+    states_[k] = specular ? states_[k].behind_specular() : states_[k].behind_diffuse();
+  }
+
+  // The straight ray of a vertex in lanes.
+  void cast_shadow(size_t k, WalkState before) {
+    const bool specular = lanes_.traits[k] & kSpecularTrait;
+    if (!before.is_straight() && (specular || before.kind() != PhotonKind::kDirect)) return;
+    const Vector3 d = VertexLanes::get(lanes_.ray.d, k);
+    const Ray on{
+        offset_origin(VertexLanes::get(lanes_.p, k), lanes_.p_error[k], VertexLanes::get(lanes_.n, k), d), d};
+    const Rgb flux = VertexLanes::get(lanes_.flux, k);
+    if (!before.is_straight()) return start_straight(k, on, flux);
+    states_[k] = before;
+    go_straight_on(k, on, flux);
   }
 
   bool is_last(size_t k) const {
@@ -267,15 +265,15 @@ class Tracer {
   }
 
   void leave_photons_of_lanes(size_t count) {
-    if constexpr (requires { sink_(lanes_, left_.data(), surface_groups_.data(), count); }) {
-      sink_(lanes_, left_.data(), surface_groups_.data(), count);
+    if constexpr (requires { sink_(lanes_, left_.data(), count); }) {
+      sink_(lanes_, left_.data(), count);
     } else {
       for (size_t k = 0; k < count; ++k) {
         if (left_[k] == kNothing) continue;
         sink_(static_cast<PhotonKind>(left_[k]),
-              Photon{DiffuseLanes::get(lanes_.p, k), -DiffuseLanes::get(lanes_.ray.d, k),
-                     DiffuseLanes::get(lanes_.flux, k), DiffuseLanes::get(lanes_.facing, k),
-                     surface_groups_[k]});
+              Photon{VertexLanes::get(lanes_.p, k), -VertexLanes::get(lanes_.ray.d, k),
+                     VertexLanes::get(lanes_.flux, k), VertexLanes::get(lanes_.facing, k),
+                     lanes_.surface_group[k]});
       }
     }
   }
@@ -334,6 +332,7 @@ class Tracer {
   }
 
   const Scene& scene_;
+  const SurfaceTable& surfaces_;
   const Accel& bvh_;
   const TraceSettings& settings_;
   Sink& sink_;
@@ -342,27 +341,27 @@ class Tracer {
   std::unique_ptr<WalkerQueue[]> queues_ = std::make_unique_for_overwrite<WalkerQueue[]>(8);
   // Of the group that takes a step. Lanes nobody has set are zero, not leftovers of the stack: slow
   // denormals.
-  DiffuseLanes lanes_{};
+  VertexLanes lanes_{};
   SobolLanes numbers_{};
   EmissionLanes starts_{};
-  std::array<uint32_t, kGroupSize> reversed_indices_{};            // lower halves of the photons' indices
-  std::array<uint32_t, kGroupSize> sets_{};                        // Sobol sets to draw from
-  alignas(64) std::array<uint32_t, kGroupSize> surface_groups_{};  // where in lanes
+  std::array<uint32_t, kGroupSize> reversed_indices_{};  // lower halves of the photons' indices
+  std::array<uint32_t, kGroupSize> sets_{};              // Sobol sets to draw from
   std::array<WalkState, kGroupSize> states_;
-  std::array<bool, kGroupSize> in_lanes_{}, goes_on_{};
+  std::array<bool, kGroupSize> goes_on_{};
   std::array<uint8_t, kGroupSize> left_{};  // kind of the photon left by a vertex in lanes, or kNothing
 };
 
 }  // namespace detail
 
 template <class Accel, class Sink>
-void trace_photons(const Scene& scene, const Accel& bvh, const TraceSettings& settings, uint64_t first,
-                   uint64_t end, Sink&& sink, TraceCounters& counters) {
+void trace_photons(const Scene& scene, const SurfaceTable& surfaces, const Accel& bvh,
+                   const TraceSettings& settings, uint64_t first, uint64_t end, Sink&& sink,
+                   TraceCounters& counters) {
   constexpr uint64_t kHalf = uint64_t{1} << 32;
   while (first < end) {
     const uint64_t stop = std::min(end, (first / kHalf + 1) * kHalf);
-    detail::Tracer<Accel, std::remove_reference_t<Sink>> tracer(scene, bvh, settings, first / kHalf, sink,
-                                                                counters);
+    detail::Tracer<Accel, std::remove_reference_t<Sink>> tracer(scene, surfaces, bvh, settings, first / kHalf,
+                                                                sink, counters);
     tracer.trace(first, stop);
     first = stop;
   }

@@ -16,9 +16,9 @@
 #include <cstdint>
 
 #include "accel/bvh.h"
-#include "photon/diffuse_lanes.h"
 #include "photon/emission_lanes.h"
 #include "photon/photon.h"
+#include "photon/vertex_lanes.h"
 
 namespace kaustik::photon {
 
@@ -64,7 +64,7 @@ inline constexpr uint32_t kVertexDimensions = 4;
 inline constexpr uint32_t kMaxStraightSurfaces = 1 << 16;
 
 // Photons that take a step side by side.
-inline constexpr uint64_t kGroupSize = DiffuseLanes::kLanes;
+inline constexpr uint64_t kGroupSize = VertexLanes::kLanes;
 
 // Traces photons first ... end - 1 of settings.photons and calls sink(PhotonKind, const Photon&) for each
 // photon of a kind in settings.kinds. A sink may also be called with whole lanes: see RecordSink. The order
@@ -75,9 +75,18 @@ inline constexpr uint64_t kGroupSize = DiffuseLanes::kLanes;
 //     traced beside it may decide which one is named.
 // Photons without flux are not handed over; those of invalid flux are counted. counters are added to.
 // Accel: accel::Bvh or anything with its Hit intersect(const Ray&) const. Thread-safe.
+// surfaces: of scene.
+template <class Accel, class Sink>
+void trace_photons(const Scene& scene, const SurfaceTable& surfaces, const Accel& bvh,
+                   const TraceSettings& settings, uint64_t first, uint64_t end, Sink&& sink,
+                   TraceCounters& counters);
+
+// The same with a table made for this call.
 template <class Accel, class Sink>
 void trace_photons(const Scene& scene, const Accel& bvh, const TraceSettings& settings, uint64_t first,
-                   uint64_t end, Sink&& sink, TraceCounters& counters);
+                   uint64_t end, Sink&& sink, TraceCounters& counters) {
+  trace_photons(scene, SurfaceTable(scene), bvh, settings, first, end, sink, counters);
+}
 
 // One photon: trace_photons of index alone.
 template <class Accel, class Sink>

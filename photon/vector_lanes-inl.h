@@ -11,17 +11,17 @@
 
 #include <hwy/highway.h>
 
-#include "photon/diffuse_lanes.h"
+#include "photon/vertex_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, DiffuseLanes::kLanes>;
+using Floats = hn::CappedTag<float, VertexLanes::kLanes>;
 using Vf = hn::Vec<Floats>;
 using Mask = hn::Mask<Floats>;
-using Columns3 = DiffuseLanes::Column[3];
+using Columns3 = VertexLanes::Column[3];
 
 // Three numbers per lane.
 template <class V>
@@ -104,17 +104,29 @@ HWY_INLINE Vec3<Vf> SampleCosineHemisphere(Vf u0, Vf u1) {
   return {hn::Mul(r, hn::IfThenElse(along_x, c, s)), hn::Mul(r, hn::IfThenElse(along_x, s, c)), z};
 }
 
-// Frame::from_z(z).to_world(v).
-HWY_INLINE Vec3<Vf> ToWorld(const Vec3<Vf>& z, const Vec3<Vf>& v) {
+// Frame::from_z(z): its x and y axes.
+struct Tangents {
+  Vec3<Vf> x, y;
+};
+HWY_INLINE Tangents TangentsOf(const Vec3<Vf>& z) {
   const Floats d;
   const Vf one = hn::Set(d, 1.0f);
   const Vf sign = hn::CopySign(one, z.z);
   const Vf a = hn::Div(hn::Neg(one), hn::Add(sign, z.z));
   const Vf b = hn::Mul(hn::Mul(z.x, z.y), a);
-  const Vec3<Vf> x{hn::Add(one, hn::Mul(hn::Mul(hn::Mul(sign, z.x), z.x), a)), hn::Mul(sign, b),
-                   hn::Mul(hn::Neg(sign), z.x)};
-  const Vec3<Vf> y{b, hn::Add(sign, hn::Mul(hn::Mul(z.y, z.y), a)), hn::Neg(z.y)};
-  return v.x * x + v.y * y + v.z * z;
+  return {{hn::Add(one, hn::Mul(hn::Mul(hn::Mul(sign, z.x), z.x), a)), hn::Mul(sign, b),
+           hn::Mul(hn::Neg(sign), z.x)},
+          {b, hn::Add(sign, hn::Mul(hn::Mul(z.y, z.y), a)), hn::Neg(z.y)}};
+}
+
+// Frame::from_z(z).to_world(v) and to_local(v).
+HWY_INLINE Vec3<Vf> ToWorld(const Vec3<Vf>& z, const Vec3<Vf>& v) {
+  const Tangents t = TangentsOf(z);
+  return v.x * t.x + v.y * t.y + v.z * z;
+}
+HWY_INLINE Vec3<Vf> ToLocal(const Vec3<Vf>& z, const Vec3<Vf>& v) {
+  const Tangents t = TangentsOf(z);
+  return {Dot(v, t.x), Dot(v, t.y), Dot(v, z)};
 }
 
 }  // namespace kaustik::photon::HWY_NAMESPACE

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "photon/diffuse_lanes.h"
 #include "photon/photon.h"
+#include "photon/vertex_lanes.h"
 
 namespace kaustik::photon {
 
@@ -36,7 +36,7 @@ class WalkState {
 // Photons whose rays point into one octant, by columns.
 class WalkerQueue {
  public:
-  static constexpr size_t kGroup = DiffuseLanes::kLanes;
+  static constexpr size_t kGroup = VertexLanes::kLanes;
   // The tracer emits a group only when no queue of the eight holds one, and a photon that has been emitted
   // adds at most one more, its straight ray.
   static constexpr size_t kCapacity = 2 * (8 * kGroup + kGroup);
@@ -57,7 +57,7 @@ class WalkerQueue {
   }
 
   // Takes the last `count` out.
-  void take(size_t count, DiffuseLanes& lanes, uint32_t* reversed_index, WalkState* state) {
+  void take(size_t count, VertexLanes& lanes, uint32_t* reversed_index, WalkState* state) {
     size_ -= count;
     for (int c = 0; c < 3; ++c) {
       std::copy_n(o_[c] + size_, count, lanes.ray.o[c]);

@@ -4,122 +4,170 @@
 
 #include <cstring>
 
-#include "core/bsdf/lambertian.h"
-#include "photon/diffuse_lanes.h"
 #include "photon/record_sink.h"
+#include "photon/vertex_lanes.h"
 #include "tests/photon/photon_sets.h"
 
 namespace kaustik::photon {
 namespace {
 
-// Triangles of all sizes and proportions, one of them degenerate, hit from both sides.
+// Triangles of all sizes and proportions, one of them degenerate, and ellipsoids, hit from both sides; each
+// with a BSDF of its own.
 struct Vertices {
   std::vector<Shape> shapes;
+  std::vector<Bsdf> materials;
   std::vector<Hit> hits;
-  std::vector<Vector3> d;
-  std::vector<Rgb> flux, reflectance;
+  std::vector<Ray> rays;
+  std::vector<Rgb> flux;
+
+  const Bsdf& bsdf(size_t k) const { return materials[shapes[hits[k].shape].material]; }
 };
+
+TriangleMesh make_triangle(PhotonMaker& make, bool degenerate) {
+  const float size = std::ldexp(1.0f, int(make.bits() % 60) - 40);
+  const Point3 p = std::ldexp(1.0f, int(make.bits() % 20) - 10) * make.direction();
+  TriangleMesh mesh;
+  mesh.P = {p, p + size * make.direction(), degenerate ? p : p + size * make.direction()};
+  mesh.indices = {{0, 1, 2}};
+  return mesh;
+}
+
+Sphere make_ellipsoid(PhotonMaker& make) {
+  glm::dmat4 to_world(1);
+  for (int c = 0; c < 3; ++c) {
+    const Vector3 axis = std::ldexp(1.0f, int(make.bits() % 6) - 3) * make.direction();
+    to_world[c] = {axis, 0};
+  }
+  to_world[3] = {4.0f * make.direction(), 1};
+  return {Transform::from_matrix(to_world)};
+}
+
+Bsdf make_bsdf(PhotonMaker& make, uint32_t k) {
+  // Some reflect nothing, some more than all.
+  const Rgb reflectance = k == 7 ? Rgb(0) : Rgb(make.uniform(), make.uniform(), 1.1f * make.uniform());
+  switch (k % 7) {
+    case 1:
+      return OrenNayar::from_sigma_degrees(reflectance, 40 * make.uniform());
+    case 2:
+      return Mirror{reflectance};
+    case 3:
+      return Dielectric{0.5f + 2 * make.uniform()};
+    case 4:
+      return Dielectric{1};
+    default:
+      return Lambertian{reflectance};
+  }
+}
 
 Vertices make_vertices(uint64_t seed) {
   PhotonMaker make(seed);
   Vertices v;
-  for (uint32_t k = 0; k < DiffuseLanes::kLanes; ++k) {
-    const float size = std::ldexp(1.0f, int(make.bits() % 60) - 40);
-    const Point3 p = std::ldexp(1.0f, int(make.bits() % 20) - 10) * make.direction();
-    TriangleMesh mesh;
-    mesh.P = {p, p + size * make.direction(), k == 5 ? p : p + size * make.direction()};
-    mesh.indices = {{0, 1, 2}};
+  for (uint32_t k = 0; k < VertexLanes::kLanes; ++k) {
     Shape shape;
-    shape.geometry = mesh;
+    shape.geometry = make_triangle(make, k == 5);
+    if (k % 4 == 2) shape.geometry = make_ellipsoid(make);
     shape.flip_normal = k % 3 == 0;
+    shape.material = k;
+    shape.surface_group = 70000 * k;
     v.shapes.push_back(shape);
-    v.hits.push_back({1, k, 0, {0.5f * make.uniform(), 0.5f * make.uniform()}});
-    v.d.push_back(make.direction());
+    v.materials.push_back(make_bsdf(make, k));
+    // Every eighth meets the same ellipsoid.
+    v.hits.push_back(
+        {1 + make.uniform(), k % 8 == 2 ? 10 : k, 0, {0.5f * make.uniform(), 0.5f * make.uniform()}});
+    v.rays.push_back({4.0f * make.direction(), make.direction()});
     v.flux.push_back({make.uniform(), make.uniform(), make.uniform()});
-    // Some reflect nothing, some more than all.
-    v.reflectance.push_back(k == 7 ? Rgb(0) : Rgb(make.uniform(), make.uniform(), 1.1f * make.uniform()));
   }
   return v;
 }
 
-void fill(const Vertices& v, DiffuseLanes& lanes) {
-  for (size_t k = 0; k < DiffuseLanes::kLanes; ++k) {
-    const auto& mesh = std::get<TriangleMesh>(v.shapes[k].geometry);
-    DiffuseLanes::set(lanes.ray.o, k, Point3(0));
-    DiffuseLanes::set(lanes.ray.d, k, v.d[k]);
-    DiffuseLanes::set(lanes.flux, k, v.flux[k]);
+void fill(const Vertices& v, VertexLanes& lanes) {
+  const SurfaceTable surfaces(v.shapes, v.materials);
+  for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
+    VertexLanes::set(lanes.ray.o, k, v.rays[k].o);
+    VertexLanes::set(lanes.ray.d, k, v.rays[k].d);
+    VertexLanes::set(lanes.flux, k, v.flux[k]);
     lanes.hit.set(k, v.hits[k]);
-    lanes.set_vertex(k, mesh, v.shapes[k].flip_normal, v.reflectance[k]);
+    lanes.set_vertex(k, surfaces.row(v.hits[k].shape));
   }
 }
 
-TEST(DiffuseLanes, PointsAreThoseOfMakeInteraction) {
+TEST(VertexLanes, PointsAreThoseOfMakeInteraction) {
   for (uint64_t seed = 0; seed < 50; ++seed) {
     const Vertices v = make_vertices(seed);
-    DiffuseLanes lanes{};
+    VertexLanes lanes{};
     fill(v, lanes);
-    locate_lanes(lanes, DiffuseLanes::kLanes);
-    for (size_t k = 0; k < DiffuseLanes::kLanes; ++k) {
-      const SurfaceInteraction si = make_interaction(v.shapes, {}, v.hits[k]);
-      ASSERT_EQ(DiffuseLanes::get(lanes.p, k), si.p);
+    locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
+    for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
+      const SurfaceInteraction si = make_interaction(v.shapes, v.rays[k], v.hits[k]);
+      const float cosine = glm::dot(v.rays[k].d, si.n);
+      ASSERT_EQ(VertexLanes::get(lanes.p, k), si.p);
       ASSERT_EQ(lanes.p_error[k], si.p_error);
-      ASSERT_EQ(DiffuseLanes::get(lanes.n, k), si.n);
-      ASSERT_EQ(lanes.cos_in[k], glm::dot(v.d[k], si.n));
-      ASSERT_EQ(DiffuseLanes::get(lanes.facing, k), glm::dot(v.d[k], si.n) > 0 ? -si.n : si.n);
+      ASSERT_EQ(VertexLanes::get(lanes.n, k), si.n);
+      ASSERT_EQ(lanes.cos_in[k], cosine);
+      ASSERT_EQ(VertexLanes::get(lanes.facing, k), cosine > 0 ? -si.n : si.n);
+      ASSERT_EQ(lanes.surface_group[k], si.surface_group);
     }
   }
 }
 
-// Scalar: Lambertian::sample_f about n, one Newton step towards unit length, Russian roulette.
-void expect_scattered(const DiffuseLanes& lanes, const Vertices& v, const float (&u)[3], size_t k) {
-  const SurfaceInteraction si = make_interaction(v.shapes, {}, v.hits[k]);
+// Scalar: the BSDF's sample_f about n, one Newton step towards unit length, no light through the surface but
+// by refraction, Russian roulette.
+void expect_scattered(const VertexLanes& lanes, const Vertices& v, const float (&u)[4], size_t k) {
+  const SurfaceInteraction si = make_interaction(v.shapes, v.rays[k], v.hits[k]);
   const Frame frame = Frame::from_z(si.n);
-  const auto sample = Lambertian{v.reflectance[k]}.sample_f(frame.to_local(-v.d[k]), 0, {u[0], u[1]},
-                                                            TransportMode::kImportance);
-  const Rgb next = v.reflectance[k] * v.flux[k];
+  const bool specular = is_specular(v.bsdf(k));
+  const auto sample = std::visit(
+      [&](const auto& bsdf) {
+        return bsdf.sample_f(frame.to_local(-v.rays[k].d), u[2], {u[0], u[1]}, TransportMode::kImportance);
+      },
+      v.bsdf(k));
+  const Rgb next = sample ? sample->weight * v.flux[k] : Rgb(0);
   const float before = max_component(v.flux[k]), after = max_component(next);
-  const bool alive =
-      sample && length_squared(si.n) > 0 && after > 0 && (after >= before || u[2] * before < after);
-  ASSERT_EQ(lanes.fate[k], alive ? DiffuseLanes::kAlive : DiffuseLanes::kAbsorbed) << k;
-  if (!alive) return;
-  const Vector3 w = frame.to_world(sample->wi);
+  const Vector3 w = sample ? frame.to_world(sample->wi) : Vector3(0);
   const Vector3 wi = (1.5f - 0.5f * length_squared(w)) * w;
-  ASSERT_EQ(DiffuseLanes::get(lanes.next.d, k), wi);
-  ASSERT_EQ(DiffuseLanes::get(lanes.next.o, k), si.spawn(wi).o);
-  ASSERT_EQ(DiffuseLanes::get(lanes.next_flux, k), (after < before ? before / after : 1.0f) * next);
+  const bool same_sides = sample && glm::dot(wi, si.n) * sample->wi.z > 0;
+  const bool alive = same_sides && after > 0 && (after >= before || u[specular ? 3 : 2] * before < after);
+  ASSERT_EQ(lanes.fate[k], alive ? VertexLanes::kAlive : VertexLanes::kAbsorbed) << k;
+  if (!alive) return;
+  ASSERT_EQ(VertexLanes::get(lanes.next.d, k), wi) << k;
+  ASSERT_EQ(VertexLanes::get(lanes.next.o, k), si.spawn(wi).o);
+  ASSERT_EQ(VertexLanes::get(lanes.next_flux, k), (after < before ? before / after : 1.0f) * next);
 }
 
-TEST(DiffuseLanes, SegmentsAreThoseOfTheScalarCode) {
+TEST(VertexLanes, SegmentsAreThoseOfTheScalarCode) {
   for (uint64_t seed = 0; seed < 50; ++seed) {
     const Vertices v = make_vertices(seed);
     PhotonMaker make(1000 + seed);
-    DiffuseLanes lanes{};
+    VertexLanes lanes{};
     fill(v, lanes);
     SobolLanes numbers{};
     for (auto& column : numbers.u) {
       for (float& u : column) u = make.uniform();
     }
-    locate_lanes(lanes, DiffuseLanes::kLanes);
-    scatter_lanes(lanes, numbers, DiffuseLanes::kLanes);
-    for (size_t k = 0; k < DiffuseLanes::kLanes; ++k) {
-      expect_scattered(lanes, v, {numbers.u[0][k], numbers.u[1][k], numbers.u[2][k]}, k);
+    locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
+    scatter_lanes(lanes, numbers, VertexLanes::kLanes);
+    for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
+      expect_scattered(lanes, v, {numbers.u[0][k], numbers.u[1][k], numbers.u[2][k], numbers.u[3][k]}, k);
     }
   }
 }
 
-TEST(DiffuseLanes, WhatIsNoFluxIsInvalid) {
+TEST(VertexLanes, WhatIsNoFluxIsInvalid) {
   Vertices v = make_vertices(3);
-  v.reflectance[0] = Rgb(1, kInfinity, 1);
-  v.reflectance[1] = Rgb(1, 1, -1);
-  v.reflectance[2] = Rgb(1, 1, std::numeric_limits<float>::quiet_NaN());
-  DiffuseLanes lanes{};
+  v.shapes[2].geometry = v.shapes[0].geometry;
+  v.hits[2].shape = 2;
+  v.materials[0] = Lambertian{Rgb(1, kInfinity, 1)};
+  v.materials[1] = Lambertian{Rgb(1, 1, -1)};
+  v.materials[2] = Lambertian{Rgb(1, 1, std::numeric_limits<float>::quiet_NaN())};
+  v.materials[3] = Lambertian{Rgb(0.5f)};
+  VertexLanes lanes{};
   fill(v, lanes);
   SobolLanes numbers{};
   for (auto& column : numbers.u) std::fill(std::begin(column), std::end(column), 0.25f);
-  locate_lanes(lanes, 8);
+  locate_lanes(lanes, v.shapes, 8);
   scatter_lanes(lanes, numbers, 8);
-  for (size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.fate[k], DiffuseLanes::kInvalid);
-  EXPECT_EQ(lanes.fate[3], DiffuseLanes::kAlive);
+  for (size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.fate[k], VertexLanes::kInvalid);
+  EXPECT_EQ(lanes.fate[3], VertexLanes::kAlive);
 }
 
 // Ordinary photons and those at the ends of the formats, in numbers that are no multiple of the lanes.
@@ -148,24 +196,22 @@ TEST(RecordPacker, RecordsAreThoseOfPack) {
 // Whole lanes and single photons end in the records that pack() makes of them.
 TEST(RecordSink, LanesAreThoseOfPack) {
   const Vertices v = make_vertices(9);
-  DiffuseLanes lanes{};
+  VertexLanes lanes{};
   fill(v, lanes);
-  locate_lanes(lanes, DiffuseLanes::kLanes);
-  alignas(64) uint32_t groups[DiffuseLanes::kLanes];
-  uint8_t kinds[DiffuseLanes::kLanes];
+  locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
+  uint8_t kinds[VertexLanes::kLanes];
   constexpr float kUnit = 0x1p-3f;
   constexpr size_t kCount = 61;
   RecordsByKind records, expected;
-  for (size_t k = 0; k < DiffuseLanes::kLanes; ++k) {
-    groups[k] = static_cast<uint32_t>(70000 * k);
+  for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
     kinds[k] = static_cast<uint8_t>(k % (kPhotonKinds + 1));  // every fifth leaves nothing
     if (k >= kCount || kinds[k] == kPhotonKinds) continue;
-    const Photon photon{DiffuseLanes::get(lanes.p, k), -v.d[k], v.flux[k], DiffuseLanes::get(lanes.facing, k),
-                        groups[k]};
+    const Photon photon{VertexLanes::get(lanes.p, k), -v.rays[k].d, v.flux[k],
+                        VertexLanes::get(lanes.facing, k), lanes.surface_group[k]};
     expected[kinds[k]].push_back(pack(photon, kUnit));
   }
   RecordSink sink(kUnit, records);
-  sink(lanes, kinds, groups, kCount);
+  sink(lanes, kinds, kCount);
   sink.flush();
   for (size_t k = 0; k < kPhotonKinds; ++k) {
     ASSERT_EQ(records[k].size(), expected[k].size());
