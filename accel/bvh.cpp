@@ -1,5 +1,5 @@
 // Bvh on Embree. Geometry ids: a triangle mesh has its shape's index; all spheres are one user geometry and
-// all disks another, behind them.
+// all disks another, behind them, whose hits name the shape as well.
 //
 // Embree sees the scene divided by a power of two that brings its largest coordinate into [1, 2): exact, and
 // undone exactly. So Embree's few absolute thresholds (it gives up barycentrics when area falls below 1e-18)
@@ -33,7 +33,6 @@ namespace {
 struct QuadricGroup {
   const std::vector<Shape>* shapes = nullptr;
   std::vector<uint32_t> members;
-  unsigned geometry_id = 0;
   float to_scene = 1, to_embree = 1;  // lengths
 };
 
@@ -111,11 +110,8 @@ void quadric_bounds(const RTCBoundsFunctionArguments* args) {
 }
 
 // Whether a hit replaces what the ray holds: when it is nearer, or as near and earlier in the scene.
-bool replaces(float held_t, unsigned held_geometry, unsigned held_primitive, float t, unsigned geometry,
-              unsigned primitive) {
-  if (t != held_t) return t < held_t;
-  return held_geometry == RTC_INVALID_GEOMETRY_ID || held_geometry > geometry ||
-         (held_geometry == geometry && held_primitive > primitive);
+bool replaces(float held_t, unsigned held_shape, float t, unsigned shape) {
+  return t < held_t || (t == held_t && held_shape > shape);
 }
 
 // Of all N rays, valid or not: t in Embree's units, and uv of disks.
@@ -128,42 +124,41 @@ void intersect_all(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays,
 template <>
 void intersect_all<Sphere>(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, float* t,
                            Point2* uv) {
-  if (N == 1) {
-    t[0] = intersect_quadric<Sphere>(group, primitive, rays, 1, 0, uv);
+  if (N != kPacket) {
+    for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<Sphere>(group, primitive, rays, N, i, uv);
     return;
   }
-  alignas(64) float o[3][kPacket], d[3][kPacket], t_max[kPacket];
-  for (unsigned i = 0; i < N; ++i) {
-    const Ray ray = to_ray(rays, N, i, group.to_scene);
-    for (int c = 0; c < 3; ++c) {
-      o[c][i] = ray.o[c];
-      d[c][i] = ray.d[c];
-    }
-    t_max[i] = ray.t_max;
+  // to_ray() of a whole packet.
+  const auto& packet = *reinterpret_cast<const RTCRay16*>(rays);
+  alignas(64) float x[kPacket], y[kPacket], z[kPacket], t_max[kPacket];
+  for (size_t i = 0; i < kPacket; ++i) {
+    x[i] = group.to_scene * packet.org_x[i];
+    y[i] = group.to_scene * packet.org_y[i];
+    z[i] = group.to_scene * packet.org_z[i];
+    t_max[i] = group.to_scene * std::bit_cast<float>(std::bit_cast<uint32_t>(packet.tfar[i]) + 1);
   }
   const auto& sphere = std::get<Sphere>((*group.shapes)[group.members[primitive]].geometry);
-  intersect_sphere_lanes(sphere, {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, t_max}, N, t);
-  for (unsigned i = 0; i < N; ++i) t[i] *= group.to_embree;
+  intersect_sphere_lanes(sphere, {{x, y, z}, {packet.dir_x, packet.dir_y, packet.dir_z}, t_max}, kPacket, t);
+  for (size_t i = 0; i < kPacket; ++i) t[i] *= group.to_embree;
 }
 
 template <class Geometry>
 void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
   const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
-  const unsigned N = args->N, primitive = args->primID, geometry = group.geometry_id;
+  const unsigned N = args->N, primitive = args->primID, shape = group.members[primitive];
   RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, N);
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, N);
   alignas(64) float t[kPacket];
   Point2 uv[kPacket] = {};
   intersect_all<Geometry>(group, primitive, rays, N, t, uv);
   for (unsigned i = 0; i < N; ++i) {
-    if (!args->valid[i] || !replaces(RTCRayN_tfar(rays, N, i), RTCHitN_geomID(hits, N, i),
-                                     RTCHitN_primID(hits, N, i), t[i], geometry, primitive))
+    if (!args->valid[i] || !replaces(RTCRayN_tfar(rays, N, i), RTCHitN_geomID(hits, N, i), t[i], shape))
       continue;
     RTCRayN_tfar(rays, N, i) = t[i];
     RTCHitN_u(hits, N, i) = uv[i].x;
     RTCHitN_v(hits, N, i) = uv[i].y;
-    RTCHitN_primID(hits, N, i) = primitive;
-    RTCHitN_geomID(hits, N, i) = geometry;
+    RTCHitN_primID(hits, N, i) = 0;
+    RTCHitN_geomID(hits, N, i) = shape;
     RTCHitN_instID(hits, N, i, 0) = args->context->instID[0];
   }
 }
@@ -185,7 +180,6 @@ void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
 struct Bvh::Impl {
   std::atomic<int64_t> bytes{0};
   EmbreeHandles embree;
-  uint32_t shapes = 0;                // geometry ids below are meshes
   float to_scene = 1, to_embree = 1;  // lengths: powers of two
   QuadricGroup spheres, disks;
   bool coherent = false;  // how packets go through the tree
@@ -201,7 +195,6 @@ struct Bvh::Impl {
   void start_packets(RTCRayHit16* query) const;
   void load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query) const;
   void store_packet(const RTCRayHit16& query, size_t first, HitLanes* hits) const;
-  uint32_t shape_of(uint32_t geometry, uint32_t primitive) const;
 };
 
 void Bvh::Impl::open() {
@@ -237,7 +230,6 @@ void Bvh::Impl::add_mesh(const TriangleMesh& mesh, uint32_t shape) {
 template <class Geometry>
 void Bvh::Impl::add_group(QuadricGroup& group, unsigned geometry_id) {
   if (group.members.empty()) return;
-  group.geometry_id = geometry_id;
   group.to_scene = to_scene;
   group.to_embree = to_embree;
   RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_USER);
@@ -259,7 +251,7 @@ void Bvh::Impl::set_scale(const Bounds3& bounds) {
 }
 
 void Bvh::Impl::add_shapes(const std::vector<Shape>& all) {
-  shapes = static_cast<uint32_t>(all.size());
+  const auto shapes = static_cast<uint32_t>(all.size());
   spheres.shapes = disks.shapes = &all;
   for (uint32_t i = 0; i < shapes; ++i) {
     if (const auto* mesh = std::get_if<TriangleMesh>(&all[i].geometry)) {
@@ -302,18 +294,12 @@ Hit Bvh::intersect(const Ray& ray) const {
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embree_intersect(impl_->embree.scene, &query);
   Hit hit;
-  const uint32_t geometry = query.hit.geomID;
-  if (geometry == RTC_INVALID_GEOMETRY_ID) return hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
   hit.t = query.ray.tfar * impl_->to_scene;
   hit.uv = {query.hit.u, query.hit.v};
-  hit.shape = impl_->shape_of(geometry, query.hit.primID);
-  hit.primitive = geometry < impl_->shapes ? query.hit.primID : 0;
+  hit.shape = query.hit.geomID;
+  hit.primitive = query.hit.primID;
   return hit;
-}
-
-uint32_t Bvh::Impl::shape_of(uint32_t geometry, uint32_t primitive) const {
-  if (geometry < shapes) return geometry;
-  return (geometry == shapes ? spheres : disks).members[primitive];
 }
 
 // What packets share.
@@ -343,13 +329,6 @@ void Bvh::Impl::store_packet(const RTCRayHit16& query, size_t first, HitLanes* h
   std::copy_n(query.hit.v, kPacket, hits->v + first);
   std::copy_n(query.hit.primID, kPacket, hits->primitive + first);
   std::copy_n(query.hit.geomID, kPacket, hits->shape + first);
-  if (spheres.members.empty() && disks.members.empty()) return;
-  for (size_t i = 0; i < kPacket; ++i) {
-    const uint32_t geometry = query.hit.geomID[i];
-    if (geometry < shapes || geometry == RTC_INVALID_GEOMETRY_ID) continue;
-    hits->shape[first + i] = shape_of(geometry, query.hit.primID[i]);
-    hits->primitive[first + i] = 0;
-  }
 }
 
 void Bvh::intersect(const RayLanes& rays, size_t count, HitLanes* hits) const {

@@ -131,28 +131,35 @@ class Tracer {
   void draw_from(uint32_t set, size_t count, int dimensions, SobolLanes& numbers) {
     sets_.fill(set);
     keys_.make(set);
-    draw_sobol_lanes(keys_, sets_.data(), reversed_indices_.data(), count, dimensions, &numbers);
+    draw_sobol_lanes(keys_, sets_.data(), walkers_.reversed_index, count, dimensions, &numbers);
   }
 
   void emit(uint64_t first, size_t count) {
     counters_.emitted += count;
-    for (size_t k = 0; k < count; ++k) reversed_indices_[k] = reverse_bits(static_cast<uint32_t>(first + k));
+    for (size_t k = 0; k < count; ++k)
+      walkers_.reversed_index[k] = reverse_bits(static_cast<uint32_t>(first + k));
     if (scene_.lights.size() > 1) {
       draw_from(1, count, 3, numbers_);
       std::copy_n(numbers_.u[0], count, starts_.u_lamp);
     }
     draw_from(0, count, 4, starts_.position_direction);
     emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_);
+    std::fill_n(walkers_.state, count, WalkState());
     for (size_t k = 0; k < count; ++k) {
       const Rgb flux = VertexLanes::get(starts_.flux, k);
-      if (!starts_.emitted[k] || is_black(flux) || !valid(flux)) continue;
-      const Ray ray = starts_.ray.get(k);
-      queue_of(ray.d).push(ray.o, ray.d, flux, reversed_indices_[k], {});
+      goes_on_[k] = starts_.emitted[k] && !is_black(flux) && valid(flux);
     }
+    push(starts_.ray, starts_.flux, count);
+  }
+
+  // Those that go on join the queues.
+  void push(const accel::RayLanes& rays, const VertexLanes::Column (&flux)[3], size_t count) {
+    to_rows(rays, flux, walkers_, count, &rows_);
+    for (size_t k = 0; k < count; ++k) queues_[rows_.octant[k]].push(rows_, k, goes_on_[k]);
   }
 
   void step(WalkerQueue& queue, size_t count) {
-    queue.take(count, lanes_, reversed_indices_.data(), states_.data());
+    queue.take(count, lanes_, walkers_);
     intersect_lanes(bvh_, lanes_.ray, count, &lanes_.hit);
     if (surfaces_.many_triangles()) prefetch_triangles(surfaces_, lanes_.hit, count);
     const uint32_t traits = fill_lanes(count);
@@ -165,23 +172,19 @@ class Tracer {
     }
     for (size_t k = 0; k < count; ++k) arrive(k);
     leave_photons_of_lanes(count);
-    for (size_t k = 0; k < count; ++k) {
-      const Vector3 d = VertexLanes::get(lanes_.next.d, k);
-      queue_of(d).push(VertexLanes::get(lanes_.next.o, k), d, VertexLanes::get(lanes_.next_flux, k),
-                       reversed_indices_[k], states_[k], goes_on_[k]);
-    }
+    push(lanes_.next, lanes_.next_flux, count);
   }
 
   void draw_vertex_numbers(size_t count, int dimensions) {
     uint32_t last = 0;
     for (size_t k = 0; k < count; ++k) {
       // Straight rays use none.
-      sets_[k] = kFirstVertexSet + (states_[k].is_straight() ? 0 : states_[k].rays());
+      sets_[k] = kFirstVertexSet + (walkers_.state[k].is_straight() ? 0 : walkers_.state[k].rays());
       last = std::max(last, sets_[k]);
     }
     std::fill(sets_.begin() + static_cast<std::ptrdiff_t>(count), sets_.end(), kFirstVertexSet);
     keys_.make(last);
-    draw_sobol_lanes(keys_, sets_.data(), reversed_indices_.data(), count, dimensions, &numbers_);
+    draw_sobol_lanes(keys_, sets_.data(), walkers_.reversed_index, count, dimensions, &numbers_);
   }
 
   // Hands the vertices over to lanes_; returns what their surfaces have for traits together.
@@ -195,12 +198,12 @@ class Tracer {
     return traits;
   }
 
-  // Photon k at its vertex: what it leaves, and whether and how it goes on, in goes_on_, states_ and the next
-  // segment of lanes_.
+  // Photon k at its vertex: what it leaves, and whether and how it goes on, in goes_on_, walkers_ and the
+  // next segment of lanes_.
   void arrive(size_t k) {
-    ++(states_[k].is_straight() ? counters_.shadow_rays : counters_.rays);
+    ++(walkers_.state[k].is_straight() ? counters_.shadow_rays : counters_.rays);
     if (lanes_.traits[k] & kScalarTrait) return arrive_alone(k);
-    const WalkState before = states_[k];
+    const WalkState before = walkers_.state[k];
     arrive_in_lane(k);
     if (settings_.kinds.shadow && lanes_.hit.valid(k)) cast_shadow(k, before);
   }
@@ -208,7 +211,7 @@ class Tracer {
   void arrive_alone(size_t k) {
     left_[k] = kNothing;
     goes_on_[k] = false;
-    const bool straight = states_[k].is_straight();
+    const bool straight = walkers_.state[k].is_straight();
     const Arrival photon{lanes_.ray.get(k), VertexLanes::get(lanes_.flux, k)};
     const SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
     std::visit(
@@ -217,7 +220,8 @@ class Tracer {
           if (straight) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
           const bool wanted = settings_.kinds.indirect || (B::kSpecular && settings_.kinds.caustic);
           goes_on_[k] = wanted && !is_last(k) && scatter(k, bsdf, si, photon);
-          states_[k] = B::kSpecular ? states_[k].behind_specular() : states_[k].behind_diffuse();
+          walkers_.state[k] =
+              B::kSpecular ? walkers_.state[k].behind_specular() : walkers_.state[k].behind_diffuse();
         },
         scene_.bsdf(si));
   }
@@ -226,15 +230,15 @@ class Tracer {
   // Nobody could predict branches here.
   void arrive_in_lane(size_t k) {
     const bool met = !(lanes_.traits[k] & kMissedTrait), specular = lanes_.traits[k] & kSpecularTrait;
-    const PhotonKind kind = states_[k].kind();
+    const PhotonKind kind = walkers_.state[k].kind();
     const bool leaves = met & !specular & settings_.kinds[kind] & (lanes_.cos_in[k] != 0);
     left_[k] = leaves ? static_cast<uint8_t>(kind) : kNothing;
     counters_.stored[static_cast<size_t>(kind)] += leaves;
     const bool wanted = settings_.kinds.indirect | (specular & settings_.kinds.caustic);
-    const bool asked = met & wanted & !states_[k].is_straight() & !is_last(k);
+    const bool asked = met & wanted & !walkers_.state[k].is_straight() & !is_last(k);
     counters_.dropped_invalid += asked & (lanes_.fate[k] == VertexLanes::kInvalid);
     goes_on_[k] = asked & (lanes_.fate[k] == VertexLanes::kAlive);
-    states_[k] = specular ? states_[k].behind_specular() : states_[k].behind_diffuse();
+    walkers_.state[k] = specular ? walkers_.state[k].behind_specular() : walkers_.state[k].behind_diffuse();
   }
 
   // The straight ray of a vertex in lanes.
@@ -246,22 +250,22 @@ class Tracer {
         offset_origin(VertexLanes::get(lanes_.p, k), lanes_.p_error[k], VertexLanes::get(lanes_.n, k), d), d};
     const Rgb flux = VertexLanes::get(lanes_.flux, k);
     if (!before.is_straight()) return start_straight(k, on, flux);
-    states_[k] = before;
+    walkers_.state[k] = before;
     go_straight_on(k, on, flux);
   }
 
   bool is_last(size_t k) const {
-    return states_[k].rays() + 1 >= static_cast<uint32_t>(settings_.max_bounces);
+    return walkers_.state[k].rays() + 1 >= static_cast<uint32_t>(settings_.max_bounces);
   }
 
   // The straight ray behind the first surface.
   void start_straight(size_t k, const Ray& on, const Rgb& flux) {
-    queue_of(on.d).push(on.o, on.d, flux, reversed_indices_[k], WalkState::straight());
+    queue_of(on.d).push(on.o, on.d, flux, walkers_.reversed_index[k], WalkState::straight());
   }
   void go_straight_on(size_t k, const Ray& on, const Rgb& flux) {
     lanes_.set_next(k, on, flux);
-    states_[k] = states_[k].behind_any();
-    goes_on_[k] = states_[k].rays() < kMaxStraightSurfaces;
+    walkers_.state[k] = walkers_.state[k].behind_any();
+    goes_on_[k] = walkers_.state[k].rays() < kMaxStraightSurfaces;
   }
 
   void leave_photons_of_lanes(size_t count) {
@@ -286,7 +290,7 @@ class Tracer {
   }
 
   void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon) {
-    const PhotonKind kind = states_[k].kind();
+    const PhotonKind kind = walkers_.state[k].kind();
     if (settings_.kinds[kind]) record(kind, si, photon);
     if (settings_.kinds.shadow && kind == PhotonKind::kDirect)
       start_straight(k, si.spawn(photon.ray.d), photon.flux);
@@ -344,9 +348,9 @@ class Tracer {
   VertexLanes lanes_{};
   SobolLanes numbers_{};
   EmissionLanes starts_{};
-  std::array<uint32_t, kGroupSize> reversed_indices_{};  // lower halves of the photons' indices
-  std::array<uint32_t, kGroupSize> sets_{};              // Sobol sets to draw from
-  std::array<WalkState, kGroupSize> states_;
+  WalkerLanes walkers_{};
+  WalkerRows rows_{};
+  std::array<uint32_t, kGroupSize> sets_{};  // Sobol sets to draw from
   std::array<bool, kGroupSize> goes_on_{};
   std::array<uint8_t, kGroupSize> left_{};  // kind of the photon left by a vertex in lanes, or kNothing
 };
