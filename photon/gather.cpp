@@ -1,113 +1,47 @@
-// The loops over contiguous photons, compiled once per instruction set (Google Highway) and chosen at run
-// time.
+// The sums over blocks of photons, compiled once per instruction set (Google Highway) and chosen at run time.
 
 #include "photon/gather.h"
 
+#include "photon/cell_table.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "photon/packing.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "photon/gather.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "photon/block_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Floats = hn::ScalableTag<float>;
-using Words = hn::RebindToUnsigned<Floats>;
-using Vf = hn::Vec<Floats>;
-using Vu = hn::Vec<Words>;
-using Mask = hn::Mask<Floats>;
-
-// The query, spread over the lanes.
-struct LaneQuery {
-  Vf px, py, pz, nx, ny, nz, radius_squared;
-  Vu surface;
-
-  LaneQuery(const GatherQuery& q, float r2)
-      : px(hn::Set(Floats(), q.p.x)),
-        py(hn::Set(Floats(), q.p.y)),
-        pz(hn::Set(Floats(), q.p.z)),
-        nx(hn::Set(Floats(), q.n.x)),
-        ny(hn::Set(Floats(), q.n.y)),
-        nz(hn::Set(Floats(), q.n.z)),
-        radius_squared(hn::Set(Floats(), r2)),
-        surface(hn::Set(Words(), pack_surface(q.n, q.surface_group))) {}
-};
-
-HWY_INLINE Vf DistanceSquared(const LaneQuery& q, const PhotonColumns& c, uint64_t i) {
-  const Floats d;
-  const Vf dx = hn::Sub(hn::LoadU(d, c.x + i), q.px);
-  const Vf dy = hn::Sub(hn::LoadU(d, c.y + i), q.py);
-  const Vf dz = hn::Sub(hn::LoadU(d, c.z + i), q.pz);
-  // Not fused, so that the same photons count on every machine.
-  return hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-}
-
-// normal_counts() and the same group, per lane.
-HWY_NOINLINE Mask SurfaceCounts(const LaneQuery& q, Vu surface) {
-  const Floats d;
-  const Words u;
-  const hn::RebindToSigned<Floats> s;
-  const auto middle = hn::Set(s, 127);
-  const auto byte = hn::Set(u, 255u);
-  const auto same_group = hn::Eq(hn::ShiftRight<16>(surface), hn::ShiftRight<16>(q.surface));
-  const auto coordinate = [&](Vu bits) HWY_ATTR {
-    return hn::ConvertTo(d, hn::Sub(hn::BitCast(s, hn::And(bits, byte)), middle));
-  };
-  Vf a = coordinate(surface), b = coordinate(hn::ShiftRight<8>(surface));
-  const Vf c = hn::Sub(hn::Sub(hn::Set(d, 127.0f), hn::Abs(a)), hn::Abs(b));
-  const Vf fold = hn::Max(hn::Neg(c), hn::Zero(d));
-  a = hn::Sub(a, hn::CopySign(fold, a));
-  b = hn::Sub(b, hn::CopySign(fold, b));
-  const Vf dot = hn::Add(hn::Add(hn::Mul(a, q.nx), hn::Mul(b, q.ny)), hn::Mul(c, q.nz));
-  const Vf length_squared = hn::Add(hn::Add(hn::Mul(a, a), hn::Mul(b, b)), hn::Mul(c, c));
-  const Mask near =
-      hn::And(hn::Gt(dot, hn::Zero(d)),
-              hn::Gt(hn::Mul(dot, dot), hn::Mul(hn::Set(d, kNormalCosine * kNormalCosine), length_squared)));
-  return hn::And(near, hn::RebindMask(d, same_group));
-}
-
-// Lanes of `inside` whose photon lies on the query's surface. The very same packed surface needs no decoding.
-HWY_INLINE Mask OnSurface(const LaneQuery& q, const PhotonColumns& c, uint64_t i, Mask inside) {
-  const Floats d;
-  const Vu surface = hn::LoadU(Words(), c.surface + i);
-  const Mask same = hn::RebindMask(d, hn::Eq(surface, q.surface));
-  if (HWY_LIKELY(hn::AllFalse(d, hn::AndNot(same, inside)))) return inside;
-  return hn::And(inside, hn::Or(same, SurfaceCounts(q, surface)));
-}
-
-// sum += power * weight in the lanes of `inside`. Lanes beyond the photons may hold anything, also NaN.
+// Power of photons i ... as components times scale. Beyond the photons they may be anything, also NaN.
+// RGB9E5 is taken apart with few operations: components two and three stay 2^9 and 2^18 times too large, and
+// scale is 2^-39 of what it should be (2^(e - 63) for the format's 2^(e - 24)). kUnit mends the sums.
 struct Rgb9e5Power {
-  static HWY_INLINE void Add(const PhotonColumns& c, uint64_t i, Mask inside, Vf weight, Vf sum[3]) {
+  static constexpr float kUnit[3] = {0x1p39f, 0x1p30f, 0x1p21f};
+  Vf component[3], scale;
+
+  HWY_INLINE Rgb9e5Power(const PhotonColumns& c, uint64_t i) {
     const Floats d;
     const Words u;
     const hn::RebindToSigned<Floats> s;
     const Vu bits = hn::LoadU(u, c.power + i);
-    const auto mantissa = hn::Set(u, 511u);
-    const Vf scale =
-        hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(hn::ShiftRight<27>(bits), hn::Set(u, 127u - 24u))));
-    const Vf factor = hn::IfThenElseZero(inside, hn::Mul(weight, scale));
-    const auto component = [&](Vu v)
-                               HWY_ATTR { return hn::ConvertTo(d, hn::BitCast(s, hn::And(v, mantissa))); };
-    sum[0] = hn::MulAdd(component(bits), factor, sum[0]);
-    sum[1] = hn::MulAdd(component(hn::ShiftRight<9>(bits)), factor, sum[1]);
-    sum[2] = hn::MulAdd(component(hn::ShiftRight<18>(bits)), factor, sum[2]);
+    const Vu exponent = hn::OrAnd(hn::Set(u, 64u << 23), hn::ShiftRight<4>(bits), hn::Set(u, 31u << 23));
+    scale = hn::BitCast(d, exponent);
+    for (int k = 0; k < 3; ++k)
+      component[k] = hn::ConvertTo(d, hn::BitCast(s, hn::And(bits, hn::Set(u, 511u << (9 * k)))));
   }
 };
 
 struct F32Power {
-  static HWY_INLINE void Add(const PhotonColumns& c, uint64_t i, Mask inside, Vf weight, Vf sum[3]) {
-    const Floats d;
-    for (int k = 0; k < 3; ++k) {
-      const Vf power = hn::IfThenElseZero(inside, hn::LoadU(d, c.power_f32[k] + i));
-      sum[k] = hn::MulAdd(power, hn::IfThenElseZero(inside, weight), sum[k]);
-    }
+  static constexpr float kUnit[3] = {1, 1, 1};
+  Vf component[3], scale;
+
+  HWY_INLINE F32Power(const PhotonColumns& c, uint64_t i) : scale(hn::Set(Floats(), 1.0f)) {
+    for (int k = 0; k < 3; ++k) component[k] = hn::LoadU(Floats(), c.power_f32[k] + i);
   }
 };
 
@@ -119,101 +53,147 @@ HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
   return one;
 }
 
+// The constructor is written out: what the compiler generates is not compiled for the target.
 template <class Power, KernelType kType>
-struct Accumulator {
-  Vf sum[3];
-  Vu accepted;  // a true lane is -1
+struct FluxSum {
+  Vf x, y, z, slope;
+  uint64_t accepted = 0;
 
-  // Written out: what the compiler generates itself is not compiled for the target.
-  HWY_INLINE Accumulator() { Clear(); }
-  HWY_INLINE void Clear() {
-    for (Vf& s : sum) s = hn::Zero(Floats());
-    accepted = hn::Zero(Words());
-  }
+  HWY_INLINE explicit FluxSum(float s) : x(hn::Zero(Floats())), y(x), z(x), slope(hn::Set(Floats(), s)) {}
 
-  HWY_INLINE void Add(const LaneQuery& q, const PhotonColumns& c, uint64_t i, Mask valid, Vf slope) {
-    const Floats d;
-    const Vf d2 = DistanceSquared(q, c, i);
-    // No branch for vectors without a photon inside: at the rim of the disc it would be mispredicted.
-    const Mask inside = OnSurface(q, c, i, hn::And(valid, hn::Le(d2, q.radius_squared)));
-    accepted = hn::Sub(accepted, hn::BitCast(Words(), hn::VecFromMask(d, inside)));
-    Power::Add(c, i, inside, Weight<kType>(d2, slope), sum);
+  HWY_INLINE void Add(const PhotonColumns& c, uint64_t i, Vf distance_squared, Mask counts) {
+    accepted += hn::CountTrue(Floats(), counts);
+    const Power power(c, i);
+    const Vf weight = hn::Mul(Weight<kType>(distance_squared, slope), power.scale);
+    const Vf factor = hn::IfThenElseZero(counts, weight);
+    x = hn::MulAdd(power.component[0], factor, x);
+    y = hn::MulAdd(power.component[1], factor, y);
+    z = hn::MulAdd(power.component[2], factor, z);
   }
-  HWY_INLINE void Flush(GatherSum& out) {
-    const Floats d;
-    for (int k = 0; k < 3; ++k) out.flux[k] += double(hn::GetLane(hn::SumOfLanes(d, sum[k])));
-    out.accepted += hn::GetLane(hn::SumOfLanes(Words(), accepted));
-    Clear();
+  HWY_INLINE void MoveTo(GatherSum& total) {
+    const auto moved = [](Vf sum, float unit)
+                           HWY_ATTR { return double(hn::GetLane(hn::SumOfLanes(Floats(), sum)) * unit); };
+    total.flux += glm::dvec3(moved(x, Power::kUnit[0]), moved(y, Power::kUnit[1]), moved(z, Power::kUnit[2]));
+    total.accepted += accepted;
+    x = y = z = hn::Zero(Floats());
+    accepted = 0;
   }
 };
 
-// A lane adds at most so many terms before the sum moves on to double.
-inline constexpr uint64_t kFlushVectors = 1024;
-
 template <class Power, KernelType kType>
-GatherSum GatherLoop(const PhotonColumns& c, std::span<const PhotonRange> ranges, const GatherQuery& query,
-                     float slope_value) {
+HWY_INLINE void AddBlocks(const PhotonColumns c, const LaneQuery& q, const FoundBlocks& found, float slope,
+                          GatherSum& total) {
   const Floats d;
-  const uint64_t lanes = hn::Lanes(d);
-  const LaneQuery q(query, query.radius * query.radius);
-  const Vf slope = hn::Set(d, slope_value);
-  const Mask all = hn::FirstN(d, lanes);
-  GatherSum out;
-  Accumulator<Power, kType> accumulator;
-  uint64_t vectors = 0;
-  for (const PhotonRange& range : ranges) {
-    uint64_t i = range.begin;
-    for (; i + lanes <= range.end; i += lanes) {
-      accumulator.Add(q, c, i, all, slope);
-      if (HWY_UNLIKELY(++vectors == kFlushVectors)) {
-        accumulator.Flush(out);
-        vectors = 0;
-      }
+  const uint32_t lanes = uint32_t(hn::Lanes(d));
+  const Sphere sphere = q.sphere;
+  FluxSum<Power, kType> sum(slope);
+  // No branch for vectors without a photon inside: at the rim of the disc it would be mispredicted.
+  for (size_t b = 0; b < found.same_size; ++b) {
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += lanes) {
+      const Vf distance_squared = DistanceSquared(sphere, c, found.same[b] + j);
+      sum.Add(c, found.same[b] + j, distance_squared, hn::Le(distance_squared, sphere.radius_squared));
     }
-    if (i < range.end) accumulator.Add(q, c, i, hn::FirstN(d, range.end - i), slope);
   }
-  accumulator.Flush(out);
-  return out;
+  for (size_t b = 0; b < found.other_size; ++b) {
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += lanes) {
+      const uint64_t i = uint64_t(found.other[b]) + j;
+      const Vf distance_squared = DistanceSquared(sphere, c, i);
+      sum.Add(c, i, distance_squared, Counts(q, c, i, distance_squared));
+    }
+  }
+  sum.MoveTo(total);
+  total.candidates += (found.same_size + found.other_size) * BoxTree::kBlockPhotons;
 }
 
-template <class Power>
-GatherSum GatherWithPower(const PhotonColumns& c, std::span<const PhotonRange> ranges,
-                          const GatherQuery& query, KernelType kernel, float slope) {
-  switch (kernel) {
-    case KernelType::kCone:
-      return GatherLoop<Power, KernelType::kCone>(c, ranges, query, slope);
-    case KernelType::kEpanechnikov:
-      return GatherLoop<Power, KernelType::kEpanechnikov>(c, ranges, query, slope);
-    case KernelType::kConstant:
-      break;
+// Calls fn.operator()<Power, kType>().
+template <class Fn>
+HWY_INLINE GatherSum WithTypes(const PhotonColumns& c, KernelType kernel, const Fn& fn) {
+  const auto with_kernel = [&]<class Power>() HWY_ATTR {
+    if (kernel == KernelType::kCone) return fn.template operator()<Power, KernelType::kCone>();
+    if (kernel == KernelType::kEpanechnikov)
+      return fn.template operator()<Power, KernelType::kEpanechnikov>();
+    return fn.template operator()<Power, KernelType::kConstant>();
+  };
+  return c.power ? with_kernel.template operator()<Rgb9e5Power>()
+                 : with_kernel.template operator()<F32Power>();
+}
+
+GatherSum GatherPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
+                        KernelType kernel, float slope) {
+  const PhotonColumns& c = photons.columns;
+  const LaneQuery q(query, query.radius_squared(), photons.size);
+  return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
+    GatherSum total;
+    VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
+      AddBlocks<Power, kType>(c, q, found, slope, total);
+    });
+    return total;
+  });
+}
+
+// A lane adds at most so many terms before the sum moves on to double.
+inline constexpr uint64_t kMostTerms = 1024;
+
+template <class Power, KernelType kType>
+GatherSum GatherRangeLoop(const PhotonColumns& c, std::span<const PhotonRange> ranges, const LaneQuery& q,
+                          float slope) {
+  const Floats d;
+  const uint64_t lanes = hn::Lanes(d);
+  GatherSum total;
+  FluxSum<Power, kType> sum(slope);
+  uint64_t vectors = 0;
+  const auto add = [&](uint64_t i, Mask valid) HWY_ATTR {
+    const Vf distance_squared = DistanceSquared(q.sphere, c, i);
+    const Mask inside = hn::And(valid, hn::Le(distance_squared, q.sphere.radius_squared));
+    sum.Add(c, i, distance_squared, OnSurface(q, c, i, inside));
+    if (HWY_UNLIKELY(++vectors % kMostTerms == 0)) sum.MoveTo(total);
+  };
+  const Mask all = hn::FirstN(d, lanes);
+  for (const PhotonRange& range : ranges) {
+    uint64_t i = range.begin;
+    for (; i + lanes <= range.end; i += lanes) add(i, all);
+    if (i < range.end) add(i, hn::FirstN(d, range.end - i));
   }
-  return GatherLoop<Power, KernelType::kConstant>(c, ranges, query, slope);
+  sum.MoveTo(total);
+  return total;
 }
 
 GatherSum GatherRanges(const PhotonColumns& c, std::span<const PhotonRange> ranges, const GatherQuery& query,
                        KernelType kernel, float slope) {
-  if (c.power) return GatherWithPower<Rgb9e5Power>(c, ranges, query, kernel, slope);
-  return GatherWithPower<F32Power>(c, ranges, query, kernel, slope);
+  const LaneQuery q(query, query.radius_squared(), 0);
+  return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
+    return GatherRangeLoop<Power, kType>(c, ranges, q, slope);
+  });
 }
 
-size_t SelectRange(const PhotonColumns& c, PhotonRange range, const GatherQuery& query, float radius_squared,
-                   uint32_t* index, float* distance_squared) {
+void SelectPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
+                   GatherCounters& counters, TakePhotons take, void* to) {
   const Floats d;
   const Words u;
-  const uint64_t lanes = hn::Lanes(d);
-  const LaneQuery q(query, radius_squared);
-  size_t count = 0;
-  for (uint64_t i = range.begin; i < range.end; i += lanes) {
-    const Vf d2 = DistanceSquared(q, c, i);
-    const Mask valid = hn::FirstN(d, size_t(std::min(lanes, range.end - i)));
-    Mask inside = hn::And(valid, hn::Le(d2, q.radius_squared));
-    if (hn::AllFalse(d, inside)) continue;
-    inside = OnSurface(q, c, i, inside);
-    const Vu ids = hn::Iota(u, uint32_t(i - range.begin));
-    hn::CompressStore(ids, hn::RebindMask(u, inside), u, index + count);
-    count += hn::CompressStore(d2, inside, d, distance_squared + count);
-  }
-  return count;
+  const PhotonColumns& c = photons.columns;
+  const LaneQuery q(query, query.radius_squared(), photons.size);
+  uint32_t index[2 * BoxTree::kBlockPhotons];
+  float distances_squared[2 * BoxTree::kBlockPhotons];
+  const auto select = [&](uint32_t block) HWY_ATTR {
+    size_t count = 0;
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(d))) {
+      const Vf distance_squared = DistanceSquared(q.sphere, c, block + j);
+      const Mask counts = Counts(q, c, block + j, distance_squared);
+      StoreLanes(d, distance_squared, counts, distances_squared + count);
+      count += StoreLanes(u, Numbers(block + j), counts, index + count);
+    }
+    counters.accepted += count;
+    counters.candidates += BoxTree::kBlockPhotons;
+    take(to, index, distances_squared, count);
+  };
+  VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
+    const uint32_t *same = found.same, *other = found.other;
+    const uint32_t *const same_end = same + found.same_size, *const other_end = other + found.other_size;
+    while (same < same_end || other < other_end) {
+      const bool next_same = other == other_end || (same < same_end && *same < *other);
+      select(next_same ? *same++ : *other++);
+    }
+  });
 }
 
 }  // namespace kaustik::photon::HWY_NAMESPACE
@@ -222,17 +202,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace kaustik::photon {
 
+HWY_EXPORT(GatherPhotons);
 HWY_EXPORT(GatherRanges);
-HWY_EXPORT(SelectRange);
+HWY_EXPORT(SelectPhotons);
+
+GatherSum gather_photons(const IndexedPhotons& photons, const GatherQuery& query, KernelType kernel,
+                         float slope) {
+  return HWY_DYNAMIC_DISPATCH(GatherPhotons)(photons, start_of(photons, query), query, kernel, slope);
+}
 
 GatherSum gather_ranges(const PhotonColumns& columns, std::span<const PhotonRange> ranges,
                         const GatherQuery& query, KernelType kernel, float slope) {
   return HWY_DYNAMIC_DISPATCH(GatherRanges)(columns, ranges, query, kernel, slope);
 }
 
-size_t select_range(const PhotonColumns& columns, PhotonRange range, const GatherQuery& query,
-                    float radius_squared, uint32_t* index, float* distance_squared) {
-  return HWY_DYNAMIC_DISPATCH(SelectRange)(columns, range, query, radius_squared, index, distance_squared);
+void select_photons(const IndexedPhotons& photons, const GatherQuery& query, GatherCounters& counters,
+                    TakePhotons take, void* to) {
+  HWY_DYNAMIC_DISPATCH(SelectPhotons)(photons, start_of(photons, query), query, counters, take, to);
 }
 
 }  // namespace kaustik::photon

@@ -1,7 +1,6 @@
 #pragma once
-// What a gather asks and counts, and the SIMD loops over contiguous photons. Which lanes count is decided
-// without fused operations, so every instruction set accepts the same photons; only the order of the sum
-// depends on it.
+// What a search for photons asks and counts, and its SIMD loops. Which photons count is decided without fused
+// operations, so every instruction set accepts the same ones; only the order of the sum depends on it.
 
 #include <cstdint>
 #include <limits>
@@ -32,12 +31,15 @@ struct GatherQuery {
   uint32_t surface_group = 0;
   float radius = 0;
   PhotonRange within = kAllPhotons;  // e.g. the range of a cell, for the leaf lookup
+
+  // Below zero, where nothing is in reach, unless radius >= 0.
+  float radius_squared() const { return radius >= 0 ? radius * radius : -1.0f; }
 };
 
 // Exact counts, merged by integer sums.
 struct GatherCounters {
   uint64_t queries = 0;
-  uint64_t candidates = 0;  // photons whose distance was computed
+  uint64_t candidates = 0;  // photons whose distance was computed, by whole blocks
   uint64_t accepted = 0;    // photons that counted
   GatherCounters& operator+=(const GatherCounters& o) {
     queries += o.queries;
@@ -57,19 +59,34 @@ struct PhotonColumns {
 };
 inline constexpr uint64_t kGatherPadding = 64;
 
-// sum and accepted of one batch of ranges.
+// The columns with what finds those near a point.
+class BoxTree;
+class CellTable;
+struct IndexedPhotons {
+  PhotonColumns columns;  // beyond the last photon x is NaN
+  const CellTable* cells = nullptr;
+  const BoxTree* tree = nullptr;
+  uint64_t size = 0;  // photons
+};
+
 struct GatherSum {
   glm::dvec3 flux{0};  // flux units times (1 - slope s), see KernelTerms: multiply by scale and flux_unit
-  uint64_t accepted = 0;
+  uint64_t accepted = 0, candidates = 0;
 };
+
+// Over the photons that count. The order of the sum depends on the instruction set, and on nothing else.
+GatherSum gather_photons(const IndexedPhotons& photons, const GatherQuery& query, KernelType kernel,
+                         float slope);
+
+// The same for an index of another kind, over those in the ranges. query.within is not read, candidates are
+// not counted.
 GatherSum gather_ranges(const PhotonColumns& columns, std::span<const PhotonRange> ranges,
                         const GatherQuery& query, KernelType kernel, float slope);
 
-// Photons of one range of at most kSelectBlock that count: writes index (relative to range.begin) and squared
-// distance, returns how many. Both outputs hold kSelectBlock + kGatherPadding elements. radius_squared
-// replaces query.radius.
-inline constexpr uint64_t kSelectBlock = 256;
-size_t select_range(const PhotonColumns& columns, PhotonRange range, const GatherQuery& query,
-                    float radius_squared, uint32_t* index, float* distance_squared);
+// Calls take(to, ...) with the photons that count, ascending, and their squared distances. Adds to candidates
+// and accepted.
+using TakePhotons = void (*)(void* to, const uint32_t* index, const float* distance_squared, size_t count);
+void select_photons(const IndexedPhotons& photons, const GatherQuery& query, GatherCounters& counters,
+                    TakePhotons take, void* to);
 
 }  // namespace kaustik::photon

@@ -52,12 +52,13 @@ std::array<double, kPhotonKinds> forecast_stored(const Scene& scene, const accel
 }
 
 double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use) {
-  // Records and maps take the same; while a map is built from its records, the sum is that of
+  // Beside the records of the other kinds, or their maps, one map is built from its records: see
   // PhotonMap::build.
-  constexpr double kStored = sizeof(PhotonRecord), kBuilt = 52;
-  const double all = kStored * std::reduce(stored.begin(), stored.end());
-  if (use == PhotonUse::kRecords) return all;
-  return all + (kBuilt - kStored) * *std::max_element(stored.begin(), stored.end());
+  constexpr double kRecord = sizeof(PhotonRecord), kMap = 1.1 * kRecord, kBuilt = 52;
+  const double all = std::reduce(stored.begin(), stored.end());
+  if (use == PhotonUse::kRecords) return kRecord * all;
+  const double largest = *std::max_element(stored.begin(), stored.end());
+  return kMap * (all - largest) + kBuilt * largest;
 }
 
 void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,

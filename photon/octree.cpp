@@ -139,19 +139,41 @@ Octree::Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_
 PhotonRange Octree::child_range(const PhotonPositions& positions, PhotonRange range, uint64_t key,
                                 int depth) const {
   const uint32_t octant = morton_octant(key, depth);
+  // morton_octant() of the photon's key, without the key's other bits.
+  const auto octant_of = [&](uint64_t i) {
+    const MortonCell cell = cube_.cell(positions[i]);
+    const int level = kMortonBits - depth;
+    return (cell[0] >> level & 1) | (cell[1] >> level & 1) << 1 | (cell[2] >> level & 1) << 2;
+  };
   const auto first_from = [&](PhotonRange r, uint32_t wanted) {
-    while (!r.empty()) {
-      const uint64_t middle = r.begin + r.size() / 2;
-      const uint64_t k = morton_key(cube_.cell(positions[middle]));
-      if (morton_octant(k, depth) < wanted)
-        r.begin = middle + 1;
-      else
-        r.end = middle;
+    uint64_t size = r.size();
+    while (size > 0) {  // without branches on what is found: they would be mispredicted
+      const uint64_t half = size / 2;
+      const bool before = octant_of(r.begin + half) < wanted;
+      r.begin = before ? r.begin + half + 1 : r.begin;
+      size = before ? size - half - 1 : half;
     }
     return r.begin;
   };
   const uint64_t begin = first_from(range, octant);
   return {begin, first_from({begin, range.end}, octant + 1)};
+}
+
+float Octree::guess_radius(const Point3& p, uint64_t photons) const {
+  if (nodes_.empty()) return 0;
+  const uint64_t key = morton_key(cube_.cell(p));
+  const OctreeNode* node = nodes_.data();
+  int depth = 0;
+  for (; !node->leaf(); ++depth) {
+    const uint32_t octant = morton_octant(key, depth + 1);
+    if (!node->has_child(octant)) break;
+    const OctreeNode* child = &nodes_[node->child(octant)];
+    if (child->range().size() < 2 * photons) break;
+    node = child;
+  }
+  // Photons are counted, so that their number scatters by its root.
+  const float wanted = 1.2f * float(photons) + 2 * std::sqrt(float(photons));
+  return std::ldexp(cube_.size, -depth) * std::sqrt(wanted / (kPi * float(node->range().size())));
 }
 
 bool Octree::children_hold(float radius, int depth) const {

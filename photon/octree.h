@@ -46,7 +46,7 @@ struct PhotonPositions {
 class Octree {
  public:
   // Stored leaves hold at most so many photons, unless they lie in one cell of the deepest level.
-  static constexpr uint64_t kLeafPhotons = 64;
+  static constexpr uint64_t kLeafPhotons = 256;
 
   Octree() = default;
   // positions: of `size` photons by ascending key, fewer than 2^32. The result does not depend on the number
@@ -58,15 +58,9 @@ class Octree {
   std::span<const OctreeNode> nodes() const { return {nodes_.data(), nodes_.size()}; }
   uint64_t memory_bytes() const { return nodes_.size() * sizeof(OctreeNode); }
 
-  // fn(PhotonRange) for ranges in ascending order that together hold every photon of `within` that is at most
-  // radius from p (and others): all leaves that meet the sphere, adjacent ones joined.
-  template <class Fn>
-  void visit_ranges(const Point3& p, float radius, PhotonRange within, Fn&& fn) const;
-
-  // fn(PhotonRange) -> radius for every leaf that meets the sphere, roughly the nearest first. What fn
-  // returns replaces the radius, and must not be larger.
-  template <class Fn>
-  void visit_near_first(const Point3& p, float radius, PhotonRange within, Fn&& fn) const;
+  // Radius in metres of a disc that holds so many photons, and some more, if those of the smallest node
+  // around p with twice as many are spread evenly over one cut through it: a guess.
+  float guess_radius(const Point3& p, uint64_t photons) const;
 
   // Photons of the ancestor cells of key: ranges[d] is that of depth d. Stops after the first depth at which
   // stop(depth, range) is true, or at the deepest level; returns that depth.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "photon/memory_pages.h"
+#include "photon/nearest.h"
 #include "photon/packing.h"
 
 namespace kaustik::photon {
@@ -50,55 +51,17 @@ void check_size(uint64_t size) {
   }
 }
 
-// Ranges on their way from the octree to the SIMD loop.
-struct RangeBatch {
-  static constexpr size_t kCapacity = 64;
-  PhotonRange ranges[kCapacity];
-  size_t size = 0;
-};
-
-// The k smallest of many squared distances. Keeps up to half as many more before it selects, so that each
-// costs a constant time on average.
-class NearestSet {
- public:
-  NearestSet(uint32_t k, float reach_squared) : k_(k), select_at_(k), reach_squared_(reach_squared) {}
-
-  // No larger distance is needed any more.
-  float reach_squared() const { return reach_squared_; }
-  void add(std::span<const float> distances_squared) {
-    distances_.insert(distances_.end(), distances_squared.begin(), distances_squared.end());
-    if (distances_.size() >= select_at_) finish();
-  }
-  // Leaves the k-th distance in reach_squared; false when there are fewer.
-  bool finish() {
-    if (distances_.size() < k_) return false;
-    std::nth_element(distances_.begin(), distances_.begin() + ptrdiff_t(k_ - 1), distances_.end());
-    reach_squared_ = std::min(reach_squared_, distances_[k_ - 1]);
-    distances_.resize(k_);
-    select_at_ = k_ + size_t(k_) / 2 + 16;
-    return true;
-  }
-
- private:
-  size_t k_, select_at_;
-  float reach_squared_;
-  std::vector<float> distances_;
-};
-
 }  // namespace
 
 RecordColumns PhotonMap::allocate(uint64_t size, bool f32_power) {
-  const uint64_t stride = (size + kGatherPadding) * sizeof(uint32_t), columns = f32_power ? 8 : 6;
+  const uint64_t lines = (size + kGatherPadding) / BoxTree::kBlockPhotons + 1, columns = f32_power ? 8 : 6;
   size_ = size;
-  // Bytes, in which the columns' floats and words may begin their lives.
-  storage_ = UninitialisedArray<std::byte>(stride * columns);
-  prefer_large_pages(storage_.data(), storage_.size());
-  for (uint64_t c = 0; c < columns; ++c) {
-    std::fill_n(storage_.data() + (c + 1) * stride - kGatherPadding * sizeof(uint32_t),
-                kGatherPadding * sizeof(uint32_t), std::byte(0));
-  }
-  const auto words = [&](uint64_t c) { return reinterpret_cast<uint32_t*>(storage_.data() + c * stride); };
-  const auto floats = [&](uint64_t c) { return reinterpret_cast<float*>(storage_.data() + c * stride); };
+  storage_ = UninitialisedArray<Line>(lines * columns);
+  prefer_large_pages(storage_.data(), storage_.size() * sizeof(Line));
+  const auto words = [&](uint64_t c) { return storage_[c * lines].words; };
+  const auto floats = [&](uint64_t c) { return reinterpret_cast<float*>(words(c)); };
+  for (uint64_t c = 0; c < columns; ++c)
+    std::fill(words(c) + size, words(c) + lines * BoxTree::kBlockPhotons, c == 0 ? ~0u : 0u);
   const RecordColumns to{floats(0), floats(1), floats(2), words(3), words(5), words(4)};
   columns_ = {to.x, to.y, to.z, to.direction, to.surface, f32_power ? nullptr : to.power, {}};
   for (uint64_t c = 0; f32_power && c < 3; ++c) columns_.power_f32[c] = floats(5 + c);
@@ -110,8 +73,12 @@ RecordColumns PhotonMap::fill(std::vector<PhotonRecord>&& records, const MapSett
   const MortonCube cube = MortonCube::around(settings.bounds.value_or(bounds_of(records)));
   const RecordColumns to = allocate(records.size(), f32_power);
   sort_into_columns(records, cube, to);
-  tbb::parallel_invoke([&] { octree_ = Octree(cube, positions(), size_); },
-                       [&] { std::vector<PhotonRecord>().swap(records); });
+  tbb::parallel_invoke(
+      [&] {
+        octree_ = Octree(cube, positions(), size_);
+        cells_ = CellTable(octree_, positions());
+      },
+      [&] { boxes_ = BoxTree(columns_, size_); }, [&] { std::vector<PhotonRecord>().swap(records); });
   return to;
 }
 
@@ -136,15 +103,17 @@ PhotonMap PhotonMap::build_f32(std::span<const Photon> photons, float flux_unit,
   map.flux_unit_ = flux_unit;
   const RecordColumns filled = map.fill(std::move(records), settings, true);
   auto* const power = reinterpret_cast<float*>(filled.power);  // and the two columns after it
+  const uint64_t stride = uint64_t(map.columns_.power_f32[1] - map.columns_.power_f32[0]);
   for_each_index(photons.size(), [&](size_t i) {
     const Rgb flux = photons[filled.power[i]].flux;
-    for (size_t c = 0; c < 3; ++c) power[c * (map.size_ + kGatherPadding) + i] = flux[int(c)] / flux_unit;
+    for (size_t c = 0; c < 3; ++c) power[c * stride + i] = flux[int(c)] / flux_unit;
   });
   return map;
 }
 
 uint64_t PhotonMap::memory_bytes() const {
-  return storage_.size() + octree_.memory_bytes();
+  return storage_.size() * sizeof(Line) + octree_.memory_bytes() + cells_.memory_bytes() +
+         boxes_.memory_bytes();
 }
 
 Photon PhotonMap::photon(uint64_t i) const {
@@ -157,49 +126,20 @@ Photon PhotonMap::photon(uint64_t i) const {
 
 Rgb PhotonMap::gather_flux(const GatherQuery& query, const KernelSpec& kernel,
                            GatherCounters& counters) const {
-  ++counters.queries;
   const KernelTerms terms = kernel_terms(kernel, query.radius);
-  RangeBatch batch;
-  GatherSum sum;
-  const auto flush = [&] {
-    const GatherSum part =
-        gather_ranges(columns_, {batch.ranges, batch.size}, query, kernel.type, terms.slope);
-    sum.flux += part.flux;
-    sum.accepted += part.accepted;
-    batch.size = 0;
-  };
-  octree_.visit_ranges(query.p, query.radius, query.within, [&](PhotonRange range) {
-    counters.candidates += range.size();
-    batch.ranges[batch.size++] = range;
-    if (batch.size == RangeBatch::kCapacity) flush();
-  });
-  if (batch.size > 0) flush();
-  counters.accepted += sum.accepted;
+  const GatherSum sum = gather_photons(indexed(), query, kernel.type, terms.slope);
+  counters += {1, sum.candidates, sum.accepted};
   return Rgb(sum.flux * double(terms.scale) * double(flux_unit_));
 }
 
 float PhotonMap::nearest_radius(const GatherQuery& query, uint32_t k, GatherCounters& counters) const {
-  ++counters.queries;
   if (k == 0 || size_ < k) return query.radius;
-  NearestSet nearest(k, query.radius * query.radius);
-  uint32_t index[kSelectBlock + kGatherPadding];
-  float distance_squared[kSelectBlock + kGatherPadding];
-  octree_.visit_near_first(query.p, query.radius, query.within, [&](PhotonRange range) {
-    counters.candidates += range.size();
-    while (!range.empty()) {
-      const PhotonRange block{range.begin, std::min(range.end, range.begin + kSelectBlock)};
-      const size_t count =
-          select_range(columns_, block, query, nearest.reach_squared(), index, distance_squared);
-      counters.accepted += count;
-      nearest.add({distance_squared, count});
-      range.begin = block.end;
-    }
-    return std::min(query.radius, std::sqrt(nearest.reach_squared()));
-  });
-  if (!nearest.finish()) return query.radius;
-  float radius = std::sqrt(nearest.reach_squared());
+  const auto nearest =
+      nearest_distance_squared(indexed(), query, k, octree_.guess_radius(query.p, k), counters);
+  if (!nearest) return query.radius;
+  float radius = std::sqrt(*nearest);
   // The root is rounded; its square must still reach the photon.
-  if (radius * radius < nearest.reach_squared()) radius = std::nextafter(radius, kInfinity);
+  if (radius * radius < *nearest) radius = std::nextafter(radius, kInfinity);
   return std::min(radius, query.radius);
 }
 

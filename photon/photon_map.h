@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "photon/box_tree.h"
+#include "photon/cell_table.h"
 #include "photon/gather.h"
 #include "photon/morton_sort.h"
 #include "photon/octree.h"
@@ -20,13 +22,13 @@ struct MapSettings {
 };
 
 // Immutable after the build; const members may be called from any thread. Structure of arrays, 24 bytes per
-// photon and about one for the octree.
+// photon and at most a tenth of that for the octree, the boxes and the cells.
 class PhotonMap {
  public:
   PhotonMap() = default;
 
   // Takes the buffer's memory and frees it. The result does not depend on the number of threads. Peak memory:
-  // 48 bytes per photon, the buffer included, and a few megabytes per thread. At most 2^32 - 1 photons
+  // 51 bytes per photon, the buffer included, and a few megabytes per thread. At most 2^32 - 1 photons
   // (std::length_error beyond).
   static PhotonMap build(PhotonBuffer&& buffer, const MapSettings& settings = {});
   // The same with the power kept as 3 x f32 instead of RGB9E5 (32 bytes per photon): the reference for what
@@ -39,7 +41,8 @@ class PhotonMap {
   float flux_unit() const { return flux_unit_; }
   const MortonCube& cube() const { return octree_.cube(); }
   const Octree& octree() const { return octree_; }
-  uint64_t memory_bytes() const;  // columns and octree
+  const BoxTree& boxes() const { return boxes_; }
+  uint64_t memory_bytes() const;
 
   // Photon i of the Morton order, decoded.
   Photon photon(uint64_t i) const;
@@ -66,11 +69,19 @@ class PhotonMap {
  private:
   // The columns to fill. Where the power is kept as f32, the first of its columns takes the records' words.
   RecordColumns allocate(uint64_t size, bool f32_power);
-  // Columns and octree of the records, whose memory is freed.
+  // Columns, octree and boxes of the records, whose memory is freed.
   RecordColumns fill(std::vector<PhotonRecord>&& records, const MapSettings& settings, bool f32_power);
 
+  IndexedPhotons indexed() const { return {columns_, &cells_, &boxes_, size_}; }
+
   Octree octree_;
-  UninitialisedArray<std::byte> storage_;  // all columns, one after the other
+  CellTable cells_;
+  BoxTree boxes_;
+  // A block of a column is a cache line.
+  struct alignas(64) Line {
+    uint32_t words[BoxTree::kBlockPhotons];
+  };
+  UninitialisedArray<Line> storage_;  // all columns, one after the other
   PhotonColumns columns_;
   uint64_t size_ = 0;
   float flux_unit_ = 1;
@@ -79,18 +90,16 @@ class PhotonMap {
 template <class Fn>
 void PhotonMap::for_each(const GatherQuery& query, Fn&& fn, GatherCounters& counters) const {
   ++counters.queries;
-  uint32_t index[kSelectBlock + kGatherPadding];
-  float distance_squared[kSelectBlock + kGatherPadding];
-  octree_.visit_ranges(query.p, query.radius, query.within, [&](PhotonRange range) {
-    counters.candidates += range.size();
-    for (; !range.empty(); range.begin = std::min(range.end, range.begin + kSelectBlock)) {
-      const PhotonRange block{range.begin, std::min(range.end, range.begin + kSelectBlock)};
-      const size_t count =
-          select_range(columns_, block, query, query.radius * query.radius, index, distance_squared);
-      counters.accepted += count;
-      for (size_t i = 0; i < count; ++i) fn(photon(block.begin + index[i]), distance_squared[i]);
-    }
-  });
+  const auto take = [&](const uint32_t* index, const float* distance_squared, size_t count) {
+    for (size_t i = 0; i < count; ++i) fn(photon(index[i]), distance_squared[i]);
+  };
+  using Take = decltype(take);
+  select_photons(
+      indexed(), query, counters,
+      [](void* to, const uint32_t* index, const float* distance_squared, size_t count) {
+        (*static_cast<const Take*>(to))(index, distance_squared, count);
+      },
+      const_cast<void*>(static_cast<const void*>(&take)));
 }
 
 }  // namespace kaustik::photon

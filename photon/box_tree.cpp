@@ -1,0 +1,103 @@
+#include "photon/box_tree.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace kaustik::photon {
+
+namespace {
+
+constexpr uint32_t kBoxes = BoxNode::kBoxes, kBlock = BoxTree::kBlockPhotons;
+constexpr float kNone = std::numeric_limits<float>::infinity();
+
+// Along one axis, of a node whose photons begin with column[0].
+void find_intervals(const float* column, uint64_t photons, float* lo, float* hi) {
+  std::fill_n(lo, kBoxes, kNone);
+  std::fill_n(hi, kBoxes, -kNone);
+  for (uint64_t i = 0; i < photons; ++i) {
+    lo[i / kBlock] = std::min(lo[i / kBlock], column[i]);
+    hi[i / kBlock] = std::max(hi[i / kBlock], column[i]);
+  }
+}
+
+// Around the boxes of each of the children, along one axis.
+void join_intervals(std::span<const BoxNode> children, int axis, BoxNode& node) {
+  std::fill_n(node.lo[axis], kBoxes, kNone);
+  std::fill_n(node.hi[axis], kBoxes, -kNone);
+  for (size_t b = 0; b < children.size(); ++b) {
+    node.lo[axis][b] = *std::min_element(children[b].lo[axis], children[b].lo[axis] + kBoxes);
+    node.hi[axis][b] = *std::max_element(children[b].hi[axis], children[b].hi[axis] + kBoxes);
+  }
+}
+
+uint32_t common_surface(const uint32_t* surface, uint64_t photons) {
+  uint32_t differ = 0;
+  for (uint64_t i = 1; i < photons; ++i) differ |= surface[i] ^ surface[0];
+  if (differ == 0) return surface[0];
+  return differ >> 16 == 0 ? surface[0] | BoxTree::kAnyNormal : BoxTree::kAnySurface;
+}
+
+template <class Fn>
+void for_each_index(size_t size, const Fn& fn) {
+  constexpr size_t kGrain = 64;
+  using Indices = tbb::blocked_range<size_t>;
+  tbb::parallel_for(Indices(0, size, kGrain), [&](const Indices& indices) {
+    for (size_t i = indices.begin(); i < indices.end(); ++i) fn(i);
+  });
+}
+
+}  // namespace
+
+BoxTree::BoxTree(const PhotonColumns& columns, uint64_t size) {
+  for (uint64_t boxes = (size + kBlock - 1) / kBlock; boxes > 1 || (boxes == 1 && levels_ == 0); ++levels_) {
+    boxes = (boxes + kBoxes - 1) / kBoxes;  // of the next level
+    first_[levels_ + 1] = first_[levels_] + boxes;
+  }
+  if (levels_ == 0) return;
+  nodes_ = UninitialisedArray<BoxNode>(first_[levels_]);
+  surfaces_ = UninitialisedArray<Surfaces>(first_[1]);
+  for_each_index(first_[1], [&](size_t i) {
+    const uint64_t begin = i * kNodePhotons, photons = std::min<uint64_t>(kNodePhotons, size - begin);
+    const float* const axes[] = {columns.x + begin, columns.y + begin, columns.z + begin};
+    for (int axis = 0; axis < 3; ++axis)
+      find_intervals(axes[axis], photons, nodes_[i].lo[axis], nodes_[i].hi[axis]);
+    for (uint64_t b = 0; b < kBoxes; ++b) {
+      const uint64_t first = std::min(photons, b * kBlock);
+      surfaces_[i].of_block[b] =
+          common_surface(columns.surface + begin + first, std::min<uint64_t>(kBlock, photons - first));
+    }
+  });
+  for (int l = 1; l < levels_; ++l) {
+    const std::span<const BoxNode> below = level(l - 1);
+    for_each_index(level(l).size(), [&](size_t i) {
+      const size_t count = std::min<size_t>(kBoxes, below.size() - i * kBoxes);
+      for (int axis = 0; axis < 3; ++axis)
+        join_intervals(below.subspan(i * kBoxes, count), axis, nodes_[first_[l] + i]);
+    });
+  }
+}
+
+BoxTree::Start BoxTree::start_at(const CellRanges& ranges) const {
+  Start start;
+  int shift = std::bit_width(kNodePhotons) - 1;
+  const auto many = [&] {
+    size_t nodes = 0;
+    for (size_t r = 0; r < ranges.size; ++r)
+      nodes += (ranges.last[r] >> shift) - (ranges.first[r] >> shift) + 1;
+    return nodes > Start::kMost;
+  };
+  for (; many(); ++start.level) shift += std::bit_width(BoxNode::kBoxes) - 1;
+  uint32_t next = 0;
+  for (size_t r = 0; r < ranges.size; ++r) {
+    next = std::max(next, ranges.first[r] >> shift);
+    for (const uint32_t last = ranges.last[r] >> shift; next <= last; ++next)
+      start.nodes[start.size++] = next;
+  }
+  return start;
+}
+
+}  // namespace kaustik::photon
