@@ -1,7 +1,8 @@
 // Structures that find photons within a radius, by one benchmark: the photon map, nanoflann's kd-tree, a
 // spatial hash, the lecture's pointer octree, and as the roof a dense grid made for the radius. Same photons,
 // same queries in the order of a picture's tiles, same rule of what counts, same sum; the equality is tested
-// in tests/photon/photon_index_test.cpp. Arguments: photons, photons in reach.
+// in tests/photon/photon_index_test.cpp. Arguments: photons, photons in reach. nearest: the radius that
+// reaches the k-th photon that counts, of the photon map and of nanoflann.
 //
 //   index_bench --benchmark_enable_random_interleaving=true --benchmark_repetitions=7
 //     --benchmark_report_aggregates_only=true --benchmark_min_time=0.05
@@ -64,23 +65,41 @@ const Index& shared_index(const Size& size) {
   return at->second;
 }
 
-template <PhotonIndex Index>
-void BM_Gather(benchmark::State& state) {
-  const Size size(state);
-  const Index& index = shared_index<Index>(size);
+// search(index, query, counters) for each query of radius `radius`.
+template <PhotonIndex Index, class Fn>
+void run_queries(benchmark::State& state, const Index& index, float radius, const Fn& search) {
   static const std::vector<photon::Photon> points = tile_points(12);
   photon::GatherCounters counters;
   for (auto _ : state) {
     for (const photon::Photon& point : points) {
-      const photon::GatherQuery query{point.p, point.n, point.surface_group, size.radius,
-                                      photon::kAllPhotons};
-      benchmark::DoNotOptimize(index.flux_density(query, counters));
+      const photon::GatherQuery query{point.p, point.n, point.surface_group, radius, photon::kAllPhotons};
+      benchmark::DoNotOptimize(search(index, query, counters));
     }
   }
   const double queries = double(counters.queries);
   state.SetItemsProcessed(int64_t(counters.queries));
   state.counters["accepted"] = double(counters.accepted) / queries;
   state.counters["candidates"] = double(counters.candidates) / queries;
+}
+
+template <PhotonIndex Index>
+void BM_Gather(benchmark::State& state) {
+  const Size size(state);
+  run_queries(state, shared_index<Index>(size), size.radius,
+              [](const Index& index, const photon::GatherQuery& query, photon::GatherCounters& counters) {
+                return index.flux_density(query, counters);
+              });
+}
+
+// The search may look four times as far as the photon is expected.
+template <NearestIndex Index>
+void BM_Nearest(benchmark::State& state) {
+  const Size size(state);
+  const uint32_t k = uint32_t(state.range(1));
+  run_queries(state, shared_index<Index>(size), 4 * size.radius,
+              [k](const Index& index, const photon::GatherQuery& query, photon::GatherCounters& counters) {
+                return index.nearest_radius(query, k, counters);
+              });
 }
 
 template <PhotonIndex Index>
@@ -91,6 +110,11 @@ void add(int64_t photons) {
   for (auto* bench : {gather, build}) bench->ArgNames({"photons", "reach"})->Unit(benchmark::kMillisecond);
   gather->Args({photons, 50})->Args({photons, 500});
   build->Args({photons, 50})->MeasureProcessCPUTime();
+  if constexpr (NearestIndex<Index>) {
+    const auto nearest = benchmark::RegisterBenchmark(("nearest/" + name).c_str(), BM_Nearest<Index>);
+    nearest->ArgNames({"photons", "k"})->Unit(benchmark::kMillisecond);
+    nearest->Args({photons, 50})->Args({photons, 500});
+  }
 }
 
 template <PhotonIndex... Indices>

@@ -31,4 +31,12 @@ concept PhotonIndex = std::move_constructible<T> &&
   { index.memory_bytes() } -> std::same_as<uint64_t>;
 };
 
+// One that also finds the k-th nearest photon.
+//   nearest_radius(q, k, c)  PhotonMap::nearest_radius(): metres
+template <class T>
+concept NearestIndex = PhotonIndex<T> &&
+    requires(const T& index, const photon::GatherQuery& query, photon::GatherCounters& counters) {
+  { index.nearest_radius(query, 1u, counters) } -> std::same_as<float>;
+};
+
 }  // namespace kaustik::benchmarks

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "photon/cell_table.h"
 #include "photon/gather.h"
+#include "photon/octree.h"
 #include "photon/uninitialised_array.h"
 
 namespace kaustik::photon {
@@ -65,7 +65,7 @@ class BoxTree {
 };
 
 inline BoxTree::Start start_of(const IndexedPhotons& photons, const GatherQuery& query) {
-  return photons.tree->start_at(photons.cells->ranges_near(query.p, query.radius, query.within));
+  return photons.tree->start_at(photons.octree->ranges_near(query.p, query.radius, query.within));
 }
 
 }  // namespace kaustik::photon

@@ -2,8 +2,6 @@
 
 #include "photon/gather.h"
 
-#include "photon/cell_table.h"
-
 #include <algorithm>
 #include <cmath>
 

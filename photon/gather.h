@@ -61,10 +61,10 @@ inline constexpr uint64_t kGatherPadding = 64;
 
 // The columns with what finds those near a point.
 class BoxTree;
-class CellTable;
+class Octree;
 struct IndexedPhotons {
   PhotonColumns columns;  // beyond the last photon x is NaN
-  const CellTable* cells = nullptr;
+  const Octree* octree = nullptr;
   const BoxTree* tree = nullptr;
   uint64_t size = 0;  // photons
 };

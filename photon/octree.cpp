@@ -134,6 +134,7 @@ Octree::Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_
     nodes_[subtree.root] = subtree.nodes.front();
     std::copy(subtree.nodes.begin() + 1, subtree.nodes.end(), nodes_.begin() + subtree.first);
   });
+  make_entries(positions);
 }
 
 PhotonRange Octree::child_range(const PhotonPositions& positions, PhotonRange range, uint64_t key,
@@ -157,23 +158,6 @@ PhotonRange Octree::child_range(const PhotonPositions& positions, PhotonRange ra
   };
   const uint64_t begin = first_from(range, octant);
   return {begin, first_from({begin, range.end}, octant + 1)};
-}
-
-float Octree::guess_radius(const Point3& p, uint64_t photons) const {
-  if (nodes_.empty()) return 0;
-  const uint64_t key = morton_key(cube_.cell(p));
-  const OctreeNode* node = nodes_.data();
-  int depth = 0;
-  for (; !node->leaf(); ++depth) {
-    const uint32_t octant = morton_octant(key, depth + 1);
-    if (!node->has_child(octant)) break;
-    const OctreeNode* child = &nodes_[node->child(octant)];
-    if (child->range().size() < 2 * photons) break;
-    node = child;
-  }
-  // Photons are counted, so that their number scatters by its root.
-  const float wanted = 1.2f * float(photons) + 2 * std::sqrt(float(photons));
-  return std::ldexp(cube_.size, -depth) * std::sqrt(wanted / (kPi * float(node->range().size())));
 }
 
 bool Octree::children_hold(float radius, int depth) const {

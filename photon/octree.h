@@ -37,6 +37,12 @@ struct OctreeCell {
   Bounds3 bounds;   // metres
 };
 
+// Runs of photons, from the first to the last.
+struct CellRanges {
+  uint32_t first[8], last[8];
+  size_t size = 0;
+};
+
 // The sorted photons' columns, from which keys are computed again where a cell lies below a stored leaf.
 struct PhotonPositions {
   const float *x = nullptr, *y = nullptr, *z = nullptr;
@@ -56,7 +62,13 @@ class Octree {
   const MortonCube& cube() const { return cube_; }
   uint64_t size() const { return size_; }  // photons
   std::span<const OctreeNode> nodes() const { return {nodes_.data(), nodes_.size()}; }
-  uint64_t memory_bytes() const { return nodes_.size() * sizeof(OctreeNode); }
+  uint64_t memory_bytes() const {
+    return nodes_.size() * sizeof(OctreeNode) + entries_.size() * sizeof(uint32_t);
+  }
+
+  // Every photon of `within` that is within radius of p, and others, ascending: those of the cells that the
+  // sphere meets, as wide as it or wider.
+  CellRanges ranges_near(const Point3& p, float radius, PhotonRange within) const;
 
   // Radius in metres of a disc that holds so many photons, and some more, if those of the smallest node
   // around p with twice as many are spread evenly over one cut through it: a guess.
@@ -83,8 +95,14 @@ class Octree {
  private:
   PhotonRange child_range(const PhotonPositions& positions, PhotonRange range, uint64_t key, int depth) const;
 
+  void make_entries(const PhotonPositions& positions);
+
   MortonCube cube_;
   UninitialisedArray<OctreeNode> nodes_;
+  // Where the photons of each cell of entry_depth_ begin, and the end: at most a quarter of a byte per
+  // photon.
+  UninitialisedArray<uint32_t> entries_;
+  int entry_depth_ = 0;
   uint64_t size_ = 0;
 };
 

@@ -73,12 +73,9 @@ RecordColumns PhotonMap::fill(std::vector<PhotonRecord>&& records, const MapSett
   const MortonCube cube = MortonCube::around(settings.bounds.value_or(bounds_of(records)));
   const RecordColumns to = allocate(records.size(), f32_power);
   sort_into_columns(records, cube, to);
-  tbb::parallel_invoke(
-      [&] {
-        octree_ = Octree(cube, positions(), size_);
-        cells_ = CellTable(octree_, positions());
-      },
-      [&] { boxes_ = BoxTree(columns_, size_); }, [&] { std::vector<PhotonRecord>().swap(records); });
+  tbb::parallel_invoke([&] { octree_ = Octree(cube, positions(), size_); },
+                       [&] { boxes_ = BoxTree(columns_, size_); },
+                       [&] { std::vector<PhotonRecord>().swap(records); });
   return to;
 }
 
@@ -112,8 +109,7 @@ PhotonMap PhotonMap::build_f32(std::span<const Photon> photons, float flux_unit,
 }
 
 uint64_t PhotonMap::memory_bytes() const {
-  return storage_.size() * sizeof(Line) + octree_.memory_bytes() + cells_.memory_bytes() +
-         boxes_.memory_bytes();
+  return storage_.size() * sizeof(Line) + octree_.memory_bytes() + boxes_.memory_bytes();
 }
 
 Photon PhotonMap::photon(uint64_t i) const {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "photon/box_tree.h"
-#include "photon/cell_table.h"
 #include "photon/gather.h"
 #include "photon/morton_sort.h"
 #include "photon/octree.h"
@@ -22,7 +21,7 @@ struct MapSettings {
 };
 
 // Immutable after the build; const members may be called from any thread. Structure of arrays, 24 bytes per
-// photon and at most a tenth of that for the octree, the boxes and the cells.
+// photon and at most a tenth of that for the octree and the boxes.
 class PhotonMap {
  public:
   PhotonMap() = default;
@@ -72,10 +71,9 @@ class PhotonMap {
   // Columns, octree and boxes of the records, whose memory is freed.
   RecordColumns fill(std::vector<PhotonRecord>&& records, const MapSettings& settings, bool f32_power);
 
-  IndexedPhotons indexed() const { return {columns_, &cells_, &boxes_, size_}; }
+  IndexedPhotons indexed() const { return {columns_, &octree_, &boxes_, size_}; }
 
   Octree octree_;
-  CellTable cells_;
   BoxTree boxes_;
   // A block of a column is a cache line.
   struct alignas(64) Line {

@@ -3,6 +3,7 @@
 // are first put into Morton order by a radix sort, which the build of the tree gains back and a search
 // gains by a third.
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <nanoflann.hpp>
@@ -36,6 +37,15 @@ class KdTree {
     if (!index_) return;
     Result<Fn> result(cloud_->photons.data(), Acceptance(query), counters, fn);
     index_->findNeighbors(result, &query.p.x, {});
+  }
+
+  float nearest_radius(const photon::GatherQuery& query, uint32_t k, photon::GatherCounters& counters) const {
+    ++counters.queries;
+    if (!index_ || k == 0) return query.radius;
+    NearestResult result(cloud_->photons.data(), Acceptance(query), counters, k);
+    index_->findNeighbors(result, &query.p.x, {});
+    return result.nearest.size() < k ? query.radius
+                                     : std::min(query.radius, std::sqrt(result.nearest.front()));
   }
 
   uint64_t memory_bytes() const {
@@ -98,9 +108,45 @@ class KdTree {
     void sort() {}
   };
 
+  // The k nearest in a heap, the farthest of them in front: nanoflann's own set, a sorted list, is slow for
+  // many.
+  struct NearestResult {
+    using DistanceType = float;
+    const PlainPhoton* photons;
+    Acceptance counts;
+    photon::GatherCounters& counters;
+    size_t k;
+    std::vector<float> nearest{};  // squared distances
+    float worst = std::nextafter(counts.radius_squared() * (1 + 0x1p-12f), kInfinity);
+
+    NearestResult(const PlainPhoton* all, const Acceptance& acceptance, photon::GatherCounters& to,
+                  size_t count)
+        : photons(all), counts(acceptance), counters(to), k(count) {
+      nearest.reserve(k + 1);
+    }
+    float worstDist() const { return worst; }
+    bool addPoint(float distance_squared, uint32_t index) {
+      ++counters.candidates;
+      if (distance_squared > counts.radius_squared() || !counts.on_surface(photons[index].surface))
+        return true;
+      ++counters.accepted;
+      nearest.push_back(distance_squared);
+      std::push_heap(nearest.begin(), nearest.end());
+      if (nearest.size() <= k) return true;
+      std::pop_heap(nearest.begin(), nearest.end());
+      nearest.pop_back();
+      worst = std::nextafter(nearest.front() * (1 + 0x1p-12f), kInfinity);
+      return true;
+    }
+    bool full() const { return true; }
+    bool empty() const { return false; }
+    size_t size() const { return nearest.size(); }
+    void sort() {}
+  };
+
   std::unique_ptr<Cloud> cloud_;  // the index keeps a reference
   std::unique_ptr<Index> index_;
 };
-static_assert(PhotonIndex<KdTree>);
+static_assert(NearestIndex<KdTree>);
 
 }  // namespace kaustik::benchmarks

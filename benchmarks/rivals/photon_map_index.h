@@ -23,11 +23,14 @@ class PhotonMapIndex {
     map_.for_each(
         query, [&](const photon::Photon& photon, float) { fn(photon.flux); }, counters);
   }
+  float nearest_radius(const photon::GatherQuery& query, uint32_t k, photon::GatherCounters& counters) const {
+    return map_.nearest_radius(query, k, counters);
+  }
   uint64_t memory_bytes() const { return map_.memory_bytes(); }
 
  private:
   photon::PhotonMap map_;
 };
-static_assert(PhotonIndex<PhotonMapIndex>);
+static_assert(NearestIndex<PhotonMapIndex>);
 
 }  // namespace kaustik::benchmarks

@@ -123,6 +123,22 @@ TYPED_TEST(PhotonIndices, SumTheFluxOfBruteForce) {
   }
 }
 
+TEST(KdTree, NearestRadiusIsThatOfThePhotonMap) {
+  for (const PhotonSet& set : photon::photon_sets()) {
+    const PhotonBuffer buffer = photon::make_buffer(set.photons);
+    const PhotonMapIndex map = PhotonMapIndex::build(PhotonBuffer(buffer), 0);
+    const KdTree tree = KdTree::build(PhotonBuffer(buffer), 0);
+    for (const GatherQuery& query : photon::queries_for(set, 60)) {
+      for (const uint32_t k : {1u, 50u}) {
+        GatherCounters counters;
+        const float radius = tree.nearest_radius(query, k, counters);
+        // A root and a squared distance, rounded otherwise by nanoflann: a few units in the last place.
+        ASSERT_NEAR(map.nearest_radius(query, k, counters), radius, 1e-6f * radius) << set.name;
+      }
+    }
+  }
+}
+
 // Grids made for one radius also answer smaller ones.
 TYPED_TEST(PhotonIndices, AnswerSmallerRadiiThanThatOfTheBuild) {
   const std::vector<PhotonSet> sets = photon::photon_sets();
