@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "photon/box_tree.h"
 #include "photon/packing.h"
@@ -62,6 +63,13 @@ HWY_INLINE Vf DistanceSquared(Sphere q, const BoxNode& node, uint32_t b) {
   return LengthSquared(gap(q.x, 0), gap(q.y, 1), gap(q.z, 2));
 }
 
+// Which boxes the sphere meets. An infinite sphere meets none that is empty, for which the distance is
+// infinite.
+HWY_INLINE Mask Meets(Sphere q, const BoxNode& node, uint32_t b) {
+  const Vf reach = hn::Min(q.radius_squared, hn::Set(Floats(), std::numeric_limits<float>::max()));
+  return hn::Le(DistanceSquared(q, node, b), reach);
+}
+
 // Places of the set bits of a byte, in ascending order.
 struct BitPlaces {
   uint8_t place[256][8];
@@ -100,8 +108,8 @@ struct LaneQuery {
   uint32_t begin, end;  // photons that may count
   bool all;             // every photon may
 
-  HWY_INLINE LaneQuery(const GatherQuery& q, float radius_squared, uint64_t size)
-      : sphere(MakeSphere(q.p, radius_squared)),
+  HWY_INLINE LaneQuery(const GatherQuery& q, uint64_t size)
+      : sphere(MakeSphere(q.p, q.radius_squared())),
         surface(pack_surface(q.n, q.surface_group)),
         nx(q.n.x),
         ny(q.n.y),
@@ -182,7 +190,7 @@ HWY_INLINE void FindBlocks(const BoxTree& tree, const LaneQuery& q, const uint32
       const Vu first = hn::ShiftLeft<4>(Numbers(block));
       static_assert(BoxTree::kBlockPhotons == 1 << 4);
       const Vu surface = hn::Load(u, surfaces[*node].of_block + b);
-      Mask meets = hn::Le(DistanceSquared(sphere, boxes[*node], b), sphere.radius_squared);
+      Mask meets = Meets(sphere, boxes[*node], b);
       Mask is_same = hn::RebindMask(d, hn::Eq(surface, packed));
       if (HWY_UNLIKELY(!q.all)) {
         const Vu last = hn::Add(first, hn::Set(u, BoxTree::kBlockPhotons - 1));
@@ -222,9 +230,8 @@ void VisitBlocks(const BoxTree& tree, const LaneQuery& q, int level, const uint3
     size_t found = 0;
     for (size_t i = 0; i < some; ++i) {
       for (uint32_t b = 0; b < BoxNode::kBoxes; b += uint32_t(hn::Lanes(d))) {
-        const Vf distance_squared = DistanceSquared(q.sphere, tree.level(level)[nodes[i]], b);
-        found += StoreLanes(u, Numbers(nodes[i] * BoxNode::kBoxes + b),
-                            hn::Le(distance_squared, q.sphere.radius_squared), below + found);
+        const Mask meets = Meets(q.sphere, tree.level(level)[nodes[i]], b);
+        found += StoreLanes(u, Numbers(nodes[i] * BoxNode::kBoxes + b), meets, below + found);
       }
     }
     VisitBlocks(tree, q, level - 1, below, found, visit);

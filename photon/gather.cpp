@@ -119,7 +119,7 @@ HWY_INLINE GatherSum WithTypes(const PhotonColumns& c, KernelType kernel, const 
 GatherSum GatherPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
                         KernelType kernel, float slope) {
   const PhotonColumns& c = photons.columns;
-  const LaneQuery q(query, query.radius_squared(), photons.size);
+  const LaneQuery q(query, photons.size);
   return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
     GatherSum total;
     VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
@@ -158,7 +158,7 @@ GatherSum GatherRangeLoop(const PhotonColumns& c, std::span<const PhotonRange> r
 
 GatherSum GatherRanges(const PhotonColumns& c, std::span<const PhotonRange> ranges, const GatherQuery& query,
                        KernelType kernel, float slope) {
-  const LaneQuery q(query, query.radius_squared(), 0);
+  const LaneQuery q(query, 0);
   return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
     return GatherRangeLoop<Power, kType>(c, ranges, q, slope);
   });
@@ -169,7 +169,7 @@ void SelectPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, c
   const Floats d;
   const Words u;
   const PhotonColumns& c = photons.columns;
-  const LaneQuery q(query, query.radius_squared(), photons.size);
+  const LaneQuery q(query, photons.size);
   uint32_t index[2 * BoxTree::kBlockPhotons];
   float distances_squared[2 * BoxTree::kBlockPhotons];
   const auto select = [&](uint32_t block) HWY_ATTR {

@@ -34,7 +34,7 @@ HWY_INLINE size_t AppendDistances(const PhotonColumns& c, const LaneQuery& q, Sp
 size_t FindDistances(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
                      DistanceList& distances, uint64_t& candidates) {
   const PhotonColumns c = photons.columns;
-  const LaneQuery q(query, query.radius_squared(), photons.size);
+  const LaneQuery q(query, photons.size);
   size_t size = 0;
   VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
     const size_t most = (found.same_size + found.other_size) * BoxTree::kBlockPhotons;

@@ -1,6 +1,7 @@
 #pragma once
 // Octree over photons sorted by Morton key. Implicit: a node is a range of keys, and the photons are not
-// touched. Only the nodes that a search passes through are stored, 16 bytes each.
+// touched. Stored are the nodes of many photons, 16 bytes each, and where the cells of one depth begin:
+// searches enter there, and go on with the boxes of photon/box_tree.h.
 
 #include <bit>
 #include <cstdint>

@@ -237,16 +237,19 @@ TEST(PhotonMap, PhotonsOutsideTheGivenBoundsAreFound) {
 }
 
 TEST(PhotonMap, InfiniteRadiusFindsAllOfTheSurface) {
-  const PhotonMap map = PhotonMap::build(make_buffer(wall_photons(1000)));
-  GatherQuery query{{1, 1, 0}, {0, 0, 1}, 2, kInfinity, kAllPhotons};
-  uint64_t found = 0, expected = 0;
-  GatherCounters counters;
-  map.for_each(
-      query, [&](const Photon&, float) { ++found; }, counters);
-  for (uint64_t i = 0; i < map.size(); ++i) expected += counts(map, i, query);
-  EXPECT_EQ(found, expected);
-  EXPECT_GT(found, 100u);
-  EXPECT_EQ(map.gather_flux(query, {}, counters), Rgb(0)) << "an infinite disc has no density";
+  for (const int size : {1000, 5001, 70001}) {
+    const PhotonMap map = PhotonMap::build(make_buffer(wall_photons(size)));
+    const GatherQuery query{{1, 1, 0}, {0, 0, 1}, 2, kInfinity, kAllPhotons};
+    uint64_t found = 0, expected = 0;
+    GatherCounters counters;
+    map.for_each(
+        query, [&](const Photon&, float) { ++found; }, counters);
+    for (uint64_t i = 0; i < map.size(); ++i) expected += counts(map, i, query);
+    EXPECT_EQ(found, expected);
+    EXPECT_GT(found, 100u);
+    EXPECT_LT(counters.candidates, map.size() + BoxTree::kBlockPhotons) << "no empty boxes";
+    EXPECT_EQ(map.gather_flux(query, {}, counters), Rgb(0)) << "an infinite disc has no density";
+  }
 }
 
 TEST(PhotonMap, IndexStaysSmallAgainstTheRecords) {
