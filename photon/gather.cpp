@@ -78,6 +78,7 @@ struct FluxSum {
   }
 };
 
+// At most 256 blocks: 1024 terms for one of four lanes, before the sum moves on to double.
 template <class Power, KernelType kType>
 HWY_INLINE void AddBlocks(const PhotonColumns c, const LaneQuery& q, const FoundBlocks& found, float slope,
                           GatherSum& total) {
