@@ -6,6 +6,7 @@
 
 #include "photon/record_sink.h"
 #include "photon/vertex_lanes.h"
+#include "photon/walker_queue.h"
 #include "tests/photon/photon_sets.h"
 
 namespace kaustik::photon {
@@ -168,6 +169,48 @@ TEST(VertexLanes, WhatIsNoFluxIsInvalid) {
   scatter_lanes(lanes, numbers, 8);
   for (size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.fate[k], VertexLanes::kInvalid);
   EXPECT_EQ(lanes.fate[3], VertexLanes::kAlive);
+}
+
+// What joins a queue, row by row or alone, is taken out as it was, in groups that need not be full.
+TEST(WalkerQueue, TakesOutWhatWasPushed) {
+  PhotonMaker make(5);
+  accel::RayLanes rays{};
+  VertexLanes::Column flux[3];
+  WalkerLanes walkers{};
+  for (size_t k = 0; k < WalkerLanes::kLanes; ++k) {
+    VertexLanes::set(rays.o, k, make.direction());
+    VertexLanes::set(rays.d, k, make.direction());
+    VertexLanes::set(flux, k, make.direction());
+    walkers.reversed_index[k] = static_cast<uint32_t>(make.bits());
+    walkers.state[k] = k % 2 ? WalkState().behind_specular() : WalkState::straight();
+  }
+  WalkerRows rows;
+  to_rows(rays, flux, walkers, WalkerLanes::kLanes, &rows);
+  const auto queue = std::make_unique<WalkerQueue>();
+  constexpr size_t kKept = 21;
+  for (size_t k = 0; k < WalkerLanes::kLanes; ++k) {
+    ASSERT_EQ(rows.octant[k], WalkerQueue::octant(VertexLanes::get(rays.d, k)));
+    queue->push(rows, k, k % 3 == 1);
+  }
+  queue->push({1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10, WalkState::straight());
+  ASSERT_EQ(queue->size(), kKept + 1);
+  VertexLanes lanes{};
+  WalkerLanes taken{};
+  queue->take(1, lanes, taken);
+  EXPECT_EQ(lanes.ray.get(0).o, Point3(1, 2, 3));
+  EXPECT_EQ(lanes.ray.get(0).d, Vector3(4, 5, 6));
+  EXPECT_EQ(VertexLanes::get(lanes.flux, 0), Rgb(7, 8, 9));
+  EXPECT_EQ(taken.reversed_index[0], 10u);
+  EXPECT_TRUE(taken.state[0].is_straight());
+  queue->take(kKept, lanes, taken);
+  for (size_t i = 0, k = 1; i < kKept; ++i, k += 3) {
+    EXPECT_EQ(lanes.ray.get(i).o, rays.get(k).o);
+    EXPECT_EQ(lanes.ray.get(i).d, rays.get(k).d);
+    EXPECT_EQ(VertexLanes::get(lanes.flux, i), VertexLanes::get(flux, k));
+    EXPECT_EQ(taken.reversed_index[i], walkers.reversed_index[k]);
+    EXPECT_EQ(taken.state[i].kind(), walkers.state[k].kind());
+    EXPECT_EQ(taken.state[i].rays(), walkers.state[k].rays());
+  }
 }
 
 // Ordinary photons and those at the ends of the formats, in numbers that are no multiple of the lanes.
