@@ -86,7 +86,7 @@ void report(const render::RenderResult& result, const render::OuterTimes& times,
   if (s.dropped_samples > 0) {
     console.warning(
         fmt::format("{} samples were not finite or negative and count as black", s.dropped_samples));
-    for (const std::string& example : s.dropped_examples) console.note("  " + example);
+    for (const render::DroppedSample& example : s.dropped_examples) console.note("  " + example.text());
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The image being rendered: one float layer per class of paths, plus feature layers. Row 0 on top.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -28,7 +29,7 @@ struct PixelResult {
   Rgb radiance() const { return emitted + direct + caustic + indirect; }
 };
 
-// Sums over samples, in double: passes add to them.
+// Sums over a pass's samples, in double.
 struct PixelSum {
   glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
   double depth = 0, photons = 0;
@@ -38,15 +39,6 @@ struct PixelSum {
     emitted += s.emitted, direct += s.direct, caustic += s.caustic, indirect += s.indirect;
     albedo += s.albedo, normal += s.normal, depth += s.depth, photons += s.photons;
     ++count;
-  }
-  PixelResult mean() const {
-    PixelResult out;
-    if (count == 0) return out;
-    const double w = 1.0 / static_cast<double>(count);
-    out.emitted = Rgb(emitted * w), out.direct = Rgb(direct * w), out.caustic = Rgb(caustic * w);
-    out.indirect = Rgb(indirect * w), out.albedo = Rgb(albedo * w), out.normal = Vector3(normal * w);
-    out.depth = float(depth * w), out.photons = float(photons * w);
-    return out;
   }
 };
 
@@ -73,6 +65,7 @@ class PixelWindow {
   int full_height() const { return full_height_; }
   Pixel& at(int x, int y) { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
   const Pixel& at(int x, int y) const { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
+  void clear() { std::fill(pixels_.begin(), pixels_.end(), Pixel{}); }
 
  private:
   int width_ = 0, height_ = 0;
@@ -81,13 +74,6 @@ class PixelWindow {
 };
 using Film = PixelWindow<PixelResult>;
 using FilmSums = PixelWindow<PixelSum>;
-
-inline Film mean_of(const FilmSums& sums) {
-  Film film(sums.width(), sums.height(), sums.x0(), sums.y0(), sums.full_width(), sums.full_height());
-  for (int y = 0; y < film.height(); ++y)
-    for (int x = 0; x < film.width(); ++x) film.at(x, y) = sums.at(x, y).mean();
-  return film;
-}
 
 // The total radiance as a plain picture.
 inline Image image_of(const Film& film) {

@@ -3,11 +3,11 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <cctype>
 #include <filesystem>
+
+#include "render/pending_file.h"
 
 namespace kaustik::render {
 
@@ -25,44 +25,12 @@ bool is_exr(const std::string& path) {
   return lower_extension(path) == ".exr";
 }
 
-// A name in the folder of `path` that keeps its extension (which chooses the format) and that no other writer
-// of this machine uses.
-fs::path temporary_name(const fs::path& path) {
-  static std::atomic<uint64_t> counter{0};
-  const std::string name = fmt::format(".{}.{}-{}.partial{}", path.stem().string(), ::getpid(), counter++,
-                                       path.extension().string());
-  return path.parent_path() / name;
-}
-
-// Removes the temporary file unless it was renamed to its final name.
-class PendingFile {
- public:
-  explicit PendingFile(const std::string& path) : final_(path), temporary_(temporary_name(path)) {}
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
-  ~PendingFile() {
-    std::error_code ignored;
-    if (!done_) fs::remove(temporary_, ignored);
-  }
-  std::string temporary() const { return temporary_.string(); }
-  void commit() {
-    std::error_code error;
-    fs::rename(temporary_, final_, error);
-    if (error) throw ImageError(final_.string(), "cannot rename the finished file: " + error.message());
-    done_ = true;
-  }
-
- private:
-  fs::path final_, temporary_;
-  bool done_ = false;
-};
-
 void write_pixels(const std::string& path, OIIO::ImageSpec spec, const Metadata& metadata,
                   OIIO::TypeDesc type, const void* pixels) {
   for (const auto& [key, value] : metadata) spec.attribute(key, value);
   // The library would write the time of day: the same picture would not give the same bytes.
   if (is_exr(path)) spec.attribute("DateTime", "");
-  PendingFile file(path);
+  PendingFile file(path, unique_temporary_name(path));
   auto out = OIIO::ImageOutput::create(file.temporary());
   if (!out) throw ImageError(path, OIIO::geterror());
   out->threads(1);  // otherwise the library makes a pool of threads of its own
@@ -71,7 +39,7 @@ void write_pixels(const std::string& path, OIIO::ImageSpec spec, const Metadata&
   const std::string message = written ? "" : out->geterror();
   const bool closed = out->close();
   if (!written || !closed) throw ImageError(path, message.empty() ? out->geterror() : message);
-  file.commit();
+  if (const std::string error = file.commit(); !error.empty()) throw ImageError(path, error);
 }
 
 std::vector<std::string> channel_names(Layer layer) {

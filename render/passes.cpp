@@ -3,26 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "photon/memory_forecast.h"
+#include "render/pass_set.h"
 #include "render/photon_maps.h"
 
 namespace kaustik::render {
 
-PassRange pass_range(uint64_t pass, uint64_t passes, uint64_t photons, int spp) {
-  // The remainder goes to the first passes.
-  const auto first = [&](uint64_t whole, uint64_t i) {
-    return whole / passes * i + std::min(i, whole % passes);
-  };
-  const auto samples = std::max(static_cast<uint64_t>(spp), passes);
-  return {pass, passes, first(photons, pass + 1) - first(photons, pass),
-          static_cast<int>(first(samples, pass)), static_cast<int>(first(samples, pass + 1))};
+PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp) {
+  const auto share = [shares](uint64_t whole) { return whole / shares + (whole % shares != 0); };
+  const uint64_t samples = share(static_cast<uint64_t>(spp));
+  return {pass, shares, share(photons), samples * pass, samples * (pass + 1)};
+}
+
+double radius_shrink_squared(uint64_t pass, float alpha) {
+  if (alpha == 1) return 1;
+  double shrink = 1;
+  for (uint64_t i = 1; i <= pass; ++i)
+    shrink *= (static_cast<double>(i) + double(alpha)) / static_cast<double>(i + 1);
+  return shrink;
 }
 
 photon::TraceSettings trace_settings(const RenderSettings& settings, const EstimatorPlan& plan,
-                                     const PassRange& pass) {
+                                     const PassShare& pass) {
   photon::TraceSettings trace;
   trace.seed = settings.seed;
   trace.pass = pass.pass;
@@ -38,16 +42,16 @@ uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSe
   if (settings.passes > 0) {
     if (settings.passes > std::max<uint64_t>(1, settings.photons))
       throw std::invalid_argument("there must be at least as many photons as passes");
-    const PassRange largest = pass_range(0, settings.passes, settings.photons, settings.spp);
-    photon::check_memory(scene, bvh, trace_settings(settings, *plan, largest), photon::PhotonUse::kMaps,
+    const PassShare each = pass_share(0, settings.passes, settings.photons, settings.spp);
+    photon::check_memory(scene, bvh, trace_settings(settings, *plan, each), photon::PhotonUse::kMaps,
                          settings.photon_memory);
     return settings.passes;
   }
   if (!kinds_needed(*plan).any()) return 1;
-  const PassRange whole = pass_range(0, 1, settings.photons, settings.spp);
+  const PassShare whole = pass_share(0, 1, settings.photons, settings.spp);
   const uint64_t passes =
       photon::shoots_that_fit(scene, bvh, trace_settings(settings, *plan, whole), settings.photon_memory);
-  if (passes > std::numeric_limits<int>::max()) {  // a sample of each pixel in each
+  if (passes > kMostPasses) {  // a sample of each pixel in each
     throw std::runtime_error(
         fmt::format("{} photons would need {} passes to fit into memory", settings.photons, passes));
   }

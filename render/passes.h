@@ -1,7 +1,10 @@
 #pragma once
-// A render in passes: each shoots its own photons and takes its own share of every pixel's samples, and the
-// image is the mean over all samples. The estimate is linear in the photons, so P passes of N/P photons, read
-// with the radius of N, estimate what one of N does, and need the memory of one.
+// A render in passes: each shoots its own photons and takes its own samples of every pixel, and the image is
+// the mean over all samples. The estimate is linear in the photons, so P passes of N/P photons, read with the
+// radius of N, estimate what one of N does, and need the memory of one.
+//
+// Passes are equal and independent: what pass i does is a function of (seed, i, photons per pass, samples per
+// pass), its radius one of i and of r0. So a render can be split, merged, resumed and extended.
 
 #include <cstdint>
 
@@ -11,21 +14,33 @@
 
 namespace kaustik::render {
 
-// What one pass does: samples [first_sample, end_sample) of each pixel, and `photons` of the render's
-// photons.
-struct PassRange {
-  uint64_t pass = 0, passes = 1;
+// What one pass does: samples [first_sample, end_sample) of each pixel, and so many photons.
+struct PassShare {
+  uint64_t pass = 0;    // index: any, also beyond `shares`
+  uint64_t shares = 1;  // passes that make up the settings' photons and samples
   uint64_t photons = 0;
-  int first_sample = 0, end_sample = 0;
+  uint64_t first_sample = 0, end_sample = 0;
 };
 
-// Pass `pass` of `passes`: samples and photons are shared out as evenly as whole numbers allow. With fewer
-// samples than passes, each pass takes one.
-PassRange pass_range(uint64_t pass, uint64_t passes, uint64_t photons, int spp);
+// Each pass has photons / shares photons and spp / shares samples, rounded up: all `shares` together have at
+// least what was asked for.
+PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp);
+
+// Gather radii r0 of the first pass, metres; 0 for maps that are not read or without photons.
+struct GatherRadii {
+  float direct = 0, caustic = 0, indirect = 0;
+  bool operator==(const GatherRadii&) const = default;
+};
+
+// r_i^2 / r_1^2 of pass i = pass + 1 under r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1) (Knaus and Zwicker 2011,
+// "Progressive Photon Mapping: A Probabilistic Approach"). With alpha in (0, 1) bias and variance of
+// the mean over passes both vanish, the bias like pass^(alpha - 1); alpha = 1 is 1: a fixed radius. Basic
+// arithmetic only, so that it is the same number everywhere; takes `pass` steps.
+double radius_shrink_squared(uint64_t pass, float alpha);
 
 // What the tracer is told for a pass. Only the kinds that the plan reads are traced.
 photon::TraceSettings trace_settings(const RenderSettings& settings, const EstimatorPlan& plan,
-                                     const PassRange& pass);
+                                     const PassShare& pass);
 
 // settings.passes, or as many as it takes for the photons of each to fit into settings.photon_memory, which
 // adds a note to the plan when it is more than one. Then the image depends on that memory, but for noise

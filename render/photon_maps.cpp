@@ -16,11 +16,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // Of the photons of one pass, where a number of all of them was asked for: rounded, at least one.
-uint32_t share(uint32_t photons, const PassRange& pass) {
-  return static_cast<uint32_t>(std::max<uint64_t>(1, (photons + pass.passes / 2) / pass.passes));
+uint32_t share(uint32_t photons, const PassShare& pass) {
+  return static_cast<uint32_t>(std::max<uint64_t>(1, (photons + pass.shares / 2) / pass.shares));
 }
 
-photon::EstimateSettings estimate_settings(const RenderSettings& settings, const PassRange& pass) {
+photon::EstimateSettings estimate_settings(const RenderSettings& settings, const PassShare& pass) {
   photon::EstimateSettings estimate;
   estimate.kernel.type = photon::KernelType(int(settings.kernel));
   estimate.kernel.cone_k = settings.cone_k;
@@ -44,21 +44,41 @@ void build_maps(const Scene& scene, photon::ShootResult&& shot, PhotonMaps* maps
   maps->shadow = build(PhotonKind::kShadow);
 }
 
-void settle_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                  const EstimatorPlan& plan, const PassRange& pass, PhotonMaps* maps, RenderStatistics* s) {
+// r0 of the maps that the plan reads, from those of the first pass.
+GatherRadii settle_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                         const EstimatorPlan& plan, const PassShare& pass, const PhotonMaps& maps) {
   const photon::KindMask kinds = kinds_needed(plan);
-  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect})
+  const GatherRadii radii = choose_radii(scene, bvh, settings, pass, maps);
+  return {kinds.direct ? radii.direct : 0, kinds.caustic ? radii.caustic : 0,
+          kinds.indirect ? radii.indirect : 0};
+}
+
+// How the maps of this pass are read: radii, and the photons that they shrink to, fall from pass to pass.
+void set_estimates(const RenderSettings& settings, const PassShare& pass, const GatherRadii& radii,
+                   PhotonMaps* maps) {
+  const double squared = radius_shrink_squared(pass.pass, settings.alpha), shrink = std::sqrt(squared);
+  const auto shrunk = [&](float radius) { return static_cast<float>(double(radius) * shrink); };
+  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
     read->estimate = estimate_settings(settings, pass);
-  const GatherRadii radii = choose_radii(scene, bvh, settings, pass, *maps);
-  if (kinds.direct) maps->direct.estimate.radius = s->direct_radius = radii.direct;
+    read->estimate.edges = maps->edges.get();
+  }
   if (!settings.radius && settings.nearest == 0)
-    maps->caustic.estimate.nearest = photons_in_reach(kCausticNearest, pass.passes);
-  if (kinds.caustic) maps->caustic.estimate.radius = s->caustic_radius = radii.caustic;
-  if (kinds.indirect) maps->indirect.estimate.radius = s->indirect_radius = radii.indirect;
-  s->radius = std::max({s->direct_radius, s->caustic_radius, s->indirect_radius});
+    maps->caustic.estimate.nearest = photons_in_reach(kCausticNearest, pass.shares);
+  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
+    uint32_t& nearest = read->estimate.nearest;
+    if (nearest > 0) nearest = std::max(1u, static_cast<uint32_t>(std::lround(nearest * squared)));
+  }
+  maps->direct.estimate.radius = shrunk(radii.direct);
+  maps->caustic.estimate.radius = shrunk(radii.caustic);
+  maps->indirect.estimate.radius = shrunk(radii.indirect);
   // M0: at most, not rounded.
-  maps->lecture = {radii.direct, share(settings.node_photons, pass),
-                   static_cast<uint32_t>(settings.min_photons / pass.passes)};
+  maps->lecture = {shrunk(radii.direct), share(settings.node_photons, pass),
+                   static_cast<uint32_t>(settings.min_photons / pass.shares)};
+}
+
+void note_radii(const GatherRadii& radii, RenderStatistics* s) {
+  s->direct_radius = radii.direct, s->caustic_radius = radii.caustic, s->indirect_radius = radii.indirect;
+  s->radius = std::max({radii.direct, radii.caustic, radii.indirect});
 }
 
 void add_sizes(const PhotonMaps& maps, RenderStatistics* s) {
@@ -78,11 +98,9 @@ void free_maps(PhotonMaps* maps) {
 
 // Of the scene alone.
 void find_edges(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings, PhotonMaps* maps) {
-  if (settings.lookup == Lookup::kLeaf) return;
+  if (settings.lookup == Lookup::kLeaf || maps->edges) return;
   maps->edges =
       std::make_unique<accel::EdgeIndex>(accel::without_continued(find_boundary_edges(scene.shapes), bvh));
-  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect})
-    read->estimate.edges = maps->edges.get();
 }
 
 }  // namespace
@@ -97,15 +115,15 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
 }
 
 bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                      const EstimatorPlan& plan, const PassRange& pass, const ProgressCallback& progress,
-                      PhotonMaps* maps, RenderStatistics* statistics) {
+                      const EstimatorPlan& plan, const PassShare& pass, const ProgressCallback& progress,
+                      PhotonMaps* maps, std::optional<GatherRadii>* radii, RenderStatistics* statistics) {
   if (!kinds_needed(plan).any()) return true;
   free_maps(maps);
   const auto start = std::chrono::steady_clock::now();
   std::atomic<bool> cancelled{false};
   auto shot =
       photon::shoot(scene, bvh, trace_settings(settings, plan, pass), [&](uint64_t done, uint64_t total) {
-        const bool go_on = !progress || progress({"photons", done, total, pass.pass, pass.passes});
+        const bool go_on = !progress || progress({"photons", done, total, pass.pass, pass.shares});
         if (!go_on) cancelled = true;
         return go_on;
       });
@@ -115,13 +133,13 @@ bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSet
 
   const auto build_start = std::chrono::steady_clock::now();
   build_maps(scene, std::move(shot), maps);
-  if (pass.pass == 0) {
-    settle_radii(scene, bvh, settings, plan, pass, maps, statistics);
-    find_edges(scene, bvh, settings, maps);
-  }
+  if (!*radii) *radii = settle_radii(scene, bvh, settings, plan, pass, *maps);
+  find_edges(scene, bvh, settings, maps);
+  set_estimates(settings, pass, **radii, maps);
+  note_radii(**radii, statistics);
   add_sizes(*maps, statistics);
   statistics->photon_build_s += seconds_since(build_start);
-  return !progress || progress({"build", 1, 1, pass.pass, pass.passes});
+  return !progress || progress({"build", 1, 1, pass.pass, pass.shares});
 }
 
 }  // namespace kaustik::render

@@ -2,6 +2,7 @@
 // The photon maps of one pass: which kinds are needed, the shoot, the builds, the gather radii.
 
 #include <memory>
+#include <optional>
 
 #include "accel/edge_index.h"
 #include "photon/photon_map.h"
@@ -29,11 +30,12 @@ struct PhotonMaps {
 // The kinds that the plan's estimators read; only these are traced and stored.
 photon::KindMask kinds_needed(const EstimatorPlan& plan);
 
-// Shoots and builds what the plan reads in one pass, in place of the maps of the pass before; the first pass
-// settles edges and radii, for all. Adds to the photon fields of statistics. False when progress cancelled.
-// The result is a function of scene, settings, plan and pass only, whatever the number of threads.
+// Shoots and builds what the plan reads in one pass, in place of the maps of the pass before. radii: r0 of
+// all passes, settled from these maps where it is empty, so by the first pass. Adds to the photon fields of
+// statistics. False when progress cancelled. The result is a function of scene, settings, plan, pass and
+// radii only, whatever the number of threads.
 bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                      const EstimatorPlan& plan, const PassRange& pass, const ProgressCallback& progress,
-                      PhotonMaps* maps, RenderStatistics* statistics);
+                      const EstimatorPlan& plan, const PassShare& pass, const ProgressCallback& progress,
+                      PhotonMaps* maps, std::optional<GatherRadii>* radii, RenderStatistics* statistics);
 
 }  // namespace kaustik::render

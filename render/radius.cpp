@@ -92,9 +92,9 @@ float quantile_radius(const photon::PhotonMap& map, const std::vector<photon::Ga
 
 // Where every query fails with k photons, fewer must do; the last resort is a fixed part of the scene.
 float auto_radius(const photon::PhotonMap& map, const std::vector<photon::GatherQuery>& queries, float reach,
-                  RadiusRule rule, const PassRange& pass) {
+                  RadiusRule rule, const PassShare& pass) {
   if (map.empty()) return 0;
-  rule.photons = photons_in_reach(rule.photons, pass.passes);
+  rule.photons = photons_in_reach(rule.photons, pass.shares);
   for (; rule.photons > 0; rule.photons /= 2)
     if (const float r = quantile_radius(map, queries, reach, rule); r > 0) return r;
   return reach / 64;
@@ -103,7 +103,7 @@ float auto_radius(const photon::PhotonMap& map, const std::vector<photon::Gather
 }  // namespace
 
 GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const PassRange& pass, const PhotonMaps& maps) {
+                         const PassShare& pass, const PhotonMaps& maps) {
   if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius};
   const float reach = 2 * scene.bounds.radius();
   const auto visible = visible_queries(scene, bvh, settings);

@@ -5,10 +5,6 @@
 
 namespace kaustik::render {
 
-struct GatherRadii {
-  float direct = 0, caustic = 0, indirect = 0;  // metres; 0 for maps without photons
-};
-
 // Without --radius and --nearest the caustic map is read with the distance to its so-manieth photon, at most
 // the radius below: caustics are sharp where they focus and spread thin elsewhere, so that no single radius
 // serves both.
@@ -19,9 +15,9 @@ inline constexpr uint32_t kCausticNearest = 50;
 // kCausticNearest): around 1024 of its photons, since caustics are small. Fewer neighbours where a map has
 // fewer photons. Deterministic, a function of scene and settings only; scales with the scene exactly for
 // powers of two.
-// maps are those of a pass, which holds one in pass.passes of the photons: k is divided accordingly.
+// maps are those of the first pass, which holds one in pass.shares of the photons: k is divided accordingly.
 GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const PassRange& pass, const PhotonMaps& maps);
+                         const PassShare& pass, const PhotonMaps& maps);
 
 // How many of a pass's photons stand for so many of all: not so few that their distance says nothing.
 inline uint32_t photons_in_reach(uint32_t of_all, uint64_t passes) {

@@ -13,7 +13,7 @@ struct RenderContext {
   const RenderSettings& settings;
   const EstimatorPlan& plan;
   const PhotonMaps& maps;
-  PassRange pass;
+  PassShare pass;
 };
 
 // Exact counters of one tile, merged by integer sums.

@@ -1,4 +1,4 @@
-// render(): the order of a render. Shoot, build, tiles.
+// render(): the order of a render. For each pass: shoot, build, tiles; then their sum.
 
 #include "render/renderer.h"
 
@@ -24,6 +24,7 @@ void check_settings(const RenderSettings& s, const PerspectiveCamera& camera) {
   require(s.spp >= 1, "spp must be at least 1");
   require(s.max_bounces >= 1, "max_bounces must be at least 1");
   require(!s.radius || (*s.radius > 0 && std::isfinite(*s.radius)), "radius must be positive and finite");
+  require(s.alpha > 0 && s.alpha <= 1, "alpha must be above 0 and at most 1");
   require(s.cone_k >= 1, "cone_k must be at least 1");
   if (s.crop.empty()) return;
   const bool inside =
@@ -37,61 +38,129 @@ FilmSums make_film(const CropWindow& crop, const PerspectiveCamera& camera) {
   return FilmSums(crop.x1 - crop.x0, crop.y1 - crop.y0, crop.x0, crop.y0, camera.width, camera.height);
 }
 
-// One caller at a time.
-ProgressCallback serialised(const ProgressCallback& progress) {
+// One caller at a time, told how many passes there will be.
+ProgressCallback serialised(const ProgressCallback& progress, uint64_t passes) {
   if (!progress) return {};
-  return [&progress, mutex = std::make_shared<std::mutex>()](const Progress& p) {
+  return [&progress, passes, mutex = std::make_shared<std::mutex>()](Progress p) {
     const std::lock_guard lock(*mutex);
+    p.passes = passes;
     return progress(p);
   };
 }
 
-bool render_pass(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
-                 RenderStatistics* statistics) {
-  const auto start = std::chrono::steady_clock::now();
-  const bool finished = render_tiles(ctx, progress, film, statistics);
-  statistics->render_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  statistics->passes += finished;
-  return finished;
+// A render at work: what its passes share.
+class PassRenderer {
+ public:
+  PassRenderer(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+               const EstimatorPlan& plan, uint64_t shares, ProgressCallback progress)
+      : scene_(scene),
+        bvh_(bvh),
+        settings_(settings),
+        plan_(plan),
+        shares_(shares),
+        progress_(std::move(progress)) {}
+
+  // r0 where the first pass is rendered elsewhere: its photons are shot for that alone, and not counted.
+  bool settle_radii(std::optional<GatherRadii>* radii) {
+    if (*radii || !kinds_needed(plan_).any()) return true;
+    if (settings_.radius) return true;  // any pass settles it
+    RenderStatistics ignored;
+    return make_photon_maps(scene_, bvh_, settings_, plan_, share(0), progress_, &maps_, radii, &ignored);
+  }
+
+  // Adds to a film of zeros. False when progress cancelled.
+  bool render(uint64_t pass, std::optional<GatherRadii>* radii, FilmSums* film,
+              RenderStatistics* statistics) {
+    const RenderContext ctx{scene_, bvh_, settings_, plan_, maps_, share(pass)};
+    if (!make_photon_maps(scene_, bvh_, settings_, plan_, ctx.pass, progress_, &maps_, radii, statistics))
+      return false;
+    const auto start = std::chrono::steady_clock::now();
+    const bool finished = render_tiles(ctx, progress_, film, statistics);
+    statistics->render_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    statistics->passes += finished;
+    return finished;
+  }
+
+ private:
+  PassShare share(uint64_t pass) const { return pass_share(pass, shares_, settings_.photons, settings_.spp); }
+
+  const Scene& scene_;
+  const accel::Bvh& bvh_;
+  const RenderSettings& settings_;
+  const EstimatorPlan& plan_;
+  uint64_t shares_;
+  ProgressCallback progress_;
+  PhotonMaps maps_;
+};
+
+bool has_samples(const FilmSums& film) {
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x)
+      if (film.at(x, y).count > 0) return true;
+  return false;
+}
+
+PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, uint64_t shares) {
+  const PassShare pass = pass_share(0, shares, settings.photons, settings.spp);
+  PassSums sums;
+  sums.shares = shares;
+  sums.totals = FilmTotals(make_film(settings.crop, scene.camera),
+                           choose_units(scene, pass.end_sample - pass.first_sample));
+  return sums;
+}
+
+// Passes of `missing`, one after the other, into result->sums. False when progress cancelled; then tiles and
+// result->statistics are those of the pass at work.
+bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderTask& task, FilmSums* tiles,
+                   RenderResult* result) {
+  PassSums& sums = result->sums;
+  if (missing.first() > 0 && !renderer.settle_radii(&sums.radii)) return false;
+  for (const PassSet::Range& range : missing.ranges()) {
+    for (uint64_t pass = range.begin; pass < range.end; ++pass) {
+      tiles->clear();
+      result->statistics = {};
+      if (!renderer.render(pass, &sums.radii, tiles, &result->statistics)) return false;
+      result->statistics.clamped_sums = sums.totals.add(*tiles);
+      sums.passes.add(PassSet(pass, pass + 1));
+      sums.statistics += result->statistics;
+      if (task.after_pass) task.after_pass(sums);
+    }
+  }
+  return true;
+}
+
+// All complete passes, or the finished tiles of the pass at work where there are none.
+void show(const FilmSums& tiles, RenderResult* result) {
+  if (!result->sums.passes.empty()) {
+    result->film = result->sums.totals.mean();
+    result->statistics = result->sums.statistics;
+    result->shown = Shown::kPasses;
+    return;
+  }
+  FilmTotals begun(tiles, result->sums.totals.units());
+  begun.add(tiles);
+  result->film = begun.mean();
+  result->shown = has_samples(tiles) ? Shown::kTiles : Shown::kNothing;
 }
 
 }  // namespace
 
-RayCounters& RayCounters::operator+=(const RayCounters& o) {
-  camera += o.camera;
-  specular += o.specular;
-  shadow += o.shadow;
-  bounce += o.bounce;
-  return *this;
-}
-
-LectureCounters& LectureCounters::operator+=(const LectureCounters& o) {
-  from_photons += o.from_photons;
-  climbed += o.climbed;
-  fallback_few += o.fallback_few;
-  fallback_shadow += o.fallback_shadow;
-  fallback_face += o.fallback_face;
-  return *this;
-}
-
 RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                    const ProgressCallback& callback) {
+                    const ProgressCallback& callback, RenderTask task) {
   check_settings(settings, scene.camera);
-  const ProgressCallback progress = serialised(callback);
+  require(task.passes.empty() || settings.passes > 0, "chosen passes need the number of passes");
   RenderResult result;
-  RenderStatistics& statistics = result.statistics;
   result.plan = make_plan(settings, scene.needs);
-  const uint64_t passes = choose_passes(scene, bvh, settings, &result.plan);
-  FilmSums film = make_film(settings.crop, scene.camera);
-  PhotonMaps maps;
-  for (uint64_t p = 0; p < passes && !result.cancelled; ++p) {
-    const PassRange pass = pass_range(p, passes, settings.photons, settings.spp);
-    const RenderContext ctx{scene, bvh, settings, result.plan, maps, pass};
-    result.cancelled =
-        !make_photon_maps(scene, bvh, settings, result.plan, pass, progress, &maps, &statistics) ||
-        !render_pass(ctx, progress, &film, &statistics);
-  }
-  result.film = mean_of(film);
+  const uint64_t shares = choose_passes(scene, bvh, settings, &result.plan);
+  const PassSet goal = task.passes.empty() ? PassSet(0, shares) : task.passes;
+  result.sums = task.done.passes.empty() ? nothing_yet(scene, settings, shares) : std::move(task.done);
+  require(result.sums.shares == shares, "the passes that are there have another share of the photons");
+
+  PassRenderer renderer(scene, bvh, settings, result.plan, shares,
+                        serialised(callback, std::max(shares, goal.end())));
+  FilmSums tiles = make_film(settings.crop, scene.camera);
+  result.cancelled = !render_passes(renderer, goal.without(result.sums.passes), task, &tiles, &result);
+  show(tiles, &result);
   return result;
 }
 

@@ -1,46 +1,16 @@
 #pragma once
-// One render, start to end: shoot, build the maps, render tiles, in fixed order.
+// One render, start to end: pass by pass, shoot, build the maps, render tiles, in fixed order.
 
-#include <array>
 #include <functional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "accel/bvh.h"
-#include "photon/tracer.h"
 #include "render/film.h"
+#include "render/pass_sums.h"
 #include "render/settings.h"
+#include "render/statistics.h"
 
 namespace kaustik::render {
-
-struct RayCounters {
-  uint64_t camera = 0, specular = 0, shadow = 0, bounce = 0;  // paths' segments by what they are traced for
-  RayCounters& operator+=(const RayCounters& o);
-};
-
-// How the lecture's direct estimator answered (per shading point).
-struct LectureCounters {
-  uint64_t from_photons = 0, climbed = 0;  // climbed: used a parent of the leaf
-  uint64_t fallback_few = 0, fallback_shadow = 0,
-           fallback_face = 0;  // M <= M0, shadow photon in the node, too near a face
-  LectureCounters& operator+=(const LectureCounters& o);
-};
-
-struct RenderStatistics {
-  photon::TraceCounters photons;
-  RayCounters rays;
-  LectureCounters lecture;
-  uint64_t gather_queries = 0, gather_candidates = 0, gather_accepted = 0;
-  uint64_t dropped_samples = 0;  // NaN, infinite or negative; reported with pixel and sample
-  std::vector<std::string> dropped_examples;
-  double photon_trace_s = 0, photon_build_s = 0, render_s = 0;
-  float radius = 0;  // r0 used, metres: the largest of the maps' radii; 0 when no map was read
-  float direct_radius = 0, caustic_radius = 0, indirect_radius = 0;  // 0 where the map was not built
-  uint64_t photon_bytes = 0;  // maps of a pass, index included; the largest
-  uint64_t octree_nodes = 0;  // of all maps
-  uint64_t passes = 0;        // finished
-};
 
 struct Progress {
   std::string_view phase;         // "photons", "build", "render"
@@ -50,11 +20,30 @@ struct Progress {
 // Called from worker threads, serialised by the renderer; returning false cancels.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
+// What to render of a scene and its settings.
+struct RenderTask {
+  // Passes that the result is to hold: empty, all that the settings ask for.
+  PassSet passes{};
+  // Complete passes of an earlier render with the same settings; they are not rendered again.
+  PassSums done{};
+  // Called after each pass, with all that are complete.
+  std::function<void(const PassSums&)> after_pass{};
+};
+
+// What the film shows.
+enum class Shown {
+  kPasses,  // the mean of all complete passes
+  kTiles,   // none is complete: the finished tiles of the first that was begun, black elsewhere
+  kNothing  // no tile either
+};
+
 struct RenderResult {
   Film film;
-  RenderStatistics statistics;
+  RenderStatistics statistics;  // of what the film shows
   EstimatorPlan plan;
   bool cancelled = false;
+  Shown shown = Shown::kNothing;
+  PassSums sums;  // the complete passes
 };
 
 // Chooses the estimators: the method's preset, then the settings' overrides, then what the scene does not
@@ -63,10 +52,11 @@ struct RenderResult {
 EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs);
 
 // Renders within the calling task arena. settings.width/height are already applied to scene.camera by the
-// caller; settings.crop selects the film's window. Bit-identical for any number of threads, and for a scene
-// scaled by a power of two. Throws std::invalid_argument for a crop outside the image or senseless settings
-// (spp < 1, max_bounces < 1, radius not positive and finite, more passes than photons).
+// caller; settings.crop selects the film's window. Bit-identical for any number of threads, for any split of
+// the passes over calls, and for a scene scaled by a power of two. Throws std::invalid_argument for a crop
+// outside the image or senseless settings (spp < 1, max_bounces < 1, radius not positive and finite, alpha
+// not in (0, 1], more passes than photons, task.passes without settings.passes).
 RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                    const ProgressCallback& progress = {});
+                    const ProgressCallback& progress = {}, RenderTask task = {});
 
 }  // namespace kaustik::render

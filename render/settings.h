@@ -32,8 +32,9 @@ struct RenderSettings {
   std::optional<CausticEstimator> caustics;
   std::optional<IndirectEstimator> indirect;
 
-  uint64_t photons = 1'000'000;  // emitted
+  uint64_t photons = 1'000'000;  // emitted, rounded up to a multiple of the passes, as spp is
   std::optional<float> radius;   // gather radius r0 in metres; unset = auto
+  float alpha = 1;               // in (0, 1]: how slowly the radius shrinks from pass to pass; 1 = not at all
   uint32_t nearest = 0;          // K > 0: radius shrinks to the K-th nearest photon
   Kernel kernel = Kernel::kConstant;
   float cone_k = 1.1f;         // k >= 1 of the cone filter
@@ -48,7 +49,9 @@ struct RenderSettings {
   int width = 0, height = 0;  // 0 = as the scene says
   CropWindow crop;
   std::vector<std::string> aov;  // layers to write besides the image; empty = none, "all" = all
-  uint64_t passes = 0;           // 0 = as many as it takes for the photons of one to fit into photon_memory
+  // That photons and spp are shared out over; 0 = as many as it takes for the photons of one to fit into
+  // photon_memory.
+  uint64_t passes = 0;
   // Bytes that the photons of a pass may take while they are shot and their maps built.
   uint64_t photon_memory = std::numeric_limits<uint64_t>::max();
 };

@@ -75,6 +75,7 @@ Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
   out["indirect"] = name_of(plan.indirect);
   out["photons"] = s.photons;
   out["radius"] = s.radius ? Json(*s.radius) : Json("auto");
+  out["alpha"] = s.alpha;
   out["nearest"] = s.nearest;
   out["kernel"] = name_of(s.kernel);
   out["cone_k"] = s.cone_k;
@@ -95,7 +96,8 @@ Json counters_json(const RenderStatistics& s) {
       {"gather",
        {{"queries", s.gather_queries}, {"candidates", s.gather_candidates}, {"accepted", s.gather_accepted}}},
       {"fallbacks", lecture_json(s.lecture)},
-      {"dropped_samples", s.dropped_samples}};
+      {"dropped_samples", s.dropped_samples},
+      {"clamped_sums", s.clamped_sums}};
 }
 
 std::string statistics_json(const RenderResult& result, const RenderSettings& settings,
@@ -108,6 +110,8 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
   out["width"] = result.film.width();
   out["height"] = result.film.height();
   out["cancelled"] = result.cancelled;
+  out["pass_ranges"] = result.sums.passes.text();
+  out["passes_of_settings"] = result.sums.shares;
   out["settings"] = settings_json(settings, result.plan);
   out.update(counters_json(s));
   out["radius"] = s.radius;
@@ -115,7 +119,8 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
       {"direct", s.direct_radius}, {"caustic", s.caustic_radius}, {"indirect", s.indirect_radius}};
   out["seconds"] = seconds_json(s, times);
   out["peak_memory_bytes"] = peak_memory_bytes();
-  out["dropped_examples"] = s.dropped_examples;
+  out["dropped_examples"] = Json::array();
+  for (const DroppedSample& d : s.dropped_examples) out["dropped_examples"].push_back(d.text());
   out["needs"] = needs_json(needs);
   out["left_out"] = result.plan.notes;
   return out.dump(2) + "\n";
@@ -128,6 +133,8 @@ Metadata metadata_of(const RenderResult& result, const RenderSettings& settings)
     out.emplace_back("kaustik:" + key, value.is_string() ? value.get<std::string>() : value.dump());
   const RenderStatistics& s = result.statistics;
   out.emplace_back("kaustik:passes", fmt::format("{}", s.passes));
+  out.emplace_back("kaustik:pass_ranges", result.sums.passes.text());
+  out.emplace_back("kaustik:passes_of_settings", fmt::format("{}", result.sums.shares));
   out.emplace_back("kaustik:radius_used", fmt::format("{}", s.radius));
   out.emplace_back("kaustik:photons_emitted", fmt::format("{}", s.photons.emitted));
   for (int k = 0; k < photon::kPhotonKinds; ++k)

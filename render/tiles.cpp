@@ -1,11 +1,9 @@
 #include "render/tiles.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <mutex>
-#include <tuple>
 
 #include "core/sampling/sampler.h"
 #include "render/photon_integrator.h"
@@ -14,15 +12,7 @@ namespace kaustik::render {
 
 namespace {
 
-constexpr size_t kDropExamples = 10;
 constexpr uint64_t kCameraStream = 0xca3e;  // keeps the image's random numbers apart from the photons'
-
-struct DroppedSample {
-  int y = 0, x = 0, sample = 0;
-  bool operator<(const DroppedSample& o) const {
-    return std::tie(y, x, sample) < std::tie(o.y, o.x, o.sample);
-  }
-};
 
 struct TileResult {
   TileCounters counters;
@@ -40,8 +30,8 @@ bool valid_radiance(const PixelResult& s) {
 void render_pixel(const RenderContext& ctx, int x, int y, PixelSum* sum, TileResult* tile) {
   const uint64_t pixel = uint64_t(y) * uint64_t(ctx.scene.camera.width) + uint64_t(x);
   const uint64_t stream = hash_combine(hash_combine(ctx.settings.seed, kCameraStream), pixel);
-  for (int i = ctx.pass.first_sample; i < ctx.pass.end_sample; ++i) {
-    Sampler sampler(stream, uint64_t(i));
+  for (uint64_t i = ctx.pass.first_sample; i < ctx.pass.end_sample; ++i) {
+    Sampler sampler(stream, i);
     const Point2 u = sampler.next_2d();
     const Ray ray = ctx.scene.camera.generate_ray({float(x) + u.x, float(y) + u.y});
     const PixelResult sample = trace_camera_ray(ctx, ray, sampler, tile->counters);
@@ -73,9 +63,7 @@ struct MergedTiles {
     total.counters.lecture += tile.counters.lecture;
     total.counters.gather += tile.counters.gather;
     total.dropped += tile.dropped;
-    total.examples.insert(total.examples.end(), tile.examples.begin(), tile.examples.end());
-    std::sort(total.examples.begin(), total.examples.end());
-    if (total.examples.size() > kDropExamples) total.examples.resize(kDropExamples);
+    add_examples(tile.examples, &total.examples);
   }
 
   void fill(RenderStatistics* s) const {
@@ -85,8 +73,7 @@ struct MergedTiles {
     s->gather_candidates += total.counters.gather.candidates;
     s->gather_accepted += total.counters.gather.accepted;
     s->dropped_samples += total.dropped;
-    for (const DroppedSample& d : total.examples)
-      s->dropped_examples.push_back(fmt::format("pixel {} {} sample {}", d.x, d.y, d.sample));
+    add_examples(total.examples, &s->dropped_examples);
   }
 };
 
@@ -109,7 +96,7 @@ bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, Fi
           const std::lock_guard lock(mutex);
           merged.add(tile);
           ++done;
-          if (progress && !progress({"render", done, uint64_t(tiles), ctx.pass.pass, ctx.pass.passes}))
+          if (progress && !progress({"render", done, uint64_t(tiles), ctx.pass.pass, ctx.pass.shares}))
             cancelled = true;
         }
       },

@@ -42,10 +42,10 @@ struct Options {
 constexpr int kMostThreads = 65535;  // as of `render --threads`
 
 // All but photons and threads, which are lists here, and those of files that are not written.
-constexpr std::string_view kSettings[] = {"method",       "passes",  "direct",   "caustics",    "indirect",
-                                          "radius",       "nearest", "kernel",   "cone-k",      "min-photons",
-                                          "node-photons", "lookup",  "emission", "max-bounces", "spp",
-                                          "seed",         "width",   "height",   "crop"};
+constexpr std::string_view kSettings[] = {"method",      "passes",       "direct",  "caustics", "indirect",
+                                          "radius",      "alpha",        "nearest", "kernel",   "cone-k",
+                                          "min-photons", "node-photons", "lookup",  "emission", "max-bounces",
+                                          "spp",         "seed",         "width",   "height",   "crop"};
 
 uint64_t whole_number(std::string_view option, const std::string& text, uint64_t most) {
   const std::optional<uint64_t> value = parse_count(text);

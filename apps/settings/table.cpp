@@ -18,6 +18,11 @@ using render::RenderSettings;
 using Complaint = std::optional<std::string>;
 using Texts = std::span<const std::string>;
 
+template <class... Values>
+std::vector<std::string> as_texts(const Values&... values) {
+  return {fmt::format("{}", values)...};
+}
+
 template <class T>
 std::optional<T> whole_in_range(std::string_view text, uint64_t least, uint64_t most) {
   const std::optional<uint64_t> value = parse_count(text);
@@ -41,6 +46,7 @@ Setting count(std::string_view name, std::string_view unit, T RenderSettings::*f
     settings.render.*field = *value;
     return std::nullopt;
   };
+  s.show = [field](const Settings& settings) { return as_texts(settings.render.*field); };
   return s;
 }
 
@@ -62,6 +68,11 @@ Setting choice(std::string_view name, Field RenderSettings::*field,
     if (!value) return not_a_choice(texts[0], names);
     settings.render.*field = *value;
     return std::nullopt;
+  };
+  s.show = [field, names](const Settings& settings) -> std::vector<std::string> {
+    const std::optional<Enum> value = settings.render.*field;
+    if (!value) return {};
+    return as_texts(names[static_cast<size_t>(*value)]);
   };
   return s;
 }
@@ -95,6 +106,29 @@ Setting radius_setting() {
     settings.render.radius = *value;
     return std::nullopt;
   };
+  s.show = [](const Settings& settings) {
+    return settings.render.radius ? as_texts(*settings.render.radius) : as_texts("auto");
+  };
+  return s;
+}
+
+Setting alpha_setting() {
+  Setting s{.name = "alpha",
+            .kind = ValueKind::kNumber,
+            .value_name = "A",
+            .range = "above 0, at most 1",
+            .default_text = fmt::format("{}", RenderSettings{}.alpha),
+            .doc =
+                "How the radius shrinks over the passes: r^2 of pass i + 1 is (i + A) / (i + 1) times that "
+                "of pass i. 1: not at all. 0.667: bias and noise both vanish with the passes."};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<float> value = parse_number(texts[0]);
+    if (!value || *value <= 0 || *value > 1)
+      return fmt::format("`{}`: expected a number above 0, at most 1", texts[0]);
+    settings.render.alpha = *value;
+    return std::nullopt;
+  };
+  s.show = [](const Settings& settings) { return as_texts(settings.render.alpha); };
   return s;
 }
 
@@ -113,6 +147,7 @@ Setting cone_k_setting() {
     settings.render.cone_k = *value;
     return std::nullopt;
   };
+  s.show = [](const Settings& settings) { return as_texts(settings.render.cone_k); };
   return s;
 }
 
@@ -141,6 +176,10 @@ Setting crop_setting() {
     }
     settings.render.crop = crop;
     return std::nullopt;
+  };
+  s.show = [](const Settings& settings) {
+    const render::CropWindow& c = settings.render.crop;
+    return c.empty() ? std::vector<std::string>{} : as_texts(c.x0, c.x1, c.y0, c.y1);
   };
   return s;
 }
@@ -177,6 +216,10 @@ Setting aov_setting() {
     settings.render.aov = std::move(layers);
     return std::nullopt;
   };
+  s.show = [](const Settings& settings) {
+    return settings.render.aov.empty() ? as_texts("none") : settings.render.aov;
+  };
+  s.decides_sums = false;
   return s;
 }
 
@@ -194,6 +237,8 @@ Setting exposure_setting() {
     settings.tone.exposure = *value;
     return std::nullopt;
   };
+  s.show = [](const Settings& settings) { return as_texts(settings.tone.exposure); };
+  s.decides_sums = false;
   return s;
 }
 
@@ -212,6 +257,10 @@ Setting tonemap_setting() {
     settings.tone.tonemap = *value;
     return std::nullopt;
   };
+  s.show = [](const Settings& settings) {
+    return as_texts(render::kTonemapNames[static_cast<size_t>(settings.tone.tonemap)]);
+  };
+  s.decides_sums = false;
   return s;
 }
 
@@ -244,9 +293,11 @@ void add_photons(std::vector<Setting>& table) {
       count("photons", "photons", &RenderSettings::photons, 1, kMaxUint64, {}, "Photons to emit."));
   table.push_back(
       count("passes", "passes", &RenderSettings::passes, 0, kMaxInt, "0 (as memory allows)",
-            "Share photons and samples out over so many passes, each with maps of its own that only "
-            "one pass holds in memory. 0: one, or as many as it takes for the maps to fit."));
+            "Share photons and samples out over so many equal passes, each with maps of its own that only "
+            "one pass holds in memory; both are rounded up. 0: one, or as many as it takes for the maps to "
+            "fit."));
   table.push_back(radius_setting());
+  table.push_back(alpha_setting());
   table.push_back(count("nearest", "photons", &RenderSettings::nearest, 0, kMaxUint32, "0 (off)",
                         "K above 0: the radius shrinks to the K-th nearest photon where more are in reach."));
   table.push_back(choice("kernel", &RenderSettings::kernel, render::kKernelNames,
@@ -272,6 +323,7 @@ void add_image(std::vector<Setting>& table) {
                         "Random seed. The same seed gives the same bits."));
   table.push_back(count("threads", "threads", &RenderSettings::threads, 0, 65535, "0 (every usable core)",
                         "Upper bound on the threads of the process. The image does not depend on it."));
+  table.back().decides_sums = false;
   table.push_back(count("width", "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
                         "Image width. Given alone, the height follows in proportion."));
   table.push_back(count("height", "pixels", &RenderSettings::height, 0, 65535, "0 (the scene's)",

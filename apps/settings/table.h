@@ -28,6 +28,10 @@ struct Setting {
   // Sets the field from the values' texts. Returns a complaint that begins with the text that was wrong and
   // says what was expected; then the settings are unchanged.
   std::function<std::optional<std::string>(Settings&, std::span<const std::string>)> assign{};
+  // The other way: texts that assign the value which the settings have, exactly. None when it is unset.
+  std::function<std::vector<std::string>(const Settings&)> show{};
+  // Whether the sums over samples depend on it, not only which files are made of them and how fast.
+  bool decides_sums = true;
 };
 
 // In the order of the help. Built once, immutable.

@@ -71,6 +71,33 @@ TEST(SettingsTable, ValuesReachTheirFields) {
   EXPECT_EQ(s.render.radius, std::nullopt);
 }
 
+// What one setting shows, another takes; so a render can be gone on with as it was.
+TEST(SettingsTable, ValuesSurviveBeingShown) {
+  Settings s;
+  s.render.direct = render::DirectEstimator::kLecture;
+  s.render.photons = 12'345'678'901u;
+  s.render.radius = 0.1f;
+  s.render.alpha = 2.0f / 3;
+  s.render.seed = ~uint64_t{0};
+  s.render.crop = {1, 5, 2, 9};
+  s.render.aov = {"direct", "depth"};
+  s.tone.exposure = -1.0f / 3;
+  s.tone.tonemap = render::Tonemap::kFilmic;
+  Settings copy;
+  for (const Setting& setting : settings_table()) {
+    const std::vector<std::string> texts = setting.show(s);
+    if (!texts.empty()) {
+      EXPECT_EQ(setting.assign(copy, texts), std::nullopt) << setting.name;
+    }
+    EXPECT_EQ(setting.show(copy), texts) << setting.name;
+  }
+  EXPECT_EQ(copy.render.radius, s.render.radius);
+  EXPECT_EQ(copy.render.alpha, s.render.alpha);
+  EXPECT_EQ(copy.render.direct, s.render.direct);
+  EXPECT_EQ(copy.render.caustics, std::nullopt);
+  EXPECT_EQ(copy.tone.exposure, s.tone.exposure);
+}
+
 TEST(SettingsTable, ComplaintsNameTheNearestValueAndLeaveTheSettingsAlone) {
   Settings s;
   const auto complaint = assign(s, "kernel", {"cones"});
@@ -82,6 +109,8 @@ TEST(SettingsTable, ComplaintsNameTheNearestValueAndLeaveTheSettingsAlone) {
   EXPECT_TRUE(assign(s, "radius", {"0"}).has_value());
   EXPECT_TRUE(assign(s, "radius", {"automatic"}).has_value());
   EXPECT_TRUE(assign(s, "cone-k", {"0.9"}).has_value());
+  EXPECT_TRUE(assign(s, "alpha", {"0"}).has_value());
+  EXPECT_TRUE(assign(s, "alpha", {"1.01"}).has_value());
   EXPECT_TRUE(assign(s, "crop", {"5", "5", "0", "9"}).has_value());
   EXPECT_TRUE(assign(s, "crop", {"-1", "5", "0", "9"}).has_value());
   EXPECT_TRUE(assign(s, "aov", {"direct,dept"}).has_value());

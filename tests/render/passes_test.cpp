@@ -13,25 +13,43 @@ namespace {
 
 using namespace test;
 
-TEST(Passes, ShareOutEveryPhotonAndSample) {
-  for (const uint64_t passes : {uint64_t{1}, uint64_t{2}, uint64_t{7}, uint64_t{64}}) {
+TEST(Passes, AreEqualAndHoldAllThatWasAskedFor) {
+  for (const uint64_t shares : {uint64_t{1}, uint64_t{2}, uint64_t{7}, uint64_t{64}}) {
     for (const uint64_t photons : {uint64_t{64}, uint64_t{1'000'003}, ~uint64_t{0}}) {
       for (const int spp : {1, 16, 1000}) {
-        uint64_t total = 0;
-        int next_sample = 0;
-        for (uint64_t p = 0; p < passes; ++p) {
-          const PassRange range = pass_range(p, passes, photons, spp);
-          EXPECT_EQ(range.first_sample, next_sample);
-          EXPECT_GT(range.end_sample, range.first_sample);
-          EXPECT_LE(range.photons - photons / passes, 1u);
-          next_sample = range.end_sample;
-          total += range.photons;
+        const PassShare first = pass_share(0, shares, photons, spp);
+        EXPECT_EQ(first.first_sample, 0u);
+        EXPECT_EQ(first.photons, (photons - 1) / shares + 1);
+        EXPECT_EQ(first.end_sample, (uint64_t(spp) - 1) / shares + 1);
+        uint64_t next_sample = 0;
+        for (uint64_t p = 0; p < 2 * shares; ++p) {
+          const PassShare pass = pass_share(p, shares, photons, spp);
+          EXPECT_EQ(pass.pass, p);
+          EXPECT_EQ(pass.photons, first.photons);
+          EXPECT_EQ(pass.first_sample, next_sample);
+          EXPECT_EQ(pass.end_sample - pass.first_sample, first.end_sample);
+          next_sample = pass.end_sample;
         }
-        EXPECT_EQ(total, photons);
-        EXPECT_EQ(next_sample, std::max(spp, int(passes)));
       }
     }
   }
+}
+
+// The product of (i + alpha) / (i + 1) over i = 1 ... p is Gamma(p + 1 + alpha) / (Gamma(1 + alpha) (p +
+// 1)!). Each step rounds two operations and the factor, each by 2^-53; lgamma's absolute error grows with its
+// value.
+TEST(Passes, RadiiFollowTheClosedForm) {
+  for (const float alpha : {0.1f, 0.5f, 2.0f / 3, 0.9f}) {
+    EXPECT_EQ(radius_shrink_squared(0, alpha), 1.0);
+    for (const uint64_t p : {uint64_t{1}, uint64_t{2}, uint64_t{10}, uint64_t{1000}, uint64_t{100'000}}) {
+      const double a = double(alpha), n = double(p);
+      const double log_form = std::lgamma(n + 1 + a) - std::lgamma(1 + a) - std::lgamma(n + 2);
+      const double bound = 3 * n * 0x1p-53 + 4 * std::lgamma(n + 2) * 0x1p-53;
+      EXPECT_NEAR(std::log(radius_shrink_squared(p, alpha)), log_form, bound + 1e-15) << alpha << " " << p;
+    }
+  }
+  for (const uint64_t p : {uint64_t{0}, uint64_t{1}, uint64_t{12345}})
+    EXPECT_EQ(radius_shrink_squared(p, 1), 1.0);
 }
 
 // With a given radius the estimate is linear in the photons, so passes have the same expectation in every
@@ -64,8 +82,12 @@ TEST(Passes, AreAsManyAsMemoryAsksFor) {
   const auto several = render_with_threads(scene, settings);
   EXPECT_GE(several.statistics.passes, 3u);  // maps and what their build needs
   EXPECT_LE(several.statistics.photon_bytes, settings.photon_memory);
-  EXPECT_EQ(several.statistics.photons.emitted, settings.photons);
-  EXPECT_EQ(several.statistics.rays.camera, one.statistics.rays.camera);
+  // Rounded up to the same for each pass.
+  const uint64_t passes = several.statistics.passes;
+  EXPECT_GE(several.statistics.photons.emitted, settings.photons);
+  EXPECT_LT(several.statistics.photons.emitted, settings.photons + passes);
+  EXPECT_GE(several.statistics.rays.camera, one.statistics.rays.camera);
+  EXPECT_LT(several.statistics.rays.camera, one.statistics.rays.camera + passes * kSize * kSize);
   EXPECT_TRUE(std::any_of(several.plan.notes.begin(), several.plan.notes.end(),
                           [](const std::string& note) { return note.find("passes") != std::string::npos; }));
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "render/statistics_json.h"
@@ -35,8 +36,8 @@ TEST(InvalidSamples, AreDroppedCountedAndNamed) {
     const auto result = render_with_threads(half_broken(Rgb(value)), settings, 3);
     EXPECT_EQ(result.statistics.dropped_samples, 8u * 4u * 2u) << value;
     ASSERT_EQ(result.statistics.dropped_examples.size(), 10u);
-    EXPECT_EQ(result.statistics.dropped_examples[0], "pixel 0 0 sample 0");
-    EXPECT_EQ(result.statistics.dropped_examples[9], "pixel 0 1 sample 1");
+    EXPECT_EQ(result.statistics.dropped_examples[0].text(), "pixel 0 0 sample 0");
+    EXPECT_EQ(result.statistics.dropped_examples[9].text(), "pixel 0 1 sample 1");
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x) {
         const Rgb L = result.film.at(x, y).radiance();
@@ -57,6 +58,37 @@ TEST(Render, CancelsInEveryPhase) {
     EXPECT_TRUE(result.cancelled) << phase;
   }
   EXPECT_FALSE(render(scene, bvh, settings).cancelled);
+}
+
+// A pass that is cut short leaves no trace in the complete ones; before the first is complete, its tiles
+// show.
+TEST(Render, ACancelledPassDoesNotCount) {
+  const Scene scene = cornell(40);
+  const accel::Bvh bvh(scene);
+  RenderSettings settings;
+  settings.method = Method::kRaytrace;
+  settings.spp = 4;
+  settings.passes = 4;
+  const auto cancel_at = [&](uint64_t pass, uint64_t tiles) {
+    return render(scene, bvh, settings, [=](const Progress& p) { return p.pass != pass || p.done < tiles; });
+  };
+  const auto in_third = cancel_at(2, 3);
+  EXPECT_TRUE(in_third.cancelled);
+  EXPECT_EQ(in_third.shown, Shown::kPasses);
+  EXPECT_EQ(in_third.sums.passes, PassSet(0, 2));
+  EXPECT_EQ(in_third.statistics.rays.camera, 2u * 40 * 40);
+  settings.spp = 2;
+  settings.passes = 2;
+  const auto two = render(scene, bvh, settings);
+  EXPECT_EQ(std::memcmp(&two.film.at(0, 0), &in_third.film.at(0, 0), sizeof(PixelResult) * 40 * 40), 0);
+
+  const auto in_first = cancel_at(0, 1);
+  EXPECT_EQ(in_first.shown, Shown::kTiles);
+  EXPECT_TRUE(in_first.sums.passes.empty());
+  EXPECT_GT(in_first.film.at(0, 0).depth, 0);
+  EXPECT_EQ(in_first.film.at(39, 39).depth, 0);
+  EXPECT_EQ(in_first.statistics.passes, 0u);
+  EXPECT_EQ(render(scene, bvh, settings, [](const Progress&) { return true; }).shown, Shown::kPasses);
 }
 
 TEST(Render, ReportsEveryTile) {
@@ -88,6 +120,8 @@ TEST(Render, RefusesSenselessSettings) {
   refused([](RenderSettings& s) { s.max_bounces = 0; });
   refused([](RenderSettings& s) { s.radius = 0.0f; });
   refused([](RenderSettings& s) { s.radius = std::nanf(""); });
+  refused([](RenderSettings& s) { s.alpha = 0; });
+  refused([](RenderSettings& s) { s.alpha = 1.5f; });
   refused([](RenderSettings& s) { s.crop = {0, 9, 0, 8}; });
   refused([](RenderSettings& s) { s.crop = {-1, 4, 0, 8}; });
 }

@@ -1,0 +1,42 @@
+#pragma once
+// Sums that do not depend on the order of their terms: whole multiples of a unit that is a power of two, in
+// 128 bits. Each term is rounded once, to the unit, and the additions are exact; so any order and any split
+// gives the same bits (the fixed-point idea of reproducible summation, Demmel and Nguyen 2015).
+
+#include <cmath>
+
+namespace kaustik::render {
+
+__extension__ typedef __int128 Int128;
+
+class ExactSum {
+ public:
+  // A term is at most 2^kTermBits units, so that 2^31 of them cannot overflow.
+  static constexpr int kTermBits = 95;
+
+  // Adds x, rounded to the nearest multiple of the unit (ties to even); per_unit is 1 / unit, a power of two.
+  // False when x was NaN, which adds nothing, or beyond 2^95 units, which adds that many.
+  bool add(double x, double per_unit) {
+    constexpr double kMost = 0x1p95;
+    const double units = std::rint(x * per_unit);
+    if (std::abs(units) <= kMost) {
+      value_ += static_cast<Int128>(units);
+      return true;
+    }
+    if (!std::isnan(units)) value_ += static_cast<Int128>(std::copysign(kMost, units));
+    return false;
+  }
+  ExactSum& operator+=(const ExactSum& o) {
+    value_ += o.value_;
+    return *this;
+  }
+  // To the nearest double.
+  double value(double unit) const { return static_cast<double>(value_) * unit; }
+
+  friend bool operator==(const ExactSum& a, const ExactSum& b) { return a.value_ == b.value_; }
+
+ private:
+  Int128 value_ = 0;
+};
+
+}  // namespace kaustik::render

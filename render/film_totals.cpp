@@ -1,0 +1,161 @@
+#include "render/film_totals.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+
+namespace kaustik::render {
+
+namespace {
+
+// The smallest power of two above x, as an exponent; 0 where there is nothing to go by.
+int exponent_above(double x) {
+  return x > 0 && std::isfinite(x) ? std::ilogb(x) + 1 : 0;
+}
+
+double size_of(const Scene& scene) {
+  const double radius = double(scene.bounds.radius());
+  return radius > 0 && std::isfinite(radius) ? radius : 1;
+}
+
+// Radiance to expect of what a lamp lights, W/(m^2 sr): generous.
+struct LampBrightness {
+  double scene_size;
+  double operator()(const DiffuseAreaLight& l) const { return double(max_component(l.L)); }
+  double operator()(const InfiniteLight& l) const { return double(max_component(l.L)); }
+  double operator()(const DistantLight& l) const { return double(max_component(l.L)); }
+  double operator()(const PointLight& l) const { return near(l.I); }
+  double operator()(const SpotLight& l) const { return near(l.I); }
+  double near(const Rgb& I) const { return 0x1p20 * double(max_component(I)) / (scene_size * scene_size); }
+};
+
+std::array<double, kSumChannels> channels_of(const PixelSum& s) {
+  std::array<double, kSumChannels> out{};
+  size_t i = 0;
+  for (const glm::dvec3* v : {&s.emitted, &s.direct, &s.caustic, &s.indirect, &s.albedo, &s.normal})
+    for (const double c : {v->x, v->y, v->z}) out[i++] = c;
+  out[i++] = s.depth;
+  out[i++] = s.photons;
+  return out;
+}
+
+std::array<double, kSumChannels> channel_units(const ExactUnits& units, int sign) {
+  std::array<double, kSumChannels> out{};
+  for (size_t i = 0; i < kSumChannels; ++i) {
+    const int exponent = i < 12   ? units.radiance
+                         : i < 18 ? ExactUnits::kFeature
+                         : i < 19 ? units.depth
+                                  : ExactUnits::kPhotons;
+    out[i] = std::ldexp(1.0, sign * exponent);
+  }
+  return out;
+}
+
+// Units per value, made once for a film.
+struct PerUnit {
+  std::array<double, kSumChannels> sums;
+  double square;
+  explicit PerUnit(const ExactUnits& units)
+      : sums(channel_units(units, -1)), square(std::ldexp(1.0, -units.square)) {}
+};
+
+// Returns how many sums were clamped.
+uint64_t add_pixel(const PixelSum& pass, const PerUnit& per_unit, PixelTotals* totals) {
+  if (pass.count == 0) return 0;
+  uint64_t clamped = 0;
+  const auto channels = channels_of(pass);
+  for (size_t i = 0; i < kSumChannels; ++i) clamped += !totals->sums[i].add(channels[i], per_unit.sums[i]);
+  const glm::dvec3 mean =
+      (pass.emitted + pass.direct + pass.caustic + pass.indirect) / static_cast<double>(pass.count);
+  for (int c = 0; c < 3; ++c) clamped += !totals->squares[size_t(c)].add(mean[c] * mean[c], per_unit.square);
+  totals->samples += pass.count;
+  ++totals->passes;
+  return clamped;
+}
+
+void add_pixel(const PixelTotals& part, PixelTotals* totals) {
+  for (size_t i = 0; i < kSumChannels; ++i) totals->sums[i] += part.sums[i];
+  for (size_t c = 0; c < 3; ++c) totals->squares[c] += part.squares[c];
+  totals->samples += part.samples;
+  totals->passes += part.passes;
+}
+
+PixelResult mean_of(const PixelTotals& totals, const std::array<double, kSumChannels>& units) {
+  PixelResult out;
+  if (totals.samples == 0) return out;
+  const double samples = static_cast<double>(totals.samples);
+  size_t i = 0;
+  const auto next = [&] {
+    const double sum = totals.sums[i].value(units[i]);
+    ++i;
+    return static_cast<float>(sum / samples);
+  };
+  for (glm::vec3* v : {&out.emitted, &out.direct, &out.caustic, &out.indirect, &out.albedo, &out.normal})
+    for (int c = 0; c < 3; ++c) (*v)[c] = next();
+  out.depth = next();
+  out.photons = next();
+  return out;
+}
+
+template <class Window>
+bool same_window(const PixelWindow<PixelTotals>& a, const Window& b) {
+  return a.width() == b.width() && a.height() == b.height() && a.x0() == b.x0() && a.y0() == b.y0() &&
+         a.full_width() == b.full_width() && a.full_height() == b.full_height();
+}
+
+// f(x, y) for all pixels, rows in parallel.
+template <class F>
+void for_each_pixel(int width, int height, F&& f) {
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x) f(x, y);
+  });
+}
+
+}  // namespace
+
+ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
+  const double size = size_of(scene);
+  double brightest = 0;
+  for (const Light& light : scene.lights)
+    brightest = std::max(brightest, std::visit(LampBrightness{size}, light));
+  const Point3 eye = scene.camera.to_world.point(Point3(0));
+  const double farthest = double(glm::distance(eye, scene.bounds.center())) + size;
+  const int samples = exponent_above(static_cast<double>(samples_per_pass));
+  const int lamp = std::clamp(exponent_above(brightest), -400, 400);  // squares within double's range
+  return {.radiance = lamp + samples + 20 - ExactSum::kTermBits,
+          .square = 2 * (lamp + 4) - ExactSum::kTermBits,
+          .depth = exponent_above(farthest) + samples - ExactSum::kTermBits};
+}
+
+FilmTotals::FilmTotals(const FilmSums& like, const ExactUnits& units)
+    : units_(units),
+      pixels_(like.width(), like.height(), like.x0(), like.y0(), like.full_width(), like.full_height()) {}
+
+uint64_t FilmTotals::add(const FilmSums& pass) {
+  if (!same_window(pixels_, pass)) throw std::invalid_argument("the films show different windows");
+  const PerUnit per_unit(units_);
+  std::atomic<uint64_t> clamped{0};
+  for_each_pixel(pixels_.width(), pixels_.height(), [&](int x, int y) {
+    if (const uint64_t n = add_pixel(pass.at(x, y), per_unit, &pixels_.at(x, y))) clamped += n;
+  });
+  return clamped;
+}
+
+void FilmTotals::add(const FilmTotals& other) {
+  if (!same_window(pixels_, other.pixels_)) throw std::invalid_argument("the films show different windows");
+  if (units_ != other.units_) throw std::invalid_argument("the films' sums have different units");
+  for_each_pixel(pixels_.width(), pixels_.height(),
+                 [&](int x, int y) { add_pixel(other.pixels_.at(x, y), &pixels_.at(x, y)); });
+}
+
+Film FilmTotals::mean() const {
+  const PixelWindow<PixelTotals>& p = pixels_;
+  Film film(p.width(), p.height(), p.x0(), p.y0(), p.full_width(), p.full_height());
+  const auto units = channel_units(units_, 1);
+  for_each_pixel(p.width(), p.height(), [&](int x, int y) { film.at(x, y) = mean_of(p.at(x, y), units); });
+  return film;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,63 @@
+#pragma once
+// The exact sum of the films of any number of passes, and what of them an error estimate needs.
+
+#include <array>
+#include <cstdint>
+
+#include "core/scene/scene.h"
+#include "render/exact_sum.h"
+#include "render/film.h"
+
+namespace kaustik::render {
+
+// The units of a pixel's sums, as exponents of two.
+struct ExactUnits {
+  int radiance = 0;                     // W/(m^2 sr), over samples
+  int square = 0;                       // of the square of a pass's mean radiance
+  int depth = 0;                        // metres, over samples
+  static constexpr int kFeature = -60;  // albedo, normal: at most 1 each, of at most 2^31 samples
+  static constexpr int kPhotons = 0;    // whole numbers
+  bool operator==(const ExactUnits&) const = default;
+};
+
+// From the lamps' radiance (as seen from a thousandth of the scene's size, for those that are points) and the
+// scene's size: a scene scaled by a power of two gives the same multiples. A pass's sum of radiance may be
+// 2^20 times that of samples that all see the brightest lamp, and its mean 16 times that lamp's radiance,
+// before it is clamped; the units lie 2^75 and, for squares, 2^87 below the lamp.
+ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass);
+
+inline constexpr size_t kSumChannels = 20;
+
+struct PixelTotals {
+  // emitted, direct, caustic, indirect, albedo (R G B each), normal, depth, photons: sums over samples.
+  std::array<ExactSum, kSumChannels> sums;
+  std::array<ExactSum, 3> squares;  // over passes, of the pass's mean R, G and B
+  uint64_t samples = 0;             // that were valid
+  uint64_t passes = 0;              // that had a valid sample
+  bool operator==(const PixelTotals&) const = default;
+};
+
+// Values and multiples of the units.
+class FilmTotals {
+ public:
+  FilmTotals() = default;
+  // Zero, of the window of `like`.
+  FilmTotals(const FilmSums& like, const ExactUnits& units);
+
+  // Adds one pass. Returns how many sums were clamped or NaN.
+  uint64_t add(const FilmSums& pass);
+  // Adds other passes of the same window in the same units; std::invalid_argument otherwise.
+  void add(const FilmTotals& other);
+  // Means over samples; black where there are none.
+  Film mean() const;
+
+  const ExactUnits& units() const { return units_; }
+  const PixelWindow<PixelTotals>& pixels() const { return pixels_; }
+  PixelWindow<PixelTotals>& pixels() { return pixels_; }
+
+ private:
+  ExactUnits units_;
+  PixelWindow<PixelTotals> pixels_;
+};
+
+}  // namespace kaustik::render

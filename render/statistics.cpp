@@ -1,0 +1,59 @@
+#include "render/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kaustik::render {
+
+RayCounters& RayCounters::operator+=(const RayCounters& o) {
+  camera += o.camera;
+  specular += o.specular;
+  shadow += o.shadow;
+  bounce += o.bounce;
+  return *this;
+}
+
+LectureCounters& LectureCounters::operator+=(const LectureCounters& o) {
+  from_photons += o.from_photons;
+  climbed += o.climbed;
+  fallback_few += o.fallback_few;
+  fallback_shadow += o.fallback_shadow;
+  fallback_face += o.fallback_face;
+  return *this;
+}
+
+std::string DroppedSample::text() const {
+  return fmt::format("pixel {} {} sample {}", x, y, sample);
+}
+
+void add_examples(const std::vector<DroppedSample>& more, std::vector<DroppedSample>* examples) {
+  examples->insert(examples->end(), more.begin(), more.end());
+  std::sort(examples->begin(), examples->end());
+  if (examples->size() > kDropExamples) examples->resize(kDropExamples);
+}
+
+RenderStatistics& RenderStatistics::operator+=(const RenderStatistics& o) {
+  photons += o.photons;
+  rays += o.rays;
+  lecture += o.lecture;
+  gather_queries += o.gather_queries;
+  gather_candidates += o.gather_candidates;
+  gather_accepted += o.gather_accepted;
+  dropped_samples += o.dropped_samples;
+  add_examples(o.dropped_examples, &dropped_examples);
+  clamped_sums += o.clamped_sums;
+  photon_trace_s += o.photon_trace_s;
+  photon_build_s += o.photon_build_s;
+  render_s += o.render_s;
+  radius = std::max(radius, o.radius);
+  direct_radius = std::max(direct_radius, o.direct_radius);
+  caustic_radius = std::max(caustic_radius, o.caustic_radius);
+  indirect_radius = std::max(indirect_radius, o.indirect_radius);
+  photon_bytes = std::max(photon_bytes, o.photon_bytes);
+  octree_nodes += o.octree_nodes;
+  passes += o.passes;
+  return *this;
+}
+
+}  // namespace kaustik::render
