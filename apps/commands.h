@@ -22,6 +22,8 @@ struct Command {
 };
 
 Command make_render_command(CLI::App& program);
+Command make_resume_command(CLI::App& program);
+Command make_merge_command(CLI::App& program);
 Command make_photons_command(CLI::App& program);
 Command make_compare_command(CLI::App& program);
 Command make_info_command(CLI::App& program);

@@ -6,16 +6,10 @@
 #include <filesystem>
 
 #include "apps/commands.h"
-#include "apps/console/progress_bar.h"
 #include "apps/exit_error.h"
-#include "apps/interrupt.h"
 #include "apps/output_files.h"
-#include "apps/render_job.h"
-#include "apps/scene_loading.h"
-#include "apps/stopwatch.h"
+#include "apps/render_session.h"
 #include "apps/thread_limit.h"
-#include "render/image_io.h"
-#include "render/names.h"
 
 namespace kaustik::app {
 
@@ -23,14 +17,15 @@ namespace {
 
 struct RenderOptions {
   std::string scene;
-  std::vector<std::string> outputs;
-  std::string statistics;
+  OutputOptions outputs;
+  CheckpointSettings checkpoint;
+  render::PassSet passes;
   SettingOverrides overrides;
 };
 
 // What -o says, or the scene's Film "filename", or the scene's name as EXR in the working directory.
 std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job) {
-  if (!options.outputs.empty()) return options.outputs;
+  if (!options.outputs.files.empty()) return options.outputs.files;
   const std::string name = job.scene_output.empty()
                                ? std::filesystem::path(options.scene).stem().string() + ".exr"
                                : job.scene_output;
@@ -38,90 +33,61 @@ std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job
   return {name};
 }
 
-RenderOutcome render_with_bar(const Job& job, const InterruptGuard& interrupt, const Console& console) {
-  const render::EstimatorPlan plan = render::make_plan(job.settings.render, job.scene.needs);
-  for (const std::string& note : plan.notes) console.note(note);
-  ProgressBar bar(console);
-  return render_job(job.scene, job.settings.render, [&](const render::Progress& progress) {
-    bar.update(progress);
-    return !interrupt.requested();
-  });
+void check_passes(const RenderOptions& options, const Job& job) {
+  if (!options.passes.empty() && job.settings.render.passes == 0)
+    throw ExitError(
+        kBadCommandLine,
+        "--pass-range needs --passes, the number of passes that photons and samples are shared over");
 }
 
-void write_outputs(const std::vector<std::string>& outputs, const Job& job,
-                   const render::RenderResult& result) {
-  render::WriteOptions write;
-  write.layers = render::layers_from_names(job.settings.render.aov);
-  write.metadata = render::metadata_of(result, job.settings.render);
-  write.tone = job.settings.tone;
-  for (const std::string& path : outputs) render::write_film(path, result.film, write);
-}
-
-void report_photons(const render::RenderResult& result, const Console& console) {
-  const render::RenderStatistics& s = result.statistics;
-  if (s.photons.emitted == 0) return;
-  std::string stored;
-  for (size_t k = 0; k < s.photons.stored.size(); ++k) {
-    stored +=
-        fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(s.photons.stored[k]));
-  }
-  console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted), stored));
-  if (s.radius > 0) console.note(fmt::format("gather radius: {:.4g} m", s.radius));
-  if (result.plan.direct == render::DirectEstimator::kLecture) {
-    console.note(fmt::format(
-        "lecture: {} points from photons ({} after climbing); shadow rays at {} with too few photons, "
-        "{} with shadow photons, {} near a cell's face",
-        grouped(s.lecture.from_photons), grouped(s.lecture.climbed), grouped(s.lecture.fallback_few),
-        grouped(s.lecture.fallback_shadow), grouped(s.lecture.fallback_face)));
-  }
-}
-
-void report(const render::RenderResult& result, const render::OuterTimes& times, const Console& console) {
-  const render::RenderStatistics& s = result.statistics;
-  report_photons(result, console);
-  console.note(fmt::format(
-      "seconds: load {:.2f}, bvh {:.2f}, photon trace {:.2f}, photon build {:.2f}, render {:.2f}, "
-      "write {:.2f}, total {:.2f}",
-      times.load, times.bvh, s.photon_trace_s, s.photon_build_s, s.render_s, times.write, times.total));
-  if (s.dropped_samples > 0) {
-    console.warning(
-        fmt::format("{} samples were not finite or negative and count as black", s.dropped_samples));
-    for (const render::DroppedSample& example : s.dropped_examples) console.note("  " + example.text());
-  }
+void note_checkpoint(const RenderOptions& options, const Console& console) {
+  if (!options.checkpoint.path.empty() && std::filesystem::exists(options.checkpoint.path))
+    console.warning(fmt::format("{} is there and will be replaced; `kaustik resume` would go on with it",
+                                options.checkpoint.path));
 }
 
 int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
-  for (const std::string& path : options.outputs) check_image_output(path);
-  if (!options.statistics.empty()) check_writable(options.statistics);
+  check_outputs(options.outputs);
+  if (!options.checkpoint.path.empty()) check_writable(options.checkpoint.path);
   const InterruptGuard interrupt;
   const int load_threads = options.overrides.alone().render.threads;
   Job job;
   with_thread_limit(load_threads, [&] { job = load_job(options.scene, options.overrides, console); });
-  const std::vector<std::string> outputs = outputs_of(options, job);
+  check_passes(options, job);
+  note_checkpoint(options, console);
+  RenderSession session{options.outputs, options.checkpoint, options.passes, {}};
+  session.outputs.files = outputs_of(options, job);
+  return run_session(job, std::move(session), interrupt, total, console);
+}
 
-  int code = kDone;
-  with_thread_limit(job.settings.render.threads, [&] {
-    RenderOutcome outcome = render_with_bar(job, interrupt, console);
-    if (outcome.result.cancelled || interrupt.requested()) {
-      console.error("interrupted; no picture was written");
-      code = kInterrupted;
-      return;
-    }
-    const Stopwatch write_watch;
-    write_outputs(outputs, job, outcome.result);
-    outcome.times.load = job.load_seconds;
-    outcome.times.write = write_watch.seconds();
-    outcome.times.total = total.seconds();
-    if (!options.statistics.empty()) {
-      write_text_file(options.statistics, render::statistics_json(outcome.result, job.settings.render,
-                                                                  job.scene.needs, outcome.times));
-    }
-    report(outcome.result, outcome.times, console);
-    for (const std::string& path : outputs) console.note("wrote " + path);
-    if (!options.statistics.empty()) console.note("wrote " + options.statistics);
-  });
-  return code;
+void add_pass_options(CLI::App& parser, RenderOptions& options) {
+  CLI::Option* checkpoint =
+      parser
+          .add_option("--checkpoint", options.checkpoint.path,
+                      "Write complete passes to a partial result (.kpart) now and then, and at the end: "
+                      "`kaustik resume` goes on with it")
+          ->option_text("FILE");
+  parser
+      .add_option_function<std::string>(
+          "--checkpoint-every",
+          [&options](const std::string& text) { options.checkpoint.every = checkpoint_interval(text); },
+          "Time between checkpoints, which come at the end of a pass, like 60s, 10m or 1.5h. Default: 60s")
+      ->option_text("TIME")
+      ->needs(checkpoint);
+  parser
+      .add_option_function<std::string>(
+          "--pass-range",
+          [&options](const std::string& text) {
+            const auto passes = render::PassSet::parse(text);
+            if (!passes)
+              throw CLI::ValidationError(
+                  "--pass-range",
+                  fmt::format("`{}`: expected passes BEGIN:END, like 0:16 or 0:4,8:12", text));
+            options.passes = *passes;
+          },
+          "Render only passes A to B - 1; needs --passes. `kaustik merge` joins the parts. Default: all")
+      ->option_text("A:B");
 }
 
 }  // namespace
@@ -134,15 +100,8 @@ Command make_render_command(CLI::App& program) {
   parser.add_option("SCENE", options->scene, "Scene file in pbrt-v4's text format")
       ->required()
       ->option_text(" ");
-  parser
-      .add_option("-o,--output", options->outputs,
-                  "Picture to write: .exr (float, with layers), .png, .jpg. Give it again for more files. "
-                  "Default: the scene's Film \"filename\"")
-      ->option_text("FILE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  parser.add_option("--stats", options->statistics, "Write counts, times and settings as JSON")
-      ->option_text("FILE");
+  add_output_options(parser, options->outputs, "the scene's Film \"filename\"");
+  add_pass_options(parser, *options);
   parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
   add_setting_options(parser, options->overrides);
   command.run = [options](const Console& console) { return run_render(*options, console); };

@@ -13,6 +13,6 @@ struct RenderOutcome {
 
 // On the calling arena's threads; settings.threads bounds the build of the tree.
 RenderOutcome render_job(const Scene& scene, const render::RenderSettings& settings,
-                         const render::ProgressCallback& progress);
+                         const render::ProgressCallback& progress, render::RenderTask task = {});
 
 }  // namespace kaustik::app

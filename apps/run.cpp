@@ -52,6 +52,8 @@ struct Program {
         "Exit codes: 0 done, 1 failure while rendering or above a limit, 2 bad command line, 3 bad scene, "
         "130 interrupted.\n`kaustik COMMAND --help` explains a command.");
     commands.push_back(make_render_command(parser));
+    commands.push_back(make_resume_command(parser));
+    commands.push_back(make_merge_command(parser));
     commands.push_back(make_photons_command(parser));
     commands.push_back(make_compare_command(parser));
     commands.push_back(make_info_command(parser));

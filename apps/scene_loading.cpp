@@ -8,6 +8,7 @@
 
 #include "apps/exit_error.h"
 #include "apps/usable_memory.h"
+#include "render/film_totals.h"
 
 namespace kaustik::app {
 
@@ -76,6 +77,20 @@ void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides,
   }
 }
 
+// Bytes of the film of a pass, of the totals and of the picture.
+uint64_t film_of(const Job& job) {
+  const render::CropWindow& crop = job.settings.render.crop;
+  const PerspectiveCamera& camera = job.scene.camera;
+  const uint64_t pixels = crop.empty() ? uint64_t(camera.width) * uint64_t(camera.height)
+                                       : uint64_t(crop.x1 - crop.x0) * uint64_t(crop.y1 - crop.y0);
+  return pixels * (sizeof(render::PixelSum) + sizeof(render::PixelTotals) + sizeof(render::PixelResult));
+}
+
+uint64_t memory_beside(uint64_t bytes) {
+  const uint64_t usable = usable_memory();
+  return usable - std::min(usable, bytes);
+}
+
 }  // namespace
 
 std::string grouped(uint64_t n) {
@@ -104,11 +119,15 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
   print_diagnostics(diagnostics, console);
   if (diagnostics.has_errors()) refuse_scene(path, diagnostics.error_count());
 
-  Job job{.scene = std::move(loaded->scene), .settings = file.settings, .scene_output = file.output};
+  Job job{.scene = std::move(loaded->scene),
+          .settings = file.settings,
+          .path = path,
+          .content_hash = std::move(loaded->content_hash),
+          .scene_output = file.output};
   overrides.apply(job.settings);
-  job.settings.render.photon_memory = usable_memory();
   resolve_size(file, job.settings.render, job.scene.camera);
   resolve_crop(file, overrides, job.scene.camera, job.settings.render, console);
+  job.settings.render.photon_memory = memory_beside(film_of(job));
   job.settings.render.width = job.scene.camera.width;
   job.settings.render.height = job.scene.camera.height;
   job.load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

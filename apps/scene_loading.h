@@ -14,6 +14,8 @@ namespace kaustik::app {
 struct Job {
   Scene scene;  // the camera has its final size
   Settings settings;
+  std::string path;
+  std::string content_hash;  // of the scene's files, see pbrt::LoadedScene
   std::string scene_output;  // the file's own output name; empty when it has none
   double load_seconds = 0;
 };

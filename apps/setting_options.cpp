@@ -21,6 +21,10 @@ void SettingOverrides::add(const Setting& setting, std::vector<std::string> text
   given_.emplace_back(&setting, std::move(texts));
 }
 
+void SettingOverrides::append(const SettingOverrides& others) {
+  given_.insert(given_.end(), others.given_.begin(), others.given_.end());
+}
+
 void SettingOverrides::apply(Settings& settings) const {
   if (sets("method")) {
     settings.render.direct.reset();

@@ -20,6 +20,8 @@ class SettingOverrides {
  public:
   // Throws CLI::ValidationError when the values are bad.
   void add(const Setting& setting, std::vector<std::string> texts);
+  // All of others, after what is there.
+  void append(const SettingOverrides& others);
   // --method drops estimators that the scene file chose: it is the command line's word on all three.
   void apply(Settings& settings) const;
   bool sets(std::string_view name) const;

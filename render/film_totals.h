@@ -41,6 +41,9 @@ struct PixelTotals {
 class FilmTotals {
  public:
   FilmTotals() = default;
+  // zero: the window.
+  FilmTotals(PixelWindow<PixelTotals> zero, const ExactUnits& units)
+      : units_(units), pixels_(std::move(zero)) {}
   // Zero, of the window of `like`.
   FilmTotals(const FilmSums& like, const ExactUnits& units);
 

@@ -104,8 +104,7 @@ PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, uint64_
   const PassShare pass = pass_share(0, shares, settings.photons, settings.spp);
   PassSums sums;
   sums.shares = shares;
-  sums.totals = FilmTotals(make_film(settings.crop, scene.camera),
-                           choose_units(scene, pass.end_sample - pass.first_sample));
+  sums.totals = FilmTotals(make_film(settings.crop, scene.camera), choose_units(scene, pass.end_sample));
   return sums;
 }
 
@@ -154,7 +153,9 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   const uint64_t shares = choose_passes(scene, bvh, settings, &result.plan);
   const PassSet goal = task.passes.empty() ? PassSet(0, shares) : task.passes;
   result.sums = task.done.passes.empty() ? nothing_yet(scene, settings, shares) : std::move(task.done);
-  require(result.sums.shares == shares, "the passes that are there have another share of the photons");
+  const PassShare first = pass_share(0, shares, settings.photons, settings.spp);
+  require(result.sums.shares == shares && result.sums.totals.units() == choose_units(scene, first.end_sample),
+          "the passes that are there are of another scene or of other settings");
 
   PassRenderer renderer(scene, bvh, settings, result.plan, shares,
                         serialised(callback, std::max(shares, goal.end())));

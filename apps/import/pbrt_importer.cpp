@@ -1,10 +1,45 @@
 #include "apps/import/pbrt_importer.h"
 
+#include <mutex>
+#include <set>
+
 #include "apps/import/ply.h"
 #include "apps/import/scene_parser.h"
+#include "core/content_hash.h"
 #include "core/scene/builder.h"
 
 namespace kaustik::pbrt {
+
+namespace {
+
+// What the meshes that a scene names hold, by name; filled from several threads.
+class MeshContents {
+ public:
+  void add(const std::string& name, std::string content) {
+    const std::lock_guard lock(mutex_);
+    meshes_.emplace(name, std::move(content));
+  }
+  const std::set<std::pair<std::string, std::string>>& all() const { return meshes_; }
+
+ private:
+  std::mutex mutex_;
+  std::set<std::pair<std::string, std::string>> meshes_;
+};
+
+// Of the texts in the order in which they were opened, then of the meshes in the order of their names.
+std::string content_hash(const SourceFiles& files, const MeshContents& meshes) {
+  ContentHash hash;
+  const auto add = [&hash](std::string_view text) {
+    const uint64_t size = text.size();
+    hash.add(&size, sizeof size);  // so that no end of one is taken for the beginning of the next
+    hash.add(text);
+  };
+  for (uint32_t i = 0; i < files.size(); ++i) add(files.text(i));
+  for (const auto& [name, content] : meshes.all()) add(name), add(content);
+  return hash.text();
+}
+
+}  // namespace
 
 std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
   SceneFiles files(diagnostics.files);
@@ -20,14 +55,18 @@ std::optional<SceneDescription> import_scene(const std::filesystem::path& path, 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
   auto description = import_scene(path, diagnostics);
   if (!description) return std::nullopt;
+  MeshContents meshes;
   const MeshLoader load_mesh = [&](const std::string& name, const SourceLocation& where) {
     const std::filesystem::path naming(where.valid() ? diagnostics.files.name(where.file) : path.string());
-    return load_ply(resolve_path(name, naming, path));
+    std::string content;
+    MeshResult result = load_ply(resolve_path(name, naming, path), &content);
+    meshes.add(name, std::move(content));
+    return result;
   };
   auto scene = build_scene(*description, load_mesh, diagnostics);
   diagnostics.sort_by_location();
   if (!scene || diagnostics.has_errors()) return std::nullopt;
-  return LoadedScene{std::move(*scene), std::move(*description)};
+  return LoadedScene{std::move(*scene), std::move(*description), content_hash(diagnostics.files, meshes)};
 }
 
 }  // namespace kaustik::pbrt

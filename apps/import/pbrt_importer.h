@@ -20,6 +20,8 @@ struct LoadedScene {
   // Film, sampler and integrator lines are left for the caller to interpret (apps/settings); their types and
   // parameters are checked against the schema except those of the integrator.
   SceneDescription description;
+  // ContentHash of the file, what it includes and the meshes that it names, wherever they lie: in 32 digits.
+  std::string content_hash;
 };
 
 // import_scene, then build_scene with the meshes that it names, loaded in parallel. Nothing after any error;

@@ -8,6 +8,7 @@
 
 #include "apps/import/ply_structure.h"
 #include "apps/import/scene_files.h"
+#include "core/content_hash.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -74,10 +75,15 @@ MeshResult import(const std::string& bytes, const PlyStructure& structure) {
 
 }  // namespace
 
-MeshResult load_ply(const std::filesystem::path& path) {
+MeshResult load_ply(const std::filesystem::path& path, std::string* content) {
   std::string error;
   const auto bytes = read_bytes(path, kLargestMeshFile, error);
   if (!bytes) return {{}, std::move(error)};
+  if (content) {
+    ContentHash hash;
+    hash.add(*bytes);
+    *content = hash.text();
+  }
   const auto structure = check_ply(*bytes, error);
   MeshResult result = structure ? import(*bytes, *structure) : MeshResult{{}, std::move(error)};
   if (!result.error.empty())

@@ -11,7 +11,7 @@ namespace kaustik::pbrt {
 // are kept where every vertex has them; quads and polygons are triangulated. The file's structure is checked
 // in full before anything is allocated from what it claims: a header that promises more than the file holds,
 // a truncated file, faces of fewer than three vertices and indices out of range are refused with the place in
-// the file. Thread-safe.
-MeshResult load_ply(const std::filesystem::path& path);
+// the file. content: takes the ContentHash of the file, if it could be read. Thread-safe.
+MeshResult load_ply(const std::filesystem::path& path, std::string* content = nullptr);
 
 }  // namespace kaustik::pbrt

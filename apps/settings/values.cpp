@@ -105,6 +105,17 @@ std::optional<int64_t> parse_integer(std::string_view text) {
   return value;
 }
 
+std::optional<double> parse_duration(std::string_view text) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {{"ms", 1e-3}, {"s", 1}, {"m", 60}, {"h", 3600}};
+  for (const auto& [unit, seconds] : kUnits) {
+    if (!text.ends_with(unit)) continue;
+    const std::optional<float> number = parse_number(text.substr(0, text.size() - unit.size()));
+    if (!number || *number < 0) return std::nullopt;
+    return seconds * double(*number);
+  }
+  return std::nullopt;
+}
+
 std::optional<float> parse_number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   float value = 0;

@@ -19,6 +19,9 @@ std::string count_text(uint64_t n);
 // A whole number with sign, no suffix.
 std::optional<int64_t> parse_integer(std::string_view text);
 
+// Seconds of a time with its unit: "90s", "1.5h", "10m", "250ms". Nothing when it is none or negative.
+std::optional<double> parse_duration(std::string_view text);
+
 // A finite decimal number within float's range (subnormals included).
 std::optional<float> parse_number(std::string_view text);
 

@@ -153,7 +153,8 @@ TEST_F(RenderCommand, AFailureWhileWritingExitsWithOne) {
   EXPECT_FALSE(exists("gone"));
 }
 
-TEST_F(RenderCommand, AnInterruptLeavesNoPictureAndExitsWith130) {
+// Before a tile is finished there is nothing to show; partial_results_test.cpp has the rest.
+TEST_F(RenderCommand, AnEarlyInterruptLeavesNoPictureAndExitsWith130) {
   // Far more samples than a test could wait for: only the signal can end it.
   const std::string scene = small_scene(film(256, 256));
   std::atomic<bool> stop = false;

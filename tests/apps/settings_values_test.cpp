@@ -50,5 +50,15 @@ TEST(ParseInteger, ReadsSignedWholeNumbers) {
   }
 }
 
+TEST(Durations, HaveAUnit) {
+  EXPECT_EQ(parse_duration("60s"), 60.0);
+  EXPECT_EQ(parse_duration("10m"), 600.0);
+  EXPECT_EQ(parse_duration("1.5h"), 5400.0);
+  EXPECT_EQ(parse_duration("500ms"), 0.5);
+  EXPECT_EQ(parse_duration("0s"), 0.0);
+  for (const char* bad : {"", "s", "60", "-1s", "1d", "1h30m", "60 s", "infs", "nanm", "1e50h"})
+    EXPECT_EQ(parse_duration(bad), std::nullopt) << bad;
+}
+
 }  // namespace
 }  // namespace kaustik::app

@@ -1,0 +1,28 @@
+#include "apps/checkpoint.h"
+
+#include <fmt/format.h>
+
+namespace kaustik::app {
+
+void Checkpoint::write(const render::PassSums& sums) {
+  render::write_partial(settings_.path, manifest_of(job_, outputs_, goal_, sums), sums);
+  written_ = sums.passes;
+}
+
+void Checkpoint::after_pass(const render::PassSums& sums) {
+  if (settings_.path.empty() || since_written_.seconds() < settings_.every) return;
+  try {
+    write(sums);
+  } catch (const render::PartialError& error) {
+    console_.warning(fmt::format("no checkpoint: {}", error.what()));
+  }
+  since_written_ = {};
+}
+
+bool Checkpoint::finish(const render::PassSums& sums) {
+  if (settings_.path.empty() || sums.passes.empty()) return false;
+  if (written_ != sums.passes) write(sums);
+  return true;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,46 @@
+#pragma once
+// Partial results written while a render is at work.
+
+#include <string>
+
+#include "apps/partial_files.h"
+#include "apps/stopwatch.h"
+
+namespace kaustik::app {
+
+struct CheckpointSettings {
+  std::string path;   // empty: none are written
+  double every = 60;  // seconds
+};
+
+// Written after the pass in which the time has run out, and at the end.
+class Checkpoint {
+ public:
+  // outputs, goal: for the manifest. job and console must outlive it.
+  Checkpoint(CheckpointSettings settings, const Job& job, std::vector<std::string> outputs,
+             render::PassSet goal, const Console& console)
+      : settings_(std::move(settings)),
+        job_(job),
+        outputs_(std::move(outputs)),
+        goal_(std::move(goal)),
+        console_(console) {}
+
+  // The file holds these passes already.
+  void is_there(const render::PassSet& passes) { written_ = passes; }
+  // Failures to write are warnings: the render goes on, and the next time may do.
+  void after_pass(const render::PassSums& sums);
+  // Unless the file holds all passes already. False when there was nothing to write. Throws PartialError.
+  bool finish(const render::PassSums& sums);
+
+ private:
+  void write(const render::PassSums& sums);
+
+  CheckpointSettings settings_;
+  const Job& job_;
+  std::vector<std::string> outputs_;
+  render::PassSet goal_, written_;
+  const Console& console_;
+  Stopwatch since_written_;
+};
+
+}  // namespace kaustik::app

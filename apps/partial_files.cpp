@@ -1,0 +1,89 @@
+#include "apps/partial_files.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "apps/exit_error.h"
+#include "apps/instruction_set.h"
+#include "core/version.h"
+
+namespace kaustik::app {
+
+namespace {
+
+std::string absolute(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+render::SettingTexts texts_of(const Settings& settings, bool that_decide_sums) {
+  render::SettingTexts out;
+  for (const Setting& setting : settings_table()) {
+    std::vector<std::string> texts = setting.show(settings);
+    if (setting.decides_sums == that_decide_sums && !texts.empty())
+      out.emplace_back(setting.name, std::move(texts));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string program_build() {
+  return fmt::format("{} ({})", version(), build_id());
+}
+
+render::PartialManifest manifest_of(const Job& job, const std::vector<std::string>& outputs,
+                                    const render::PassSet& goal, const render::PassSums& sums) {
+  Settings settings = job.settings;
+  settings.render.passes = sums.shares;  // as many as memory asked for stay as many
+  render::PartialManifest manifest;
+  manifest.build = program_build();
+  manifest.isa = instruction_set();
+  manifest.scene_path = absolute(job.path);
+  manifest.scene_hash = job.content_hash;
+  manifest.settings = texts_of(settings, true);
+  manifest.presentation = texts_of(settings, false);
+  for (const std::string& output : outputs) manifest.outputs.push_back(absolute(output));
+  manifest.goal = goal.empty() ? render::PassSet(0, sums.shares) : goal;
+  manifest.needs = job.scene.needs;
+  return manifest;
+}
+
+render::PartialResult load_partial(const std::string& path) {
+  try {
+    return render::read_partial(path);
+  } catch (const render::PartialError& error) {
+    throw ExitError(kBadCommandLine, error.what());
+  }
+}
+
+SettingOverrides settings_of(const render::PartialManifest& manifest, const std::string& path) {
+  SettingOverrides overrides;
+  for (const render::SettingTexts* settings : {&manifest.settings, &manifest.presentation}) {
+    for (const auto& [name, texts] : *settings) {
+      const Setting* setting = find_setting(name);
+      if (!setting)
+        throw ExitError(kBadCommandLine, fmt::format("{}: it names an unknown setting `{}`", path, name));
+      try {
+        overrides.add(*setting, texts);
+      } catch (const CLI::ValidationError& error) {
+        throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, error.what()));
+      }
+    }
+  }
+  return overrides;
+}
+
+void check_program(const render::PartialManifest& manifest, const std::string& path) {
+  const auto require = [&](const std::string& there, const std::string& here, std::string_view what) {
+    if (there == here) return;
+    throw ExitError(kBadCommandLine,
+                    fmt::format("{}: made by {} {}, this is {}: the passes would not fit together", path,
+                                what, there, here));
+  };
+  require(manifest.build, program_build(), "kaustik");
+  require(manifest.isa, instruction_set(), "the instruction set");
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,31 @@
+#pragma once
+// What a partial result says about the render that it belongs to, and a render from what it says.
+
+#include <string>
+#include <vector>
+
+#include "apps/scene_loading.h"
+#include "render/partial_result.h"
+
+namespace kaustik::app {
+
+// "0.1.0 (c9c1c43)".
+std::string program_build();
+
+// What the sums of a job go with. outputs: as they were given. An empty goal stands for all passes that the
+// settings ask for.
+render::PartialManifest manifest_of(const Job& job, const std::vector<std::string>& outputs,
+                                    const render::PassSet& goal, const render::PassSums& sums);
+
+// read_partial; a file that cannot be used is a bad command line (ExitError).
+render::PartialResult load_partial(const std::string& path);
+
+// Both kinds of settings, as if they had been given on the command line. path: for the ExitError (bad command
+// line) when one is unknown or has a bad value.
+SettingOverrides settings_of(const render::PartialManifest& manifest, const std::string& path);
+
+// Throws ExitError (bad command line) unless this program on this machine can go on with the sums: the same
+// build, the same instructions.
+void check_program(const render::PartialManifest& manifest, const std::string& path);
+
+}  // namespace kaustik::app

@@ -1,0 +1,106 @@
+#include "apps/render_outputs.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/output_files.h"
+#include "apps/scene_loading.h"
+#include "apps/stopwatch.h"
+#include "render/image_io.h"
+
+namespace kaustik::app {
+
+namespace {
+
+void report_photons(const render::RenderResult& result, const Console& console) {
+  const render::RenderStatistics& s = result.statistics;
+  if (s.photons.emitted == 0) return;
+  std::string stored;
+  for (size_t k = 0; k < s.photons.stored.size(); ++k) {
+    stored +=
+        fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(s.photons.stored[k]));
+  }
+  console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted), stored));
+  if (s.radius > 0) console.note(fmt::format("gather radius: {:.4g} m", s.radius));
+  if (result.plan.direct == render::DirectEstimator::kLecture) {
+    console.note(fmt::format(
+        "lecture: {} points from photons ({} after climbing); shadow rays at {} with too few photons, "
+        "{} with shadow photons, {} near a cell's face",
+        grouped(s.lecture.from_photons), grouped(s.lecture.climbed), grouped(s.lecture.fallback_few),
+        grouped(s.lecture.fallback_shadow), grouped(s.lecture.fallback_face)));
+  }
+}
+
+}  // namespace
+
+void add_output_options(CLI::App& parser, OutputOptions& options, const std::string& by_default) {
+  parser
+      .add_option(
+          "-o,--output", options.files,
+          "File to write: .exr (float, with layers), .png, .jpg, or .kpart (a partial result). Give it "
+          "again for more files. Default: " +
+              by_default)
+      ->option_text("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  parser.add_option("--stats", options.statistics, "Write counts, times and settings as JSON")
+      ->option_text("FILE");
+}
+
+void check_outputs(const OutputOptions& options) {
+  for (const std::string& path : options.files) {
+    if (render::is_partial_name(path))
+      check_writable(path);
+    else
+      check_image_output(path);
+  }
+  if (!options.statistics.empty()) check_writable(options.statistics);
+}
+
+void write_outputs(const OutputOptions& options, const Outcome& outcome, render::OuterTimes times,
+                   const Console& console) {
+  const Stopwatch watch;
+  const render::RenderResult& result = outcome.result;
+  render::WriteOptions write;
+  write.layers = render::layers_from_names(outcome.settings.render.aov);
+  write.metadata = render::metadata_of(result, outcome.settings.render);
+  write.tone = outcome.settings.tone;
+  std::vector<std::string> written;
+  for (const std::string& path : options.files) {
+    const bool partial = render::is_partial_name(path);
+    if (partial && result.sums.passes.empty()) continue;
+    if (partial)
+      render::write_partial(path, outcome.manifest, result.sums);
+    else
+      render::write_film(path, result.film, write);
+    written.push_back(path);
+  }
+  times.write = watch.seconds();
+  times.total += times.write;
+  if (!options.statistics.empty()) {
+    write_text_file(options.statistics,
+                    render::statistics_json(result, outcome.settings.render, outcome.manifest.needs, times));
+    written.push_back(options.statistics);
+  }
+  report(result, times, console);
+  for (const std::string& path : written) console.note("wrote " + path);
+}
+
+void report(const render::RenderResult& result, const render::OuterTimes& times, const Console& console) {
+  const render::RenderStatistics& s = result.statistics;
+  report_photons(result, console);
+  console.note(fmt::format(
+      "seconds: load {:.2f}, bvh {:.2f}, photon trace {:.2f}, photon build {:.2f}, render {:.2f}, "
+      "write {:.2f}, total {:.2f}",
+      times.load, times.bvh, s.photon_trace_s, s.photon_build_s, s.render_s, times.write, times.total));
+  if (s.dropped_samples > 0) {
+    console.warning(
+        fmt::format("{} samples were not finite or negative and were left out", s.dropped_samples));
+    for (const render::DroppedSample& example : s.dropped_examples) console.note("  " + example.text());
+  }
+  if (s.clamped_sums > 0)
+    console.warning(fmt::format("{} sums of a pixel over a pass were out of range", s.clamped_sums));
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,83 @@
+#include "apps/render_session.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/console/progress_bar.h"
+#include "apps/render_job.h"
+#include "apps/run.h"
+#include "apps/settings/values.h"
+#include "apps/thread_limit.h"
+
+namespace kaustik::app {
+
+namespace {
+
+RenderOutcome render_with_bar(const Job& job, render::RenderTask task, const InterruptGuard& interrupt,
+                              const Console& console) {
+  const render::EstimatorPlan plan = render::make_plan(job.settings.render, job.scene.needs);
+  for (const std::string& note : plan.notes) console.note(note);
+  ProgressBar bar(console);
+  return render_job(
+      job.scene, job.settings.render,
+      [&](const render::Progress& progress) {
+        bar.update(progress);
+        return !interrupt.requested();
+      },
+      std::move(task));
+}
+
+// What an interrupted render leaves.
+std::string interruption(const render::RenderResult& result) {
+  switch (result.shown) {
+    case render::Shown::kPasses:
+      return fmt::format("interrupted: the picture shows passes {}", result.sums.passes.text());
+    case render::Shown::kTiles:
+      return "interrupted in the first pass: the picture shows the tiles that were finished, black "
+             "elsewhere; "
+             "there is no pass to go on from";
+    case render::Shown::kNothing:
+      break;
+  }
+  return "interrupted before a tile was finished: nothing was written";
+}
+
+int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, Checkpoint& checkpoint,
+           const Console& console) {
+  const render::RenderResult& result = outcome.result;
+  if (result.cancelled) console.error(interruption(result));
+  if (result.shown == render::Shown::kNothing) return kInterrupted;
+  const bool checkpoint_written = checkpoint.finish(result.sums);
+  const render::PartialManifest manifest = manifest_of(job, session.outputs.files, session.goal, result.sums);
+  write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
+  if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
+  return result.cancelled ? kInterrupted : kDone;
+}
+
+}  // namespace
+
+int run_session(const Job& job, RenderSession session, const InterruptGuard& interrupt,
+                const Stopwatch& total, const Console& console) {
+  int code = kDone;
+  with_thread_limit(job.settings.render.threads, [&] {
+    Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
+    checkpoint.is_there(session.done.passes);
+    render::RenderTask task{.passes = session.goal,
+                            .done = std::move(session.done),
+                            .after_pass = [&](const render::PassSums& sums) { checkpoint.after_pass(sums); }};
+    RenderOutcome outcome = render_with_bar(job, std::move(task), interrupt, console);
+    outcome.times.load = job.load_seconds;
+    outcome.times.total = total.seconds();
+    code = finish(job, session, std::move(outcome), checkpoint, console);
+  });
+  return code;
+}
+
+double checkpoint_interval(const std::string& text) {
+  if (const std::optional<double> seconds = parse_duration(text)) return *seconds;
+  throw CLI::ValidationError("--checkpoint-every",
+                             fmt::format("`{}`: expected a time with its unit, like 60s, 10m or 1.5h", text));
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,26 @@
+#pragma once
+// What `render` and `resume` have in common: passes under a progress bar, checkpoints, files at the end or
+// when a signal comes.
+
+#include "apps/checkpoint.h"
+#include "apps/interrupt.h"
+#include "apps/render_outputs.h"
+
+namespace kaustik::app {
+
+struct RenderSession {
+  OutputOptions outputs;
+  CheckpointSettings checkpoint;
+  render::PassSet goal;   // empty: all passes that the settings ask for
+  render::PassSums done;  // passes that are there, and in the checkpoint's file
+};
+
+// Within a thread limit of its own. Returns the exit code: done, or interrupted after writing what there is.
+// total: started when the command was.
+int run_session(const Job& job, RenderSession session, const InterruptGuard& interrupt,
+                const Stopwatch& total, const Console& console);
+
+// --checkpoint-every: for options of commands. Throws CLI::ValidationError.
+double checkpoint_interval(const std::string& text);
+
+}  // namespace kaustik::app

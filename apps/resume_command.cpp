@@ -1,0 +1,117 @@
+// kaustik resume: goes on with a render from a partial result.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands.h"
+#include "apps/exit_error.h"
+#include "apps/output_files.h"
+#include "apps/render_session.h"
+#include "apps/settings/values.h"
+#include "apps/thread_limit.h"
+
+namespace kaustik::app {
+
+namespace {
+
+struct ResumeOptions {
+  std::string partial, scene;
+  OutputOptions outputs;
+  double checkpoint_every = CheckpointSettings{}.every;
+  uint64_t passes = 0;  // 0: as the render was to have
+  SettingOverrides overrides;
+};
+
+constexpr std::string_view kSettings[] = {"threads", "aov", "exposure", "tonemap"};
+
+// The passes that there will be in the end.
+render::PassSet goal_of(const ResumeOptions& options, const render::PartialResult& part) {
+  const render::PassSet& goal = part.manifest.goal;
+  if (options.passes == 0) return goal;
+  if (options.passes < part.sums.passes.end())
+    throw ExitError(kBadCommandLine, fmt::format("--passes {}: {} holds passes {} already", options.passes,
+                                                 options.partial, part.sums.passes.text()));
+  return render::PassSet(goal.first(), options.passes);
+}
+
+// The scene with the settings of the render that is gone on with.
+Job load_again(const ResumeOptions& options, const render::PartialManifest& manifest,
+               const Console& console) {
+  SettingOverrides overrides = settings_of(manifest, options.partial);
+  overrides.append(options.overrides);
+  const std::string& scene = options.scene.empty() ? manifest.scene_path : options.scene;
+  Job job;
+  with_thread_limit(overrides.alone().render.threads, [&] { job = load_job(scene, overrides, console); });
+  if (job.content_hash != manifest.scene_hash)
+    throw ExitError(
+        kBadCommandLine,
+        fmt::format("{} is not the scene of {}: its files or meshes have changed", scene, options.partial));
+  return job;
+}
+
+int run_resume(const ResumeOptions& options, const Console& console) {
+  const Stopwatch total;
+  check_outputs(options.outputs);
+  check_writable(options.partial);
+  const InterruptGuard interrupt;
+  render::PartialResult part = load_partial(options.partial);
+  check_program(part.manifest, options.partial);
+  RenderSession session;
+  session.goal = goal_of(options, part);
+  session.outputs = options.outputs;
+  if (session.outputs.files.empty()) session.outputs.files = part.manifest.outputs;
+  check_outputs(session.outputs);
+  session.checkpoint = {options.partial, options.checkpoint_every};
+  const Job job = load_again(options, part.manifest, console);
+  console.note(fmt::format("{} holds passes {}; to render: {}", options.partial, part.sums.passes.text(),
+                           session.goal.without(part.sums.passes).text()));
+  session.done = std::move(part.sums);
+  return run_session(job, std::move(session), interrupt, total, console);
+}
+
+void add_pass_options(CLI::App& parser, ResumeOptions& options) {
+  parser
+      .add_option_function<std::string>(
+          "--passes",
+          [&options](const std::string& text) {
+            const std::optional<uint64_t> passes = parse_count(text);
+            if (!passes || *passes < 1 || *passes > render::kMostPasses)
+              throw CLI::ValidationError("--passes",
+                                         fmt::format("`{}`: expected a whole number, 1 to 2147483647", text));
+            options.passes = *passes;
+          },
+          "Passes that there will be in the end, also more than the render was to have: each is like those "
+          "that are there. Default: as the render was to have")
+      ->option_text("COUNT");
+  parser
+      .add_option_function<std::string>(
+          "--checkpoint-every",
+          [&options](const std::string& text) { options.checkpoint_every = checkpoint_interval(text); },
+          "Time between checkpoints, which replace PART at the end of a pass. Default: 60s")
+      ->option_text("TIME");
+}
+
+}  // namespace
+
+Command make_resume_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand("resume", "Go on with a render from its checkpoint");
+  const auto options = std::make_shared<ResumeOptions>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("PART", options->partial, "Partial result (.kpart): a checkpoint, or merged parts")
+      ->required()
+      ->option_text(" ");
+  add_output_options(parser, options->outputs, "the files that the render was to write");
+  add_pass_options(parser, *options);
+  parser
+      .add_option("--scene", options->scene,
+                  "Where the scene lies now; its contents must be the same. Default: where it lay")
+      ->option_text("FILE");
+  parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
+  add_setting_options(parser, options->overrides, kSettings);
+  command.run = [options](const Console& console) { return run_resume(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app
