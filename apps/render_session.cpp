@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "apps/console/progress_bar.h"
 #include "apps/render_job.h"
@@ -26,6 +27,11 @@ RenderOutcome render_with_bar(const Job& job, render::RenderTask task, const Int
         return !interrupt.requested();
       },
       std::move(task));
+}
+
+bool writes_sums(const RenderSession& session) {
+  const std::vector<std::string>& files = session.outputs.files;
+  return !session.checkpoint.path.empty() || std::any_of(files.begin(), files.end(), render::is_partial_name);
 }
 
 // What an interrupted render leaves.
@@ -65,7 +71,8 @@ int run_session(const Job& job, RenderSession session, const InterruptGuard& int
     checkpoint.is_there(session.done.passes);
     render::RenderTask task{.passes = session.goal,
                             .done = std::move(session.done),
-                            .after_pass = [&](const render::PassSums& sums) { checkpoint.after_pass(sums); }};
+                            .after_pass = [&](const render::PassSums& sums) { checkpoint.after_pass(sums); },
+                            .keep_sums = writes_sums(session)};
     RenderOutcome outcome = render_with_bar(job, std::move(task), interrupt, console);
     outcome.times.load = job.load_seconds;
     outcome.times.total = total.seconds();

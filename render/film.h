@@ -72,6 +72,12 @@ class PixelWindow {
   int x0_ = 0, y0_ = 0, full_width_ = 0, full_height_ = 0;
   std::vector<Pixel> pixels_;
 };
+// The same window, of other pixels.
+template <class Pixel, class Other>
+PixelWindow<Pixel> window_of(const PixelWindow<Other>& like) {
+  return {like.width(), like.height(), like.x0(), like.y0(), like.full_width(), like.full_height()};
+}
+
 using Film = PixelWindow<PixelResult>;
 using FilmSums = PixelWindow<PixelSum>;
 

@@ -129,10 +129,6 @@ ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
           .depth = exponent_above(farthest) + samples - ExactSum::kTermBits};
 }
 
-FilmTotals::FilmTotals(const FilmSums& like, const ExactUnits& units)
-    : units_(units),
-      pixels_(like.width(), like.height(), like.x0(), like.y0(), like.full_width(), like.full_height()) {}
-
 uint64_t FilmTotals::add(const FilmSums& pass) {
   if (!same_window(pixels_, pass)) throw std::invalid_argument("the films show different windows");
   const PerUnit per_unit(units_);
@@ -151,10 +147,24 @@ void FilmTotals::add(const FilmTotals& other) {
 }
 
 Film FilmTotals::mean() const {
-  const PixelWindow<PixelTotals>& p = pixels_;
-  Film film(p.width(), p.height(), p.x0(), p.y0(), p.full_width(), p.full_height());
+  Film film = window_of<PixelResult>(pixels_);
   const auto units = channel_units(units_, 1);
-  for_each_pixel(p.width(), p.height(), [&](int x, int y) { film.at(x, y) = mean_of(p.at(x, y), units); });
+  for_each_pixel(film.width(), film.height(),
+                 [&](int x, int y) { film.at(x, y) = mean_of(pixels_.at(x, y), units); });
+  return film;
+}
+
+Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped) {
+  Film film = window_of<PixelResult>(pass);
+  const PerUnit per_unit(units);
+  const auto per_channel = channel_units(units, 1);
+  std::atomic<uint64_t> out_of_range{0};
+  for_each_pixel(film.width(), film.height(), [&](int x, int y) {
+    PixelTotals totals;
+    if (const uint64_t n = add_pixel(pass.at(x, y), per_unit, &totals)) out_of_range += n;
+    film.at(x, y) = mean_of(totals, per_channel);
+  });
+  *clamped += out_of_range;
   return film;
 }
 

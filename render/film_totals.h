@@ -44,8 +44,6 @@ class FilmTotals {
   // zero: the window.
   FilmTotals(PixelWindow<PixelTotals> zero, const ExactUnits& units)
       : units_(units), pixels_(std::move(zero)) {}
-  // Zero, of the window of `like`.
-  FilmTotals(const FilmSums& like, const ExactUnits& units);
 
   // Adds one pass. Returns how many sums were clamped or NaN.
   uint64_t add(const FilmSums& pass);
@@ -62,5 +60,8 @@ class FilmTotals {
   ExactUnits units_;
   PixelWindow<PixelTotals> pixels_;
 };
+
+// The mean that totals of one pass alone have, without them. clamped: is added to.
+Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped);
 
 }  // namespace kaustik::render

@@ -93,7 +93,7 @@ float quantile_radius(const photon::PhotonMap& map, const std::vector<photon::Ga
 // Where every query fails with k photons, fewer must do; the last resort is a fixed part of the scene.
 float auto_radius(const photon::PhotonMap& map, const std::vector<photon::GatherQuery>& queries, float reach,
                   RadiusRule rule, const PassShare& pass) {
-  if (map.empty()) return 0;
+  if (map.empty()) return reach / 64;  // those of other passes need not be
   rule.photons = photons_in_reach(rule.photons, pass.shares);
   for (; rule.photons > 0; rule.photons /= 2)
     if (const float r = quantile_radius(map, queries, reach, rule); r > 0) return r;

@@ -33,9 +33,10 @@ void check_settings(const RenderSettings& s, const PerspectiveCamera& camera) {
                               s.crop.x1, s.crop.y0, s.crop.y1, camera.width, camera.height));
 }
 
-FilmSums make_film(const CropWindow& crop, const PerspectiveCamera& camera) {
-  if (crop.empty()) return FilmSums(camera.width, camera.height);
-  return FilmSums(crop.x1 - crop.x0, crop.y1 - crop.y0, crop.x0, crop.y0, camera.width, camera.height);
+template <class Pixel>
+PixelWindow<Pixel> make_window(const CropWindow& crop, const PerspectiveCamera& camera) {
+  if (crop.empty()) return {camera.width, camera.height};
+  return {crop.x1 - crop.x0, crop.y1 - crop.y0, crop.x0, crop.y0, camera.width, camera.height};
 }
 
 // One caller at a time, told how many passes there will be.
@@ -100,11 +101,16 @@ bool has_samples(const FilmSums& film) {
   return false;
 }
 
-PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, uint64_t shares) {
-  const PassShare pass = pass_share(0, shares, settings.photons, settings.spp);
+ExactUnits units_of(const Scene& scene, const RenderSettings& settings, uint64_t shares) {
+  return choose_units(scene, pass_share(0, shares, settings.photons, settings.spp).end_sample);
+}
+
+PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, uint64_t shares, bool with_totals) {
   PassSums sums;
   sums.shares = shares;
-  sums.totals = FilmTotals(make_film(settings.crop, scene.camera), choose_units(scene, pass.end_sample));
+  PixelWindow<PixelTotals> zero;
+  if (with_totals) zero = make_window<PixelTotals>(settings.crop, scene.camera);
+  sums.totals = FilmTotals(std::move(zero), units_of(scene, settings, shares));
   return sums;
 }
 
@@ -119,7 +125,7 @@ bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderT
       tiles->clear();
       result->statistics = {};
       if (!renderer.render(pass, &sums.radii, tiles, &result->statistics)) return false;
-      result->statistics.clamped_sums = sums.totals.add(*tiles);
+      if (task.keep_sums) result->statistics.clamped_sums = sums.totals.add(*tiles);
       sums.passes.add(PassSet(pass, pass + 1));
       sums.statistics += result->statistics;
       if (task.after_pass) task.after_pass(sums);
@@ -129,17 +135,15 @@ bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderT
 }
 
 // All complete passes, or the finished tiles of the pass at work where there are none.
-void show(const FilmSums& tiles, RenderResult* result) {
-  if (!result->sums.passes.empty()) {
-    result->film = result->sums.totals.mean();
-    result->statistics = result->sums.statistics;
-    result->shown = Shown::kPasses;
-    return;
-  }
-  FilmTotals begun(tiles, result->sums.totals.units());
-  begun.add(tiles);
-  result->film = begun.mean();
-  result->shown = has_samples(tiles) ? Shown::kTiles : Shown::kNothing;
+void show(const FilmSums& tiles, bool has_totals, RenderResult* result) {
+  PassSums& sums = result->sums;
+  const bool complete = !sums.passes.empty();
+  if (complete) result->statistics = sums.statistics;
+  if (complete && has_totals)
+    result->film = sums.totals.mean();
+  else
+    result->film = mean_of(tiles, sums.totals.units(), &result->statistics.clamped_sums);
+  result->shown = complete ? Shown::kPasses : has_samples(tiles) ? Shown::kTiles : Shown::kNothing;
 }
 
 }  // namespace
@@ -152,16 +156,18 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   result.plan = make_plan(settings, scene.needs);
   const uint64_t shares = choose_passes(scene, bvh, settings, &result.plan);
   const PassSet goal = task.passes.empty() ? PassSet(0, shares) : task.passes;
-  result.sums = task.done.passes.empty() ? nothing_yet(scene, settings, shares) : std::move(task.done);
-  const PassShare first = pass_share(0, shares, settings.photons, settings.spp);
-  require(result.sums.shares == shares && result.sums.totals.units() == choose_units(scene, first.end_sample),
+  const PassSet missing = goal.without(task.done.passes);
+  const bool goes_on = !task.done.passes.empty();
+  task.keep_sums |= goes_on || missing.count() != 1;
+  result.sums = goes_on ? std::move(task.done) : nothing_yet(scene, settings, shares, task.keep_sums);
+  require(result.sums.shares == shares && result.sums.totals.units() == units_of(scene, settings, shares),
           "the passes that are there are of another scene or of other settings");
 
   PassRenderer renderer(scene, bvh, settings, result.plan, shares,
                         serialised(callback, std::max(shares, goal.end())));
-  FilmSums tiles = make_film(settings.crop, scene.camera);
-  result.cancelled = !render_passes(renderer, goal.without(result.sums.passes), task, &tiles, &result);
-  show(tiles, &result);
+  auto tiles = make_window<PixelSum>(settings.crop, scene.camera);
+  result.cancelled = !render_passes(renderer, missing, task, &tiles, &result);
+  show(tiles, task.keep_sums, &result);
   return result;
 }
 

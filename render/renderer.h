@@ -28,6 +28,8 @@ struct RenderTask {
   PassSums done{};
   // Called after each pass, with all that are complete.
   std::function<void(const PassSums&)> after_pass{};
+  // Without it a render of a single pass leaves no totals in result.sums: it takes half the memory for them.
+  bool keep_sums = true;
 };
 
 // What the film shows.
@@ -43,7 +45,7 @@ struct RenderResult {
   EstimatorPlan plan;
   bool cancelled = false;
   Shown shown = Shown::kNothing;
-  PassSums sums;  // the complete passes
+  PassSums sums;  // the complete passes; totals as RenderTask::keep_sums says
 };
 
 // Chooses the estimators: the method's preset, then the settings' overrides, then what the scene does not

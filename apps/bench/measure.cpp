@@ -62,7 +62,7 @@ std::optional<Run> run_once(const Scene& scene, render::RenderSettings settings,
     restart_peak_memory();
     const Stopwatch watch;
     const double cpu_before = cpu_seconds();
-    const RenderOutcome outcome = render_job(scene, settings, go_on);
+    const RenderOutcome outcome = render_job(scene, settings, go_on, {.keep_sums = false});
     const double busy = (cpu_seconds() - cpu_before) / watch.seconds();
     if (outcome.result.cancelled) return;
     run = Run{seconds_of(outcome), rates_of(outcome.result.statistics), busy,

@@ -97,12 +97,12 @@ TEST(FilmTotals, AnyOrderAndAnySplitGiveTheSameBits) {
   for (int round = 0; round < 50; ++round) {
     std::vector<FilmSums> passes;
     for (int i = 0; i < 12; ++i) passes.push_back(random_film(random));
-    FilmTotals forward(passes[0], units);
+    FilmTotals forward(window_of<PixelTotals>(passes[0]), units);
     for (const FilmSums& pass : passes) EXPECT_EQ(forward.add(pass), 0u);
     std::shuffle(passes.begin(), passes.end(), random);
-    std::vector<FilmTotals> parts(3, FilmTotals(passes[0], units));
+    std::vector<FilmTotals> parts(3, FilmTotals(window_of<PixelTotals>(passes[0]), units));
     for (const FilmSums& pass : passes) parts[random() % 3].add(pass);
-    FilmTotals merged(passes[0], units);
+    FilmTotals merged(window_of<PixelTotals>(passes[0]), units);
     for (const size_t i : {2, 0, 1}) merged.add(parts[i]);
     EXPECT_TRUE(same(forward, merged));
   }
@@ -111,7 +111,7 @@ TEST(FilmTotals, AnyOrderAndAnySplitGiveTheSameBits) {
 // Means are over samples, squares over passes: a pass without a valid sample counts in neither.
 TEST(FilmTotals, HoldMeansAndSquares) {
   FilmSums pass(1, 1);
-  FilmTotals totals(pass, {-60, -60, -60});
+  FilmTotals totals(window_of<PixelTotals>(pass), {-60, -60, -60});
   pass.at(0, 0).direct = {2, 4, 6};
   pass.at(0, 0).emitted = {0, 0, 2};
   pass.at(0, 0).count = 2;
@@ -132,7 +132,8 @@ TEST(FilmTotals, HoldMeansAndSquares) {
 }
 
 TEST(FilmTotals, OtherWindowsAndUnitsAreRefused) {
-  FilmTotals a(FilmSums(2, 2), {}), b(FilmSums(2, 3), {}), c(FilmSums(2, 2), {1, 0, 0});
+  using Window = PixelWindow<PixelTotals>;
+  FilmTotals a(Window(2, 2), {}), b(Window(2, 3), {}), c(Window(2, 2), {1, 0, 0});
   EXPECT_THROW(a.add(b), std::invalid_argument);
   EXPECT_THROW(a.add(c), std::invalid_argument);
   EXPECT_THROW(a.add(FilmSums(2, 2, 1, 0, 4, 4)), std::invalid_argument);

@@ -45,7 +45,7 @@ class PartialFile : public ::testing::Test {
     part.sums.radii = {0.1f, 1e-20f, 3e10f};
     FilmSums film(3, 2, 1, 0, 8, 8);
     film.at(2, 1) = {.direct = {1, 2e-9, 3e5}, .normal = {-1, 0, 0.5}, .depth = 7, .photons = 9, .count = 4};
-    part.sums.totals = FilmTotals(film, {-60, -50, -70});
+    part.sums.totals = FilmTotals(window_of<PixelTotals>(film), {-60, -50, -70});
     part.sums.totals.add(film);
     RenderStatistics& s = part.sums.statistics;
     s.photons.emitted = ~uint64_t{0};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "render/statistics_json.h"
@@ -74,6 +75,22 @@ TEST(Progressive, GoesOnFromWhatIsThere) {
                   }};
   expect_same(sums_of(scene, settings, task), whole);
   EXPECT_EQ(seen, (std::vector<std::string>{"0:3,4:5", "0:5", "0:6", "0:7", "0:8"}));
+}
+
+// The same picture without keeping the totals.
+TEST(Progressive, ASinglePassNeedsNoTotals) {
+  const Scene scene = cornell(20);
+  RenderSettings settings = split_settings();
+  settings.passes = 1;
+  const accel::Bvh bvh(scene);
+  const RenderResult kept = render(scene, bvh, settings),
+                     not_kept = render(scene, bvh, settings, {}, {.keep_sums = false});
+  EXPECT_EQ(not_kept.sums.totals.pixels().width(), 0);
+  EXPECT_EQ(not_kept.shown, Shown::kPasses);
+  EXPECT_EQ(counters_json(kept.statistics), counters_json(not_kept.statistics));
+  EXPECT_EQ(std::memcmp(&kept.film.at(0, 0), &not_kept.film.at(0, 0), sizeof(PixelResult) * 20 * 20), 0);
+  settings.passes = 2;
+  EXPECT_EQ(render(scene, bvh, settings, {}, {.keep_sums = false}).sums.totals.pixels().width(), 20);
 }
 
 TEST(Progressive, ThePassesOfTwoSumsMustDiffer) {
