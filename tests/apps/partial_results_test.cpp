@@ -102,6 +102,14 @@ TEST_F(PartialResults, ResumedWithOtherThreadsIsTheWhole) {
   EXPECT_EQ(passes_in("a.kpart").text(), "0:12");
 }
 
+// A render that is begun again by mistake says what it will cost.
+TEST_F(PartialResults, ACheckpointThatIsThereIsNamed) {
+  const Arguments arguments = render({"-o", path("a.exr"), "--checkpoint", path("a.kpart")});
+  EXPECT_EQ(run_kaustik(arguments).err, "");
+  EXPECT_THAT(run_kaustik(arguments).err,
+              HasSubstr("a.kpart is there and will be replaced; `kaustik resume`"));
+}
+
 // More passes than were asked for: those that --pass-range gives.
 TEST_F(PartialResults, RendersAreExtended) {
   expect_done(render({"-o", path("a.exr"), "--checkpoint", path("a.kpart")}));

@@ -77,6 +77,28 @@ TEST(Progressive, GoesOnFromWhatIsThere) {
   EXPECT_EQ(seen, (std::vector<std::string>{"0:3,4:5", "0:5", "0:6", "0:7", "0:8"}));
 }
 
+// The units scale with the scene, so the multiples stay: depth and lamps that are points, too.
+TEST(Progressive, AScaledSceneHasTheSameMultiples) {
+  const auto sums = [](float scale) {
+    Scene scene = cornell(12, scale);
+    scene.lights.push_back(PointLight{{0.3f * scale, 1.5f * scale, 0}, Rgb(0.7f * scale * scale)});
+    finalize_scene(scene);
+    RenderSettings settings = split_settings();
+    settings.method = Method::kHybrid;
+    settings.passes = 2;
+    return sums_of(scene, settings, {});
+  };
+  const PassSums one = sums(1);
+  for (const float scale : {0x1p-20f, 0x1p13f}) {
+    const PassSums scaled = sums(scale);
+    EXPECT_EQ(scaled.totals.units().radiance, one.totals.units().radiance);
+    EXPECT_EQ(scaled.totals.units().depth, one.totals.units().depth + std::ilogb(scale));
+    for (int y = 0; y < 12; ++y)
+      for (int x = 0; x < 12; ++x)
+        ASSERT_EQ(scaled.totals.pixels().at(x, y), one.totals.pixels().at(x, y)) << scale;
+  }
+}
+
 // The same picture without keeping the totals.
 TEST(Progressive, ASinglePassNeedsNoTotals) {
   const Scene scene = cornell(20);

@@ -190,6 +190,8 @@ TEST(Statistics, JsonHoldsWhatWasCounted) {
   const auto json = nlohmann::json::parse(statistics_json(result, settings, scene.needs, times));
   EXPECT_EQ(json["seed"].get<uint64_t>(), settings.seed);
   EXPECT_EQ(json["photons"]["emitted"].get<uint64_t>(), 20'000u);
+  EXPECT_EQ(json["pass_ranges"], "0:1");
+  EXPECT_EQ(json["settings"]["alpha"], 1);
   for (const char* kind : {"direct", "shadow", "caustic"})
     EXPECT_GT(json["photons"]["stored"][kind], 0) << kind;
   EXPECT_EQ(json["photons"]["stored"]["indirect"], 0);
@@ -214,8 +216,10 @@ TEST(Statistics, MetadataIsReproducible) {
   const Scene scene = cornell(8);
   RenderSettings settings;
   settings.method = Method::kPhoton;
-  settings.photons = 5000;
+  settings.photons = 4999;  // rounded up
   settings.spp = 1;
+  settings.passes = 3;
+  settings.alpha = 0.5f;
   const auto a = metadata_of(render_with_threads(scene, settings, 1), settings);
   const auto b = metadata_of(render_with_threads(scene, settings, 2), settings);
   EXPECT_EQ(a, b);
@@ -224,7 +228,11 @@ TEST(Statistics, MetadataIsReproducible) {
   };
   EXPECT_TRUE(has("kaustik:seed", "0"));
   EXPECT_TRUE(has("kaustik:method", "photon"));
-  EXPECT_TRUE(has("kaustik:photons_emitted", "5000"));
+  EXPECT_TRUE(has("kaustik:photons_emitted", "5001"));
+  EXPECT_TRUE(has("kaustik:passes", "3"));
+  EXPECT_TRUE(has("kaustik:pass_ranges", "0:3"));
+  EXPECT_TRUE(has("kaustik:passes_of_settings", "3"));
+  EXPECT_TRUE(has("kaustik:alpha", "0.5"));
 }
 
 }  // namespace
