@@ -1,10 +1,14 @@
 #include "apps/partial_files.h"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <gnu/libc-version.h>
+#endif
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "accel/embree_version.h"
 #include "apps/exit_error.h"
 #include "apps/instruction_set.h"
 #include "core/version.h"
@@ -27,10 +31,19 @@ render::SettingTexts texts_of(const Settings& settings, bool that_decide_sums) {
   return out;
 }
 
+std::string program_and_libraries() {
+  std::string build = fmt::format("{} ({}), Embree {}", version(), build_id(), accel::embree_version());
+#ifdef __GLIBC__
+  build += fmt::format(", C library {}", gnu_get_libc_version());
+#endif
+  return build;
+}
+
 }  // namespace
 
 std::string program_build() {
-  return fmt::format("{} ({})", version(), build_id());
+  static const std::string build = program_and_libraries();
+  return build;
 }
 
 render::PartialManifest manifest_of(const Job& job, const std::vector<std::string>& outputs,

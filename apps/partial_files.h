@@ -9,7 +9,8 @@
 
 namespace kaustik::app {
 
-// "0.1.0 (c9c1c43)".
+// "0.1.0 (c9c1c43), Embree 3.13.5, C library 2.36": the program, and the libraries whose bits it computes
+// with. The first call asks Embree, best before it is at work.
 std::string program_build();
 
 // What the sums of a job go with. outputs: as they were given. An empty goal stands for all passes that the

@@ -66,6 +66,7 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
 int run_session(const Job& job, RenderSession session, const InterruptGuard& interrupt,
                 const Stopwatch& total, const Console& console) {
   int code = kDone;
+  program_build();
   with_thread_limit(job.settings.render.threads, [&] {
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     checkpoint.is_there(session.done.passes);

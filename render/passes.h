@@ -26,7 +26,7 @@ struct PassShare {
 // least what was asked for.
 PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp);
 
-// Gather radii r0 of the first pass, metres; 0 for maps that are not read or without photons.
+// Gather radii r0 of the first pass, metres; 0 for maps that are not read.
 struct GatherRadii {
   float direct = 0, caustic = 0, indirect = 0;
   bool operator==(const GatherRadii&) const = default;

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "render/photon_maps.h"
+#include "render/radius.h"
 #include "render/statistics_json.h"
 #include "tests/render/closed_forms.h"
 #include "tests/render/image_statistics.h"
@@ -185,6 +187,33 @@ struct ShrinkingDisc {
   static constexpr double kRadius = 0.5;
   static constexpr uint64_t kPhotons = 20'000;  // of a pass
 };
+
+// Where the radius is that of the K-th nearest photon, it shrinks because K does: in proportion to r^2.
+TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
+  const Scene scene = cornell(8);
+  const accel::Bvh bvh(scene);
+  for (const uint32_t nearest : {0u, 40u}) {
+    RenderSettings settings;
+    settings.method = Method::kPhoton;
+    settings.photons = 20'000;
+    settings.nearest = nearest;
+    settings.alpha = 0.5f;
+    const EstimatorPlan plan = make_plan(settings, scene.needs);
+    PhotonMaps maps;
+    std::optional<GatherRadii> radii;
+    for (const uint64_t pass : {uint64_t{0}, uint64_t{9}, uint64_t{100'000}}) {
+      RenderStatistics ignored;
+      make_photon_maps(scene, bvh, settings, plan, pass_share(pass, 1, settings.photons, 1), {}, &maps,
+                       &radii, &ignored);
+      const double squared = radius_shrink_squared(pass, 0.5f);
+      const auto k = [&](uint32_t first) { return uint32_t(std::max(1.0, std::round(first * squared))); };
+      EXPECT_EQ(maps.caustic.estimate.nearest, k(nearest > 0 ? nearest : kCausticNearest)) << pass;
+      EXPECT_EQ(maps.direct.estimate.nearest, nearest > 0 ? k(nearest) : 0) << pass;
+      EXPECT_EQ(maps.indirect.estimate.radius, float(double(radii->indirect) * std::sqrt(squared))) << pass;
+      EXPECT_EQ(maps.lecture.radius, maps.direct.estimate.radius);
+    }
+  }
+}
 
 TEST(Progressive, ShrinkingRadiiTakeTheBiasAway) {
   const ShrinkingDisc disc;
