@@ -13,7 +13,7 @@ void Checkpoint::after_pass(const render::PassSums& sums) {
   if (settings_.path.empty() || since_written_.seconds() < settings_.every) return;
   try {
     write(sums);
-  } catch (const render::PartialError& error) {
+  } catch (const std::exception& error) {
     console_.warning(fmt::format("no checkpoint: {}", error.what()));
   }
   since_written_ = {};

@@ -25,11 +25,10 @@ class Checkpoint {
         goal_(std::move(goal)),
         console_(console) {}
 
-  // The file holds these passes already.
-  void is_there(const render::PassSet& passes) { written_ = passes; }
   // Failures to write are warnings: the render goes on, and the next time may do.
   void after_pass(const render::PassSums& sums);
-  // Unless the file holds all passes already. False when there was nothing to write. Throws PartialError.
+  // Unless the last one written holds these passes. False when there was nothing to write. Throws
+  // PartialError.
   bool finish(const render::PassSums& sums);
 
  private:

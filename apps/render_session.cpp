@@ -54,11 +54,20 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   const render::RenderResult& result = outcome.result;
   if (result.cancelled) console.error(interruption(result));
   if (result.shown == render::Shown::kNothing) return kInterrupted;
-  const bool checkpoint_written = checkpoint.finish(result.sums);
+  // A checkpoint that cannot be written must not cost the pictures, nor the other way round.
+  bool checkpoint_written = false;
+  std::string trouble;
+  try {
+    checkpoint_written = checkpoint.finish(result.sums);
+  } catch (const std::exception& error) {
+    trouble = fmt::format("no checkpoint: {}", error.what());
+  }
   const render::PartialManifest manifest = manifest_of(job, session.outputs.files, session.goal, result.sums);
   write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
   if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
-  return result.cancelled ? kInterrupted : kDone;
+  if (!trouble.empty()) console.error(trouble);
+  if (result.cancelled) return kInterrupted;
+  return trouble.empty() ? kDone : kFailed;
 }
 
 }  // namespace
@@ -69,7 +78,6 @@ int run_session(const Job& job, RenderSession session, const InterruptGuard& int
   program_build();
   with_thread_limit(job.settings.render.threads, [&] {
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
-    checkpoint.is_there(session.done.passes);
     render::RenderTask task{.passes = session.goal,
                             .done = std::move(session.done),
                             .after_pass = [&](const render::PassSums& sums) { checkpoint.after_pass(sums); },

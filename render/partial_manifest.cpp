@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 namespace kaustik::render {
@@ -101,7 +100,7 @@ PassSet passes_from(const Json& json) {
 // Exponents whose powers of two are doubles.
 int exponent_from(const Json& json) {
   const int exponent = json.get<int>();
-  if (std::abs(exponent) > 1000) throw std::runtime_error(fmt::format("2^{} is no unit", exponent));
+  if (exponent < -1000 || exponent > 1000) throw std::runtime_error(fmt::format("2^{} is no unit", exponent));
   return exponent;
 }
 

@@ -70,11 +70,18 @@ class Writer {
   ContentHash hash_;
 };
 
+// Looks before it opens: a pipe would wait for someone who writes.
+File open_regular(const std::string& path) {
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    throw PartialError(path, "not a regular file");
+  return open(path, path, "rb");
+}
+
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path), file_(open(path, path, "rb")) {
+  explicit Reader(const std::string& path) : path_(path), file_(open_regular(path)) {
     std::error_code error;
-    if (!fs::is_regular_file(path, error)) fail("not a regular file");
     size_ = fs::file_size(path, error);
     if (error) fail(error.message());
   }
@@ -150,6 +157,19 @@ const std::vector<std::string>& find(const SettingTexts& settings, const std::st
 
 }  // namespace
 
+namespace {
+
+// Names of files may be any bytes, JSON is UTF-8.
+std::string manifest_text(const PartialManifest& manifest, const PassSums& sums, const std::string& path) {
+  try {
+    return manifest_json(manifest, sums).dump(1);
+  } catch (const nlohmann::json::exception&) {
+    throw PartialError(path, "the name of the scene or of an output is not UTF-8");
+  }
+}
+
+}  // namespace
+
 bool is_partial_name(const std::string& path) {
   return fs::path(path).extension() == ".kpart";
 }
@@ -158,7 +178,7 @@ void write_partial(const std::string& path, const PartialManifest& manifest, con
   const fs::path name(path);
   PendingFile pending(name, name.parent_path() / fmt::format(".{}.partial", name.filename().string()));
   Writer out(pending.temporary(), path);
-  const std::string json = manifest_json(manifest, sums).dump(1);
+  const std::string json = manifest_text(manifest, sums, path);
   out.put(kMagic.data(), kMagic.size());
   out.put(kVersion);
   out.put(json.size());

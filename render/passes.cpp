@@ -40,7 +40,7 @@ photon::TraceSettings trace_settings(const RenderSettings& settings, const Estim
 uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                        EstimatorPlan* plan) {
   if (settings.passes > 0) {
-    if (settings.passes > std::max<uint64_t>(1, settings.photons))
+    if (kinds_needed(*plan).any() && settings.passes > settings.photons)
       throw std::invalid_argument("there must be at least as many photons as passes");
     const PassShare each = pass_share(0, settings.passes, settings.photons, settings.spp);
     photon::check_memory(scene, bvh, trace_settings(settings, *plan, each), photon::PhotonUse::kMaps,

@@ -24,7 +24,7 @@ photon::EstimateSettings estimate_settings(const RenderSettings& settings, const
   photon::EstimateSettings estimate;
   estimate.kernel.type = photon::KernelType(int(settings.kernel));
   estimate.kernel.cone_k = settings.cone_k;
-  if (settings.nearest > 0) estimate.nearest = share(settings.nearest, pass);
+  if (settings.nearest > 0) estimate.nearest = photons_in_reach(settings.nearest, pass.shares);
   estimate.leaf = settings.lookup == Lookup::kLeaf;
   estimate.node_photons = share(settings.node_photons, pass);
   return estimate;
@@ -66,7 +66,9 @@ void set_estimates(const RenderSettings& settings, const PassShare& pass, const 
     maps->caustic.estimate.nearest = photons_in_reach(kCausticNearest, pass.shares);
   for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
     uint32_t& nearest = read->estimate.nearest;
-    if (nearest > 0) nearest = std::max(1u, static_cast<uint32_t>(std::lround(nearest * squared)));
+    // From the fewest on, r0 alone shrinks: the K-th photon does not count, so that K = 1 would see none.
+    if (nearest > 0)
+      nearest = std::max(std::min(nearest, kFewestInReach), uint32_t(std::lround(nearest * squared)));
   }
   maps->direct.estimate.radius = shrunk(radii.direct);
   maps->caustic.estimate.radius = shrunk(radii.caustic);

@@ -19,11 +19,14 @@ inline constexpr uint32_t kCausticNearest = 50;
 GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                          const PassShare& pass, const PhotonMaps& maps);
 
-// How many of a pass's photons stand for so many of all: not so few that their distance says nothing.
+// Fewer photons are not searched for, unless fewer were asked for: their distance would say nothing.
+inline constexpr uint32_t kFewestInReach = 8;
+
+// How many of a pass's photons stand for so many of all.
 inline uint32_t photons_in_reach(uint32_t of_all, uint64_t passes) {
-  constexpr uint64_t kFewest = 8;
   const uint64_t rounded = (of_all + passes / 2) / passes;
-  return static_cast<uint32_t>(std::clamp<uint64_t>(rounded, std::min<uint64_t>(kFewest, of_all), of_all));
+  return static_cast<uint32_t>(
+      std::clamp<uint64_t>(rounded, std::min<uint64_t>(kFewestInReach, of_all), of_all));
 }
 
 }  // namespace kaustik::render

@@ -102,7 +102,7 @@ bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, Fi
       },
       tbb::simple_partitioner());
   merged.fill(statistics);
-  return !cancelled;
+  return done == uint64_t(tiles);
 }
 
 }  // namespace kaustik::render

@@ -188,7 +188,8 @@ struct ShrinkingDisc {
   static constexpr uint64_t kPhotons = 20'000;  // of a pass
 };
 
-// Where the radius is that of the K-th nearest photon, it shrinks because K does: in proportion to r^2.
+// Where the radius is that of the K-th nearest photon, it shrinks because K does: in proportion to r^2, down
+// to eight. The K-th photon itself does not count, so that of one there would be no light.
 TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
   const Scene scene = cornell(8);
   const accel::Bvh bvh(scene);
@@ -206,7 +207,7 @@ TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
       make_photon_maps(scene, bvh, settings, plan, pass_share(pass, 1, settings.photons, 1), {}, &maps,
                        &radii, &ignored);
       const double squared = radius_shrink_squared(pass, 0.5f);
-      const auto k = [&](uint32_t first) { return uint32_t(std::max(1.0, std::round(first * squared))); };
+      const auto k = [&](uint32_t first) { return uint32_t(std::max(8.0, std::round(first * squared))); };
       EXPECT_EQ(maps.caustic.estimate.nearest, k(nearest > 0 ? nearest : kCausticNearest)) << pass;
       EXPECT_EQ(maps.direct.estimate.nearest, nearest > 0 ? k(nearest) : 0) << pass;
       EXPECT_EQ(maps.indirect.estimate.radius, float(double(radii->indirect) * std::sqrt(squared))) << pass;
@@ -230,6 +231,25 @@ TEST(Progressive, ShrinkingRadiiTakeTheBiasAway) {
   // The difference is far above the noise.
   EXPECT_GT(disc.bias(kShrinking, 64) - disc.bias(1, 64),
             8 * (disc.standard_error(kShrinking, 64) + disc.standard_error(1, 64)));
+}
+
+// However the photons are shared out, a pass that searches for the nearest finds light.
+TEST(Progressive, TheNearestPhotonsOfManyPassesAreNeverTooFew) {
+  const Scene scene = cornell(8);
+  const accel::Bvh bvh(scene);
+  RenderSettings settings;
+  settings.method = Method::kPhoton;
+  settings.photons = 40'000;
+  settings.nearest = 50;
+  const EstimatorPlan plan = make_plan(settings, scene.needs);
+  for (const uint64_t passes : {uint64_t{34}, uint64_t{100}, uint64_t{1000}}) {
+    PhotonMaps maps;
+    std::optional<GatherRadii> radii;
+    RenderStatistics ignored;
+    make_photon_maps(scene, bvh, settings, plan, pass_share(0, passes, settings.photons, 1), {}, &maps,
+                     &radii, &ignored);
+    EXPECT_EQ(maps.indirect.estimate.nearest, 8u) << passes;  // 50 / 34 rounds to 1
+  }
 }
 
 }  // namespace
