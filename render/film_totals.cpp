@@ -125,7 +125,7 @@ ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   const int samples = exponent_above(static_cast<double>(samples_per_pass));
   const int lamp = std::clamp(exponent_above(brightest), -400, 400);  // squares within double's range
   return {.radiance = lamp + samples + 20 - ExactSum::kTermBits,
-          .square = 2 * (lamp + 4) - ExactSum::kTermBits,
+          .square = 2 * (lamp + 10) - ExactSum::kTermBits,
           .depth = exponent_above(farthest) + samples - ExactSum::kTermBits};
 }
 
