@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "apps/exit_error.h"
+#include "core/pending_file.h"
 #include "render/image_io.h"
 
 namespace kaustik::app {
@@ -48,25 +49,15 @@ void check_image_output(const std::string& path) {
 }
 
 void write_text_file(const std::string& path, const std::string& text) {
-  const std::string temporary = fmt::format("{}.{}.tmp", path, getpid());
-  const auto fail = [&] {
-    const std::string reason = std::strerror(errno);
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
+  const auto fail = [&](const std::string& reason) {
     throw std::runtime_error(fmt::format("{}: {}", path, reason));
   };
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) fail();
-  }
-  std::error_code error;
-  fs::rename(temporary, path, error);
-  if (error) {
-    errno = error.value();
-    fail();
-  }
+  PendingFile pending(path, unique_temporary_name(path));
+  std::ofstream file(pending.temporary(), std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) fail(std::strerror(errno));
+  if (const std::string error = pending.commit(); !error.empty()) fail(error);
 }
 
 }  // namespace kaustik::app

@@ -75,7 +75,7 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
 int run_session(const Job& job, RenderSession session, const InterruptGuard& interrupt,
                 const Stopwatch& total, const Console& console) {
   int code = kDone;
-  program_build();
+  program_build();  // asks Embree for its version, now that it is not at work
   with_thread_limit(job.settings.render.threads, [&] {
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     render::RenderTask task{.passes = session.goal,

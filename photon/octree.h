@@ -22,7 +22,6 @@ struct OctreeNode {
 
   bool leaf() const { return children == 0; }
   PhotonRange range() const { return {begin, end}; }
-  uint32_t child_mask() const { return children & 255; }
   bool has_child(uint32_t octant) const { return children >> octant & 1; }
   uint32_t child_offset(uint32_t octant) const { return children >> (8 + 3 * octant) & 7; }
   uint32_t child(uint32_t octant) const { return first_child + child_offset(octant); }

@@ -8,8 +8,9 @@
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
-#include <system_error>
 #include <vector>
+
+#include "core/pending_file.h"
 
 namespace kaustik::photon {
 
@@ -78,25 +79,14 @@ glm::u8vec3 photon_colour(PhotonKind kind, const Rgb& flux, float mean_flux) {
 void write_photons_ply(const std::filesystem::path& path, std::span<const PlyPhotons> photons) {
   uint64_t vertices = 0;
   for (const PlyPhotons& part : photons) vertices += part.buffer->records.size();
-  std::filesystem::path temporary = path;
-  temporary += ".part";
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+  PendingFile file(path, unique_temporary_name(path));
+  std::ofstream out(file.temporary(), std::ios::binary | std::ios::trunc);
   if (!out) fail(path, std::strerror(errno));
   write_header(out, vertices);
   for (const PlyPhotons& part : photons) write_vertices(out, part);
   out.close();
-  std::error_code error;
-  if (!out) {
-    const std::string reason = std::strerror(errno);
-    std::filesystem::remove(temporary, error);
-    fail(path, reason);
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    const std::string reason = error.message();
-    std::filesystem::remove(temporary, error);
-    fail(path, reason);
-  }
+  if (!out) fail(path, std::strerror(errno));
+  if (const std::string error = file.commit(); !error.empty()) fail(path, error);
 }
 
 }  // namespace kaustik::photon

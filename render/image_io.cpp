@@ -7,7 +7,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "render/pending_file.h"
+#include "core/pending_file.h"
 
 namespace kaustik::render {
 

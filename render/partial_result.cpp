@@ -14,8 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/content_hash.h"
+#include "core/pending_file.h"
 #include "render/partial_manifest.h"
-#include "render/pending_file.h"
 
 namespace kaustik::render {
 
@@ -154,10 +154,6 @@ const std::vector<std::string>& find(const SettingTexts& settings, const std::st
     if (n == name) return texts;
   return none;
 }
-
-}  // namespace
-
-namespace {
 
 // Names of files may be any bytes, JSON is UTF-8.
 std::string manifest_text(const PartialManifest& manifest, const PassSums& sums, const std::string& path) {

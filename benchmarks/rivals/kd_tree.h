@@ -80,56 +80,56 @@ class KdTree {
   using Index =
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, uint32_t>;
 
-  // nanoflann's result set. It prunes by bounds that it rounds at each level on the way down, so a photon on
+  // nanoflann's result sets. It prunes by bounds that it rounds at each level on the way down, so a photon on
   // the rim would be lost without some slack; what counts is decided exactly.
-  template <class Fn>
-  struct Result {
+  struct ResultSet {
     using DistanceType = float;
     const PlainPhoton* photons;
     Acceptance counts;
     photon::GatherCounters& counters;
-    Fn& fn;
     float worst = std::nextafter(counts.radius_squared() * (1 + 0x1p-12f), kInfinity);
 
-    Result(const PlainPhoton* all, const Acceptance& acceptance, photon::GatherCounters& to, Fn& call)
-        : photons(all), counts(acceptance), counters(to), fn(call) {}
-    float worstDist() const { return worst; }
-    bool addPoint(float distance_squared, uint32_t index) {
+    ResultSet(const PlainPhoton* all, const Acceptance& acceptance, photon::GatherCounters& to)
+        : photons(all), counts(acceptance), counters(to) {}
+    bool accepts(float distance_squared, uint32_t index) {
       ++counters.candidates;
       if (distance_squared > counts.radius_squared() || !counts.on_surface(photons[index].surface))
-        return true;
+        return false;
       ++counters.accepted;
-      fn(photons[index].flux);
       return true;
     }
+    float worstDist() const { return worst; }
     bool full() const { return true; }
     bool empty() const { return false; }
-    size_t size() const { return 0; }
     void sort() {}
+  };
+
+  template <class Fn>
+  struct Result : ResultSet {
+    Fn& fn;
+
+    Result(const PlainPhoton* all, const Acceptance& acceptance, photon::GatherCounters& to, Fn& call)
+        : ResultSet(all, acceptance, to), fn(call) {}
+    bool addPoint(float distance_squared, uint32_t index) {
+      if (this->accepts(distance_squared, index)) fn(this->photons[index].flux);
+      return true;
+    }
+    size_t size() const { return 0; }
   };
 
   // The k nearest in a heap, the farthest of them in front: nanoflann's own set, a sorted list, is slow for
   // many.
-  struct NearestResult {
-    using DistanceType = float;
-    const PlainPhoton* photons;
-    Acceptance counts;
-    photon::GatherCounters& counters;
+  struct NearestResult : ResultSet {
     size_t k;
     std::vector<float> nearest{};  // squared distances
-    float worst = std::nextafter(counts.radius_squared() * (1 + 0x1p-12f), kInfinity);
 
     NearestResult(const PlainPhoton* all, const Acceptance& acceptance, photon::GatherCounters& to,
                   size_t count)
-        : photons(all), counts(acceptance), counters(to), k(count) {
+        : ResultSet(all, acceptance, to), k(count) {
       nearest.reserve(k + 1);
     }
-    float worstDist() const { return worst; }
     bool addPoint(float distance_squared, uint32_t index) {
-      ++counters.candidates;
-      if (distance_squared > counts.radius_squared() || !counts.on_surface(photons[index].surface))
-        return true;
-      ++counters.accepted;
+      if (!accepts(distance_squared, index)) return true;
       nearest.push_back(distance_squared);
       std::push_heap(nearest.begin(), nearest.end());
       if (nearest.size() <= k) return true;
@@ -138,10 +138,7 @@ class KdTree {
       worst = std::nextafter(nearest.front() * (1 + 0x1p-12f), kInfinity);
       return true;
     }
-    bool full() const { return true; }
-    bool empty() const { return false; }
     size_t size() const { return nearest.size(); }
-    void sort() {}
   };
 
   std::unique_ptr<Cloud> cloud_;  // the index keeps a reference

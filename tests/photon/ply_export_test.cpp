@@ -31,6 +31,8 @@ TEST(PlyExport, WritesEachPhotonAsOneVertex) {
   const fs::path path = output("photons.ply");
   write_photons_ply(path, parts);
   EXPECT_FALSE(fs::exists(path.string() + ".part"));
+  for (const auto& entry : fs::directory_iterator(path.parent_path()))  // nothing unfinished either
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".photons.")) << entry.path();
 
   const std::string text = read(path), end = "end_header\n";
   const size_t body = text.find(end) + end.size();

@@ -1,11 +1,11 @@
-#include "render/pending_file.h"
+#include "core/pending_file.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
 
-namespace kaustik::render {
+namespace kaustik {
 
 namespace fs = std::filesystem;
 
@@ -28,4 +28,4 @@ fs::path unique_temporary_name(const fs::path& path) {
   return path.parent_path() / name;
 }
 
-}  // namespace kaustik::render
+}  // namespace kaustik

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace kaustik::render {
+namespace kaustik {
 
 // Whoever writes it does so under temporary(), in the same folder; commit() renames. Without it the temporary
 // file is removed, and a previous file of the final name is untouched.
@@ -29,4 +29,4 @@ class PendingFile {
 // other writer of this machine uses.
 std::filesystem::path unique_temporary_name(const std::filesystem::path& path);
 
-}  // namespace kaustik::render
+}  // namespace kaustik
