@@ -79,10 +79,8 @@ int run_merge(const MergeOptions& options, const Console& console) {
   const Settings settings = overrides.alone();
   render::RenderResult result;
   result.plan = render::make_plan(settings.render, total.manifest.needs);
-  result.film = total.sums.totals.mean();
-  result.statistics = total.sums.statistics;
-  result.shown = render::Shown::kPasses;
   result.sums = std::move(total.sums);
+  render::show_passes(&result);
   console.note(fmt::format("passes {}", result.sums.passes.text()));
   render::OuterTimes times;
   times.total = watch.seconds();

@@ -9,6 +9,7 @@
 #include "apps/exit_error.h"
 #include "apps/output_files.h"
 #include "apps/render_session.h"
+#include "apps/stop_rules.h"
 #include "apps/thread_limit.h"
 
 namespace kaustik::app {
@@ -38,6 +39,9 @@ void check_passes(const RenderOptions& options, const Job& job) {
     throw ExitError(
         kBadCommandLine,
         "--pass-range needs --passes, the number of passes that photons and samples are shared over");
+  if (!options.passes.empty() && job.settings.stop.any())
+    throw ExitError(kBadCommandLine,
+                    "--pass-range says which passes to render: no --target-error, no --time");
 }
 
 void note_checkpoint(const RenderOptions& options, const Console& console) {
@@ -54,6 +58,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   const int load_threads = options.overrides.alone().render.threads;
   Job job;
   with_thread_limit(load_threads, [&] { job = load_job(options.scene, options.overrides, console); });
+  settle_error_settings(console, &job.settings);
   check_passes(options, job);
   note_checkpoint(options, console);
   RenderSession session{options.outputs, options.checkpoint, options.passes, {}};

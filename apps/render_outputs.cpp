@@ -6,6 +6,7 @@
 
 #include "apps/output_files.h"
 #include "apps/scene_loading.h"
+#include "apps/stop_rules.h"
 #include "apps/stopwatch.h"
 #include "render/image_io.h"
 
@@ -30,6 +31,27 @@ void report_photons(const render::RenderResult& result, const Console& console) 
         grouped(s.lecture.from_photons), grouped(s.lecture.climbed), grouped(s.lecture.fallback_few),
         grouped(s.lecture.fallback_shadow), grouped(s.lecture.fallback_face)));
   }
+}
+
+// One pass alone tells no error.
+std::vector<render::Layer> layers_of(const Outcome& outcome, const Console& console) {
+  const std::vector<std::string>& names = outcome.settings.render.aov;
+  std::vector<render::Layer> layers = render::layers_from_names(names);
+  if (std::isfinite(outcome.result.error)) return layers;
+  std::erase(layers, render::Layer::kError);
+  std::erase(layers, render::Layer::kBias);
+  if (names_error_layer(names))
+    console.warning("the layers error and bias are left out: they need two passes");
+  return layers;
+}
+
+// Of several passes.
+void report_error(const render::RenderResult& result, const render::RenderSettings& settings,
+                  const Console& console) {
+  if (!std::isfinite(result.error)) return;
+  console.note(fmt::format("error: {} of the radiance at 90 % confidence, mean over pixels; {}",
+                           percent(result.error),
+                           settings.estimate_bias.value_or(false) ? "noise and kernel bias" : "noise alone"));
 }
 
 }  // namespace
@@ -63,8 +85,9 @@ void write_outputs(const OutputOptions& options, const Outcome& outcome, render:
   const Stopwatch watch;
   const render::RenderResult& result = outcome.result;
   render::WriteOptions write;
-  write.layers = render::layers_from_names(outcome.settings.render.aov);
+  write.layers = layers_of(outcome, console);
   write.metadata = render::metadata_of(result, outcome.settings.render);
+  if (!outcome.stopped_by.empty()) write.metadata.emplace_back("kaustik:stopped_by", outcome.stopped_by);
   write.tone = outcome.settings.tone;
   std::vector<std::string> written;
   for (const std::string& path : options.files) {
@@ -84,6 +107,7 @@ void write_outputs(const OutputOptions& options, const Outcome& outcome, render:
     written.push_back(options.statistics);
   }
   report(result, times, console);
+  report_error(result, outcome.settings.render, console);
   for (const std::string& path : written) console.note("wrote " + path);
 }
 

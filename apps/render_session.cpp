@@ -9,17 +9,15 @@
 #include "apps/render_job.h"
 #include "apps/run.h"
 #include "apps/settings/values.h"
+#include "apps/stop_rules.h"
 #include "apps/thread_limit.h"
 
 namespace kaustik::app {
 
 namespace {
 
-RenderOutcome render_with_bar(const Job& job, render::RenderTask task, const InterruptGuard& interrupt,
-                              const Console& console) {
-  const render::EstimatorPlan plan = render::make_plan(job.settings.render, job.scene.needs);
-  for (const std::string& note : plan.notes) console.note(note);
-  ProgressBar bar(console);
+RenderOutcome render_with_bar(const Job& job, render::RenderTask task, ProgressBar& bar,
+                              const InterruptGuard& interrupt) {
   return render_job(
       job.scene, job.settings.render,
       [&](const render::Progress& progress) {
@@ -29,9 +27,18 @@ RenderOutcome render_with_bar(const Job& job, render::RenderTask task, const Int
       std::move(task));
 }
 
+// Open where a rule says when to stop.
+render::PassSet goal_of(const Job& job, const RenderSession& session) {
+  return job.settings.stop.any() ? render::PassSet(0, render::kMostPasses) : session.goal;
+}
+
 bool writes_sums(const RenderSession& session) {
   const std::vector<std::string>& files = session.outputs.files;
   return !session.checkpoint.path.empty() || std::any_of(files.begin(), files.end(), render::is_partial_name);
+}
+
+double seconds_of(const render::RenderStatistics& s) {
+  return s.photon_trace_s + s.photon_build_s + s.render_s;
 }
 
 // What an interrupted render leaves.
@@ -49,8 +56,16 @@ std::string interruption(const render::RenderResult& result) {
   return "interrupted before a tile was finished: nothing was written";
 }
 
+// How the rule ended the render, if it did.
+void report_stop(const StopRule& rule, const render::RenderResult& result, const Console& console) {
+  if (rule.reason().empty()) return;
+  const std::string error = rule.progress();
+  console.note(fmt::format("stopped by --{} after {} passes{}{}", rule.reason(), result.sums.passes.count(),
+                           error.empty() ? "" : ": ", error));
+}
+
 int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, Checkpoint& checkpoint,
-           const Console& console) {
+           const StopRule& rule, const Console& console) {
   const render::RenderResult& result = outcome.result;
   if (result.cancelled) console.error(interruption(result));
   if (result.shown == render::Shown::kNothing) return kInterrupted;
@@ -63,7 +78,8 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
     trouble = fmt::format("no checkpoint: {}", error.what());
   }
   const render::PartialManifest manifest = manifest_of(job, session.outputs.files, session.goal, result.sums);
-  write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
+  report_stop(rule, result, console);
+  write_outputs(session.outputs, {result, job.settings, manifest, rule.reason()}, outcome.times, console);
   if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
   if (!trouble.empty()) console.error(trouble);
   if (result.cancelled) return kInterrupted;
@@ -78,14 +94,25 @@ int run_session(const Job& job, RenderSession session, const InterruptGuard& int
   program_build();  // asks Embree for its version, now that it is not at work
   with_thread_limit(job.settings.render.threads, [&] {
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
-    render::RenderTask task{.passes = session.goal,
+    StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
+    for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
+      console.note(note);
+    ProgressBar bar(console);
+    const auto after_pass = [&](const render::PassSums& sums) {
+      const bool enough = rule.enough(sums);
+      bar.remark(rule.progress());
+      if (!enough) checkpoint.after_pass(sums);
+      return !enough;
+    };
+    render::RenderTask task{.passes = goal_of(job, session),
                             .done = std::move(session.done),
-                            .after_pass = [&](const render::PassSums& sums) { checkpoint.after_pass(sums); },
+                            .after_pass = after_pass,
                             .keep_sums = writes_sums(session)};
-    RenderOutcome outcome = render_with_bar(job, std::move(task), interrupt, console);
+    RenderOutcome outcome = render_with_bar(job, std::move(task), bar, interrupt);
+    bar.clear();
     outcome.times.load = job.load_seconds;
     outcome.times.total = total.seconds();
-    code = finish(job, session, std::move(outcome), checkpoint, console);
+    code = finish(job, session, std::move(outcome), checkpoint, rule, console);
   });
   return code;
 }

@@ -23,7 +23,8 @@ struct ResumeOptions {
   SettingOverrides overrides;
 };
 
-constexpr std::string_view kSettings[] = {"threads", "aov", "exposure", "tonemap"};
+constexpr std::string_view kSettings[] = {"threads",         "aov", "exposure", "tonemap", "target-error",
+                                          "target-quantile", "time"};
 
 // The passes that there will be in the end.
 render::PassSet goal_of(const ResumeOptions& options, const render::PartialResult& part) {

@@ -46,20 +46,38 @@ float nearest_radius(const PhotonMap& map, const GatherQuery& query, uint32_t k,
   return radius < query.radius ? std::nextafter(radius, 0.0f) : radius;
 }
 
+// A point of the surface, how it scatters, and who looks at it.
+struct SeenPoint {
+  const SurfaceInteraction& si;
+  const Vector3& wo;
+  const Bsdf& bsdf;
+};
+
+Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery& disc,
+                     const EstimateSettings& settings, GatherCounters& counters) {
+  const Frame frame = Frame::from_z(x.si.ns);
+  const Vector3 wo = frame.to_local(x.wo);
+  const Rgb Lr = std::visit(ReflectedRadiance{map, disc, settings.kernel, frame, wo, counters}, x.bsdf);
+  if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
+  return Lr / float(surface_share(*settings.edges, x.si, settings.kernel, disc.radius));
+}
+
 }  // namespace
 
 Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
-                      const EstimateSettings& settings, GatherCounters& counters) {
+                      const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
   if (map.empty()) return Rgb(0);
   const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
   GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
   if (settings.nearest > 0) query.radius = nearest_radius(map, query, settings.nearest, counters);
   if (settings.leaf) query.within = map.find_cell(si.p, settings.node_photons, query.radius).range;
-  const Frame frame = Frame::from_z(si.ns);
-  const Rgb Lr =
-      std::visit(ReflectedRadiance{map, query, settings.kernel, frame, frame.to_local(wo), counters}, bsdf);
-  if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
-  return Lr / float(surface_share(*settings.edges, si, settings.kernel, query.radius));
+  const SeenPoint x{si, wo, bsdf};
+  const Rgb Lr = radiance_of_disc(map, x, query, settings, counters);
+  if (bias) {
+    query.radius /= 2;
+    bias->bias += (Lr - radiance_of_disc(map, x, query, settings, bias->counters)) * (4 / 3.0f);
+  }
+  return Lr;
 }
 
 }  // namespace kaustik::photon

@@ -19,13 +19,25 @@ struct EstimateSettings {
   const accel::EdgeIndex* edges = nullptr;
 };
 
+// By how much kernels make light too bright, and what it took to find out.
+struct BiasEstimate {
+  Rgb bias{0};  // W/(m^2 sr)
+  GatherCounters counters;
+};
+
 // Lr(x, wo) = sum over photons p in reach of f_r(x, wo, wi_p) flux_p K(|x - x_p|)   in W/(m^2 sr)
 // Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", equations 7.3 to 7.6. No cosine: flux per
 // area already holds it. wo: unit, world, away from the surface. Bias: that of the kernel, O(radius^2) where
 // light is smooth. With settings.edges the sum is divided by the kernel's share on the surface
 // (surface_share), without it is too dark by up to half within radius of the surface's border. Zero for
 // specular BSDFs and empty maps. Thread-safe.
+//
+// bias: if not null, the bias of this estimate is added to it. Of half the radius an O(r^2) bias is a
+// quarter, so it is 4/3 of the difference between this disc and its inner half, which holds some of the same
+// photons: noisy, without bias of its own where light is smooth, and some 30 % too small at edges
+// (docs/accuracy.md).
 Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
-                      const EstimateSettings& settings, GatherCounters& counters);
+                      const EstimateSettings& settings, GatherCounters& counters,
+                      BiasEstimate* bias = nullptr);
 
 }  // namespace kaustik::photon

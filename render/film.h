@@ -12,11 +12,22 @@
 
 namespace kaustik::render {
 
-enum class Layer { kEmitted, kDirect, kCaustic, kIndirect, kAlbedo, kNormal, kDepth, kPhotons };
-inline constexpr int kLayers = 8;
+enum class Layer {
+  kEmitted,
+  kDirect,
+  kCaustic,
+  kIndirect,
+  kAlbedo,
+  kNormal,
+  kDepth,
+  kPhotons,
+  kError,
+  kBias
+};
+inline constexpr int kLayers = 10;
 inline constexpr std::array<std::string_view, kLayers> kLayerNames = {
-    "emitted", "direct", "caustic", "indirect", "albedo", "normal", "depth", "photons"};
-inline constexpr std::array<int, kLayers> kLayerChannels = {3, 3, 3, 3, 3, 3, 1, 1};
+    "emitted", "direct", "caustic", "indirect", "albedo", "normal", "depth", "photons", "error", "bias"};
+inline constexpr std::array<int, kLayers> kLayerChannels = {3, 3, 3, 3, 3, 3, 1, 1, 3, 3};
 
 // What one pixel holds: means over its samples.
 struct PixelResult {
@@ -25,6 +36,9 @@ struct PixelResult {
   Vector3 normal{0};  // shading normal of the first hit, world
   float depth = 0;    // distance to the first hit, metres; 0 where the ray escapes
   float photons = 0;  // caustic + indirect + direct photons in reach per query
+  // Of radiance(), W/(m^2 sr): the standard error of its noise, infinite where it is unknown, and by how much
+  // the kernels make it too bright (render/error_estimate.h). A sample has the second alone.
+  Rgb error{0}, bias{0};
 
   Rgb radiance() const { return emitted + direct + caustic + indirect; }
 };
@@ -33,11 +47,13 @@ struct PixelResult {
 struct PixelSum {
   glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
   double depth = 0, photons = 0;
+  glm::dvec3 bias{0};  // of the first sample alone
   uint64_t count = 0;
 
   void add(const PixelResult& s) {
     emitted += s.emitted, direct += s.direct, caustic += s.caustic, indirect += s.indirect;
     albedo += s.albedo, normal += s.normal, depth += s.depth, photons += s.photons;
+    bias += s.bias;
     ++count;
   }
 };

@@ -34,31 +34,26 @@ struct LampBrightness {
 std::array<double, kSumChannels> channels_of(const PixelSum& s) {
   std::array<double, kSumChannels> out{};
   size_t i = 0;
-  for (const glm::dvec3* v : {&s.emitted, &s.direct, &s.caustic, &s.indirect, &s.albedo, &s.normal})
+  for (const glm::dvec3* v : {&s.emitted, &s.direct, &s.caustic, &s.indirect, &s.bias, &s.albedo, &s.normal})
     for (const double c : {v->x, v->y, v->z}) out[i++] = c;
   out[i++] = s.depth;
   out[i++] = s.photons;
   return out;
 }
 
-std::array<double, kSumChannels> channel_units(const ExactUnits& units, int sign) {
-  std::array<double, kSumChannels> out{};
-  for (size_t i = 0; i < kSumChannels; ++i) {
-    const int exponent = i < 12   ? units.radiance
-                         : i < 18 ? ExactUnits::kFeature
-                         : i < 19 ? units.depth
-                                  : ExactUnits::kPhotons;
-    out[i] = std::ldexp(1.0, sign * exponent);
-  }
-  return out;
+int exponent_of(size_t channel, const ExactUnits& units) {
+  if (channel < kAlbedoSum) return units.radiance;
+  if (channel < kDepthSum) return ExactUnits::kFeature;
+  return channel == kDepthSum ? units.depth : ExactUnits::kPhotons;
 }
 
 // Units per value, made once for a film.
 struct PerUnit {
   std::array<double, kSumChannels> sums;
   double square;
-  explicit PerUnit(const ExactUnits& units)
-      : sums(channel_units(units, -1)), square(std::ldexp(1.0, -units.square)) {}
+  explicit PerUnit(const ExactUnits& units) : square(std::ldexp(1.0, -units.square)) {
+    for (size_t i = 0; i < kSumChannels; ++i) sums[i] = std::ldexp(1.0, -exponent_of(i, units));
+  }
 };
 
 // Returns how many sums were clamped.
@@ -69,7 +64,10 @@ uint64_t add_pixel(const PixelSum& pass, const PerUnit& per_unit, PixelTotals* t
   for (size_t i = 0; i < kSumChannels; ++i) clamped += !totals->sums[i].add(channels[i], per_unit.sums[i]);
   const glm::dvec3 mean =
       (pass.emitted + pass.direct + pass.caustic + pass.indirect) / static_cast<double>(pass.count);
-  for (int c = 0; c < 3; ++c) clamped += !totals->squares[size_t(c)].add(mean[c] * mean[c], per_unit.square);
+  for (int c = 0; c < 3; ++c) {
+    clamped += !totals->squares[size_t(c)].add(mean[c] * mean[c], per_unit.square);
+    clamped += !totals->bias_squares[size_t(c)].add(pass.bias[c] * pass.bias[c], per_unit.square);
+  }
   totals->samples += pass.count;
   ++totals->passes;
   return clamped;
@@ -77,25 +75,29 @@ uint64_t add_pixel(const PixelSum& pass, const PerUnit& per_unit, PixelTotals* t
 
 void add_pixel(const PixelTotals& part, PixelTotals* totals) {
   for (size_t i = 0; i < kSumChannels; ++i) totals->sums[i] += part.sums[i];
-  for (size_t c = 0; c < 3; ++c) totals->squares[c] += part.squares[c];
+  for (size_t c = 0; c < 3; ++c) {
+    totals->squares[c] += part.squares[c];
+    totals->bias_squares[c] += part.bias_squares[c];
+  }
   totals->samples += part.samples;
   totals->passes += part.passes;
 }
 
-PixelResult mean_of(const PixelTotals& totals, const std::array<double, kSumChannels>& units) {
+PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
   PixelResult out;
+  out.error = Rgb(kInfinity);  // one film knows nothing of it
   if (totals.samples == 0) return out;
   const double samples = static_cast<double>(totals.samples);
-  size_t i = 0;
-  const auto next = [&] {
-    const double sum = totals.sums[i].value(units[i]);
-    ++i;
-    return static_cast<float>(sum / samples);
+  const auto mean = [&](size_t i) {
+    return static_cast<float>(totals.sums[i].value(units.sums[i]) / samples);
   };
-  for (glm::vec3* v : {&out.emitted, &out.direct, &out.caustic, &out.indirect, &out.albedo, &out.normal})
-    for (int c = 0; c < 3; ++c) (*v)[c] = next();
-  out.depth = next();
-  out.photons = next();
+  const auto mean3 = [&](SumChannel first) {
+    return glm::vec3(mean(first), mean(first + 1), mean(first + 2));
+  };
+  out.emitted = mean3(kEmittedSum), out.direct = mean3(kDirectSum);
+  out.caustic = mean3(kCausticSum), out.indirect = mean3(kIndirectSum);
+  out.albedo = mean3(kAlbedoSum), out.normal = mean3(kNormalSum);
+  out.depth = mean(kDepthSum), out.photons = mean(kPhotonsSum);
   return out;
 }
 
@@ -114,6 +116,10 @@ void for_each_pixel(int width, int height, F&& f) {
 }
 
 }  // namespace
+
+PixelUnits::PixelUnits(const ExactUnits& units) : square(std::ldexp(1.0, units.square)) {
+  for (size_t i = 0; i < kSumChannels; ++i) sums[i] = std::ldexp(1.0, exponent_of(i, units));
+}
 
 ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   const double size = size_of(scene);
@@ -148,7 +154,7 @@ void FilmTotals::add(const FilmTotals& other) {
 
 Film FilmTotals::mean() const {
   Film film = window_of<PixelResult>(pixels_);
-  const auto units = channel_units(units_, 1);
+  const PixelUnits units(units_);
   for_each_pixel(film.width(), film.height(),
                  [&](int x, int y) { film.at(x, y) = mean_of(pixels_.at(x, y), units); });
   return film;
@@ -157,12 +163,12 @@ Film FilmTotals::mean() const {
 Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped) {
   Film film = window_of<PixelResult>(pass);
   const PerUnit per_unit(units);
-  const auto per_channel = channel_units(units, 1);
+  const PixelUnits values(units);
   std::atomic<uint64_t> out_of_range{0};
   for_each_pixel(film.width(), film.height(), [&](int x, int y) {
     PixelTotals totals;
     if (const uint64_t n = add_pixel(pass.at(x, y), per_unit, &totals)) out_of_range += n;
-    film.at(x, y) = mean_of(totals, per_channel);
+    film.at(x, y) = mean_of(totals, values);
   });
   *clamped += out_of_range;
   return film;

@@ -26,15 +26,35 @@ struct ExactUnits {
 // before it is clamped; the units lie 2^75 below the lamp, also those of squares.
 ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass);
 
-inline constexpr size_t kSumChannels = 20;
+// Where in a pixel's sums the three channels of each begin; depth and photons have one.
+enum SumChannel : size_t {
+  kEmittedSum = 0,
+  kDirectSum = 3,
+  kCausticSum = 6,
+  kIndirectSum = 9,
+  kBiasSum = 12,
+  kAlbedoSum = 15,
+  kNormalSum = 18,
+  kDepthSum = 21,
+  kPhotonsSum = 22,
+  kSumChannels = 23
+};
 
 struct PixelTotals {
-  // emitted, direct, caustic, indirect, albedo (R G B each), normal, depth, photons: sums over samples.
+  // Over samples, but for bias, of which each pass has one.
   std::array<ExactSum, kSumChannels> sums;
-  std::array<ExactSum, 3> squares;  // over passes, of the pass's mean R, G and B
-  uint64_t samples = 0;             // that were valid
-  uint64_t passes = 0;              // that had a valid sample
+  // Over passes, of the pass's mean R, G and B; of its bias.
+  std::array<ExactSum, 3> squares, bias_squares;
+  uint64_t samples = 0;  // that were valid
+  uint64_t passes = 0;   // that had a valid sample
   bool operator==(const PixelTotals&) const = default;
+};
+
+// Units as numbers.
+struct PixelUnits {
+  std::array<double, kSumChannels> sums;
+  double square;
+  explicit PixelUnits(const ExactUnits& units);
 };
 
 // Values and multiples of the units.

@@ -75,6 +75,10 @@ void append_layer(const PixelResult& pixel, Layer layer, std::vector<float>* out
       return out->push_back(pixel.depth);
     case Layer::kPhotons:
       return out->push_back(pixel.photons);
+    case Layer::kError:
+      return append(pixel.error);
+    case Layer::kBias:
+      return append(pixel.bias);
   }
 }
 

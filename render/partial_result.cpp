@@ -24,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic{"KPART\r\n\x1a", 8};
-constexpr uint64_t kVersion = 1;
+constexpr uint64_t kVersion = 2;
 constexpr uint64_t kHeadBytes = 24, kHashBytes = 16;
 // Pixels are written as they lie in memory.
-static_assert(sizeof(PixelTotals) == 384 && std::endian::native == std::endian::little);
+static_assert(sizeof(PixelTotals) == 480 && std::endian::native == std::endian::little);
 static_assert(std::is_trivially_copyable_v<PixelTotals>);
 
 struct Closer {

@@ -2,9 +2,9 @@
 // One file for a part of a render: checkpoint, share of a farm's job, and what parts are joined into.
 //
 //   8 bytes   "KPART\r\n\x1a"
-//   8 bytes   version of the format, 1
+//   8 bytes   version of the format, 2
 //   8 bytes   size of the manifest, which follows: JSON, UTF-8
-//   384 bytes for each pixel of the window, rows from the top: a PixelTotals
+//   480 bytes for each pixel of the window, rows from the top: a PixelTotals
 //   16 bytes  ContentHash of all before
 //
 // Whole numbers are little-endian, sums two's complement.

@@ -17,8 +17,9 @@ namespace kaustik::render {
 
 namespace {
 
-Rgb from_map(const ReadMap& read, const ShadingPoint& x, TileCounters& counters) {
-  return photon::estimate_radiance(read.map, x.si, x.wo, *x.bsdf, read.estimate, counters.gather);
+// bias: null where it is not asked for.
+Rgb from_map(const ReadMap& read, const ShadingPoint& x, TileCounters& counters, photon::BiasEstimate* bias) {
+  return photon::estimate_radiance(read.map, x.si, x.wo, *x.bsdf, read.estimate, counters.gather, bias);
 }
 
 // The lecture (TNCG15): photons where the octree cell of x is free of shadow photons, shadow rays elsewhere.
@@ -38,12 +39,14 @@ LightWeight light_weight(const EstimatorPlan& plan) {
                                                                            : LightWeight::kAlone;
 }
 
-Rgb direct_light(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler, TileCounters& counters) {
+Rgb direct_light(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler, TileCounters& counters,
+                 photon::BiasEstimate* bias) {
   switch (ctx.plan.direct) {
     case DirectEstimator::kPhotons:
-      return from_map(ctx.maps.direct, x, counters);
+      return from_map(ctx.maps.direct, x, counters, bias);
     case DirectEstimator::kLecture:
-      if (lecture_trusts_photons(ctx, x, counters.lecture)) return from_map(ctx.maps.direct, x, counters);
+      if (lecture_trusts_photons(ctx, x, counters.lecture))
+        return from_map(ctx.maps.direct, x, counters, bias);
       break;
     case DirectEstimator::kShadowRays:
       break;
@@ -51,23 +54,31 @@ Rgb direct_light(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampl
   return sample_direct(ctx, x, light_weight(ctx.plan), sampler, counters);
 }
 
-Rgb caustic_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters) {
-  return ctx.plan.caustics == CausticEstimator::kPhotons ? from_map(ctx.maps.caustic, x, counters) : Rgb(0);
+Rgb caustic_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters,
+                  photon::BiasEstimate* bias) {
+  if (ctx.plan.caustics != CausticEstimator::kPhotons) return Rgb(0);
+  return from_map(ctx.maps.caustic, x, counters, bias);
 }
 
-Rgb indirect_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters) {
-  return ctx.plan.indirect == IndirectEstimator::kPhotons ? from_map(ctx.maps.indirect, x, counters) : Rgb(0);
+Rgb indirect_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters,
+                   photon::BiasEstimate* bias) {
+  if (ctx.plan.indirect != IndirectEstimator::kPhotons) return Rgb(0);
+  return from_map(ctx.maps.indirect, x, counters, bias);
 }
 
 // Light scattered at the first non-specular point, seen through a specular chain of throughput beta. The path
 // brings nothing of a class that another estimator owns, so each sum below has one owner.
 void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
-                   TileCounters& counters, PixelResult* result) {
+                   TileCounters& counters, bool with_bias, PixelResult* result) {
   const uint64_t accepted = counters.gather.accepted;
-  const Rgb direct = direct_light(ctx, x, sampler, counters);
-  const Rgb caustic = caustic_light(ctx, x, counters);
-  const Rgb indirect = indirect_light(ctx, x, counters);
+  photon::BiasEstimate measured;
+  photon::BiasEstimate* const bias = with_bias ? &measured : nullptr;
+  const Rgb direct = direct_light(ctx, x, sampler, counters, bias);
+  const Rgb caustic = caustic_light(ctx, x, counters, bias);
+  const Rgb indirect = indirect_light(ctx, x, counters, bias);
   result->photons = float(counters.gather.accepted - accepted);
+  result->bias = beta * measured.bias;
+  counters.gather += measured.counters;
   const PathLight path = traces_paths(ctx.plan) ? trace_path(ctx, x, sampler, counters) : PathLight{};
   result->direct = beta * (direct + path.direct);
   result->caustic = beta * (caustic + path.caustic);
@@ -83,7 +94,7 @@ void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* resul
 }  // namespace
 
 PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, Sampler& sampler,
-                             TileCounters& counters) {
+                             TileCounters& counters, bool with_bias) {
   PixelResult result;
   Rgb beta(1);
   Ray ray = camera_ray;
@@ -98,7 +109,7 @@ PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, Sa
     const ShadingPoint x(ctx.scene, si, -ray.d);
     if (events == 0) set_features(x, ray.o, &result);
     if (!x.specular()) {
-      add_reflected(ctx, x, beta, sampler, counters, &result);
+      add_reflected(ctx, x, beta, sampler, counters, with_bias, &result);
       return result;
     }
     if (events == ctx.settings.max_bounces) return result;

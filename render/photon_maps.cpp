@@ -56,7 +56,8 @@ GatherRadii settle_radii(const Scene& scene, const accel::Bvh& bvh, const Render
 // How the maps of this pass are read: radii, and the photons that they shrink to, fall from pass to pass.
 void set_estimates(const RenderSettings& settings, const PassShare& pass, const GatherRadii& radii,
                    PhotonMaps* maps) {
-  const double squared = radius_shrink_squared(pass.pass, settings.alpha), shrink = std::sqrt(squared);
+  const double squared = radius_shrink_squared(pass.pass, settings.alpha.value_or(1)),
+               shrink = std::sqrt(squared);
   const auto shrunk = [&](float radius) { return static_cast<float>(double(radius) * shrink); };
   for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
     read->estimate = estimate_settings(settings, pass);

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "render/error_estimate.h"
 #include "render/photon_maps.h"
 #include "render/tiles.h"
 
@@ -24,7 +25,7 @@ void check_settings(const RenderSettings& s, const PerspectiveCamera& camera) {
   require(s.spp >= 1, "spp must be at least 1");
   require(s.max_bounces >= 1, "max_bounces must be at least 1");
   require(!s.radius || (*s.radius > 0 && std::isfinite(*s.radius)), "radius must be positive and finite");
-  require(s.alpha > 0 && s.alpha <= 1, "alpha must be above 0 and at most 1");
+  require(!s.alpha || (*s.alpha > 0 && *s.alpha <= 1), "alpha must be above 0 and at most 1");
   require(s.cone_k >= 1, "cone_k must be at least 1");
   if (s.crop.empty()) return;
   const bool inside =
@@ -128,7 +129,7 @@ bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderT
       if (task.keep_sums) result->statistics.clamped_sums = sums.totals.add(*tiles);
       sums.passes.add(PassSet(pass, pass + 1));
       sums.statistics += result->statistics;
-      if (task.after_pass) task.after_pass(sums);
+      if (task.after_pass && !task.after_pass(sums)) return true;
     }
   }
   return true;
@@ -138,15 +139,23 @@ bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderT
 void show(const FilmSums& tiles, bool has_totals, RenderResult* result) {
   PassSums& sums = result->sums;
   const bool complete = !sums.passes.empty();
+  if (complete && has_totals) return show_passes(result);
   if (complete) result->statistics = sums.statistics;
-  if (complete && has_totals)
-    result->film = sums.totals.mean();
-  else
-    result->film = mean_of(tiles, sums.totals.units(), &result->statistics.clamped_sums);
+  result->film = mean_of(tiles, sums.totals.units(), &result->statistics.clamped_sums);
   result->shown = complete ? Shown::kPasses : has_samples(tiles) ? Shown::kTiles : Shown::kNothing;
 }
 
 }  // namespace
+
+void show_passes(RenderResult* result) {
+  const FilmTotals& totals = result->sums.totals;
+  const ErrorMap errors = estimate_errors(totals);
+  result->statistics = result->sums.statistics;
+  result->film = totals.mean();
+  show_errors(errors, &result->film);
+  result->error = relative_error(errors, result->sums.passes.count());
+  result->shown = Shown::kPasses;
+}
 
 RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                     const ProgressCallback& callback, RenderTask task) {
@@ -164,7 +173,7 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
           "the passes that are there are of another scene or of other settings");
 
   PassRenderer renderer(scene, bvh, settings, result.plan, shares,
-                        serialised(callback, std::max(shares, goal.end())));
+                        serialised(callback, goal.end() < kMostPasses ? std::max(shares, goal.end()) : 0));
   auto tiles = make_window<PixelSum>(settings.crop, scene.camera);
   result.cancelled = !render_passes(renderer, missing, task, &tiles, &result);
   show(tiles, task.keep_sums, &result);

@@ -15,7 +15,7 @@ namespace kaustik::render {
 struct Progress {
   std::string_view phase;         // "photons", "build", "render"
   uint64_t done = 0, total = 0;   // of the phase in this pass
-  uint64_t pass = 0, passes = 1;  // photons, build, render follow each other in each pass
+  uint64_t pass = 0, passes = 1;  // photons, build, render follow each other in each pass; 0: who knows
 };
 // Called from worker threads, serialised by the renderer; returning false cancels.
 using ProgressCallback = std::function<bool(const Progress&)>;
@@ -26,8 +26,8 @@ struct RenderTask {
   PassSet passes{};
   // Complete passes of an earlier render with the same settings; they are not rendered again.
   PassSums done{};
-  // Called after each pass, with all that are complete.
-  std::function<void(const PassSums&)> after_pass{};
+  // Called after each pass, with all that are complete; false when they are enough.
+  std::function<bool(const PassSums&)> after_pass{};
   // Without it a render of a single pass leaves no totals in result.sums: it takes half the memory for them.
   bool keep_sums = true;
 };
@@ -45,13 +45,17 @@ struct RenderResult {
   EstimatorPlan plan;
   bool cancelled = false;
   Shown shown = Shown::kNothing;
-  PassSums sums;  // the complete passes; totals as RenderTask::keep_sums says
+  PassSums sums;             // the complete passes; totals as RenderTask::keep_sums says
+  double error = kInfinity;  // of what the film shows, see relative_error(); infinite where it is unknown
 };
 
 // Chooses the estimators: the method's preset, then the settings' overrides, then what the scene does not
 // need is left out. Pure. notes[0] names the choice; each further note says what was left out or is missing,
 // and why.
 EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs);
+
+// Film, its error and statistics of result->sums, whose totals are there.
+void show_passes(RenderResult* result);
 
 // Renders within the calling task arena. settings.width/height are already applied to scene.camera by the
 // caller; settings.crop selects the film's window. Bit-identical for any number of threads, for any split of

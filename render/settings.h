@@ -34,8 +34,9 @@ struct RenderSettings {
 
   uint64_t photons = 1'000'000;  // emitted, rounded up to a multiple of the passes, as spp is
   std::optional<float> radius;   // gather radius r0 in metres; unset = auto
-  float alpha = 1;               // in (0, 1]: how slowly the radius shrinks from pass to pass; 1 = not at all
-  uint32_t nearest = 0;          // K > 0: radius shrinks to the K-th nearest photon
+  // In (0, 1]: how slowly the radius shrinks from pass to pass; 1, also when unset: not at all.
+  std::optional<float> alpha;
+  uint32_t nearest = 0;  // K > 0: radius shrinks to the K-th nearest photon
   Kernel kernel = Kernel::kConstant;
   float cone_k = 1.1f;         // k >= 1 of the cone filter
   uint32_t min_photons = 8;    // M0 of the lecture's test
@@ -48,6 +49,8 @@ struct RenderSettings {
   int threads = 0;            // 0 = all the process may use
   int width = 0, height = 0;  // 0 = as the scene says
   CropWindow crop;
+  // Measure the kernels' bias, once a pixel and pass; unset = no.
+  std::optional<bool> estimate_bias;
   std::vector<std::string> aov;  // layers to write besides the image; empty = none, "all" = all
   // That photons and spp are shared out over; 0 = as many as it takes for the photons of one to fit into
   // photon_memory.

@@ -75,7 +75,7 @@ Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
   out["indirect"] = name_of(plan.indirect);
   out["photons"] = s.photons;
   out["radius"] = s.radius ? Json(*s.radius) : Json("auto");
-  out["alpha"] = s.alpha;
+  out["alpha"] = s.alpha.value_or(1);
   out["nearest"] = s.nearest;
   out["kernel"] = name_of(s.kernel);
   out["cone_k"] = s.cone_k;
@@ -87,6 +87,12 @@ Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
   out["spp"] = s.spp;
   out["seed"] = s.seed;
   return out;
+}
+
+// null where it is unknown.
+Json error_json(const RenderResult& result, const RenderSettings& settings) {
+  if (!std::isfinite(result.error)) return nullptr;
+  return {{"relative", result.error}, {"holds_bias", settings.estimate_bias.value_or(false)}};
 }
 
 Json counters_json(const RenderStatistics& s) {
@@ -114,6 +120,7 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
   out["passes_of_settings"] = result.sums.shares;
   out["settings"] = settings_json(settings, result.plan);
   out.update(counters_json(s));
+  out["error"] = error_json(result, settings);
   out["radius"] = s.radius;
   out["radii"] = {
       {"direct", s.direct_radius}, {"caustic", s.caustic_radius}, {"indirect", s.indirect_radius}};
@@ -140,6 +147,11 @@ Metadata metadata_of(const RenderResult& result, const RenderSettings& settings)
   for (int k = 0; k < photon::kPhotonKinds; ++k)
     out.emplace_back(fmt::format("kaustik:photons_stored_{}", photon::kPhotonKindNames[size_t(k)]),
                      fmt::format("{}", s.photons.stored[size_t(k)]));
+  if (std::isfinite(result.error)) {
+    out.emplace_back("kaustik:error", fmt::format("{:.6g}", result.error));
+    out.emplace_back("kaustik:error_holds",
+                     settings.estimate_bias.value_or(false) ? "noise and kernel bias" : "noise");
+  }
   out.emplace_back("kaustik:dropped_samples", fmt::format("{}", s.dropped_samples));
   return out;
 }

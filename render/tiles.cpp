@@ -23,7 +23,7 @@ struct TileResult {
 bool valid_radiance(const PixelResult& s) {
   for (const Rgb* c : {&s.emitted, &s.direct, &s.caustic, &s.indirect})
     if (!is_finite(*c) || c->x < 0 || c->y < 0 || c->z < 0) return false;
-  return true;
+  return is_finite(s.bias);
 }
 
 // Adds the pass's samples of pixel (x, y) of the full image. The box filter is uniform over the pixel.
@@ -34,7 +34,9 @@ void render_pixel(const RenderContext& ctx, int x, int y, PixelSum* sum, TileRes
     Sampler sampler(stream, i);
     const Point2 u = sampler.next_2d();
     const Ray ray = ctx.scene.camera.generate_ray({float(x) + u.x, float(y) + u.y});
-    const PixelResult sample = trace_camera_ray(ctx, ray, sampler, tile->counters);
+    // Once a pass: most of its noise is that of the photons, which all samples share.
+    const bool with_bias = ctx.settings.estimate_bias.value_or(false) && i == ctx.pass.first_sample;
+    const PixelResult sample = trace_camera_ray(ctx, ray, sampler, tile->counters, with_bias);
     if (valid_radiance(sample)) {
       sum->add(sample);
       continue;

@@ -18,6 +18,12 @@ std::string duration_text(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
+std::string phase_text(const render::Progress& progress) {
+  if (progress.passes == 0) return fmt::format("{} {}", progress.phase, progress.pass + 1);
+  if (progress.passes == 1) return std::string(progress.phase);
+  return fmt::format("{} {}/{}", progress.phase, progress.pass + 1, progress.passes);
+}
+
 }  // namespace
 
 std::string progress_line(std::string_view phase, double fraction, double left) {
@@ -32,9 +38,7 @@ std::string progress_line(std::string_view phase, double fraction, double left) 
 void ProgressBar::update(const render::Progress& progress) {
   if (console_.quiet) return;
   const Clock::time_point now = Clock::now();
-  const std::string phase = progress.passes > 1
-                                ? fmt::format("{} {}/{}", progress.phase, progress.pass + 1, progress.passes)
-                                : std::string(progress.phase);
+  const std::string phase = phase_text(progress);
   const bool new_phase = phase_ != phase;
   if (new_phase) {
     phase_ = phase;
@@ -48,7 +52,8 @@ void ProgressBar::update(const render::Progress& progress) {
   last_drawn_ = now;
   const double done = static_cast<double>(progress.done), total = static_cast<double>(progress.total);
   const double left = done > 0 ? elapsed.count() * (total - done) / done : -1;
-  const std::string line = progress_line(phase_, total > 0 ? done / total : 0, left);
+  std::string line = progress_line(phase_, total > 0 ? done / total : 0, left);
+  if (!remark_.empty()) line += "  " + remark_;
   if (console_.terminal) {
     console_.err << '\r' << line << "\x1b[K" << std::flush;
     visible_ = true;

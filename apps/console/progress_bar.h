@@ -22,6 +22,8 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void update(const render::Progress& progress);
+  // Follows every line from now on.
+  void remark(std::string text) { remark_ = std::move(text); }
   // Takes the bar off the terminal.
   void clear();
 
@@ -29,7 +31,7 @@ class ProgressBar {
   using Clock = std::chrono::steady_clock;
 
   const Console& console_;
-  std::string phase_;
+  std::string phase_, remark_;
   Clock::time_point phase_start_, last_drawn_;
   bool visible_ = false;
 };

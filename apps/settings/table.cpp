@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <iterator>
 #include <limits>
 
+#include "apps/settings/rows.h"
 #include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
 #include "render/film.h"
@@ -15,13 +17,6 @@ namespace kaustik::app {
 namespace {
 
 using render::RenderSettings;
-using Complaint = std::optional<std::string>;
-using Texts = std::span<const std::string>;
-
-template <class... Values>
-std::vector<std::string> as_texts(const Values&... values) {
-  return {fmt::format("{}", values)...};
-}
 
 template <class T>
 std::optional<T> whole_in_range(std::string_view text, uint64_t least, uint64_t most) {
@@ -117,7 +112,7 @@ Setting alpha_setting() {
             .kind = ValueKind::kNumber,
             .value_name = "A",
             .range = "above 0, at most 1",
-            .default_text = fmt::format("{}", RenderSettings{}.alpha),
+            .default_text = "1; 0.667 with --target-error or --time",
             .doc =
                 "How the radius shrinks over the passes: r^2 of pass i + 1 is (i + A) / (i + 1) times that "
                 "of pass i. 1: not at all. 0.667: bias and noise both vanish with the passes."};
@@ -128,7 +123,7 @@ Setting alpha_setting() {
     settings.render.alpha = *value;
     return std::nullopt;
   };
-  s.show = [](const Settings& settings) { return as_texts(settings.render.alpha); };
+  s.show = [](const Settings& settings) { return as_texts(settings.render.alpha.value_or(1)); };
   return s;
 }
 
@@ -338,6 +333,8 @@ std::vector<Setting> make_table() {
   std::vector<Setting> table;
   add_methods(table);
   add_photons(table);
+  std::vector<Setting> stop = stop_rows();
+  std::move(stop.begin(), stop.end(), std::back_inserter(table));
   add_image(table);
   return table;
 }

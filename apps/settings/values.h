@@ -22,6 +22,9 @@ std::optional<int64_t> parse_integer(std::string_view text);
 // Seconds of a time with its unit: "90s", "1.5h", "10m", "250ms". Nothing when it is none or negative.
 std::optional<double> parse_duration(std::string_view text);
 
+// A part of one: "1%" or "0.01". Nothing when it is neither.
+std::optional<double> parse_share(std::string_view text);
+
 // A finite decimal number within float's range (subnormals included).
 std::optional<float> parse_number(std::string_view text);
 

@@ -19,7 +19,7 @@ RenderSettings settings_of(Method method) {
   return settings;
 }
 
-static_assert(sizeof(PixelResult) == 20 * sizeof(float), "no padding: bytes are compared");
+static_assert(sizeof(PixelResult) == 26 * sizeof(float), "no padding: bytes are compared");
 
 bool same_bytes(const Film& a, const Film& b) {
   if (a.width() != b.width() || a.height() != b.height()) return false;

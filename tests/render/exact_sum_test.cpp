@@ -76,10 +76,13 @@ FilmSums random_film(std::mt19937_64& random) {
   FilmSums film(3, 2, 1, 1, 8, 8);
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 3; ++x) {
-      const std::vector<double> v = random_terms(20, random);
+      const std::vector<double> v = random_terms(23, random);
       PixelSum& p = film.at(x, y);
       const auto three = [&](size_t i) { return glm::abs(glm::dvec3(v[i], v[i + 1], v[i + 2])); };
-      p = {three(0), three(3), three(6), three(9), three(12), three(15), v[18], v[19], random() % 4};
+      p = {three(0),    three(3),  three(6),
+           three(9),    three(12), three(15),
+           v[18],       v[19],     {v[20], v[21], v[22]},
+           random() % 4};
     }
   return film;
 }
@@ -120,6 +123,7 @@ TEST(FilmTotals, HoldMeansAndSquares) {
   totals.add(pass);
   pass.at(0, 0).direct = {4, 4, 4};
   pass.at(0, 0).depth = 9;
+  pass.at(0, 0).bias = {-3, 0, 0.5};
   pass.at(0, 0).count = 1;
   totals.add(pass);
   const PixelTotals& p = totals.pixels().at(0, 0);
@@ -129,6 +133,9 @@ TEST(FilmTotals, HoldMeansAndSquares) {
   EXPECT_EQ(totals.mean().at(0, 0).depth, 3.0f);
   const double squares[3] = {1 + 16, 4 + 16, 16 + 16};
   for (size_t c = 0; c < 3; ++c) EXPECT_EQ(p.squares[c].value(0x1p-60), squares[c]);
+  const double bias_squares[3] = {9, 0, 0.25};
+  for (size_t c = 0; c < 3; ++c) EXPECT_EQ(p.bias_squares[c].value(0x1p-60), bias_squares[c]);
+  EXPECT_EQ(p.sums[kBiasSum].value(0x1p-60), -3);
 }
 
 TEST(FilmTotals, OtherWindowsAndUnitsAreRefused) {

@@ -74,9 +74,19 @@ TEST(Progressive, GoesOnFromWhatIsThere) {
   std::vector<std::string> seen;
   RenderTask task{.passes = PassSet(0, 8), .done = ends, .after_pass = [&](const PassSums& sums) {
                     seen.push_back(sums.passes.text());
+                    return true;
                   }};
   expect_same(sums_of(scene, settings, task), whole);
   EXPECT_EQ(seen, (std::vector<std::string>{"0:3,4:5", "0:5", "0:6", "0:7", "0:8"}));
+}
+
+// What says that they are enough ends a render, which is complete then.
+TEST(Progressive, StopsWhenThePassesAreEnough) {
+  const Scene scene = cornell(20);
+  const RenderSettings settings = split_settings();
+  const RenderTask task{.passes = PassSet(0, kMostPasses),
+                        .after_pass = [](const PassSums& sums) { return sums.passes.count() < 3; }};
+  expect_same(sums_of(scene, settings, task), sums_of(scene, settings, {.passes = PassSet(0, 3)}));
 }
 
 // The units scale with the scene, so the multiples stay: depth and lamps that are points, too.

@@ -1,0 +1,21 @@
+#pragma once
+// Parts of the settings table.
+
+#include <fmt/format.h>
+
+#include "apps/settings/table.h"
+
+namespace kaustik::app {
+
+using Complaint = std::optional<std::string>;
+using Texts = std::span<const std::string>;
+
+template <class... Values>
+std::vector<std::string> as_texts(const Values&... values) {
+  return {fmt::format("{}", values)...};
+}
+
+// When a render is good enough, and what of its error is measured.
+std::vector<Setting> stop_rows();
+
+}  // namespace kaustik::app

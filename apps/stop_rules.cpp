@@ -1,0 +1,67 @@
+#include "apps/stop_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/exit_error.h"
+#include "render/error_estimate.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// The radius shrinks so that bias and noise vanish with the passes (Knaus and Zwicker 2011).
+constexpr float kConsistentAlpha = 2.0f / 3;
+
+bool has(const std::vector<std::string>& aov, std::string_view layer) {
+  return std::find(aov.begin(), aov.end(), layer) != aov.end();
+}
+
+}  // namespace
+
+bool names_error_layer(const std::vector<std::string>& aov) {
+  return std::any_of(aov.begin(), aov.end(),
+                     [](const std::string& name) { return name == "error" || name == "bias"; });
+}
+
+void settle_error_settings(const Console& console, Settings* settings) {
+  render::RenderSettings& render = settings->render;
+  const bool named = names_error_layer(render.aov);
+  if (settings->stop.target_quantile && !settings->stop.target_error)
+    throw ExitError(kBadCommandLine, "--target-quantile needs --target-error");
+  if (named && render.passes == 1 && !settings->stop.any())
+    throw ExitError(kBadCommandLine, "the layers error and bias need --passes 2 or more");
+  if (render.passes == 0 && (named || settings->stop.any())) {
+    render.passes = std::min(kErrorPasses, render.photons);
+    console.note(fmt::format("each pass has one in {} of the photons and samples", render.passes));
+  }
+  const bool shown = named || (has(render.aov, "all") && render.passes > 1);
+  if (!render.estimate_bias && (shown || settings->stop.target_error)) render.estimate_bias = true;
+  if (!render.alpha && settings->stop.any()) render.alpha = kConsistentAlpha;
+}
+
+bool StopRule::enough(const render::PassSums& sums) {
+  const double now = seconds(), pass = now - last_;
+  last_ = now;
+  if (settings_.target_error) {
+    error_ = render::relative_error(render::estimate_errors(sums.totals), sums.passes.count(),
+                                    settings_.target_quantile);
+    if (*error_ <= *settings_.target_error) reason_ = fmt::format("target-error {}", *settings_.target_error);
+  }
+  if (reason_.empty() && settings_.seconds && now + pass > *settings_.seconds)
+    reason_ = fmt::format("time {}s", *settings_.seconds);
+  return !reason_.empty();
+}
+
+std::string StopRule::progress() const {
+  if (!error_) return {};
+  return fmt::format("error {}, target {}", percent(*error_), percent(*settings_.target_error));
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : std::string("unknown");
+}
+
+}  // namespace kaustik::app
