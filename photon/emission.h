@@ -1,5 +1,5 @@
 #pragma once
-// The start of photon i of N: lamp chosen by power, then position and direction from the lamp.
+// The start of photon i of N: lamp chosen by power, or given, then position and direction from the lamp.
 //
 // flux_i = Le |cos| / (N p(lamp) p(position) p(direction)) (Jensen 2001, section 5.1; Pharr et al. 2023,
 // section 12.1), so that the sum over i of flux_i estimates the lamps' power whatever the probabilities are.
@@ -27,8 +27,9 @@ inline EmissionNumbers emission_numbers(const Scene& scene, Sampler& sampler) {
 
 // Ray (world space, unit direction, origin off the lamp) and flux in watts, already divided by `total` and by
 // the probability of the lamp: the sum over i of flux tends to the lamps' power. Nothing when there is no
-// lamp, or when the lamp emits nothing in the sampled direction. Thread-safe; unbiased.
+// lamp, or when the lamp emits nothing in the sampled direction. only: the index of the one lamp that emits;
+// then the sum tends to its power. Thread-safe; unbiased.
 std::optional<EmissionSample> emit_photon(const Scene& scene, const EmissionNumbers& u, uint64_t total,
-                                          EmissionMode mode);
+                                          EmissionMode mode, std::optional<uint32_t> only = {});
 
 }  // namespace kaustik::photon

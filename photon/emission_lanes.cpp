@@ -51,11 +51,11 @@ namespace {
 // The lamp that the photons of a group choose, mostly the same one again.
 class ChosenLamp {
  public:
-  ChosenLamp(const Scene& scene, uint64_t total, EmissionMode mode)
-      : scene_(scene), total_(total), mode_(mode) {}
+  ChosenLamp(const Scene& scene, uint64_t total, EmissionMode mode, std::optional<uint32_t> only)
+      : scene_(scene), total_(total), mode_(mode), only_(only) {}
 
   void choose(float u_lamp) {
-    if (scene_.lights.size() == 1) return set(0, 1);
+    if (only_ || scene_.lights.size() == 1) return set(only_.value_or(0), 1);
     const DiscreteDistribution::Sample chosen = scene_.light_power.sample(u_lamp);
     set(chosen.index, chosen.pdf);
   }
@@ -78,6 +78,7 @@ class ChosenLamp {
   const Scene& scene_;
   uint64_t total_;
   EmissionMode mode_;
+  std::optional<uint32_t> only_;
   uint32_t lamp_ = 0;
   const DiffuseAreaLight* area_ = nullptr;
   const TriangleEmitter* triangles_ = nullptr;
@@ -114,10 +115,11 @@ void set_start(EmissionLanes& lanes, size_t k, const std::optional<EmissionSampl
 
 }  // namespace
 
-void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t count, EmissionLanes& lanes) {
+void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t count, EmissionLanes& lanes,
+                std::optional<uint32_t> only) {
   std::fill_n(lanes.emitted, count, 0);
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return;
-  ChosenLamp lamp(scene, total, mode);
+  ChosenLamp lamp(scene, total, mode, only);
   bool in_lanes[VertexLanes::kLanes];
   for (size_t k = 0; k < count; ++k) {
     lamp.choose(lanes.u_lamp[k]);
@@ -129,7 +131,7 @@ void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t co
     if (in_lanes[k]) continue;
     const auto& u = lanes.position_direction.u;
     const EmissionNumbers numbers{{u[0][k], u[1][k]}, {u[2][k], u[3][k]}, lanes.u_lamp[k]};
-    set_start(lanes, k, emit_photon(scene, numbers, total, mode));
+    set_start(lanes, k, emit_photon(scene, numbers, total, mode, only));
   }
 }
 

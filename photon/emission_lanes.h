@@ -24,6 +24,7 @@ struct EmissionLanes {
 };
 
 // The first `count` starts, bit for bit those of emit_photon() on every instruction set. Thread-safe.
-void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t count, EmissionLanes& lanes);
+void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t count, EmissionLanes& lanes,
+                std::optional<uint32_t> only = {});
 
 }  // namespace kaustik::photon

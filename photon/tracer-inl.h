@@ -138,12 +138,12 @@ class Tracer {
     counters_.emitted += count;
     for (size_t k = 0; k < count; ++k)
       walkers_.reversed_index[k] = reverse_bits(static_cast<uint32_t>(first + k));
-    if (scene_.lights.size() > 1) {
+    if (scene_.lights.size() > 1 && !settings_.lamp) {
       draw_from(1, count, 3, numbers_);
       std::copy_n(numbers_.u[0], count, starts_.u_lamp);
     }
     draw_from(0, count, 4, starts_.position_direction);
-    emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_);
+    emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_, settings_.lamp);
     std::fill_n(walkers_.state, count, WalkState());
     for (size_t k = 0; k < count; ++k) {
       const Rgb flux = VertexLanes::get(starts_.flux, k);
@@ -216,7 +216,7 @@ class Tracer {
     const SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
     std::visit(
         [&]<class B>(const B& bsdf) {
-          if (!B::kSpecular) leave_photon(k, si, photon);
+          leave_photon(k, si, photon, B::kSpecular);
           if (straight) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
           const bool wanted = settings_.kinds.indirect || (B::kSpecular && settings_.kinds.caustic);
           goes_on_[k] = wanted && !is_last(k) && scatter(k, bsdf, si, photon);
@@ -244,7 +244,7 @@ class Tracer {
   // The straight ray of a vertex in lanes.
   void cast_shadow(size_t k, WalkState before) {
     const bool specular = lanes_.traits[k] & kSpecularTrait;
-    if (!before.is_straight() && (specular || before.kind() != PhotonKind::kDirect)) return;
+    if (!before.is_straight() && !casts_shadow(before.kind(), specular)) return;
     const Vector3 d = VertexLanes::get(lanes_.ray.d, k);
     const Ray on{
         offset_origin(VertexLanes::get(lanes_.p, k), lanes_.p_error[k], VertexLanes::get(lanes_.n, k), d), d};
@@ -289,11 +289,16 @@ class Tracer {
     return false;
   }
 
-  void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon) {
+  void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon, bool specular) {
     const PhotonKind kind = walkers_.state[k].kind();
-    if (settings_.kinds[kind]) record(kind, si, photon);
-    if (settings_.kinds.shadow && kind == PhotonKind::kDirect)
+    if (!specular && settings_.kinds[kind]) record(kind, si, photon);
+    if (settings_.kinds.shadow && casts_shadow(kind, specular))
       start_straight(k, si.spawn(photon.ray.d), photon.flux);
+  }
+
+  // Whether a straight ray goes on behind a surface where a photon of this kind arrives.
+  bool casts_shadow(PhotonKind kind, bool specular) const {
+    return kind == PhotonKind::kDirect && (!specular || settings_.shadow_behind_specular);
   }
 
   void record(PhotonKind kind, const SurfaceInteraction& si, const Arrival& photon) {

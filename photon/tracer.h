@@ -7,13 +7,15 @@
 //                            further non-specular surface, until it leaves the scene
 //   caustic   L S+ D         at the first non-specular surface after specular ones
 //   indirect  L (S|D)* D (S|D)* D
-// A path whose first surface is specular leaves neither direct nor shadow photons.
+// A path whose first surface is specular leaves no direct photon, and shadow photons only if
+// TraceSettings::shadow_behind_specular asks for them: then the straight ray behind any first surface leaves
+// them, since mirror and glass block direct light. A straight ray passes through specular surfaces.
 //
-// Not handled: participating media; specular surfaces cast no shadow photons of their own, and a straight ray
-// passes through them.
+// Not handled: participating media.
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "accel/bvh.h"
 #include "photon/emission_lanes.h"
@@ -39,6 +41,8 @@ struct TraceSettings {
   // (it sends light to the eye): 1 is direct light alone, 2 adds one reflection before the deposit.
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
+  bool shadow_behind_specular = false;
+  std::optional<uint32_t> lamp{};  // the only one that emits, with all photons; else each by its power
   KindMask kinds;  // only what is asked for is traced: without `indirect` a photon ends at its first diffuse
                    // surface
 };

@@ -154,7 +154,7 @@ Scene many_lamps() {
   return scene;
 }
 
-void expect_lanes_are_emit_photon(const Scene& scene, EmissionMode mode) {
+void expect_lanes_are_emit_photon(const Scene& scene, EmissionMode mode, std::optional<uint32_t> only = {}) {
   auto lanes = std::make_unique<EmissionLanes>();
   uint64_t in_any = 0;
   for (const size_t count : {size_t{1}, size_t{37}, VertexLanes::kLanes}) {
@@ -166,9 +166,9 @@ void expect_lanes_are_emit_photon(const Scene& scene, EmissionMode mode) {
         const float numbers[] = {u.position.x, u.position.y, u.direction.x, u.direction.y};
         for (int d = 0; d < 4; ++d) lanes->position_direction.u[d][k] = numbers[d];
         lanes->u_lamp[k] = u.lamp;
-        expected.push_back(emit_photon(scene, u, kCount, mode));
+        expected.push_back(emit_photon(scene, u, kCount, mode, only));
       }
-      emit_lanes(scene, kCount, mode, count, *lanes);
+      emit_lanes(scene, kCount, mode, count, *lanes, only);
       for (size_t k = 0; k < count; ++k) {
         ASSERT_EQ(lanes->emitted[k] != 0, expected[k].has_value());
         if (!expected[k]) continue;
@@ -187,6 +187,7 @@ TEST(EmissionLanes, AreEmitPhotonBitForBit) {
     expect_lanes_are_emit_photon(testing::lit_room(Rgb(0.5f), {1, 2, 3}), mode);
     expect_lanes_are_emit_photon(with_light(PointLight{{0, 0, 0}, {1, 2, 3}}), mode);
     expect_lanes_are_emit_photon(many_lamps(), mode);
+    for (uint32_t lamp = 0; lamp < 4; ++lamp) expect_lanes_are_emit_photon(many_lamps(), mode, lamp);
   }
 }
 

@@ -117,6 +117,27 @@ TEST(Tracer, SpecularFirstSurfaceLeavesNeitherDirectNorShadowPhotons) {
   }
 }
 
+// When they are asked to, glass and mirrors cast the shadow photons that a diffuse plate casts, and nothing
+// else changes.
+TEST(Tracer, SpecularSurfacesCastShadowPhotonsIfAsked) {
+  TraceSettings settings = settings_for(20000, testing::kAllKinds);
+  const Traced diffuse = trace_all(plate_over_floors(Lambertian{}), settings);
+  for (const Bsdf& plate : {Bsdf(Dielectric{1.5f}), Bsdf(Mirror{}), Bsdf(Conductor{Rgb(0.2f), Rgb(3)})}) {
+    const Scene scene = plate_over_floors(plate);
+    settings.shadow_behind_specular = false;
+    const Traced without = trace_all(scene, settings);
+    settings.shadow_behind_specular = true;
+    const Traced with = trace_all(scene, settings);
+    ASSERT_EQ(with[kShadow].size(), diffuse[kShadow].size());
+    for (size_t i = 0; i < with[kShadow].size(); ++i)
+      ASSERT_TRUE(same(with[kShadow][i], diffuse[kShadow][i])) << i;
+    for (const PhotonKind k : {kDirect, kCaustic, kIndirect}) {
+      ASSERT_EQ(with[k].size(), without[k].size());
+      for (size_t i = 0; i < with[k].size(); ++i) ASSERT_TRUE(same(with[k][i], without[k][i])) << i;
+    }
+  }
+}
+
 // The mirror's image of the lamp at (0, 1, 0) in the plane y = 0 is (0, -1, 0): every caustic photon on the
 // ceiling comes from there.
 TEST(Tracer, MirrorCausticComesFromTheImageOfTheLamp) {
