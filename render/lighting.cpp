@@ -19,6 +19,33 @@ Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
   return ray;
 }
 
+// Whether the lamp is seen from x, as far as photons foretell it. Light is reflected on the viewer's side.
+photon::VisibilityGuess foretold(const RenderContext& ctx, const ShadingPoint& x, uint32_t lamp) {
+  if (!ctx.maps.visibility) return {};
+  return ctx.maps.visibility->guess(lamp, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
+}
+
+float trace_visibility(const RenderContext& ctx, const ShadingPoint& x, const LightSample& s,
+                       TileCounters& counters) {
+  ++counters.rays.shadow;
+  return ctx.bvh.occluded(shadow_ray(x.si, s)) ? 0 : 1;
+}
+
+std::optional<LightSample> sample_lamp(const Scene& scene, uint32_t lamp, const Point3& ref,
+                                       const Point2& u) {
+  return std::visit([&](const auto& l) { return l.sample_Li(ref, u); }, scene.lights[lamp]);
+}
+
+bool dark(const Scene& scene) {
+  return scene.light_power.empty() || !(scene.light_power.total() > 0);
+}
+
+// f Li / pdf of a sample of one lamp.
+Rgb unoccluded_from(const Scene& scene, uint32_t lamp, const ShadingPoint& x, const Point2& u) {
+  const auto s = sample_lamp(scene, lamp, x.si.p, u);
+  return s && s->pdf > 0 ? f_cos(x, s->wi) * s->Li / s->pdf : Rgb(0);
+}
+
 }  // namespace
 
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
@@ -26,19 +53,36 @@ Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight w
   const float u_lamp = sampler.next_1d();
   const Point2 u = sampler.next_2d();
   const Scene& scene = ctx.scene;
-  if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return Rgb(0);
+  if (dark(scene)) return Rgb(0);
   const auto lamp = scene.light_power.sample(u_lamp);
-  const Light& light = scene.lights[lamp.index];
-  const auto s = std::visit([&](const auto& l) { return l.sample_Li(x.si.p, u); }, light);
+  // The number that chose the lamp is uniform again, whatever the lamp and the point on it.
+  const photon::VisibilityGuess guess = foretold(ctx, x, lamp.index);
+  const bool traced = lamp.u_remapped < guess.p;
+  if (!traced && guess.v == 0) return Rgb(0);
+  const auto s = sample_lamp(scene, lamp.index, x.si.p, u);
   if (!s || !(s->pdf > 0)) return Rgb(0);
   const Rgb f = f_cos(x, s->wi);
   if (is_black(f) || is_black(s->Li)) return Rgb(0);
-  ++counters.rays.shadow;
-  if (ctx.bvh.occluded(shadow_ray(x.si, *s))) return Rgb(0);
+  const float V = traced ? guess.v + (trace_visibility(ctx, x, *s, counters) - guess.v) / guess.p : guess.v;
+  if (V == 0) return Rgb(0);
   const float pdf = s->pdf * lamp.pdf;
-  const bool shared = weight == LightWeight::kMis && !is_delta(light);
+  const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[lamp.index]);
   const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi)) : 1;
-  return f * s->Li * (w / pdf);
+  return f * s->Li * (V * w / pdf);
+}
+
+Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler) {
+  const float u_lamp = sampler.next_1d();
+  const Point2 u = sampler.next_2d();
+  const Scene& scene = ctx.scene;
+  if (dark(scene)) return Rgb(0);
+  if (scene.lights.size() > kMostLampsSummed) {
+    const auto lamp = scene.light_power.sample(u_lamp);
+    return unoccluded_from(scene, lamp.index, x, u) / lamp.pdf;
+  }
+  Rgb sum(0);
+  for (uint32_t lamp = 0; lamp < scene.lights.size(); ++lamp) sum += unoccluded_from(scene, lamp, x, u);
+  return sum;
 }
 
 Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w) {

@@ -15,9 +15,16 @@ enum class LightWeight {
 
 // One-sample estimate of  int f(wo, wi) Le V |cos| dwi  over all lamps, W/(m^2 sr). One lamp is chosen in
 // proportion to its power; anything between blocks, glass too: light through specular surfaces belongs to the
-// caustic class. Delta lamps always have weight one. Draws three dimensions, always.
+// caustic class. Delta lamps always have weight one. With ctx.maps.visibility most shadow rays are not traced
+// and V is an unbiased estimate, of either sign (photon/visibility_tree.h). Draws three dimensions, always.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
                   TileCounters& counters);
+
+// The same as if nothing were in the way, V = 1, and of every lamp, so that only the lamps' extent makes
+// noise; of one that is chosen by power where there are more than kMostLampsSummed. Draws three dimensions,
+// always.
+inline constexpr size_t kMostLampsSummed = 16;
+Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler);
 
 // Radiance that a surface point itself emits towards w (unit, world).
 Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w);

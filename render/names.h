@@ -13,7 +13,8 @@ namespace kaustik::render {
 // In the order of the enumerators.
 inline constexpr std::array<std::string_view, 5> kMethodNames = {"auto", "raytrace", "mc", "hybrid",
                                                                  "photon"};
-inline constexpr std::array<std::string_view, 3> kDirectNames = {"shadow-rays", "photons", "lecture"};
+inline constexpr std::array<std::string_view, 5> kDirectNames = {"shadow-rays", "photons", "lecture",
+                                                                 "predicted", "signed"};
 inline constexpr std::array<std::string_view, 3> kCausticNames = {"photons", "paths", "off"};
 inline constexpr std::array<std::string_view, 3> kIndirectNames = {"paths", "photons", "off"};
 inline constexpr std::array<std::string_view, 3> kKernelNames = {"constant", "cone", "epanechnikov"};

@@ -34,6 +34,7 @@ photon::TraceSettings trace_settings(const RenderSettings& settings, const Estim
   trace.max_bounces = settings.max_bounces;
   trace.emission = settings.emission;
   trace.kinds = kinds_needed(plan);
+  trace.shadow_behind_specular = plan.direct == DirectEstimator::kSigned;
   return trace;
 }
 

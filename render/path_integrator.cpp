@@ -27,7 +27,7 @@ bool follows_indirect(const RenderContext& ctx) {
 Rgb* owner_of_lamp(const RenderContext& ctx, const PathState& path, PathLight* light) {
   if (path.diffuse == 1) {
     if (path.specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
-    return ctx.plan.direct == DirectEstimator::kShadowRays ? &light->direct : nullptr;
+    return samples_lamps(ctx.plan.direct) ? &light->direct : nullptr;
   }
   return path.specular && caustics_by_map(ctx) ? nullptr : &light->indirect;
 }

@@ -3,7 +3,7 @@
 //   L(ray) = Le + Lr                                          the rendering equation (Kajiya 1986)
 //   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
 //   Lr = direct + caustic + indirect at the first non-specular point x
-//        direct    L D S* E                 shadow rays, photons or the lecture's choice    direct_light
+//        direct    L D S* E                 lamp samples, photons or both                   direct_light
 //        caustic   L S+ D S* E              photons or paths                                caustic_light
 //        indirect  L S* D (S|D)* D S* E     photons or paths                                indirect_light
 //
@@ -18,8 +18,13 @@ namespace kaustik::render {
 namespace {
 
 // bias: null where it is not asked for.
+Rgb from_map(const photon::PhotonMap& map, const photon::EstimateSettings& estimate, const ShadingPoint& x,
+             TileCounters& counters, photon::BiasEstimate* bias) {
+  return photon::estimate_radiance(map, x.si, x.wo, *x.bsdf, estimate, counters.gather, bias);
+}
+
 Rgb from_map(const ReadMap& read, const ShadingPoint& x, TileCounters& counters, photon::BiasEstimate* bias) {
-  return photon::estimate_radiance(read.map, x.si, x.wo, *x.bsdf, read.estimate, counters.gather, bias);
+  return from_map(read.map, read.estimate, x, counters, bias);
 }
 
 // The lecture (TNCG15): photons where the octree cell of x is free of shadow photons, shadow rays elsewhere.
@@ -33,10 +38,22 @@ bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, Lec
   return answer.use_photons();
 }
 
+// Too bright an estimate of it makes the picture too dark.
+Rgb blocked_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters,
+                  photon::BiasEstimate* bias) {
+  photon::BiasEstimate of_blocked;
+  const Rgb blocked =
+      from_map(ctx.maps.shadow, ctx.maps.direct.estimate, x, counters, bias ? &of_blocked : nullptr);
+  if (bias) {
+    bias->bias -= of_blocked.bias;
+    bias->counters += of_blocked.counters;
+  }
+  return blocked;
+}
+
 // BSDF sampling finds lamps too when a path leaves x anyway: then both share the direct light.
 LightWeight light_weight(const EstimatorPlan& plan) {
-  return plan.direct == DirectEstimator::kShadowRays && traces_paths(plan) ? LightWeight::kMis
-                                                                           : LightWeight::kAlone;
+  return samples_lamps(plan.direct) && traces_paths(plan) ? LightWeight::kMis : LightWeight::kAlone;
 }
 
 Rgb direct_light(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler, TileCounters& counters,
@@ -48,7 +65,10 @@ Rgb direct_light(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampl
       if (lecture_trusts_photons(ctx, x, counters.lecture))
         return from_map(ctx.maps.direct, x, counters, bias);
       break;
+    case DirectEstimator::kSigned:
+      return unoccluded_direct(ctx, x, sampler) - blocked_light(ctx, x, counters, bias);
     case DirectEstimator::kShadowRays:
+    case DirectEstimator::kPredicted:
       break;
   }
   return sample_direct(ctx, x, light_weight(ctx.plan), sampler, counters);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 
+#include "photon/visibility_shoot.h"
 #include "render/radius.h"
 
 namespace kaustik::render {
@@ -49,7 +50,7 @@ GatherRadii settle_radii(const Scene& scene, const accel::Bvh& bvh, const Render
                          const EstimatorPlan& plan, const PassShare& pass, const PhotonMaps& maps) {
   const photon::KindMask kinds = kinds_needed(plan);
   const GatherRadii radii = choose_radii(scene, bvh, settings, pass, maps);
-  return {kinds.direct ? radii.direct : 0, kinds.caustic ? radii.caustic : 0,
+  return {kinds.direct || kinds.shadow ? radii.direct : 0, kinds.caustic ? radii.caustic : 0,
           kinds.indirect ? radii.indirect : 0};
 }
 
@@ -106,12 +107,32 @@ void find_edges(const Scene& scene, const accel::Bvh& bvh, const RenderSettings&
       std::make_unique<accel::EdgeIndex>(accel::without_continued(find_boundary_edges(scene.shapes), bvh));
 }
 
+// One for 32 samples of the image, so that they cost little beside the shadow rays they save, up to as many
+// as are of use.
+uint64_t visibility_photons(const Scene& scene, const RenderSettings& settings) {
+  constexpr uint64_t kFewest = 1u << 14, kMost = 1u << 18, kSamplesEach = 32;
+  const uint64_t pixels =
+      static_cast<uint64_t>(scene.camera.width) * static_cast<uint64_t>(scene.camera.height);
+  const uint64_t samples = pixels * static_cast<uint64_t>(settings.spp);
+  return std::min(settings.photons, std::clamp(samples / kSamplesEach, kFewest, kMost));
+}
+
+// Of scene and settings, not of the pass: whatever is foretold, the image is right on average.
+void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                         const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
+  if (plan.direct != DirectEstimator::kPredicted || maps->visibility) return;
+  const auto start = std::chrono::steady_clock::now();
+  maps->visibility = std::make_unique<const photon::VisibilityTree>(photon::foretell_visibility(
+      scene, bvh, {settings.seed, visibility_photons(scene, settings), settings.emission}));
+  statistics->photon_trace_s += seconds_since(start);
+}
+
 }  // namespace
 
 photon::KindMask kinds_needed(const EstimatorPlan& plan) {
   photon::KindMask kinds;
-  kinds.direct = plan.direct != DirectEstimator::kShadowRays;
-  kinds.shadow = plan.direct == DirectEstimator::kLecture;
+  kinds.direct = plan.direct == DirectEstimator::kPhotons || plan.direct == DirectEstimator::kLecture;
+  kinds.shadow = plan.direct == DirectEstimator::kLecture || plan.direct == DirectEstimator::kSigned;
   kinds.caustic = plan.caustics == CausticEstimator::kPhotons;
   kinds.indirect = plan.indirect == IndirectEstimator::kPhotons;
   return kinds;
@@ -120,6 +141,7 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
 bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                       const EstimatorPlan& plan, const PassShare& pass, const ProgressCallback& progress,
                       PhotonMaps* maps, std::optional<GatherRadii>* radii, RenderStatistics* statistics) {
+  foretell_visibility(scene, bvh, settings, plan, maps, statistics);
   if (!kinds_needed(plan).any()) return true;
   free_maps(maps);
   const auto start = std::chrono::steady_clock::now();

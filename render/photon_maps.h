@@ -9,6 +9,7 @@
 #include "photon/radiance_estimate.h"
 #include "photon/shadow_classifier.h"
 #include "photon/shoot.h"
+#include "photon/visibility_tree.h"
 #include "render/passes.h"
 #include "render/renderer.h"
 
@@ -22,9 +23,10 @@ struct ReadMap {
 
 struct PhotonMaps {
   ReadMap direct, caustic, indirect;
-  photon::PhotonMap shadow;  // only for the lecture's direct estimator
+  photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which reads it with direct.estimate
   photon::LectureSettings lecture;
-  std::unique_ptr<const accel::EdgeIndex> edges;  // where surfaces end; the estimates point to it
+  std::unique_ptr<const accel::EdgeIndex> edges;             // where surfaces end; the estimates point to it
+  std::unique_ptr<const photon::VisibilityTree> visibility;  // only for `predicted`; of all passes
 };
 
 // The kinds that the plan's estimators read; only these are traced and stored.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "render/names.h"
+#include "render/photon_maps.h"
 #include "render/renderer.h"
 
 namespace kaustik::render {
@@ -13,8 +14,8 @@ using Direct = DirectEstimator;
 using Caustic = CausticEstimator;
 using Indirect = IndirectEstimator;
 
-// What the method alone says.
-EstimatorPlan preset(Method method) {
+// What the method says.
+EstimatorPlan preset(Method method, const SceneNeeds& needs) {
   EstimatorPlan plan;
   switch (method) {
     case Method::kRaytrace:
@@ -30,10 +31,12 @@ EstimatorPlan preset(Method method) {
       plan.direct = Direct::kPhotons, plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
       break;
     case Method::kAuto:
-      // Indirect light by photons: less error in the same time than paths on every scene measured, and no
-      // fireflies where a small bright patch lights the room (docs/accuracy.md).
-      plan.direct = Direct::kShadowRays, plan.caustics = Caustic::kPhotons,
-      plan.indirect = Indirect::kPhotons;
+      // Direct light with foretold visibility: the error of shadow rays in less time. An infinite lamp is
+      // partly seen nearly everywhere, so that little can be foretold. Indirect light by photons: less error
+      // in the same time than paths on every scene measured, and no fireflies where a small bright patch
+      // lights the room (docs/accuracy.md).
+      plan.direct = needs.any_light && !needs.infinite_light ? Direct::kPredicted : Direct::kShadowRays;
+      plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
       break;
   }
   return plan;
@@ -57,15 +60,18 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
 }
 
 void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* notes) {
-  const bool any = plan.direct != Direct::kShadowRays || plan.caustics == Caustic::kPhotons ||
-                   plan.indirect == Indirect::kPhotons;
-  if (!any) {
-    notes->push_back("no estimator reads photons: no photon pass");
+  const photon::KindMask kinds = kinds_needed(plan);
+  if (plan.direct == Direct::kPredicted)
+    notes->push_back("direct and shadow photons are counted, not stored: they foretell which lamps are seen");
+  if (!kinds.any()) {
+    notes->push_back("no estimator reads stored photons: no photon pass");
     return;
   }
-  if (plan.direct != Direct::kLecture)
-    notes->push_back("shadow photons are not traced: only the lecture's direct estimator reads them");
+  if (!kinds.shadow && plan.direct != Direct::kPredicted)
+    notes->push_back("shadow photons are not traced: the direct estimator does not read them");
   if (plan.direct == Direct::kShadowRays) notes->push_back("direct photons are not stored: shadow rays");
+  if (plan.direct == Direct::kSigned)
+    notes->push_back("direct photons are not stored: only what shadow photons carry is subtracted");
   if (plan.indirect != Indirect::kPhotons)
     notes->push_back(std::string("indirect photons are not traced: indirect light ") +
                      (plan.indirect == Indirect::kPaths ? "by paths" : "is off"));
@@ -88,7 +94,7 @@ void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
 }  // namespace
 
 EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs) {
-  EstimatorPlan plan = preset(settings.method);
+  EstimatorPlan plan = preset(settings.method, needs);
   if (settings.direct) plan.direct = *settings.direct;
   if (settings.caustics) plan.caustics = *settings.caustics;
   if (settings.indirect) plan.indirect = *settings.indirect;

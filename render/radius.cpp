@@ -107,8 +107,12 @@ GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const Render
   if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius};
   const float reach = 2 * scene.bounds.radius();
   const auto visible = visible_queries(scene, bvh, settings);
-  return {auto_radius(maps.direct.map, visible, reach, kDirectRule, pass),
-          auto_radius(maps.caustic.map, photon_queries(maps.caustic.map), reach, kCausticRule, pass),
+  // Shadow photons lie as densely as direct ones would without what casts the shadows, and like caustics they
+  // fill little of the picture.
+  const float direct = maps.direct.map.empty() && !maps.shadow.empty()
+                           ? auto_radius(maps.shadow, photon_queries(maps.shadow), reach, kDirectRule, pass)
+                           : auto_radius(maps.direct.map, visible, reach, kDirectRule, pass);
+  return {direct, auto_radius(maps.caustic.map, photon_queries(maps.caustic.map), reach, kCausticRule, pass),
           auto_radius(maps.indirect.map, visible, reach, kIndirectRule, pass)};
 }
 

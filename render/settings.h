@@ -14,7 +14,7 @@
 namespace kaustik::render {
 
 enum class Method { kAuto, kRaytrace, kMc, kHybrid, kPhoton };
-enum class DirectEstimator { kShadowRays, kPhotons, kLecture };
+enum class DirectEstimator { kShadowRays, kPhotons, kLecture, kPredicted, kSigned };
 enum class CausticEstimator { kPhotons, kPaths, kOff };
 enum class IndirectEstimator { kPaths, kPhotons, kOff };
 using Kernel = photon::KernelType;
@@ -58,6 +58,11 @@ struct RenderSettings {
   // Bytes that the photons of a pass may take while they are shot and their maps built.
   uint64_t photon_memory = std::numeric_limits<uint64_t>::max();
 };
+
+// Whether direct light comes from samples of the lamps: then it is shared with paths that leave anyway.
+inline bool samples_lamps(DirectEstimator direct) {
+  return direct == DirectEstimator::kShadowRays || direct == DirectEstimator::kPredicted;
+}
 
 // The estimators that a render uses, settled from method, overrides and the scene's needs.
 struct EstimatorPlan {

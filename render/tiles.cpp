@@ -20,10 +20,15 @@ struct TileResult {
   std::vector<DroppedSample> examples;
 };
 
-bool valid_radiance(const PixelResult& s) {
-  for (const Rgb* c : {&s.emitted, &s.direct, &s.caustic, &s.indirect})
-    if (!is_finite(*c) || c->x < 0 || c->y < 0 || c->z < 0) return false;
-  return is_finite(s.bias);
+bool valid(const Rgb& c, bool signed_light) {
+  return is_finite(c) && (signed_light || (c.x >= 0 && c.y >= 0 && c.z >= 0));
+}
+
+// Estimates that subtract may fall below zero, and are right on average only if they may.
+bool valid_radiance(const PixelResult& s, DirectEstimator direct) {
+  const bool predicted = direct == DirectEstimator::kPredicted;
+  return valid(s.emitted, false) && valid(s.direct, predicted || direct == DirectEstimator::kSigned) &&
+         valid(s.caustic, false) && valid(s.indirect, predicted) && is_finite(s.bias);
 }
 
 // Adds the pass's samples of pixel (x, y) of the full image. The box filter is uniform over the pixel.
@@ -37,7 +42,7 @@ void render_pixel(const RenderContext& ctx, int x, int y, PixelSum* sum, TileRes
     // Once a pass: most of its noise is that of the photons, which all samples share.
     const bool with_bias = ctx.settings.estimate_bias.value_or(false) && i == ctx.pass.first_sample;
     const PixelResult sample = trace_camera_ray(ctx, ray, sampler, tile->counters, with_bias);
-    if (valid_radiance(sample)) {
+    if (valid_radiance(sample, ctx.plan.direct)) {
       sum->add(sample);
       continue;
     }

@@ -274,7 +274,11 @@ void add_methods(std::vector<Setting>& table) {
              "the cheapest mix for what the scene needs."));
   table.push_back(choice<render::DirectEstimator>(
       "direct", &RenderSettings::direct, render::kDirectNames, std::string(kByMethod),
-      "Direct light: shadow-rays, photons, or lecture (photons where they suffice, else shadow rays)."));
+      "Direct light. shadow-rays: a sample of a lamp and a ray to it. photons: the density of direct "
+      "photons. "
+      "lecture: photons where they suffice, else shadow rays. predicted: as shadow-rays, but where photons "
+      "foretell what the ray would meet it is seldom traced, without bias. signed: light as if nothing were "
+      "in its way, less what shadow photons carry."));
   table.push_back(choice<render::CausticEstimator>(
       "caustics", &RenderSettings::caustics, render::kCausticNames, std::string(kByMethod),
       "Light that reaches a diffuse surface through mirrors and glass only."));

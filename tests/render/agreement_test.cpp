@@ -73,8 +73,8 @@ TEST(OneOwner, TheSumDoesNotDependOnTheEstimators) {
   double bias = kPackedFlux * reference.mean;
   for (const Layer layer : kClasses)
     bias += 2 * std::abs(block_estimate(wide, layer, -1).mean - block_estimate(narrow, layer, -1).mean);
-  for (const auto direct :
-       {DirectEstimator::kShadowRays, DirectEstimator::kPhotons, DirectEstimator::kLecture})
+  for (const auto direct : {DirectEstimator::kShadowRays, DirectEstimator::kPhotons,
+                            DirectEstimator::kLecture, DirectEstimator::kPredicted, DirectEstimator::kSigned})
     for (const auto caustics : {CausticEstimator::kPhotons, CausticEstimator::kPaths})
       for (const auto indirect : {IndirectEstimator::kPaths, IndirectEstimator::kPhotons}) {
         RenderSettings settings = settings_of(Method::kAuto, 32, 0.1f, 10);

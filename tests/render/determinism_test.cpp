@@ -82,7 +82,8 @@ TEST_P(Determinism, ScaledSceneGivesTheSameBits) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Determinism,
-                         ::testing::Values(Method::kRaytrace, Method::kMc, Method::kHybrid, Method::kPhoton));
+                         ::testing::Values(Method::kRaytrace, Method::kMc, Method::kHybrid, Method::kPhoton,
+                                           Method::kAuto));
 
 // The leaf lookup, the nearest-K rule and the kernels are functions of the query alone, too.
 TEST(DeterminismOptions, LookupsAndKernels) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/photon_maps.h"
 #include "render/renderer.h"
 #include "tests/render/print_names.h"
 
@@ -39,7 +40,7 @@ TEST(Plan, PresetsOfASceneThatNeedsEverything) {
       {Method::kMc, Direct::kShadowRays, Caustic::kPaths, Indirect::kPaths},
       {Method::kHybrid, Direct::kLecture, Caustic::kPhotons, Indirect::kPaths},
       {Method::kPhoton, Direct::kPhotons, Caustic::kPhotons, Indirect::kPhotons},
-      {Method::kAuto, Direct::kShadowRays, Caustic::kPhotons, Indirect::kPhotons},
+      {Method::kAuto, Direct::kPredicted, Caustic::kPhotons, Indirect::kPhotons},
   };
   for (const Row& row : table) {
     RenderSettings settings;
@@ -50,6 +51,14 @@ TEST(Plan, PresetsOfASceneThatNeedsEverything) {
     EXPECT_EQ(plan.indirect, row.indirect) << name_of(row.method);
     EXPECT_FALSE(plan.notes.empty());
   }
+}
+
+TEST(Plan, AutoForetellsVisibilityUnlessALampIsInfinite) {
+  SceneNeeds needs = needs_of(true);
+  needs.infinite_light = true;
+  EXPECT_EQ(make_plan({}, needs).direct, Direct::kShadowRays);
+  EXPECT_EQ(make_plan({}, SceneNeeds{}).direct, Direct::kShadowRays);
+  EXPECT_EQ(make_plan({}, needs_of(true)).direct, Direct::kPredicted);
 }
 
 TEST(Plan, NoSpecularSurfaceNoCausticPass) {
@@ -75,6 +84,26 @@ TEST(Plan, OverridesWin) {
   EXPECT_TRUE(mentions(plan, "no photon pass"));
 }
 
+// Each direct estimator has stored what it reads, and nothing else.
+TEST(Plan, OnlyWhatIsReadIsStored) {
+  struct Reads {
+    Direct direct;
+    bool direct_photons, shadow_photons;
+  };
+  for (const auto& [direct, direct_photons, shadow_photons] :
+       {Reads{Direct::kShadowRays, false, false}, Reads{Direct::kPhotons, true, false},
+        Reads{Direct::kLecture, true, true}, Reads{Direct::kPredicted, false, false},
+        Reads{Direct::kSigned, false, true}}) {
+    RenderSettings settings;
+    settings.method = Method::kRaytrace;
+    settings.direct = direct;
+    const photon::KindMask kinds = kinds_needed(make_plan(settings, needs_of(true)));
+    EXPECT_EQ(kinds.direct, direct_photons) << name_of(direct);
+    EXPECT_EQ(kinds.shadow, shadow_photons) << name_of(direct);
+    EXPECT_FALSE(kinds.caustic || kinds.indirect);
+  }
+}
+
 TEST(Plan, NotesNameWhatIsMissing) {
   RenderSettings settings;
   settings.method = Method::kMc;
@@ -84,6 +113,9 @@ TEST(Plan, NotesNameWhatIsMissing) {
   EXPECT_FALSE(mentions(make_plan(settings, needs_of(true)), "shadow photons are not traced"));
   settings.method = Method::kPhoton;
   EXPECT_TRUE(mentions(make_plan(settings, needs_of(true)), "shadow photons are not traced"));
+  settings.direct = Direct::kPredicted;
+  EXPECT_FALSE(mentions(make_plan(settings, needs_of(true)), "shadow photons are not traced"));
+  settings.direct.reset();
   EXPECT_TRUE(mentions(make_plan(settings, SceneNeeds{}), "no lamp: the image is black"));
 }
 
