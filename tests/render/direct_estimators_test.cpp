@@ -175,6 +175,23 @@ TEST(Signed, LitRegionsHaveNoNoise) {
   }
 }
 
+// Files of light below zero: EXR keeps it, in the picture and in its layer, PNG shows black.
+void expect_files_show(const Film& film) {
+  WriteOptions options;
+  options.layers = layers_from_names({"direct"});
+  const std::string exr = output_file("negative.exr"), png = output_file("negative.png");
+  write_film(exr, film, options);
+  write_film(png, film, options);
+  const Image kept = read_image(exr), shown = read_image(png);
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) {
+      EXPECT_EQ(kept.at(x, y), film.at(x, y).direct);
+      if (film.at(x, y).direct.x < 0) {
+        EXPECT_EQ(shown.at(x, y), Rgb(0));
+      }
+    }
+}
+
 // In the umbra the shadow photons must take everything away: the bounds are those of an estimate by direct
 // photons, see PointLampPhotons.WithinKernelBiasAndNoise. What is left may be negative, and is kept.
 TEST(Signed, ShadowsAreDarkWithinKernelBiasAndNoise) {
@@ -196,6 +213,7 @@ TEST(Signed, ShadowsAreDarkWithinKernelBiasAndNoise) {
         kRadius * kRadius / 8 * curvature + 4 * E / std::sqrt(in_reach) + E * (kPacked + kFootprint);
     const double found = total_mean(result.film);
     EXPECT_NEAR(found, 0, kReflectance * bound / double(kPi));
+    if (found < 0) expect_files_show(result.film);
     EXPECT_LT(bound, 0.3 * E);  // the test can fail
     EXPECT_EQ(result.statistics.dropped_samples, 0u);
     EXPECT_EQ(result.statistics.clamped_sums, 0u);
@@ -203,6 +221,28 @@ TEST(Signed, ShadowsAreDarkWithinKernelBiasAndNoise) {
     lowest = std::min(lowest, found);
   }
   EXPECT_LT(lowest, 0);  // by chance all four lie above in one case of sixteen; these seeds do not
+}
+
+// More lamps than are summed: one is chosen, and the mean is the closed form of all.
+TEST(Signed, OneOfManyLampsIsChosen) {
+  Scene scene = plane_under_point_lamp(false);
+  scene.lights.clear();
+  double expected = 0;
+  for (int i = 0; i < int(kMostLampsSummed) + 4; ++i) {
+    const Point3 p(0.2f * float(i) - 2, 1 + 0.05f * float(i), 0.1f * float(i % 5));
+    scene.lights.push_back(PointLight{p, Rgb(1 + 0.3f * float(i % 7))});
+    const double dx = double(p.x) - 0.5, dz = double(p.z) - 0.25;
+    expected += PointLampOverPlane{1 + 0.3 * (i % 7), double(p.y)}.irradiance(dx * dx + dz * dz);
+  }
+  expected *= kReflectance / double(kPi);
+  finalize_scene(scene);
+  const auto result = render_with_threads(scene, direct_settings(DirectEstimator::kSigned, 256));
+  std::vector<double> pixels;
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) pixels.push_back(double(result.film.at(x, y).direct.x));
+  const Estimate found = estimate_of(pixels);
+  EXPECT_NEAR(found.mean, expected, 4 * found.standard_error + expected * kFootprint);
+  EXPECT_LT(found.standard_error, 0.01 * expected);
 }
 
 // Several lamps, one of them a point; glass, mirror and a plate that block; borders of surfaces. Against

@@ -164,6 +164,8 @@ TEST(Tonemap, SrgbCurve) {
   EXPECT_NEAR(srgb_from_linear(0.2140411f), 0.5f, 1e-6);
   EXPECT_EQ(to_srgb8(Rgb(0, 0.5f, 1), {}), (std::array<uint8_t, 3>{0, 188, 255}));
   EXPECT_EQ(to_srgb8(Rgb(-1, 7, std::nanf("")), {}), (std::array<uint8_t, 3>{0, 255, 0}));
+  for (const Tonemap operation : {Tonemap::kSrgb, Tonemap::kReinhard, Tonemap::kFilmic})
+    EXPECT_EQ(tonemap(Rgb(-0.5f), {0, operation}), Rgb(0));
   EXPECT_EQ(to_srgb8(Rgb(kInfinity), {}), (std::array<uint8_t, 3>{255, 255, 255}));
   for (int level = 0; level < 256; ++level)
     EXPECT_EQ(to_srgb8(Rgb(linear_from_srgb(float(level) / 255)), {})[0], level);
