@@ -29,6 +29,8 @@ Film numbered_film(int x0 = 0, int y0 = 0, int full = 5) {
       p.normal = Vector3(0, -1, 0);
       p.depth = 7 * v;
       p.photons = v;
+      p.error = Rgb(0, 0.125f * v, 0);
+      p.bias = Rgb(0, 0, -v);
     }
   return film;
 }
@@ -61,7 +63,7 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
   const Film film = numbered_film();
   write_film(path, film, options);
   const Channels file = read_channels(path);
-  EXPECT_EQ(file.spec.nchannels, 3 + 3 * 6 + 2);
+  EXPECT_EQ(file.spec.nchannels, 3 + 3 * 8 + 2);
   EXPECT_EQ(file.spec.get_string_attribute("kaustik:seed"), "42");
   EXPECT_EQ(file.spec.get_string_attribute("DateTime"), "") << "the bytes must not depend on the time of day";
   for (int y = 0; y < 2; ++y)
@@ -77,6 +79,8 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
       EXPECT_EQ(file.at(x, y, "normal.Y"), p.normal.y);
       EXPECT_EQ(file.at(x, y, "depth.Z"), p.depth);
       EXPECT_EQ(file.at(x, y, "photons.Y"), p.photons);
+      EXPECT_EQ(file.at(x, y, "error.G"), p.error.y);
+      EXPECT_EQ(file.at(x, y, "bias.B"), p.bias.z);
     }
   const Image image = read_image(path);
   EXPECT_EQ(image.at(2, 1), film.at(2, 1).radiance());
