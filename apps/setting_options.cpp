@@ -31,7 +31,12 @@ void SettingOverrides::apply(Settings& settings) const {
     settings.render.caustics.reset();
     settings.render.indirect.reset();
   }
-  for (const auto& [setting, texts] : given_) setting->assign(settings, texts);
+  const auto assign = [&](bool presets) {
+    for (const auto& [setting, texts] : given_)
+      if ((setting->name == "quality") == presets) setting->assign(settings, texts);
+  };
+  assign(true);
+  assign(false);
 }
 
 bool SettingOverrides::sets(std::string_view name) const {

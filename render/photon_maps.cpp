@@ -65,7 +65,7 @@ void set_estimates(const RenderSettings& settings, const PassShare& pass, const 
     read->estimate.edges = maps->edges.get();
   }
   if (!settings.radius && settings.nearest == 0)
-    maps->caustic.estimate.nearest = photons_in_reach(kCausticNearest, pass.shares);
+    maps->caustic.estimate.nearest = caustic_nearest(settings, pass);
   for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
     uint32_t& nearest = read->estimate.nearest;
     // From the fewest on, r0 alone shrinks: the K-th photon does not count, so that K = 1 would see none.

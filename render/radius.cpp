@@ -2,6 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/sampling/sampler.h"
 #include "render/shading_point.h"
 
@@ -107,13 +110,21 @@ GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const Render
   if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius};
   const float reach = 2 * scene.bounds.radius();
   const auto visible = visible_queries(scene, bvh, settings);
+  const float f = settings.radius_factor;
   // Shadow photons lie as densely as direct ones would without what casts the shadows, and like caustics they
   // fill little of the picture.
   const float direct = maps.direct.map.empty() && !maps.shadow.empty()
                            ? auto_radius(maps.shadow, photon_queries(maps.shadow), reach, kDirectRule, pass)
                            : auto_radius(maps.direct.map, visible, reach, kDirectRule, pass);
-  return {direct, auto_radius(maps.caustic.map, photon_queries(maps.caustic.map), reach, kCausticRule, pass),
-          auto_radius(maps.indirect.map, visible, reach, kIndirectRule, pass)};
+  return {f * direct,
+          f * auto_radius(maps.caustic.map, photon_queries(maps.caustic.map), reach, kCausticRule, pass),
+          f * auto_radius(maps.indirect.map, visible, reach, kIndirectRule, pass)};
+}
+
+uint32_t caustic_nearest(const RenderSettings& settings, const PassShare& pass) {
+  const double area = double(settings.radius_factor) * double(settings.radius_factor);
+  const double all = std::clamp(kCausticNearest * area, double(kFewestInReach), 1e9);
+  return photons_in_reach(static_cast<uint32_t>(std::lround(all)), pass.shares);
 }
 
 }  // namespace kaustik::render

@@ -25,6 +25,7 @@ void check_settings(const RenderSettings& s, const PerspectiveCamera& camera) {
   require(s.spp >= 1, "spp must be at least 1");
   require(s.max_bounces >= 1, "max_bounces must be at least 1");
   require(!s.radius || (*s.radius > 0 && std::isfinite(*s.radius)), "radius must be positive and finite");
+  require(s.radius_factor > 0 && std::isfinite(s.radius_factor), "radius factor must be positive and finite");
   require(!s.alpha || (*s.alpha > 0 && *s.alpha <= 1), "alpha must be above 0 and at most 1");
   require(s.cone_k >= 1, "cone_k must be at least 1");
   if (s.crop.empty()) return;

@@ -34,6 +34,7 @@ struct RenderSettings {
 
   uint64_t photons = 1'000'000;  // emitted, rounded up to a multiple of the passes, as spp is
   std::optional<float> radius;   // gather radius r0 in metres; unset = auto
+  float radius_factor = 1;       // above 0: of auto's radii, where radius is unset
   // In (0, 1]: how slowly the radius shrinks from pass to pass; 1, also when unset: not at all.
   std::optional<float> alpha;
   uint32_t nearest = 0;  // K > 0: radius shrinks to the K-th nearest photon

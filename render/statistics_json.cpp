@@ -74,7 +74,9 @@ Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
   out["caustics"] = name_of(plan.caustics);
   out["indirect"] = name_of(plan.indirect);
   out["photons"] = s.photons;
-  out["radius"] = s.radius ? Json(*s.radius) : Json("auto");
+  out["radius"] = s.radius               ? Json(*s.radius)
+                  : s.radius_factor != 1 ? Json(fmt::format("{}x", s.radius_factor))
+                                         : Json("auto");
   out["alpha"] = s.alpha.value_or(1);
   out["nearest"] = s.nearest;
   out["kernel"] = name_of(s.kernel);

@@ -175,10 +175,17 @@ void apply_path(const Directive& integrator, SceneSettings& out, DiagnosticList&
   out.notes.push_back("Integrator \"path\": method mc");
 }
 
+// Before all else: the file's own numbers hold, wherever they stand in it.
+void apply_quality(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
+  if (integrator.type != "photonmap") return;
+  if (const Parameter* quality = integrator.find("quality"))
+    assign_parameter(*quality, out.settings, diagnostics);
+}
+
 void apply_integrator(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
   if (integrator.type == "photonmap") {
     for (const Parameter& parameter : integrator.parameters) {
-      assign_parameter(parameter, out.settings, diagnostics);
+      if (parameter.name != "quality") assign_parameter(parameter, out.settings, diagnostics);
     }
   } else if (integrator.type == "sppm") {
     apply_sppm(integrator, out, diagnostics);
@@ -257,6 +264,7 @@ void apply_film(const Directive& film, SceneSettings& out, DiagnosticList& diagn
 
 SceneSettings settings_from_scene(const SceneDescription& description, DiagnosticList& diagnostics) {
   SceneSettings out;
+  if (description.integrator) apply_quality(*description.integrator, out, diagnostics);
   if (description.film) apply_film(*description.film, out, diagnostics);
   if (description.sampler) apply_sampler(*description.sampler, out.settings, diagnostics);
   if (description.integrator) apply_integrator(*description.integrator, out, diagnostics);

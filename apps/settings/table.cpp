@@ -6,6 +6,8 @@
 #include <iterator>
 #include <limits>
 
+#include "apps/settings/number_settings.h"
+#include "apps/settings/quality.h"
 #include "apps/settings/rows.h"
 #include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
@@ -79,73 +81,6 @@ Setting choice(std::string_view name, Enum RenderSettings::*field,
                       doc);
 }
 
-Setting radius_setting() {
-  Setting s{
-      .name = "radius",
-      .kind = ValueKind::kNumber,
-      .value_name = "R",
-      .unit = "m",
-      .range = "above 0, or auto",
-      .default_text = "auto",
-      .doc =
-          "Gather radius r0 of the photon maps. auto: for each map the distance that typically holds "
-          "64 (direct), 50 (caustic, shrinking where there are more) or 256 (indirect) of its photons."};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
-    if (texts[0] == "auto") {
-      settings.render.radius.reset();
-      return std::nullopt;
-    }
-    const std::optional<float> value = parse_number(texts[0]);
-    if (!value || *value <= 0)
-      return fmt::format("`{}`: expected a radius in metres above 0, or auto", texts[0]);
-    settings.render.radius = *value;
-    return std::nullopt;
-  };
-  s.show = [](const Settings& settings) {
-    return settings.render.radius ? as_texts(*settings.render.radius) : as_texts("auto");
-  };
-  return s;
-}
-
-Setting alpha_setting() {
-  Setting s{.name = "alpha",
-            .kind = ValueKind::kNumber,
-            .value_name = "A",
-            .range = "above 0, at most 1",
-            .default_text = "1; 0.667 with --target-error or --time",
-            .doc =
-                "How the radius shrinks over the passes: r^2 of pass i + 1 is (i + A) / (i + 1) times that "
-                "of pass i. 1: not at all. 0.667: bias and noise both vanish with the passes."};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
-    const std::optional<float> value = parse_number(texts[0]);
-    if (!value || *value <= 0 || *value > 1)
-      return fmt::format("`{}`: expected a number above 0, at most 1", texts[0]);
-    settings.render.alpha = *value;
-    return std::nullopt;
-  };
-  s.show = [](const Settings& settings) { return as_texts(settings.render.alpha.value_or(1)); };
-  return s;
-}
-
-Setting cone_k_setting() {
-  Setting s{.name = "cone-k",
-            .kind = ValueKind::kNumber,
-            .value_name = "K",
-            .range = "1 or more",
-            .default_text = fmt::format("{}", RenderSettings{}.cone_k),
-            .doc =
-                "Slope of the cone kernel, whose weight is 1 - d / (k r0): 1 falls to zero at r0, larger is "
-                "flatter."};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
-    const std::optional<float> value = parse_number(texts[0]);
-    if (!value || *value < 1) return fmt::format("`{}`: expected a number, 1 or more", texts[0]);
-    settings.render.cone_k = *value;
-    return std::nullopt;
-  };
-  s.show = [](const Settings& settings) { return as_texts(settings.render.cone_k); };
-  return s;
-}
-
 Setting crop_setting() {
   Setting s{.name = "crop",
             .kind = ValueKind::kInteger,
@@ -214,25 +149,6 @@ Setting aov_setting() {
   s.show = [](const Settings& settings) {
     return settings.render.aov.empty() ? as_texts("none") : settings.render.aov;
   };
-  s.decides_sums = false;
-  return s;
-}
-
-Setting exposure_setting() {
-  Setting s{.name = "exposure",
-            .kind = ValueKind::kNumber,
-            .value_name = "STOPS",
-            .unit = "stops",
-            .range = "-64 to 64",
-            .default_text = "0",
-            .doc = "Brightens PNG and JPEG files by 2^STOPS; EXR files keep the radiance."};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
-    const std::optional<float> value = parse_number(texts[0]);
-    if (!value || std::abs(*value) > 64) return fmt::format("`{}`: expected stops, -64 to 64", texts[0]);
-    settings.tone.exposure = *value;
-    return std::nullopt;
-  };
-  s.show = [](const Settings& settings) { return as_texts(settings.tone.exposure); };
   s.decides_sums = false;
   return s;
 }
@@ -334,7 +250,7 @@ void add_image(std::vector<Setting>& table) {
 }
 
 std::vector<Setting> make_table() {
-  std::vector<Setting> table;
+  std::vector<Setting> table = {quality_setting()};
   add_methods(table);
   add_photons(table);
   std::vector<Setting> stop = stop_rows();

@@ -1,0 +1,123 @@
+#include "apps/settings/number_settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/settings/rows.h"
+#include "apps/settings/values.h"
+
+namespace kaustik::app {
+
+using render::RenderSettings;
+
+std::optional<RadiusChoice> parse_radius(std::string_view text) {
+  RadiusChoice choice;
+  if (text == "auto") return choice;
+  const bool factor = text.ends_with('x');
+  if (factor) text.remove_suffix(1);
+  const std::optional<float> value = parse_number(text);
+  if (!value || *value <= 0) return std::nullopt;
+  if (factor)
+    choice.factor = *value;
+  else
+    choice.metres = *value;
+  return choice;
+}
+
+RadiusChoice RadiusChoice::of(const Settings& settings) {
+  return {settings.render.radius, settings.render.radius_factor};
+}
+
+void RadiusChoice::apply(Settings& settings) const {
+  settings.render.radius = metres;
+  settings.render.radius_factor = factor;
+}
+
+std::string RadiusChoice::text() const {
+  if (metres) return fmt::format("{}", *metres);
+  return factor == 1 ? "auto" : fmt::format("{}x", factor);
+}
+
+Setting radius_setting() {
+  Setting s{.name = "radius",
+            .kind = ValueKind::kNumber,
+            .value_name = "R",
+            .unit = "m",
+            .range = "above 0, auto, or a multiple of auto like 0.5x",
+            .default_text = "auto",
+            .doc =
+                "Gather radius r0 of the photon maps. auto: for each map the distance that typically holds "
+                "64 (direct), 50 (caustic, shrinking where there are more) or 256 (indirect) of its photons. "
+                "0.5x: half of that."};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<RadiusChoice> choice = parse_radius(texts[0]);
+    if (!choice)
+      return fmt::format("`{}`: expected a radius in metres above 0, auto, or a multiple of auto's like 0.5x",
+                         texts[0]);
+    choice->apply(settings);
+    return std::nullopt;
+  };
+  s.show = [](const Settings& settings) { return as_texts(RadiusChoice::of(settings).text()); };
+  return s;
+}
+
+Setting alpha_setting() {
+  Setting s{.name = "alpha",
+            .kind = ValueKind::kNumber,
+            .value_name = "A",
+            .range = "above 0, at most 1",
+            .default_text = "1; 0.667 with --target-error or --time",
+            .doc =
+                "How the radius shrinks over the passes: r^2 of pass i + 1 is (i + A) / (i + 1) times that "
+                "of pass i. 1: not at all. 0.667: bias and noise both vanish with the passes."};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<float> value = parse_number(texts[0]);
+    if (!value || *value <= 0 || *value > 1)
+      return fmt::format("`{}`: expected a number above 0, at most 1", texts[0]);
+    settings.render.alpha = *value;
+    return std::nullopt;
+  };
+  s.show = [](const Settings& settings) { return as_texts(settings.render.alpha.value_or(1)); };
+  return s;
+}
+
+Setting cone_k_setting() {
+  Setting s{.name = "cone-k",
+            .kind = ValueKind::kNumber,
+            .value_name = "K",
+            .range = "1 or more",
+            .default_text = fmt::format("{}", RenderSettings{}.cone_k),
+            .doc =
+                "Slope of the cone kernel, whose weight is 1 - d / (k r0): 1 falls to zero at r0, larger is "
+                "flatter."};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<float> value = parse_number(texts[0]);
+    if (!value || *value < 1) return fmt::format("`{}`: expected a number, 1 or more", texts[0]);
+    settings.render.cone_k = *value;
+    return std::nullopt;
+  };
+  s.show = [](const Settings& settings) { return as_texts(settings.render.cone_k); };
+  return s;
+}
+
+Setting exposure_setting() {
+  Setting s{.name = "exposure",
+            .kind = ValueKind::kNumber,
+            .value_name = "STOPS",
+            .unit = "stops",
+            .range = "-64 to 64",
+            .default_text = "0",
+            .doc = "Brightens PNG and JPEG files by 2^STOPS; EXR files keep the radiance."};
+  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    const std::optional<float> value = parse_number(texts[0]);
+    if (!value || std::abs(*value) > 64) return fmt::format("`{}`: expected stops, -64 to 64", texts[0]);
+    settings.tone.exposure = *value;
+    return std::nullopt;
+  };
+  s.show = [](const Settings& settings) { return as_texts(settings.tone.exposure); };
+  s.decides_sums = false;
+  return s;
+}
+
+}  // namespace kaustik::app

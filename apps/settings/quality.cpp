@@ -1,0 +1,59 @@
+#include "apps/settings/quality.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "apps/settings/values.h"
+#include "core/diagnostics/nearest_name.h"
+
+namespace kaustik::app {
+
+namespace {
+
+std::string described(const QualityPreset& preset) {
+  std::string text =
+      fmt::format("{}: {} photons, {} samples", preset.name, count_text(preset.photons), preset.spp);
+  if (preset.passes > 1) text += fmt::format(" in {} passes", preset.passes);
+  if (preset.alpha < 1) text += fmt::format(" with alpha {:.3f}", preset.alpha);
+  return text;
+}
+
+std::string explanation() {
+  std::vector<std::string> presets;
+  for (const QualityPreset& preset : kQualityPresets) presets.push_back(described(preset));
+  return fmt::format("Preset of photons, spp, passes and alpha. {}.", fmt::join(presets, "; "));
+}
+
+}  // namespace
+
+Setting quality_setting() {
+  static const std::string doc = explanation();
+  Setting s{.name = "quality",
+            .kind = ValueKind::kChoice,
+            .value_name = "NAME",
+            .default_text = "the defaults below",
+            .doc = doc};
+  for (const QualityPreset& preset : kQualityPresets) s.choices.push_back(preset.name);
+  s.range = fmt::format("{}", fmt::join(s.choices, ", "));
+  s.assign = [names = s.choices](Settings& settings,
+                                 std::span<const std::string> texts) -> std::optional<std::string> {
+    const auto preset =
+        std::find_if(kQualityPresets.begin(), kQualityPresets.end(),
+                     [&](const QualityPreset& candidate) { return candidate.name == texts[0]; });
+    if (preset == kQualityPresets.end())
+      return fmt::format("`{}` is none of its values{}", texts[0], name_hint(texts[0], names));
+    settings.render.photons = preset->photons;
+    settings.render.spp = preset->spp;
+    settings.render.passes = preset->passes;
+    settings.render.alpha.reset();
+    if (preset->alpha < 1) settings.render.alpha = preset->alpha;
+    return std::nullopt;
+  };
+  // What it set is shown under the names of what it set.
+  s.show = [](const Settings&) { return std::vector<std::string>{}; };
+  return s;
+}
+
+}  // namespace kaustik::app
