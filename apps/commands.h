@@ -28,5 +28,6 @@ Command make_photons_command(CLI::App& program);
 Command make_compare_command(CLI::App& program);
 Command make_info_command(CLI::App& program);
 Command make_bench_command(CLI::App& program);
+Command make_sweep_command(CLI::App& program);
 
 }  // namespace kaustik::app

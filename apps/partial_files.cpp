@@ -21,16 +21,6 @@ std::string absolute(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-render::SettingTexts texts_of(const Settings& settings, bool that_decide_sums) {
-  render::SettingTexts out;
-  for (const Setting& setting : settings_table()) {
-    std::vector<std::string> texts = setting.show(settings);
-    if (setting.decides_sums == that_decide_sums && !texts.empty())
-      out.emplace_back(setting.name, std::move(texts));
-  }
-  return out;
-}
-
 std::string program_and_libraries() {
   std::string build = fmt::format("{} ({}), Embree {}", version(), build_id(), accel::embree_version());
 #ifdef __GLIBC__
@@ -46,6 +36,16 @@ std::string program_build() {
   return build;
 }
 
+render::SettingTexts setting_texts(const Settings& settings, bool that_decide_sums) {
+  render::SettingTexts out;
+  for (const Setting& setting : settings_table()) {
+    std::vector<std::string> texts = setting.show(settings);
+    if (setting.decides_sums == that_decide_sums && !texts.empty())
+      out.emplace_back(setting.name, std::move(texts));
+  }
+  return out;
+}
+
 render::PartialManifest manifest_of(const Job& job, const std::vector<std::string>& outputs,
                                     const render::PassSet& goal, const render::PassSums& sums) {
   Settings settings = job.settings;
@@ -55,8 +55,8 @@ render::PartialManifest manifest_of(const Job& job, const std::vector<std::strin
   manifest.isa = instruction_set();
   manifest.scene_path = absolute(job.path);
   manifest.scene_hash = job.content_hash;
-  manifest.settings = texts_of(settings, true);
-  manifest.presentation = texts_of(settings, false);
+  manifest.settings = setting_texts(settings, true);
+  manifest.presentation = setting_texts(settings, false);
   for (const std::string& output : outputs) manifest.outputs.push_back(absolute(output));
   manifest.goal = goal.empty() ? render::PassSet(0, sums.shares) : goal;
   manifest.needs = job.scene.needs;

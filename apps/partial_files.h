@@ -13,6 +13,10 @@ namespace kaustik::app {
 // with. The first call asks Embree, best before it is at work.
 std::string program_build();
 
+// Settings by the names of their options, as texts that assign what is set: those that decide the sums over
+// samples, or the others.
+render::SettingTexts setting_texts(const Settings& settings, bool that_decide_sums);
+
 // What the sums of a job go with. outputs: as they were given. An empty goal stands for all passes that the
 // settings ask for.
 render::PartialManifest manifest_of(const Job& job, const std::vector<std::string>& outputs,

@@ -58,6 +58,7 @@ struct Program {
     commands.push_back(make_compare_command(parser));
     commands.push_back(make_info_command(parser));
     commands.push_back(make_bench_command(parser));
+    commands.push_back(make_sweep_command(parser));
   }
 
   // The command that was given; null before parsing, or without one.

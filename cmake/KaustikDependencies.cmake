@@ -20,6 +20,18 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(assimp REQUIRED)
+# Draws the charts of `kaustik sweep`'s report, which carries it with its licence.
+find_file(KAUSTIK_CHART_JS NAMES chart.min.js Chart.min.js PATH_SUFFIXES share/javascript/chart.js
+  DOC "Chart.js 3, minified")
+find_file(KAUSTIK_CHART_LICENCE NAMES copyright PATH_SUFFIXES share/doc/libjs-chart.js DOC "Licence of Chart.js")
+if(NOT KAUSTIK_CHART_JS OR NOT KAUSTIK_CHART_LICENCE)
+  message(FATAL_ERROR "Chart.js is missing: install the package libjs-chart.js, or give "
+    "-DKAUSTIK_CHART_JS=.../chart.min.js and -DKAUSTIK_CHART_LICENCE=... (its licence text)")
+endif()
+file(STRINGS ${KAUSTIK_CHART_JS} chart_banner LIMIT_COUNT 4 REGEX "Chart.js v3\\.")
+if(NOT chart_banner)
+  message(FATAL_ERROR "${KAUSTIK_CHART_JS} is not Chart.js 3, whose interface the report is written for")
+endif()
 if(KAUSTIK_BUILD_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

@@ -30,10 +30,6 @@ std::vector<bool> bright_mask(const Image& reference, float threshold) {
   return mask;
 }
 
-double relative_squared(double value, double reference) {
-  return (value - reference) * (value - reference) / (reference * reference + 0.01);
-}
-
 struct Sums {
   double squared = 0, relative = 0, image = 0, reference = 0, peak = 0;
 };
@@ -70,10 +66,18 @@ Rgb heat(float t) {
 
 }  // namespace
 
+double relative_squared(double value, double reference) {
+  return (value - reference) * (value - reference) / (reference * reference + 0.01);
+}
+
+std::vector<bool> masked_pixels(const Image& reference, const CompareOptions& options) {
+  if (options.mask_bright) return bright_mask(reference, *options.mask_bright);
+  return std::vector<bool>(reference.pixels.size(), false);
+}
+
 CompareResult compare(const Image& reference, const Image& image, const CompareOptions& options) {
   require_same_size(reference, image);
-  std::vector<bool> mask(reference.pixels.size(), false);
-  if (options.mask_bright) mask = bright_mask(reference, *options.mask_bright);
+  const std::vector<bool> mask = masked_pixels(reference, options);
   CompareResult result;
   Sums sums;
   for (int y = 0; y < reference.height; ++y)
@@ -96,18 +100,31 @@ CompareResult compare(const Image& reference, const Image& image, const CompareO
   return result;
 }
 
-Image heatmap(const Image& reference, const Image& image) {
+Image relative_error(const Image& reference, const Image& image) {
   require_same_size(reference, image);
   Image out(reference.width, reference.height);
   for (size_t i = 0; i < out.pixels.size(); ++i) {
     double error = 0;
     for (int c = 0; c < 3; ++c) error += relative_squared(image.pixels[i][c], reference.pixels[i][c]) / 3;
-    if (std::isnan(error))
-      out.pixels[i] = Rgb(1, 0, 1);
-    else
-      out.pixels[i] = error > 0 ? heat(float(std::log10(error) / 4 + 1)) : Rgb(0);
+    out.pixels[i] = Rgb(float(error));
   }
   return out;
+}
+
+Image false_colours(const Image& error) {
+  Image out(error.width, error.height);
+  for (size_t i = 0; i < out.pixels.size(); ++i) {
+    const float e = error.pixels[i].x;
+    if (std::isnan(e))
+      out.pixels[i] = Rgb(1, 0, 1);
+    else
+      out.pixels[i] = e > 0 ? heat(std::log10(e) / 4 + 1) : Rgb(0);
+  }
+  return out;
+}
+
+Image heatmap(const Image& reference, const Image& image) {
+  return false_colours(relative_error(reference, image));
 }
 
 }  // namespace kaustik::render

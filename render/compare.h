@@ -31,9 +31,20 @@ struct CompareResult {
 // Throws std::invalid_argument when the sizes differ or either picture is empty.
 CompareResult compare(const Image& reference, const Image& image, const CompareOptions& options = {});
 
-// Per-pixel relative squared error (mean over channels) as a colour: black 0, then blue, red, yellow, white
-// at 1 and above, on a logarithmic scale from 1e-4; NaN pixels are magenta. Linear values for write_image
-// with the default tone settings.
+// True for each pixel of the reference that the options leave out.
+std::vector<bool> masked_pixels(const Image& reference, const CompareOptions& options);
+
+// (value - reference)^2 / (reference^2 + 0.01) of one channel.
+double relative_squared(double value, double reference);
+
+// Per-pixel relative squared error (mean over channels), grey. Throws as compare does.
+Image relative_error(const Image& reference, const Image& image);
+
+// Such an error as a colour: black 0, then blue, red, yellow, white at 1 and above, on a logarithmic scale from
+// 1e-4; NaN pixels are magenta. Linear values for write_image with the default tone settings.
+Image false_colours(const Image& error);
+
+// false_colours of relative_error.
 Image heatmap(const Image& reference, const Image& image);
 
 }  // namespace kaustik::render

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "apps/bench/bench_json.h"
@@ -18,9 +17,9 @@
 #include "apps/console/progress_bar.h"
 #include "apps/exit_error.h"
 #include "apps/interrupt.h"
+#include "apps/list_options.h"
 #include "apps/output_files.h"
 #include "apps/scene_loading.h"
-#include "apps/settings/values.h"
 #include "apps/thread_limit.h"
 #include "apps/usable_cores.h"
 #include "core/version.h"
@@ -47,26 +46,6 @@ constexpr std::string_view kSettings[] = {"method",      "passes",       "direct
                                           "min-photons", "node-photons", "lookup",  "emission", "max-bounces",
                                           "spp",         "seed",         "width",   "height",   "crop"};
 
-uint64_t whole_number(std::string_view option, const std::string& text, uint64_t most) {
-  const std::optional<uint64_t> value = parse_count(text);
-  if (value && *value >= 1 && *value <= most) return *value;
-  throw ExitError(kBadCommandLine,
-                  fmt::format("{}: `{}`: expected a whole number, 1 to {} (like 250, 10k, 2.5M, 1G)", option,
-                              text, most));
-}
-
-template <class T>
-std::vector<T> whole_numbers(std::string_view option, const std::vector<std::string>& texts, uint64_t most) {
-  std::vector<T> values;
-  std::set<T> seen;
-  for (const std::string& text : texts) {
-    values.push_back(static_cast<T>(whole_number(option, text, most)));
-    if (!seen.insert(values.back()).second)
-      throw ExitError(kBadCommandLine, fmt::format("{}: `{}` is given twice", option, text));
-  }
-  return values;
-}
-
 // 1, 2, 4 ... and the usable cores themselves.
 std::vector<int> doubling_threads(int usable) {
   std::vector<int> threads;
@@ -77,9 +56,10 @@ std::vector<int> doubling_threads(int usable) {
 
 BenchPlan plan_of(const Options& options, const CoreLimits& cores) {
   BenchPlan plan;
-  plan.photons = whole_numbers<uint64_t>("--photons", options.photons, std::numeric_limits<uint64_t>::max());
-  plan.threads = options.threads.empty() ? doubling_threads(cores.usable())
-                                         : whole_numbers<int>("--threads", options.threads, kMostThreads);
+  plan.photons = whole_numbers("--photons", options.photons);
+  if (options.threads.empty()) plan.threads = doubling_threads(cores.usable());
+  for (const uint64_t threads : whole_numbers("--threads", options.threads, kMostThreads))
+    plan.threads.push_back(static_cast<int>(threads));
   plan.repeat = whole_number("--repeat", options.repeat, 1'000'000);
   return plan;
 }
@@ -117,11 +97,6 @@ void warn_of_noise(const BenchPlan& plan, const CoreLimits& cores, const Console
                                 cores.usable() == 1 ? "" : "s"));
   if (!restart_peak_memory())
     console.warning("the peak of memory cannot be restarted here: it is that of all runs so far");
-}
-
-// A path need not be UTF-8; JSON and SVG are.
-std::string utf8(const std::string& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
 std::vector<BenchPoint> measure_job(const Job& job, const BenchPlan& plan, const InterruptGuard& interrupt,
@@ -192,20 +167,11 @@ int run_bench(const Options& options, const Console& console) {
   return kDone;
 }
 
-void add_list_option(CLI::App& parser, const std::string& name, std::vector<std::string>& texts,
-                     const std::string& description) {
-  parser.add_option(name, texts, description)
-      ->option_text("COUNTS")
-      ->delimiter(',')
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
 void add_options(CLI::App& parser, Options& options) {
   parser.add_option("SCENE", options.scene, "Scene file")->option_text(" ");
-  add_list_option(parser, "--photons", options.photons,
+  add_list_option(parser, "--photons", options.photons, "COUNTS",
                   "Photon counts, separated by commas: 1M,10M. Default: 1M");
-  add_list_option(parser, "--threads", options.threads,
+  add_list_option(parser, "--threads", options.threads, "COUNTS",
                   "Numbers of threads, separated by commas; speed-ups are over the first. Each bounds all "
                   "threads of the process. Default: 1, 2, 4 ... up to the usable cores");
   parser.add_option("--repeat", options.repeat, "Runs of each point. Default: 5")->option_text("COUNT");

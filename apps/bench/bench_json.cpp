@@ -12,10 +12,6 @@ namespace {
 
 constexpr int kFormat = 1;  // grows when a reader of the old format would misread the new one
 
-Json spread_json(const Spread& s) {
-  return {{"median", s.median}, {"min", s.min}, {"max", s.max}};
-}
-
 template <size_t N>
 Json spreads_json(const std::array<Spread, N>& spreads, const std::array<std::string_view, N>& names) {
   Json out;
@@ -86,13 +82,6 @@ double measure_of(const Json& object, std::string_view key) {
   return value.get<double>();
 }
 
-Spread read_spread(const Json& object, std::string_view key) {
-  const Json& in = field(object, key);
-  const Spread s{measure_of(in, "median"), measure_of(in, "min"), measure_of(in, "max")};
-  if (!(s.min <= s.median && s.median <= s.max)) refuse(key, "min <= median <= max");
-  return s;
-}
-
 template <size_t N>
 std::array<Spread, N> read_spreads(const Json& object, const std::array<std::string_view, N>& names) {
   std::array<Spread, N> out;
@@ -113,6 +102,21 @@ BenchPoint read_point(const Json& in) {
 }
 
 }  // namespace
+
+std::string utf8(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+Json spread_json(const Spread& s) {
+  return {{"median", s.median}, {"min", s.min}, {"max", s.max}};
+}
+
+Spread read_spread(const Json& object, std::string_view key) {
+  const Json& in = field(object, key);
+  const Spread s{measure_of(in, "median"), measure_of(in, "min"), measure_of(in, "max")};
+  if (!(s.min <= s.median && s.median <= s.max)) refuse(key, "min <= median <= max");
+  return s;
+}
 
 std::string bench_json(const BenchResult& result) {
   Json out;

@@ -28,13 +28,6 @@ struct PointRuns {
   std::vector<Run> runs;
 };
 
-std::array<double, kPhases> seconds_of(const RenderOutcome& outcome) {
-  const render::RenderStatistics& s = outcome.result.statistics;
-  const double bvh = outcome.times.bvh;
-  return {bvh, s.photon_trace_s, s.photon_build_s, s.render_s,
-          bvh + s.photon_trace_s + s.photon_build_s + s.render_s};
-}
-
 std::array<double, kRates> rates_of(const render::RenderStatistics& s) {
   const auto rate = [](uint64_t n, double seconds) {
     return seconds > 0 ? static_cast<double>(n) / seconds : 0.0;
@@ -65,7 +58,7 @@ std::optional<Run> run_once(const Scene& scene, render::RenderSettings settings,
     const RenderOutcome outcome = render_job(scene, settings, go_on, {.keep_sums = false});
     const double busy = (cpu_seconds() - cpu_before) / watch.seconds();
     if (outcome.result.cancelled) return;
-    run = Run{seconds_of(outcome), rates_of(outcome.result.statistics), busy,
+    run = Run{phase_seconds(outcome), rates_of(outcome.result.statistics), busy,
               static_cast<double>(render::peak_memory_bytes()),
               render::counters_json(outcome.result.statistics)};
   });
@@ -109,6 +102,13 @@ BenchPoint summarise(const PointRuns& point) {
 }
 
 }  // namespace
+
+std::array<double, kPhases> phase_seconds(const RenderOutcome& outcome) {
+  const render::RenderStatistics& s = outcome.result.statistics;
+  const double bvh = outcome.times.bvh;
+  return {bvh, s.photon_trace_s, s.photon_build_s, s.render_s,
+          bvh + s.photon_trace_s + s.photon_build_s + s.render_s};
+}
 
 std::optional<std::vector<BenchPoint>> measure(const Scene& scene, const render::RenderSettings& settings,
                                                const BenchPlan& plan, const BenchProgress& progress) {

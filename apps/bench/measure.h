@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "apps/bench/bench_result.h"
+#include "apps/render_job.h"
 #include "core/scene/scene.h"
 #include "render/settings.h"
 
@@ -19,6 +20,9 @@ struct BenchPlan {
 
 // Asked for often, from worker threads too, with the runs that are done; false cancels.
 using BenchProgress = std::function<bool(uint64_t done)>;
+
+// By Phase; the total is the sum of the others.
+std::array<double, kPhases> phase_seconds(const RenderOutcome& outcome);
 
 // Every round renders each point once, so that a machine that slows down does so for all alike. A run builds
 // the rays' tree and the photon maps anew and renders the image; nothing is written. Fills BenchPoint's

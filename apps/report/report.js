@@ -1,0 +1,228 @@
+"use strict";
+// Draws what the page holds as JSON: charts, the picture slider, the gallery. Texts only ever become text nodes.
+(() => {
+const data = JSON.parse(document.getElementById("data").textContent);
+const cells = data.cells;
+const byId = id => document.getElementById(id);
+
+// Colours that stay apart for the colour-blind (Okabe and Ito 2008), and shapes for those who print in grey.
+const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#4d4d4d"];
+const SHAPES = ["circle", "rect", "triangle", "rectRot", "star", "crossRot", "cross"];
+const PHASES = [["bvh", "rays' tree", "#4d4d4d"], ["photon_trace", "photons", "#e69f00"],
+                ["photon_build", "maps", "#56b4e9"], ["render", "render", "#0072b2"]];
+
+function countText(n) {
+  for (const [unit, letter] of [[1e9, "G"], [1e6, "M"], [1e3, "k"]])
+    if (n >= unit) return `${+(n / unit).toPrecision(3)}${letter}`;
+  return String(n);
+}
+const short = x => String(+x.toPrecision(3));
+const percent = x => `${short(100 * x)} %`;
+const secondsText = s => `${short(s)} s`;
+const relative = cell => cell.error.relative_rmse;
+const seconds = cell => cell.seconds.total.median;
+
+// Names of a cell's series: only what differs within the sweep.
+const varies = key => new Set(cells.map(cell => cell[key])).size > 1;
+function nameOf(cell, keys) {
+  const parts = [];
+  if (keys.includes("method") && varies("method")) parts.push(cell.method);
+  if (keys.includes("spp") && varies("spp")) parts.push(`${cell.spp} spp`);
+  if (keys.includes("photons") && cell.photons) parts.push(`N ${countText(cell.photons)}`);
+  if (keys.includes("radius") && cell.radius) parts.push(`r0 ${cell.radius}`);
+  return parts.join(", ") || cell.method;
+}
+
+// Cells that share these keys, in the order of the sweep: [{name, cells}].
+function seriesBy(chosen, keys) {
+  const groups = new Map();
+  for (const cell of chosen) {
+    const id = JSON.stringify(keys.map(key => cell[key]));
+    if (!groups.has(id)) groups.set(id, {name: nameOf(cell, keys), cells: []});
+    groups.get(id).cells.push(cell);
+  }
+  return [...groups.values()];
+}
+
+function dataset(name, points, index, more = {}) {
+  const colour = COLOURS[index % COLOURS.length];
+  return {label: name, data: points, borderColor: colour, backgroundColor: colour, borderWidth: 1.5, pointRadius: 4.5,
+          pointHoverRadius: 7, pointStyle: SHAPES[index % SHAPES.length], showLine: true, ...more};
+}
+
+// A point keeps the number of its cell, for tooltips and for whoever looks for it.
+const point = (cell, x, y) => ({x, y, cell: cells.indexOf(cell)});
+const sorted = points => points.sort((a, b) => a.x - b.x);
+
+// Labels at 1, 2 and 5 times powers of ten; fewer where they would be many.
+function tickText(format) {
+  return function (value, _index, ticks) {
+    const digit = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
+    const decades = Math.log10(ticks[ticks.length - 1].value / ticks[0].value);
+    const wanted = decades > 4 ? [1] : decades > 1.6 ? [1, 2, 5] : [1, 2, 3, 5, 7];
+    return wanted.includes(digit) ? format(value) : null;
+  };
+}
+const logAxis = (title, format) => ({
+  type: "logarithmic", title: {display: true, text: title}, grid: {color: "#e6eaef"},
+  ticks: {callback: tickText(format), maxRotation: 0, autoSkip: false}});
+
+function tooltip(item) {
+  const cell = cells[item.raw.cell];
+  const lines = [cell.flags, `relative error ${percent(relative(cell))}, ${secondsText(seconds(cell))}`];
+  if (cell.r0) lines.push(`r0 ${short(cell.r0.largest)} m`);
+  return lines;
+}
+
+function scatter(id, datasets, x, y) {
+  return new Chart(byId(id), {
+    type: "scatter",
+    data: {datasets},
+    options: {
+      animation: false, maintainAspectRatio: false, responsive: true,
+      interaction: {mode: "nearest", intersect: true},
+      scales: {x, y},
+      plugins: {legend: {position: "bottom", labels: {usePointStyle: true, boxWidth: 8}},
+                tooltip: {callbacks: {label: tooltip}}}}});
+}
+
+const SECONDS = () => logAxis("time [s]", short);
+const ERROR = () => logAxis("relative error [%]", value => short(100 * value));
+const PHOTONS = () => logAxis("photons emitted", countText);
+const RADIUS = () => logAxis("gather radius r0 [m]", short);
+const RELMSE = () => logAxis("relMSE", value => value.toExponential(0));
+
+function drawErrorCharts() {
+  const withPhotons = cells.filter(cell => cell.photons);
+  const keys = ["method", "spp", "radius"];
+  // Methods without photons move with their samples.
+  const without = seriesBy(cells.filter(cell => !cell.photons), ["method"]);
+  const overTime = [...seriesBy(withPhotons, keys), ...without]
+    .map((s, i) => dataset(s.name, s.cells.map(c => point(c, seconds(c), relative(c))), i));
+  const front = sorted(cells.filter(c => c.pareto).map(c => point(c, seconds(c), relative(c))));
+  overTime.push({label: "Pareto front", data: front, borderColor: "#9aa5b1", backgroundColor: "transparent",
+                 borderWidth: 6, pointRadius: 10, pointBorderWidth: 2, pointStyle: "circle", showLine: true, stepped: "before",
+                 pointHitRadius: 0, order: 9});
+  scatter("error-time", overTime, SECONDS(), ERROR());
+  scatter("error-photons", seriesBy(withPhotons, keys).map((s, i) =>
+    dataset(s.name, sorted(s.cells.map(c => point(c, c.photons, relative(c)))), i)), PHOTONS(), ERROR());
+  scatter("error-radius", seriesBy(withPhotons, ["method", "spp", "photons"]).map((s, i) =>
+    dataset(s.name, sorted(s.cells.map(c => point(c, c.r0.largest, relative(c)))), i)), RADIUS(), ERROR());
+}
+
+// Squared bias and variance of one method and sample count, over radius or photons.
+function drawParts() {
+  const all = seriesBy(cells.filter(cell => cell.photons), ["method", "spp"]);
+  const select = byId("parts-series"), axis = byId("parts-axis");
+  all.forEach((s, i) => select.add(new Option(s.name, i)));
+  select.parentElement.hidden = all.length < 2;
+  axis.value = varies("radius") ? "r0" : "photons";
+  let chart;
+  const draw = () => {
+    if (chart) chart.destroy();
+    const radius = axis.value === "r0";
+    const shown = all.length ? all[select.value].cells : [];
+    const datasets = [];
+    let hidden = 0;
+    seriesBy(shown, [radius ? "photons" : "radius"]).forEach((s, i) => {
+      const points = key => sorted(s.cells.filter(c => c.error[key] !== null)
+        .map(c => point(c, radius ? c.r0.largest : c.photons, c.error[key])));
+      const bias = points("bias2"), variance = points("variance");
+      hidden += bias.filter(p => p.y <= 0).length;
+      datasets.push(dataset(`bias\u00b2, ${s.name}`, bias.filter(p => p.y > 0), i));
+      datasets.push(dataset(`variance, ${s.name}`, variance, i, {borderDash: [6, 4], backgroundColor: "#fff"}));
+    });
+    byId("parts-note").textContent = data.seeds < 2 ? "They need two seeds at least."
+      : hidden ? `${hidden} value${hidden > 1 ? "s" : ""} of bias\u00b2 at or below zero cannot be shown here.` : "";
+    chart = scatter("error-parts", datasets, radius ? RADIUS() : PHOTONS(), RELMSE());
+  };
+  select.addEventListener("change", draw);
+  axis.addEventListener("change", draw);
+  draw();
+}
+
+function drawPhases() {
+  byId("phases-box").style.height = `${6 + 1.5 * cells.length}rem`;
+  const label = cell => nameOf(cell, ["method", "spp", "photons", "radius"]);
+  new Chart(byId("phases"), {
+    type: "bar",
+    data: {labels: cells.map(label),
+           datasets: PHASES.map(([key, name, colour]) =>
+             ({label: name, data: cells.map(c => c.seconds[key].median), backgroundColor: colour}))},
+    options: {
+      indexAxis: "y", animation: false, maintainAspectRatio: false, responsive: true,
+      scales: {x: {stacked: true, title: {display: true, text: "time [s]"}, grid: {color: "#e6eaef"}},
+               y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false, font: {size: 11}}}},
+      plugins: {legend: {position: "bottom", labels: {boxWidth: 12}},
+                tooltip: {callbacks: {label: item => `${item.dataset.label}: ${secondsText(item.raw)}`}}}}});
+}
+
+// Pictures: the reference, then every cell.
+const label = cell => `${nameOf(cell, ["method", "spp", "photons", "radius"])}: ${percent(relative(cell))}, ${secondsText(seconds(cell))}`;
+const choices = [{label: "reference", picture: data.reference.picture, map: null},
+                 ...cells.map(c => ({label: label(c), picture: c.picture, map: c.error_map}))];
+
+function setUpSlider() {
+  const slider = byId("slider"), errors = byId("show-errors");
+  const sides = ["left", "right"].map(side => ({choice: byId(`${side}-choice`), image: byId(`${side}-image`),
+                                                tag: byId(`${side}-tag`)}));
+  for (const side of sides) choices.forEach((c, i) => side.choice.add(new Option(c.label, i)));
+  const best = cells.filter(c => c.pareto).sort((a, b) => relative(a) - relative(b))[0];
+  sides[0].choice.value = 0;
+  sides[1].choice.value = 1 + cells.indexOf(best);
+  const show = () => {
+    for (const side of sides) {
+      const chosen = choices[side.choice.value];
+      const map = errors.checked && chosen.map;
+      side.image.src = data.pictures[map || chosen.picture];
+      side.image.alt = `${map ? "Error map" : "Picture"}: ${chosen.label}`;
+      side.tag.textContent = (map ? "error of " : "") + chosen.label;
+    }
+  };
+  const move = () => {
+    byId("right-image").style.clipPath = `inset(0 0 0 ${slider.value}%)`;
+    byId("divider").style.left = `${slider.value}%`;
+  };
+  // The picture itself can be dragged, too.
+  const drag = event => {
+    const box = byId("compare").getBoundingClientRect();
+    slider.value = 100 * (event.clientX - box.left) / box.width;
+    move();
+  };
+  byId("compare").addEventListener("pointermove", event => { if (event.buttons) drag(event); });
+  byId("compare").addEventListener("pointerdown", event => { event.preventDefault(); drag(event); });
+  slider.addEventListener("input", move);
+  for (const control of [errors, ...sides.map(side => side.choice)]) control.addEventListener("change", show);
+  show();
+  move();
+}
+
+function fillGallery() {
+  const figure = (names, text) => {
+    const element = document.createElement("figure"), row = document.createElement("div"),
+          caption = document.createElement("figcaption");
+    row.className = names.length > 1 ? "two" : "";
+    for (const [name, alt] of names) {
+      const image = new Image();
+      image.src = data.pictures[name];
+      image.alt = alt;
+      row.append(image);
+    }
+    caption.textContent = text;
+    element.append(row, caption);
+    byId("gallery").append(element);
+  };
+  const front = cells.filter(c => c.pareto).sort((a, b) => seconds(a) - seconds(b));
+  for (const c of front) figure([[c.picture, "picture"], [c.error_map, "its error map"]], label(c));
+  figure([[data.reference.picture, "reference"]], "reference");
+}
+
+Chart.defaults.font.family = getComputedStyle(document.documentElement).fontFamily;
+Chart.defaults.color = "#3b4654";
+drawErrorCharts();
+drawParts();
+drawPhases();
+setUpSlider();
+fillGallery();
+addEventListener("beforeprint", () => { for (const id in Chart.instances) Chart.instances[id].resize(); });
+})();

@@ -1,0 +1,188 @@
+#include "apps/sweep/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/exit_error.h"
+#include "apps/output_files.h"
+#include "apps/partial_files.h"
+#include "apps/render_job.h"
+#include "apps/stopwatch.h"
+#include "apps/bench/bench_json.h"
+#include "apps/sweep/pictures.h"
+#include "render/image_io.h"
+#include "render/names.h"
+#include "render/renderer.h"
+
+namespace kaustik::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint64_t kPassPhotons = 1'000'000;
+constexpr uint64_t kShares = 64;              // the radius begins as that of all their photons
+constexpr double kPassSamples = 1 << 20;      // of all pixels, about
+constexpr uint64_t kSeedApart = 0x7265660000; // added to the sweep's seed
+
+Settings reference_settings(const Job& job, render::Method method) {
+  Settings settings = job.settings;
+  render::RenderSettings& s = settings.render;
+  const auto [width, height] = picture_size(job);
+  s.method = method;
+  s.direct.reset(), s.caustics.reset(), s.indirect.reset();
+  const double pixels = double(width) * double(height);
+  const int samples = static_cast<int>(std::clamp(kPassSamples / pixels, 4.0, 64.0));
+  s.photons = kPassPhotons * kShares;
+  s.passes = kShares;
+  s.spp = samples * static_cast<int>(kShares);
+  s.radius.reset();
+  s.radius_factor = 1;
+  s.nearest = 0;
+  s.alpha = 2.0f / 3;
+  s.seed += kSeedApart;
+  return settings;
+}
+
+// A job with other settings for a while.
+class SettingsGuard {
+ public:
+  SettingsGuard(Job& job, Settings settings) : job_(job), previous_(std::move(job.settings)) {
+    job_.settings = std::move(settings);
+  }
+  ~SettingsGuard() { job_.settings = std::move(previous_); }
+  SettingsGuard(const SettingsGuard&) = delete;
+  SettingsGuard& operator=(const SettingsGuard&) = delete;
+
+ private:
+  Job& job_;
+  Settings previous_;
+};
+
+double mean_of(const render::Image& image) {
+  double sum = 0;
+  for (const Rgb& pixel : image.pixels) sum += double(pixel.x) + double(pixel.y) + double(pixel.z);
+  return sum / (3.0 * double(image.pixels.size()));
+}
+
+void check_size(const render::Image& image, const Job& job, const std::string& path) {
+  const auto [width, height] = picture_size(job);
+  if (image.width != width || image.height != height)
+    throw ExitError(kBadCommandLine,
+                    fmt::format("--reference: {} has {} x {} pixels, the scene's picture {} x {}", path,
+                                image.width, image.height, width, height));
+}
+
+Reference read_reference(const std::string& path, const Job& job) {
+  Reference reference;
+  try {
+    reference.image = render::read_image(path);
+  } catch (const render::ImageError& error) {
+    throw ExitError(kBadCommandLine, fmt::format("--reference: {}", error.what()));
+  }
+  check_size(reference.image, job, path);
+  reference.about.source = utf8(path);
+  return reference;
+}
+
+// The one that an earlier run finished.
+std::optional<Reference> find_reference(const Job& job, const SweepFolder& folder) {
+  const std::optional<Json> about = folder.read("reference.json");
+  const std::string path = folder.path("reference.exr");
+  if (!about || !fs::exists(path)) return std::nullopt;
+  Reference reference = read_reference(path, job);
+  about->at("source").get_to(reference.about.source);
+  about->at("seconds").get_to(reference.about.seconds);
+  about->at("passes").get_to(reference.about.passes);
+  if (const Json& noise = about->at("noise_relmse"); !noise.is_null()) reference.about.noise = noise.get<double>();
+  return reference;
+}
+
+double seconds_in(const render::PassSums& sums) {
+  const render::RenderStatistics& s = sums.statistics;
+  return s.photon_trace_s + s.photon_build_s + s.render_s;
+}
+
+// Passes of an interrupted run. The folder's own mark has checked scene, build and settings.
+render::PassSums begun_passes(const std::string& path) {
+  if (!fs::exists(path)) return {};
+  return load_partial(path).sums;
+}
+
+void keep_reference(const Reference& reference, const SweepFolder& folder) {
+  render::write_image(folder.path("reference.exr"), reference.image);
+  const SweepReference& about = reference.about;
+  const Json json = {{"source", about.source},
+                     {"seconds", about.seconds},
+                     {"passes", about.passes},
+                     {"noise_relmse", about.noise ? Json(*about.noise) : Json(nullptr)}};
+  write_text_file(folder.path("reference.json"), json.dump(2) + "\n");
+  std::error_code ignored;
+  fs::remove(folder.path("reference.kpart"), ignored);
+}
+
+std::optional<Reference> render_reference(const ReferenceChoice& choice, render::Method method, Job& job,
+                                          const SweepFolder& folder, const ReferenceProgress& progress) {
+  const SettingsGuard guard(job, reference_settings(job, method));
+  const std::string part = folder.path("reference.kpart");
+  render::RenderTask task{.passes = render::PassSet(0, render::kMostPasses), .done = begun_passes(part)};
+  uint64_t passes = task.done.passes.count();
+  task.after_pass = [&](const render::PassSums& sums) { passes = sums.passes.count(); };
+  const double before = seconds_in(task.done);
+  const Stopwatch watch;
+  bool interrupted = false;
+  const auto go_on = [&](const render::Progress&) {
+    const double spent = before + watch.seconds();
+    const auto ms = [](double seconds) { return static_cast<uint64_t>(1e3 * seconds); };
+    interrupted = interrupted || !progress(std::min(ms(spent), ms(choice.seconds)), ms(choice.seconds));
+    return !interrupted && (passes < 2 || spent < choice.seconds);
+  };
+  const render::RenderResult result = render_job(job.scene, job.settings.render, go_on, std::move(task)).result;
+  if (interrupted) {
+    if (!result.sums.passes.empty())
+      render::write_partial(part, manifest_of(job, {}, {}, result.sums), result.sums);
+    return std::nullopt;
+  }
+  Reference reference{render::image_of(result.film), {}};
+  reference.about = {.source = fmt::format("method {}, {} passes", render::name_of(method), passes),
+                     .noise = render::relative_noise(result.sums.totals),
+                     .seconds = before + watch.seconds(),
+                     .passes = passes,
+                     .picture = {}};
+  keep_reference(reference, folder);
+  return reference;
+}
+
+}  // namespace
+
+std::pair<int, int> picture_size(const Job& job) {
+  const render::CropWindow& crop = job.settings.render.crop;
+  if (crop.empty()) return {job.scene.camera.width, job.scene.camera.height};
+  return {crop.x1 - crop.x0, crop.y1 - crop.y0};
+}
+
+render::Method reference_method(const SceneNeeds& needs) {
+  return needs.specular ? render::Method::kAuto : render::Method::kMc;
+}
+
+std::optional<Reference> make_reference(const ReferenceChoice& choice, Job& job, const SweepFolder& folder,
+                                        const ReferenceProgress& progress) {
+  std::optional<Reference> reference;
+  if (!choice.file.empty())
+    reference = read_reference(choice.file, job);
+  else
+    reference = find_reference(job, folder);
+  if (!reference) {
+    const render::Method method = choice.method.value_or(reference_method(job.scene.needs));
+    reference = render_reference(choice, method, job, folder, progress);
+  }
+  if (!reference) return std::nullopt;
+  reference->about.mean = mean_of(reference->image);
+  reference->about.picture = "reference.png";
+  write_picture(folder.path(reference->about.picture), reference->image, job.settings.tone);
+  return reference;
+}
+
+}  // namespace kaustik::app

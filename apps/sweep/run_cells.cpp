@@ -1,0 +1,127 @@
+#include "apps/sweep/run_cells.h"
+
+#include <algorithm>
+
+#include "apps/bench/measure.h"
+#include "apps/partial_files.h"
+#include "apps/render_job.h"
+#include "apps/sweep/pictures.h"
+#include "render/error_parts.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// How much of its render's work is done.
+double fraction_of(const render::Progress& p, const SweepPoint& point, uint64_t work) {
+  const double photons = double(point.photons) / double(work);
+  const double phase = p.total > 0 ? double(p.done) / double(p.total) : 0;
+  const double in_pass = p.phase == "photons" ? photons * phase
+                         : p.phase == "build" ? photons
+                                              : photons + (1 - photons) * phase;
+  return (double(p.pass) + in_pass) / double(std::max<uint64_t>(p.passes, 1));
+}
+
+// One point of the grid at work.
+class CellRun {
+ public:
+  CellRun(const SweepJob& sweep, const SweepPoint& point, const SweepFolder& folder)
+      : sweep_(sweep),
+        folder_(folder),
+        settings_(settings_at(point, sweep.grid, sweep.job.settings, sweep.overrides)),
+        errors_(sweep.reference.image, sweep.compare) {
+    cell_.point = point;
+    cell_.flags = flags_of(point, sweep.grid);
+    key_ = folder.key({{"settings", setting_texts(settings_, true)}, {"seeds", sweep.grid.seeds}});
+    cell_.picture = "cells/" + key_ + ".png";
+    cell_.error_map = "cells/" + key_ + "-error.png";
+  }
+
+  std::optional<SweepCell> find(const Console& console) const {
+    std::optional<SweepCell> found = folder_.find(key_, console);
+    if (!found) return std::nullopt;
+    found->point = cell_.point;
+    found->flags = cell_.flags;
+    return found;
+  }
+
+  // False when cancelled. go_on is told the work that is done, of work() for each seed.
+  bool render_all(const std::function<bool(uint64_t done)>& go_on) {
+    for (uint64_t i = 0; i < sweep_.grid.seeds; ++i) {
+      render::RenderSettings s = settings_.render;
+      s.seed += i;
+      const auto progress = [&](const render::Progress& p) {
+        const double part = fraction_of(p, cell_.point, work());
+        return go_on(i * work() + static_cast<uint64_t>(part * double(work())));
+      };
+      const RenderOutcome outcome = render_job(sweep_.job.scene, s, progress, {.keep_sums = false});
+      if (outcome.result.cancelled) return false;
+      add(outcome, i == 0);
+      if (!go_on((i + 1) * work())) return false;
+    }
+    return true;
+  }
+
+  // Of one seed: photons and camera samples cost about the same.
+  uint64_t work() const {
+    const auto [width, height] = picture_size(sweep_.job);
+    return cell_.point.photons + uint64_t(width) * uint64_t(height) * uint64_t(cell_.point.spp);
+  }
+
+  // After render_all; kept in the folder.
+  SweepCell finish() {
+    cell_.error = errors_.parts();
+    for (size_t i = 0; i < kPhases; ++i) cell_.seconds[i] = spread_of(seconds_[i]);
+    folder_.keep(key_, cell_);
+    return cell_;
+  }
+
+ private:
+  void add(const RenderOutcome& outcome, bool first) {
+    const render::Image image = render::image_of(outcome.result.film);
+    errors_.add(image);
+    cell_.relmse_by_seed.push_back(render::compare(sweep_.reference.image, image, sweep_.compare).relmse);
+    const auto seconds = phase_seconds(outcome);
+    for (size_t i = 0; i < kPhases; ++i) seconds_[i].push_back(seconds[i]);
+    if (!first) return;
+    const render::RenderStatistics& s = outcome.result.statistics;
+    cell_.radii = {s.direct_radius, s.caustic_radius, s.indirect_radius};
+    write_picture(folder_.path(cell_.picture), image, settings_.tone);
+    write_error_map(folder_.path(cell_.error_map), sweep_.reference.image, image);
+  }
+
+  const SweepJob& sweep_;
+  const SweepFolder& folder_;
+  Settings settings_;
+  render::ErrorPartsSum errors_;
+  std::array<std::vector<double>, kPhases> seconds_;
+  SweepCell cell_;
+  std::string key_;
+};
+
+}  // namespace
+
+RunCells run_cells(const SweepJob& sweep, const std::vector<SweepPoint>& points, const SweepFolder& folder,
+                   const SweepProgress& progress, const Console& console) {
+  RunCells out;
+  std::vector<std::optional<SweepCell>> cells;
+  uint64_t total = 0, done = 0;
+  for (const SweepPoint& point : points) {
+    const CellRun run(sweep, point, folder);
+    cells.push_back(run.find(console));
+    out.reused += cells.back().has_value();
+    if (!cells.back()) total += run.work() * sweep.grid.seeds;
+  }
+  for (size_t i = 0; i < points.size() && !out.cancelled; ++i) {
+    if (cells[i]) continue;
+    CellRun run(sweep, points[i], folder);
+    out.cancelled = !run.render_all([&](uint64_t work) { return progress(done + work, total); });
+    if (!out.cancelled) cells[i] = run.finish();
+    done += run.work() * sweep.grid.seeds;
+  }
+  for (std::optional<SweepCell>& cell : cells)
+    if (cell) out.cells.push_back(std::move(*cell));
+  return out;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,143 @@
+#include "apps/sweep/sweep_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/bench/bench_json.h"
+#include "render/names.h"
+
+namespace kaustik::app {
+
+namespace {
+
+constexpr int kFormat = 1;  // grows when a reader of the old format would misread the new one
+
+Json or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+std::optional<double> optional_number(const Json& in) {
+  return in.is_null() ? std::nullopt : std::optional(in.get<double>());
+}
+
+Json error_json(const SweepCell& cell) {
+  const render::ErrorParts& e = cell.error;
+  return {{"relmse", e.relmse},
+          {"relative_rmse", std::sqrt(e.relmse)},
+          {"bias2", or_null(e.bias2)},
+          {"variance", or_null(e.variance)},
+          {"relmse_by_seed", cell.relmse_by_seed},
+          {"pixels", {{"compared", e.compared}, {"masked", e.masked}, {"not_finite", e.not_finite}}}};
+}
+
+Json radii_json(const SweepCell& cell) {
+  if (!cell.point.reads_photons()) return nullptr;
+  const auto exact = [](float radius) { return double(radius); };
+  return {{"largest", cell.r0()},
+          {"direct", exact(cell.radii.direct)},
+          {"caustic", exact(cell.radii.caustic)},
+          {"indirect", exact(cell.radii.indirect)}};
+}
+
+Json reference_json(const SweepReference& r) {
+  return {{"source", r.source}, {"noise_relmse", or_null(r.noise)}, {"seconds", r.seconds},
+          {"passes", r.passes}, {"mean", r.mean},                   {"picture", r.picture}};
+}
+
+Json advice_json(const std::vector<SweepCell>& cells) {
+  Json out = Json::array();
+  for (const Advice& a : advice_of(cells))
+    out.push_back(
+        {{"target", a.target}, {"cell", a.cell ? Json(*a.cell) : Json(nullptr)}, {"text", a.text}});
+  return out;
+}
+
+}  // namespace
+
+Json cell_json(const SweepCell& cell) {
+  const bool photons = cell.point.reads_photons();
+  Json out;
+  out["method"] = render::name_of(cell.point.method);
+  out["photons"] = photons ? Json(cell.point.photons) : Json(nullptr);
+  out["radius"] = photons ? Json(cell.point.radius.text()) : Json(nullptr);
+  out["spp"] = cell.point.spp;
+  out["flags"] = cell.flags;
+  out["seeds"] = cell.error.images;
+  out["error"] = error_json(cell);
+  out["r0"] = radii_json(cell);
+  for (size_t i = 0; i < kPhases; ++i)
+    out["seconds"][std::string(kPhaseNames[i])] = spread_json(cell.seconds[i]);
+  out["picture"] = cell.picture;
+  out["error_map"] = cell.error_map;
+  return out;
+}
+
+SweepCell cell_from_json(const Json& in) {
+  SweepCell cell;
+  const Json& error = in.at("error");
+  in.at("seeds").get_to(cell.error.images);
+  error.at("relmse").get_to(cell.error.relmse);
+  cell.error.bias2 = optional_number(error.at("bias2"));
+  cell.error.variance = optional_number(error.at("variance"));
+  error.at("relmse_by_seed").get_to(cell.relmse_by_seed);
+  error.at("pixels").at("compared").get_to(cell.error.compared);
+  error.at("pixels").at("masked").get_to(cell.error.masked);
+  error.at("pixels").at("not_finite").get_to(cell.error.not_finite);
+  if (const Json& r = in.at("r0"); !r.is_null())
+    cell.radii = {r.at("direct").get<float>(), r.at("caustic").get<float>(), r.at("indirect").get<float>()};
+  for (size_t i = 0; i < kPhases; ++i) cell.seconds[i] = read_spread(in.at("seconds"), kPhaseNames[i]);
+  in.at("picture").get_to(cell.picture);
+  in.at("error_map").get_to(cell.error_map);
+  return cell;
+}
+
+Json sweep_json(const SweepResult& result) {
+  Json out;
+  out["kaustik_sweep"] = kFormat;
+  out["version"] = result.version;
+  out["build"] = result.build;
+  out["scene"] = result.scene;
+  out["machine"] = result.machine;
+  out["threads"] = result.threads;
+  out["width"] = result.width;
+  out["height"] = result.height;
+  out["settings"] = result.settings;
+  out["seeds"] = result.seeds;
+  out["mask_bright"] = result.mask_bright ? Json(*result.mask_bright) : Json(nullptr);
+  out["reference"] = reference_json(result.reference);
+  out["cells"] = Json::array();
+  const std::vector<size_t> front = pareto_front(result.cells);
+  for (size_t i = 0; i < result.cells.size(); ++i) {
+    Json cell = cell_json(result.cells[i]);
+    cell["pareto"] = std::find(front.begin(), front.end(), i) != front.end();
+    out["cells"].push_back(std::move(cell));
+  }
+  out["advice"] = advice_json(result.cells);
+  return out;
+}
+
+std::string sweep_csv(const SweepResult& result) {
+  std::string csv = "method,photons,radius,spp,seeds,r0_m,relmse,relative_rmse,bias2,variance,seconds";
+  for (size_t i = 0; i + 1 < kPhases; ++i) csv += fmt::format(",seconds_{}", kPhaseNames[i]);
+  csv += ",pareto\n";
+  const Json json = sweep_json(result);
+  for (const Json& cell : json["cells"]) {
+    const auto add = [&](const Json& value, char before = ',') {
+      csv += fmt::format("{}{}", before,
+                         value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump());
+    };
+    csv += cell["method"].get<std::string>();
+    for (const char* key : {"photons", "radius", "spp", "seeds"}) add(cell[key]);
+    add(cell["r0"].is_null() ? Json(nullptr) : cell["r0"]["largest"]);
+    for (const char* key : {"relmse", "relative_rmse", "bias2", "variance"}) add(cell["error"][key]);
+    add(cell["seconds"]["total"]["median"]);
+    for (size_t i = 0; i + 1 < kPhases; ++i) add(cell["seconds"][std::string(kPhaseNames[i])]["median"]);
+    add(cell["pareto"]);
+    csv += '\n';
+  }
+  return csv;
+}
+
+}  // namespace kaustik::app

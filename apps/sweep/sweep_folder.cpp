@@ -1,0 +1,101 @@
+#include "apps/sweep/sweep_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "apps/exit_error.h"
+#include "apps/output_files.h"
+#include "apps/sweep/sweep_files.h"
+#include "core/content_hash.h"
+
+namespace kaustik::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kCommonName = "sweep-of.json";
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw ExitError(kBadCommandLine, message);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    refuse(fmt::format("cannot write {}: this is not a folder", folder.string()));
+  fs::create_directories(folder / "cells", error);
+  if (error) refuse(fmt::format("cannot write {}: {}", folder.string(), error.message()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0 || access((folder / "cells").c_str(), W_OK | X_OK) != 0)
+    refuse(fmt::format("cannot write {}: {}", folder.string(), std::strerror(errno)));
+}
+
+// "scene (there 1f.., here 2a..)": the first thing that is not the same.
+std::string difference(const Json& there, const Json& here, const std::string& name = {}) {
+  if (there.is_object() && here.is_object()) {
+    for (const auto& [key, value] : here.items()) {
+      const Json other = there.contains(key) ? there[key] : Json(nullptr);
+      if (other != value) return difference(other, value, name.empty() ? key : name + " " + key);
+    }
+    for (const auto& [key, value] : there.items())
+      if (!here.contains(key)) return difference(value, nullptr, name.empty() ? key : name + " " + key);
+  }
+  const auto text = [](const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  return fmt::format("{}: there {}, here {}", name, text(there), text(here));
+}
+
+}  // namespace
+
+SweepFolder::SweepFolder(const std::string& path, const Json& common)
+    : folder_(path), common_(common.dump(2) + "\n") {
+  make_folder(folder_);
+  if (!fs::exists(folder_ / kCommonName)) {
+    write_text_file(this->path(kCommonName), common_);
+    return;
+  }
+  const std::optional<Json> there = read(kCommonName);
+  if (!there) refuse(fmt::format("{} is damaged: remove the folder, or give another", this->path(kCommonName)));
+  if (*there != Json::parse(common_))
+    refuse(fmt::format("{} holds another sweep: give another folder. {}", path,
+                       difference(*there, Json::parse(common_))));
+}
+
+std::string SweepFolder::key(const Json& own) const {
+  ContentHash hash;
+  hash.add(common_);
+  hash.add(own.dump());
+  return hash.text();
+}
+
+std::optional<Json> SweepFolder::read(const std::string& name) const {
+  std::ifstream file(path(name), std::ios::binary);
+  if (!file) return std::nullopt;
+  Json json = Json::parse(file, nullptr, false);
+  return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+}
+
+std::optional<SweepCell> SweepFolder::find(const std::string& key, const Console& console) const {
+  const std::string name = "cells/" + key + ".json";
+  if (!fs::exists(path(name))) return std::nullopt;
+  try {
+    const std::optional<Json> json = read(name);
+    if (!json) throw std::runtime_error("it is no JSON");
+    SweepCell cell = cell_from_json(*json);
+    for (const std::string& picture : {cell.picture, cell.error_map})
+      if (!fs::is_regular_file(path(picture))) throw std::runtime_error(picture + " is missing");
+    return cell;
+  } catch (const std::exception& error) {
+    console.warning(fmt::format("{}: {}; the cell is rendered again", path(name), error.what()));
+    return std::nullopt;
+  }
+}
+
+void SweepFolder::keep(const std::string& key, const SweepCell& cell) const {
+  write_text_file(path("cells/" + key + ".json"), cell_json(cell).dump(2) + "\n");
+}
+
+}  // namespace kaustik::app
