@@ -40,8 +40,8 @@ double relative_squared(double value, double reference);
 // Per-pixel relative squared error (mean over channels), grey. Throws as compare does.
 Image relative_error(const Image& reference, const Image& image);
 
-// Such an error as a colour: black 0, then blue, red, yellow, white at 1 and above, on a logarithmic scale from
-// 1e-4; NaN pixels are magenta. Linear values for write_image with the default tone settings.
+// Such an error as a colour: black 0, then blue, red, yellow, white at 1 and above, on a logarithmic scale
+// from 1e-4; NaN pixels are magenta. Linear values for write_image with the default tone settings.
 Image false_colours(const Image& error);
 
 // false_colours of relative_error.

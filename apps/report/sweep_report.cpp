@@ -39,11 +39,9 @@ std::string advice_html(const SweepResult& result) {
   std::string out;
   for (const Advice& advice : advice_of(result.cells)) {
     std::string text = html_escaped(advice.text);
-    if (advice.cell) {
-      const std::string flags = html_escaped(result.cells[*advice.cell].flags);
-      if (const size_t at = text.find(flags); at != std::string::npos)
-        text.replace(at, flags.size(), "<code>" + flags + "</code>");
-    }
+    const std::string flags = html_escaped(result.cells[advice.named].flags);
+    if (const size_t at = text.find(flags); at != std::string::npos)
+      text.replace(at, flags.size(), "<code>" + flags + "</code>");
     out += fmt::format("<li{}>{}</li>\n", advice.cell ? "" : " class=\"missed\"", text);
   }
   return out;
@@ -67,8 +65,9 @@ std::string facts_html(const SweepResult& result) {
   if (result.mask_bright)
     add("Left out", fmt::format("2 pixels around radiance above {}", *result.mask_bright));
   const Json& cpu = result.machine.contains("cpu") ? result.machine["cpu"] : Json(nullptr);
-  add("Machine", fmt::format("{}, {} thread{}", cpu.is_string() ? cpu.get<std::string>() : "unknown processor",
-                             result.threads, result.threads == 1 ? "" : "s"));
+  add("Machine",
+      fmt::format("{}, {} thread{}", cpu.is_string() ? cpu.get<std::string>() : "unknown processor",
+                  result.threads, result.threads == 1 ? "" : "s"));
   add("Program", fmt::format("kaustik {} ({})", result.version, result.build));
   return out;
 }
@@ -84,11 +83,13 @@ std::string table_html(const SweepResult& result) {
     const SweepCell& cell = result.cells[i];
     const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
     out += fmt::format(
-        "<tr{}><th scope=\"row\"><code>{}</code></th><td>{}</td><td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "<tr{}><th "
+        "scope=\"row\"><code>{}</code></th><td>{}</td><td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{:.3g}</td><td>{}</td></tr>\n",
         on_front ? " class=\"front\"" : "", html_escaped(cell.flags), percent(std::sqrt(cell.error.relmse)),
         cell.error.relmse, number_or_dash(cell.error.bias2), number_or_dash(cell.error.variance),
-        cell.point.reads_photons() ? fmt::format("{:.3g}", cell.r0()) : "-", cell.time(), on_front ? "yes" : "");
+        cell.point.reads_photons() ? fmt::format("{:.3g}", cell.r0()) : "-", cell.time(),
+        on_front ? "yes" : "");
   }
   return out;
 }

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "apps/bench/bench_json.h"
 #include "apps/exit_error.h"
 #include "apps/output_files.h"
 #include "apps/partial_files.h"
 #include "apps/render_job.h"
 #include "apps/stopwatch.h"
-#include "apps/bench/bench_json.h"
 #include "apps/sweep/pictures.h"
 #include "render/image_io.h"
 #include "render/names.h"
@@ -22,10 +22,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Each pass does what a render of so many photons does, and the radii shrink from there. A smaller radius to
+// begin with would let few passes end with more noise than what is measured against them.
 constexpr uint64_t kPassPhotons = 1'000'000;
-constexpr uint64_t kShares = 64;              // the radius begins as that of all their photons
-constexpr double kPassSamples = 1 << 20;      // of all pixels, about
-constexpr uint64_t kSeedApart = 0x7265660000; // added to the sweep's seed
+constexpr double kPassSamples = 1 << 20;       // of all pixels, about
+constexpr uint64_t kSeedApart = 0x7265660000;  // added to the sweep's seed
 
 Settings reference_settings(const Job& job, render::Method method) {
   Settings settings = job.settings;
@@ -34,10 +35,9 @@ Settings reference_settings(const Job& job, render::Method method) {
   s.method = method;
   s.direct.reset(), s.caustics.reset(), s.indirect.reset();
   const double pixels = double(width) * double(height);
-  const int samples = static_cast<int>(std::clamp(kPassSamples / pixels, 4.0, 64.0));
-  s.photons = kPassPhotons * kShares;
-  s.passes = kShares;
-  s.spp = samples * static_cast<int>(kShares);
+  s.photons = kPassPhotons;
+  s.passes = 1;
+  s.spp = static_cast<int>(std::clamp(kPassSamples / pixels, 4.0, 64.0));
   s.radius.reset();
   s.radius_factor = 1;
   s.nearest = 0;
@@ -96,7 +96,8 @@ std::optional<Reference> find_reference(const Job& job, const SweepFolder& folde
   about->at("source").get_to(reference.about.source);
   about->at("seconds").get_to(reference.about.seconds);
   about->at("passes").get_to(reference.about.passes);
-  if (const Json& noise = about->at("noise_relmse"); !noise.is_null()) reference.about.noise = noise.get<double>();
+  if (const Json& noise = about->at("noise_relmse"); !noise.is_null())
+    reference.about.noise = noise.get<double>();
   return reference;
 }
 
@@ -139,7 +140,8 @@ std::optional<Reference> render_reference(const ReferenceChoice& choice, render:
     interrupted = interrupted || !progress(std::min(ms(spent), ms(choice.seconds)), ms(choice.seconds));
     return !interrupted && (passes < 2 || spent < choice.seconds);
   };
-  const render::RenderResult result = render_job(job.scene, job.settings.render, go_on, std::move(task)).result;
+  const render::RenderResult result =
+      render_job(job.scene, job.settings.render, go_on, std::move(task)).result;
   if (interrupted) {
     if (!result.sums.passes.empty())
       render::write_partial(part, manifest_of(job, {}, {}, result.sums), result.sums);

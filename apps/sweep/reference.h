@@ -5,21 +5,21 @@
 #include <optional>
 #include <string>
 
-#include "apps/sweep/sweep_folder.h"
 #include "apps/scene_loading.h"
+#include "apps/sweep/sweep_folder.h"
 #include "render/image.h"
 
 namespace kaustik::app {
 
 struct ReferenceChoice {
-  std::string file;     // empty: it is rendered
-  double seconds = 60;  // that rendering may take
+  std::string file;                      // empty: it is rendered
+  double seconds = 60;                   // that rendering may take
   std::optional<render::Method> method;  // unset: reference_method decides
 };
 
-// `mc` where the scene has neither mirror nor glass: unbiased, and finds all light. Else `auto` with radii that
-// shrink over the passes: paths do not find the light of point lamps through glass at all, and that of small lamps
-// so rarely that photons are nearer to the truth after the same time.
+// `mc` where the scene has neither mirror nor glass: unbiased, and finds all light. Else `auto` with radii
+// that shrink over the passes: paths do not find the light of point lamps through glass at all, and that of
+// small lamps so rarely that photons are nearer to the truth after the same time.
 render::Method reference_method(const SceneNeeds& needs);
 
 struct Reference {
@@ -30,10 +30,10 @@ struct Reference {
 // Tells how far it is, in milliseconds of all; false cancels.
 using ReferenceProgress = std::function<bool(uint64_t done, uint64_t total)>;
 
-// Reads the file, or takes the one in the folder, or renders passes into it until the time is over (two at least),
-// with a seed that no cell has. Nothing when cancelled: then the passes that are complete are kept in the folder for
-// the next time. Throws ExitError (bad command line) for a picture that cannot be read or has another size. job's
-// settings are the same afterwards.
+// Reads the file, or takes the one in the folder, or renders passes into it until the time is over (two at
+// least), with a seed that no cell has. Nothing when cancelled: then the passes that are complete are kept in
+// the folder for the next time. Throws ExitError (bad command line) for a picture that cannot be read or has
+// another size. job's settings are the same afterwards.
 std::optional<Reference> make_reference(const ReferenceChoice& choice, Job& job, const SweepFolder& folder,
                                         const ReferenceProgress& progress);
 

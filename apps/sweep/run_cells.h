@@ -29,8 +29,8 @@ struct RunCells {
   bool cancelled = false;
 };
 
-// Takes what is finished from the folder and renders the rest, one cell after the other, each with all seeds; keeps
-// each cell when it is finished.
+// Takes what is finished from the folder and renders the rest, one cell after the other, each with all seeds;
+// keeps each cell when it is finished.
 RunCells run_cells(const SweepJob& sweep, const std::vector<SweepPoint>& points, const SweepFolder& folder,
                    const SweepProgress& progress, const Console& console);
 

@@ -40,13 +40,13 @@ struct Options {
 };
 
 // All but those that are lists here, and those of files that are not written.
-constexpr std::string_view kSettings[] = {
-    "direct",       "caustics", "indirect", "passes",      "alpha", "nearest", "kernel", "cone-k", "min-photons",
-    "node-photons", "lookup",   "emission", "max-bounces", "seed",  "threads", "width",  "height", "crop",
-    "exposure",     "tonemap"};
+constexpr std::string_view kSettings[] = {"direct",  "caustics", "indirect",    "passes",      "alpha",
+                                          "nearest", "kernel",   "cone-k",      "min-photons", "node-photons",
+                                          "lookup",  "emission", "max-bounces", "seed",        "threads",
+                                          "width",   "height",   "crop",        "exposure",    "tonemap"};
 
 // Those that differ from cell to cell.
-constexpr std::string_view kVaried[] = {"method", "direct",  "caustics", "indirect",
+constexpr std::string_view kVaried[] = {"method",  "direct", "caustics", "indirect",
                                         "photons", "radius", "spp"};
 
 // The settings that all cells have in common.
@@ -99,8 +99,7 @@ Reference reference_of(const Options& options, Job& job, const SweepFolder& fold
         return !interrupt.requested();
       });
   bar.clear();
-  if (!reference)
-    throw ExitError(kInterrupted, "interrupted; the same command goes on with the reference");
+  if (!reference) throw ExitError(kInterrupted, "interrupted; the same command goes on with the reference");
   const SweepReference& about = reference->about;
   console.note(fmt::format("reference: {}{}", about.source,
                            about.noise ? fmt::format(", noise {:.2g} in relMSE", *about.noise) : ""));
@@ -111,8 +110,8 @@ std::vector<SweepCell> cells_of(const SweepJob& sweep, const SweepFolder& folder
                                 const InterruptGuard& interrupt, const Console& console) {
   const std::vector<SweepPoint> points =
       points_of(sweep.grid, sweep.job.settings, sweep.overrides, sweep.job.scene.needs);
-  console.note(fmt::format("{}, each with {}", counted(points.size(), "point"),
-                           counted(sweep.grid.seeds, "seed")));
+  console.note(
+      fmt::format("{}, each with {}", counted(points.size(), "point"), counted(sweep.grid.seeds, "seed")));
   ProgressBar bar(console);
   RunCells run = run_cells(
       sweep, points, folder,
@@ -134,7 +133,8 @@ void write_result(const SweepResult& result, const SweepFolder& folder, const Co
   write_text_file(folder.path("sweep.json"), sweep_json(result).dump(2) + "\n");
   write_text_file(folder.path("sweep.csv"), sweep_csv(result));
   write_text_file(folder.path("report.html"), sweep_report(result, folder.path("")));
-  for (const char* name : {"sweep.json", "sweep.csv", "report.html"}) console.note("wrote " + folder.path(name));
+  for (const char* name : {"sweep.json", "sweep.csv", "report.html"})
+    console.note("wrote " + folder.path(name));
   for (const Advice& advice : advice_of(result.cells)) console.out << advice.text << '\n';
 }
 
@@ -179,20 +179,22 @@ double reference_time(const std::string& text) {
   const std::optional<double> seconds = parse_duration(text);
   if (seconds && *seconds > 0) return *seconds;
   throw CLI::ValidationError(
-      "--reference-time", fmt::format("`{}`: expected a time above 0 with its unit, like 90s, 10m or 1.5h", text));
+      "--reference-time",
+      fmt::format("`{}`: expected a time above 0 with its unit, like 90s, 10m or 1.5h", text));
 }
 
 render::Method method_named(const std::string& text) {
   if (const auto method = render::from_name<render::Method>(render::kMethodNames, text)) return *method;
-  throw CLI::ValidationError("--reference-method", fmt::format("`{}` is no method{}", text,
-                                                               name_hint(text, render::kMethodNames)));
+  throw CLI::ValidationError("--reference-method",
+                             fmt::format("`{}` is no method{}", text, name_hint(text, render::kMethodNames)));
 }
 
 void add_reference_options(CLI::App& parser, Options& options) {
   CLI::Option* file =
       parser
-          .add_option("--reference", options.reference.file,
-                      "Picture to measure against, linear, of the size that is rendered. Default: one is rendered")
+          .add_option(
+              "--reference", options.reference.file,
+              "Picture to measure against, linear, of the size that is rendered. Default: one is rendered")
           ->option_text("FILE");
   parser
       .add_option_function<std::string>(
@@ -205,7 +207,8 @@ void add_reference_options(CLI::App& parser, Options& options) {
       .add_option_function<std::string>(
           "--reference-method",
           [&options](const std::string& text) { options.reference.method = method_named(text); },
-          "Method of the reference: mc, auto ... Default: mc where the scene has no mirror or glass, else auto")
+          "Method of the reference: mc, auto ... Default: mc where the scene has no mirror or glass, else "
+          "auto")
       ->option_text("NAME")
       ->excludes(file);
   parser
@@ -224,7 +227,8 @@ void add_grid_options(CLI::App& parser, GridTexts& grid) {
   add_list_option(parser, "--methods", grid.methods, "NAMES",
                   "Methods, as of `render --method`. Default: what the scene says");
   add_list_option(parser, "--spp", grid.spp, "COUNTS", "Samples per pixel. Default: what the scene says");
-  parser.add_option("--seeds", grid.seeds, "Renders of each point, with seeds that follow --seed. Default: 5")
+  parser
+      .add_option("--seeds", grid.seeds, "Renders of each point, with seeds that follow --seed. Default: 5")
       ->option_text("COUNT");
 }
 
@@ -238,8 +242,9 @@ Command make_sweep_command(CLI::App& program) {
   CLI::App& parser = *command.parser;
   parser.add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
   parser
-      .add_option("-o,--output", options->folder,
-                  "Folder for the results; made when it is missing. One of an interrupted sweep is gone on with")
+      .add_option(
+          "-o,--output", options->folder,
+          "Folder for the results; made when it is missing. One of an interrupted sweep is gone on with")
       ->required()
       ->option_text("FOLDER");
   add_grid_options(parser, options->grid);

@@ -42,15 +42,15 @@ Json radii_json(const SweepCell& cell) {
 }
 
 Json reference_json(const SweepReference& r) {
-  return {{"source", r.source}, {"noise_relmse", or_null(r.noise)}, {"seconds", r.seconds},
-          {"passes", r.passes}, {"mean", r.mean},                   {"picture", r.picture}};
+  return {{"source", r.source},   {"noise_relmse", or_null(r.noise)},
+          {"seconds", r.seconds}, {"passes", r.passes},
+          {"mean", r.mean},       {"picture", r.picture}};
 }
 
 Json advice_json(const std::vector<SweepCell>& cells) {
   Json out = Json::array();
   for (const Advice& a : advice_of(cells))
-    out.push_back(
-        {{"target", a.target}, {"cell", a.cell ? Json(*a.cell) : Json(nullptr)}, {"text", a.text}});
+    out.push_back({{"target", a.target}, {"cell", a.cell ? Json(*a.cell) : Json(nullptr)}, {"text", a.text}});
   return out;
 }
 
@@ -126,7 +126,9 @@ std::string sweep_csv(const SweepResult& result) {
   for (const Json& cell : json["cells"]) {
     const auto add = [&](const Json& value, char before = ',') {
       csv += fmt::format("{}{}", before,
-                         value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump());
+                         value.is_string() ? value.get<std::string>()
+                         : value.is_null() ? ""
+                                           : value.dump());
     };
     csv += cell["method"].get<std::string>();
     for (const char* key : {"photons", "radius", "spp", "seeds"}) add(cell[key]);

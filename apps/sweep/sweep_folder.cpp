@@ -44,7 +44,9 @@ std::string difference(const Json& there, const Json& here, const std::string& n
     for (const auto& [key, value] : there.items())
       if (!here.contains(key)) return difference(value, nullptr, name.empty() ? key : name + " " + key);
   }
-  const auto text = [](const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  const auto text = [](const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
   return fmt::format("{}: there {}, here {}", name, text(there), text(here));
 }
 
@@ -58,7 +60,8 @@ SweepFolder::SweepFolder(const std::string& path, const Json& common)
     return;
   }
   const std::optional<Json> there = read(kCommonName);
-  if (!there) refuse(fmt::format("{} is damaged: remove the folder, or give another", this->path(kCommonName)));
+  if (!there)
+    refuse(fmt::format("{} is damaged: remove the folder, or give another", this->path(kCommonName)));
   if (*there != Json::parse(common_))
     refuse(fmt::format("{} holds another sweep: give another folder. {}", path,
                        difference(*there, Json::parse(common_))));

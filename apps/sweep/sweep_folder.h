@@ -1,6 +1,6 @@
 #pragma once
-// The folder of a sweep: what it belongs to, and the cells that are finished. Each file appears when it is complete,
-// so a kill costs the cell at work, not those before.
+// The folder of a sweep: what it belongs to, and the cells that are finished. Each file appears when it is
+// complete, so a kill costs the cell at work, not those before.
 //
 //   sweep-of.json   what all cells have in common: scene, build, settings, reference
 //   reference.exr, reference.json, reference.kpart (while it is rendered)
@@ -18,8 +18,8 @@ namespace kaustik::app {
 
 class SweepFolder {
  public:
-  // Makes the folder where it is missing. Throws ExitError (bad command line) when it cannot be written, or belongs
-  // to a sweep of another scene, build, settings or reference: says which.
+  // Makes the folder where it is missing. Throws ExitError (bad command line) when it cannot be written, or
+  // belongs to a sweep of another scene, build, settings or reference: says which.
   SweepFolder(const std::string& path, const Json& common);
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }

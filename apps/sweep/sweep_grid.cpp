@@ -35,7 +35,8 @@ std::vector<RadiusChoice> radii_from(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
     const std::optional<RadiusChoice> radius = parse_radius(text);
     if (!radius)
-      refuse(fmt::format("--radius: `{}`: expected auto, a multiple of it like 0.5x, or metres above 0", text));
+      refuse(
+          fmt::format("--radius: `{}`: expected auto, a multiple of it like 0.5x, or metres above 0", text));
     add_once("--radius", text, *radius, &radii);
   }
   return radii;
@@ -85,8 +86,8 @@ Settings settings_at(const SweepPoint& point, const SweepGrid& grid, const Setti
   return settings;
 }
 
-std::vector<SweepPoint> points_of(const SweepGrid& grid, const Settings& base, const SettingOverrides& overrides,
-                                  const SceneNeeds& needs) {
+std::vector<SweepPoint> points_of(const SweepGrid& grid, const Settings& base,
+                                  const SettingOverrides& overrides, const SceneNeeds& needs) {
   const auto methods = grid.methods.empty() ? std::vector{base.render.method} : grid.methods;
   const auto samples = grid.spp.empty() ? std::vector{base.render.spp} : grid.spp;
   std::vector<SweepPoint> points;

@@ -14,7 +14,7 @@ namespace kaustik::app {
 
 // The lists as they were typed. methods, spp: empty when not given; then the scene's own holds.
 struct GridTexts {
-  std::vector<std::string> photons = {"100k", "1M"}, radii = {"0.5x", "auto", "2x"}, methods, spp;
+  std::vector<std::string> photons = {"100k", "1M"}, radii = {"0.5x", "auto", "2x"}, methods{}, spp{};
   std::string seeds = "5";
 };
 
@@ -37,21 +37,22 @@ struct SweepPoint {
   bool operator==(const SweepPoint&) const = default;
 };
 
-// Throws ExitError (bad command line): what is no photon count, radius, method or sample count, or is given twice.
+// Throws ExitError (bad command line): what is no photon count, radius, method or sample count, or is given
+// twice.
 SweepGrid parse_grid(const GridTexts& texts);
 
-// Settings of a point, of any seed. Without --methods the estimators are the scene's own; with it, the method's but
-// for those that the command line names.
+// Settings of a point, of any seed. Without --methods the estimators are the scene's own; with it, the
+// method's but for those that the command line names.
 Settings settings_at(const SweepPoint& point, const SweepGrid& grid, const Settings& base,
                      const SettingOverrides& overrides);
 
-// By method, samples, photons, radius, as the lists have them. A method that reads no photons has one point for each
-// sample count.
-std::vector<SweepPoint> points_of(const SweepGrid& grid, const Settings& base, const SettingOverrides& overrides,
-                                  const SceneNeeds& needs);
+// By method, samples, photons, radius, as the lists have them. A method that reads no photons has one point
+// for each sample count.
+std::vector<SweepPoint> points_of(const SweepGrid& grid, const Settings& base,
+                                  const SettingOverrides& overrides, const SceneNeeds& needs);
 
-// "--method photon --photons 1M --radius 0.5x": what to type for the point, of the lists that the grid varies or
-// the user gave.
+// "--method photon --photons 1M --radius 0.5x": what to type for the point, of the lists that the grid varies
+// or the user gave.
 std::string flags_of(const SweepPoint& point, const SweepGrid& grid);
 
 }  // namespace kaustik::app

@@ -48,15 +48,15 @@ std::vector<Advice> advice_of(const std::vector<SweepCell>& cells) {
     const std::optional<size_t> found = cheapest(cells, front, target);
     if (!found) {
       const SweepCell& best = cells[front.back()];
-      advice.push_back({target, std::nullopt,
-                        fmt::format("{} is out of this grid's reach. Its best: {} with {}, {}.", percent(target),
-                                    percent(std::sqrt(best.error.relmse)), best.flags,
-                                    seconds_text(best.time()))});
+      advice.push_back(
+          {target, std::nullopt, front.back(),
+           fmt::format("{} is out of this grid's reach. Its best: {} with {}, {}.", percent(target),
+                       percent(std::sqrt(best.error.relmse)), best.flags, seconds_text(best.time()))});
       break;
     }
     // Where one cell serves several targets, the hardest says it all.
     if (!advice.empty() && advice.back().cell == found) advice.pop_back();
-    advice.push_back({target, found,
+    advice.push_back({target, found, *found,
                       fmt::format("For {} on this scene: {}, {}.", percent(target), cells[*found].flags,
                                   seconds_text(cells[*found].time()))});
   }

@@ -27,12 +27,12 @@ struct SweepCell {
 };
 
 struct SweepReference {
-  std::string source;            // the file's path, or how it was rendered
-  std::optional<double> noise;   // its own, in units of relMSE; unset when it came from a file
-  double seconds = 0;            // that it took; 0 for a file
+  std::string source;           // the file's path, or how it was rendered
+  std::optional<double> noise;  // its own, in units of relMSE; unset when it came from a file
+  double seconds = 0;           // that it took; 0 for a file
   uint64_t passes = 0;
-  double mean = 0;               // over pixels and channels, W/(m^2 sr)
-  std::string picture;           // file name in the sweep's folder
+  double mean = 0;      // over pixels and channels, W/(m^2 sr)
+  std::string picture;  // file name in the sweep's folder
 };
 
 struct SweepResult {
@@ -53,11 +53,12 @@ std::vector<size_t> pareto_front(const std::vector<SweepCell>& cells);
 struct Advice {
   double target = 0;           // relative error, sqrt(relMSE)
   std::optional<size_t> cell;  // the cheapest that reaches it; none: the grid has no such cell
+  size_t named = 0;            // the cell whose flags the text holds: that one, or the best there is
   std::string text;            // "For 5 % on this scene: --photons 1M --radius 0.5x, 0.85 s."
 };
 
-// For relative errors of 20, 10, 5, 2 and 1 %: those that a cell reaches and that are not trivial (reached by every
-// cell), and the first that none does.
+// For relative errors of 20, 10, 5, 2 and 1 %: those that a cell reaches and that are not trivial (reached by
+// every cell), and the first that none does.
 std::vector<Advice> advice_of(const std::vector<SweepCell>& cells);
 
 }  // namespace kaustik::app

@@ -30,7 +30,8 @@ TEST(SweepGrid, ReadsEveryForm) {
                                      .spp = {"4", "16"},
                                      .seeds = "3"});
   EXPECT_THAT(grid.photons, ElementsAre(100'000u, 1'000'000u));
-  EXPECT_THAT(grid.radii, ElementsAre(RadiusChoice{}, RadiusChoice{std::nullopt, 0.5f}, RadiusChoice{0.011f, 1}));
+  EXPECT_THAT(grid.radii,
+              ElementsAre(RadiusChoice{}, RadiusChoice{std::nullopt, 0.5f}, RadiusChoice{0.011f, 1}));
   EXPECT_THAT(grid.methods, ElementsAre(render::Method::kPhoton, render::Method::kMc));
   EXPECT_THAT(grid.spp, ElementsAre(4, 16));
   EXPECT_EQ(grid.seeds, 3u);
@@ -70,8 +71,11 @@ SceneNeeds glass() {
 
 // Methods that read no photons are one point for each sample count, whatever photons and radii there are.
 TEST(SweepGrid, PointsAreThoseThatDiffer) {
-  const SweepGrid grid = parse_grid(
-      {.photons = {"1k", "2k"}, .radii = {"auto", "2x"}, .methods = {"mc", "photon"}, .spp = {"1", "4"}, .seeds = "1"});
+  const SweepGrid grid = parse_grid({.photons = {"1k", "2k"},
+                                     .radii = {"auto", "2x"},
+                                     .methods = {"mc", "photon"},
+                                     .spp = {"1", "4"},
+                                     .seeds = "1"});
   const auto points = points_of(grid, {}, {}, glass());
   ASSERT_THAT(points, SizeIs(2 + 2 * 4));
   EXPECT_EQ(flags_of(points[0], grid), "--method mc --spp 1");
@@ -94,7 +98,8 @@ TEST(SweepGrid, WithoutMethodsTheScenesOwnEstimatorsHold) {
   EXPECT_EQ(at.render.spp, 7);
   EXPECT_EQ(at.render.photons, 1000u);
   const SweepGrid named = parse_grid({.methods = {"mc"}});
-  EXPECT_EQ(settings_at(points_of(named, base, {}, glass())[0], named, base, {}).render.indirect, std::nullopt);
+  EXPECT_EQ(settings_at(points_of(named, base, {}, glass())[0], named, base, {}).render.indirect,
+            std::nullopt);
 }
 
 SweepCell cell(double time, double relative_error, std::string flags) {
@@ -106,15 +111,16 @@ SweepCell cell(double time, double relative_error, std::string flags) {
 }
 
 TEST(SweepResult, TheFrontIsWhatNothingBeats) {
-  const std::vector<SweepCell> cells = {cell(4, 0.01, "d"), cell(1, 0.15, "a"), cell(2, 0.3, "worse"),
-                                        cell(2, 0.04, "b"), cell(2, 0.05, "slow twin"), cell(8, 0.01, "later")};
+  const std::vector<SweepCell> cells = {cell(4, 0.01, "d"),         cell(1, 0.15, "a"),
+                                        cell(2, 0.3, "worse"),      cell(2, 0.04, "b"),
+                                        cell(2, 0.05, "slow twin"), cell(8, 0.01, "later")};
   EXPECT_THAT(pareto_front(cells), ElementsAre(1, 3, 0));
   EXPECT_THAT(pareto_front({}), IsEmpty());
 }
 
 TEST(SweepResult, AdviceNamesTheCheapestOfTheFront) {
-  const std::vector<Advice> advice =
-      advice_of({cell(3.14, 0.02, "--photons 4M"), cell(0.5, 0.15, "--photons 1k"), cell(60, 0.019, "--photons 1G")});
+  const std::vector<Advice> advice = advice_of(
+      {cell(3.14, 0.02, "--photons 4M"), cell(0.5, 0.15, "--photons 1k"), cell(60, 0.019, "--photons 1G")});
   ASSERT_THAT(advice, SizeIs(3));
   EXPECT_EQ(advice[0].text, "For 20 % on this scene: --photons 1k, 0.5 s.");
   // Serves 10, 5 and 2 %.

@@ -13,14 +13,15 @@
 namespace kaustik::render {
 namespace {
 
-ErrorParts parts_of(const Image& reference, const std::vector<Image>& images, const CompareOptions& options = {}) {
+ErrorParts parts_of(const Image& reference, const std::vector<Image>& images,
+                    const CompareOptions& options = {}) {
   ErrorPartsSum sum(reference, options);
   for (const Image& image : images) sum.add(image);
   return sum.parts();
 }
 
-// Two images at R + b - d and R + b + d: s^2 = 2 d^2, (m - R)^2 - s^2 / 2 = b^2 - d^2. All numbers are exact in
-// float and double; the sums round a few times in double.
+// Two images at R + b - d and R + b + d: s^2 = 2 d^2, (m - R)^2 - s^2 / 2 = b^2 - d^2. All numbers are exact
+// in float and double; the sums round a few times in double.
 TEST(ErrorParts, TwoImagesByHand) {
   const Image reference(4, 3, Rgb(0.5f));
   const double b = 0.25, d = 0.125, scale = 0.25 + 0.01;
@@ -42,10 +43,10 @@ Image noisy(const Image& mean, double bias, double sigma, unsigned seed) {
   return image;
 }
 
-// Bias b and Gaussian noise of sigma in n images of C channels. The mean of s^2 over channels has the standard
-// deviation sigma^2 sqrt(2 / (n - 1) / C); that of (m - R)^2 - s^2 / n, whose two terms are independent,
-// sqrt((2 sigma^4 / n^2 + 4 b^2 sigma^2 / n + 2 sigma^4 / (n^2 (n - 1))) / C). Five of them are exceeded once in
-// 1.7 million; the seeds are fixed.
+// Bias b and Gaussian noise of sigma in n images of C channels. The mean of s^2 over channels has the
+// standard deviation sigma^2 sqrt(2 / (n - 1) / C); that of (m - R)^2 - s^2 / n, whose two terms are
+// independent, sqrt((2 sigma^4 / n^2 + 4 b^2 sigma^2 / n + 2 sigma^4 / (n^2 (n - 1))) / C). Five of them are
+// exceeded once in 1.7 million; the seeds are fixed.
 TEST(ErrorParts, EstimatesAreUnbiased) {
   const Image reference(64, 64, Rgb(1));
   const double sigma = 0.2, C = 3 * 64 * 64, n = 5, scale = 1.01;
@@ -61,7 +62,8 @@ TEST(ErrorParts, EstimatesAreUnbiased) {
   }
 }
 
-// Whatever the images: relmse is the mean of compare's, and the parts add up to it. 1e-12: sums of 768 doubles.
+// Whatever the images: relmse is the mean of compare's, and the parts add up to it. 1e-12: sums of 768
+// doubles.
 TEST(ErrorParts, AddUpToTheMeanOfRelMse) {
   const Image reference = noisy(Image(16, 16, Rgb(0.3f)), 0, 0.1, 1);
   std::vector<Image> images;

@@ -1,0 +1,217 @@
+#!/usr/bin/python3
+"""Opens the report of `kaustik sweep` in headless Chromium: every point of the CSV is in charts and table, the slider
+moves, nothing is fetched, no error reaches the console, a phone need not scroll sideways. Leaves screenshots.
+
+report_in_browser.py KAUSTIK OUT_DIR      (packages chromium chromium-driver python3-selenium)
+Exit code 77, with the reason, where there is no browser."""
+import base64
+import csv
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+SKIPPED = 77
+
+
+def skip(why):
+    print("=" * 78)
+    print("SKIPPED: the report was NOT tested in a browser:", why)
+    print("Install chromium, chromium-driver and python3-selenium (scripts/test does, where it can).")
+    print("=" * 78)
+    sys.exit(SKIPPED)
+
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.support.ui import Select
+except ImportError as error:
+    skip(error)
+
+# Markup in the name: it must stay text.
+SCENE_NAME = "<img src=x onerror=window.hacked=1>&amp;.pbrt"
+SCENE = """LookAt 0 2 6  0 0.5 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 96 "integer yresolution" 64
+Sampler "independent" "integer pixelsamples" 4
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [10 10 10]
+  ReverseOrientation
+  Translate 0 3 0
+  Rotate -90 1 0 0
+  Shape "disk" "float radius" 0.5
+AttributeEnd
+Material "diffuse" "rgb reflectance" [0.7 0.6 0.5]
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-3 0 3  3 0 3  3 0 -3  -3 0 -3]
+Material "dielectric"
+Translate 0 0.8 0
+Shape "sphere" "float radius" 0.5
+"""
+CHARTS = ("error-time", "error-photons", "error-radius", "error-parts", "phases")
+
+
+def sweep(kaustik, out):
+    scene = out / SCENE_NAME
+    scene.write_text(SCENE)
+    subprocess.run([kaustik, "sweep", str(scene), "--photons", "2k,8k", "--radius", "0.5x,auto,2x", "--methods",
+                    "photon,mc", "--seeds", "3", "--reference-time", "2s", "-o", str(out / "sweep"), "--quiet"],
+                   check=True)
+    return out / "sweep"
+
+
+def open_browser():
+    browser, driver = shutil.which("chromium"), shutil.which("chromedriver")
+    if not browser or not driver:
+        skip("no " + ("chromium" if not browser else "chromedriver"))
+    options = webdriver.ChromeOptions()
+    options.binary_location = browser
+    for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1280,900",
+                     "--force-device-scale-factor=1", "--disable-gpu"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=Service(driver), options=options)
+
+
+def points_in(browser, chart):
+    """[cell, x, y] of every point that a chart holds."""
+    return browser.execute_script("""
+        return Chart.getChart(arguments[0]).data.datasets.flatMap(d => d.data.map(p => [p.cell, p.x, p.y, d.label]));""",
+                                  chart)
+
+
+def check_points(browser, rows):
+    """Charts hold the very numbers of the CSV, which was written with as many digits as a double has."""
+    over_time = points_in(browser, "error-time")
+    for index, row in enumerate(rows):
+        found = [p for p in over_time if p[0] == index and p[3] != "Pareto front"]
+        assert [(p[1], p[2]) for p in found] == [(float(row["seconds"]), float(row["relative_rmse"]))], (row, found)
+    front = {p[0] for p in over_time if p[3] == "Pareto front"}
+    assert front == {i for i, row in enumerate(rows) if row["pareto"] == "true"}, front
+    for chart, column in (("error-photons", "photons"), ("error-radius", "r0_m")):
+        found = sorted((p[0], p[1], p[2]) for p in points_in(browser, chart))
+        expected = [(i, float(row[column]), float(row["relative_rmse"])) for i, row in enumerate(rows) if row[column]]
+        assert found == expected, (chart, found, expected)
+    parts = {(p[0], p[2]) for p in points_in(browser, "error-parts")}
+    for index, row in enumerate(rows):
+        for column in ("bias2", "variance"):
+            shown = row["photons"] and float(row[column]) > 0
+            assert ((index, float(row[column])) in parts) == bool(shown), (row, column)
+    phases = browser.execute_script("return Chart.getChart('phases').data.datasets.map(d => d.data)")
+    names = ("seconds_bvh", "seconds_photon_trace", "seconds_photon_build", "seconds_render")
+    assert phases == [[float(row[name]) for row in rows] for name in names]
+
+
+def check_table(browser, rows):
+    lines = browser.find_elements(By.CSS_SELECTOR, "#points tbody tr")
+    assert len(lines) == len(rows)
+    for line, row in zip(lines, rows):
+        texts = [cell.text for cell in line.find_elements(By.CSS_SELECTOR, "th,td")]
+        assert abs(float(texts[2]) - float(row["relmse"])) <= 0.005 * float(row["relmse"]), (texts, row)
+        assert (texts[7] == "yes") == (row["pareto"] == "true")
+
+
+def colours_in(browser, chart):
+    return browser.execute_script("""
+        const c = document.getElementById(arguments[0]);
+        const d = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
+        const seen = new Set();
+        for (let i = 0; i < d.length; i += 4) seen.add(d[i] << 24 | d[i + 1] << 16 | d[i + 2] << 8 | d[i + 3]);
+        return seen.size;""", chart)
+
+
+def wait_until_drawn(browser):
+    """Charts are drawn anew some frames after the size changed; 30 s are for a machine that does other things."""
+    browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+    end = time.monotonic() + 30
+    while any(colours_in(browser, chart) <= 8 for chart in CHARTS) and time.monotonic() < end:
+        time.sleep(0.1)
+    time.sleep(0.5)  # for the compositor
+
+
+def check_drawn(browser):
+    """Every chart has pixels of more than a few colours: it was drawn, not only made."""
+    for chart in CHARTS:
+        assert colours_in(browser, chart) > 8, chart
+    broken = browser.execute_script("return [...document.images].filter(i => !i.naturalWidth).length")
+    assert broken == 0, f"{broken} pictures were not decoded"
+
+
+def check_slider(browser):
+    slider = browser.find_element(By.ID, "slider")
+    clip = lambda: browser.execute_script("return document.getElementById('right-image').style.clipPath")
+    assert "50%" in clip(), clip()
+    browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", slider)
+    ActionChains(browser).drag_and_drop_by_offset(slider, 150, 0).perform()
+    dragged = clip()
+    assert "50%" not in dragged, dragged
+    slider.send_keys(Keys.HOME)
+    # Browsers may shorten the inset of four zeros.
+    assert clip() in ("inset(0px)", "inset(0px 0px 0px 0%)", "inset(0% 0% 0% 0%)"), clip()
+    box = browser.find_element(By.ID, "compare")
+    ActionChains(browser).move_to_element_with_offset(box, 0, 0).click().perform()
+    assert abs(float(slider.get_attribute("value")) - 50) < 2, slider.get_attribute("value")
+    picture = browser.find_element(By.ID, "right-image").get_attribute("src")
+    browser.find_element(By.ID, "show-errors").click()
+    assert browser.find_element(By.ID, "right-image").get_attribute("src") != picture
+    browser.find_element(By.ID, "show-errors").click()
+    Select(browser.find_element(By.ID, "left-choice")).select_by_index(1)
+    assert browser.find_element(By.ID, "left-tag").text != "reference"
+    Select(browser.find_element(By.ID, "left-choice")).select_by_index(0)
+
+
+def check_quiet(browser):
+    messages = [entry for entry in browser.get_log("browser") if entry["level"] != "DEBUG"]
+    assert not messages, messages
+    fetched = browser.execute_script("""
+        return performance.getEntriesByType("resource").map(e => e.name).filter(n => !n.startsWith("data:"))""")
+    assert not fetched, fetched
+    assert browser.execute_script("return window.hacked") is None
+    assert browser.find_element(By.TAG_NAME, "h1").text == SCENE_NAME
+
+
+def screenshot(browser, width, path):
+    """Of the whole page."""
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                            {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600})
+    wait_until_drawn(browser)
+    sideways = browser.execute_script("return document.documentElement.scrollWidth - window.innerWidth")
+    assert sideways <= 0, f"the page is {sideways} pixels wider than a screen of {width}"
+    height = browser.execute_script("return document.documentElement.scrollHeight")
+    clip = {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}
+    image = browser.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True, "clip": clip})
+    path.write_bytes(base64.b64decode(image["data"]))
+
+
+def main():
+    out = pathlib.Path(sys.argv[2])
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir(parents=True)
+    browser = open_browser()
+    try:
+        folder = sweep(sys.argv[1], out)
+        with open(folder / "sweep.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        assert len(rows) == 7, rows
+        assert len(json.loads((folder / "sweep.json").read_text())["cells"]) == len(rows)
+        browser.get((folder / "report.html").resolve().as_uri())
+        check_points(browser, rows)
+        check_table(browser, rows)
+        check_drawn(browser)
+        check_slider(browser)
+        for width, name in ((1280, "desk"), (360, "phone")):
+            screenshot(browser, width, out / f"report-{name}.png")
+        check_quiet(browser)
+    finally:
+        browser.quit()
+    print(f"{len(rows)} points found; screenshots in {out}")
+
+
+if __name__ == "__main__":
+    main()
