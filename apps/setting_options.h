@@ -23,8 +23,8 @@ class SettingOverrides {
   // All of others, after what is there.
   void append(const SettingOverrides& others);
   // --method drops estimators that the scene file chose: it is the command line's word on all three.
-  // --quality replaces what the scene file says of photons and samples, and yields to the command line's own
-  // word on them.
+  // --quality replaces what the scene file says of photons, samples, passes and radius, and yields to the
+  // command line's own word on them.
   void apply(Settings& settings) const;
   bool sets(std::string_view name) const;
   // The settings with nothing but the command line.

@@ -54,18 +54,24 @@ function dataset(name, points, index, more = {}) {
 const point = (cell, x, y) => ({x, y, cell: cells.indexOf(cell)});
 const sorted = points => points.sort((a, b) => a.x - b.x);
 
-// Labels at 1, 2 and 5 times powers of ten; fewer where they would be many.
+// Labels at 1, 2 and 5 times powers of ten; fewer where they would be many. The ends of an axis are no round numbers.
 function tickText(format) {
   return function (value, _index, ticks) {
-    const digit = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
+    const mantissa = value / 10 ** Math.floor(Math.log10(value) + 1e-9), digit = Math.round(mantissa);
     const decades = Math.log10(ticks[ticks.length - 1].value / ticks[0].value);
-    const wanted = decades > 4 ? [1] : decades > 1.6 ? [1, 2, 5] : [1, 2, 3, 5, 7];
-    return wanted.includes(digit) ? format(value) : null;
+    const wanted = decades > 4 ? [1] : decades > 1.6 ? [1, 2, 5] : decades > 0.7 ? [1, 2, 3, 5, 7] : [1, 2, 3, 4, 5, 6, 7, 8, 9];
+    return Math.abs(mantissa - digit) < 1e-6 && wanted.includes(digit) ? format(value) : null;
   };
 }
-const logAxis = (title, format) => ({
-  type: "logarithmic", title: {display: true, text: title}, grid: {color: "#e6eaef"},
-  ticks: {callback: tickText(format), maxRotation: 0, autoSkip: false}});
+
+// From a bit below the least of the values to a bit above the greatest, half a decade at least.
+function logAxis(title, format, values) {
+  const least = Math.min(...values), most = Math.max(...values);
+  const margin = Math.max(1.25, Math.sqrt(Math.sqrt(10) * least / most));
+  const range = values.length ? {min: least / margin, max: most * margin} : {};
+  return {type: "logarithmic", ...range, title: {display: true, text: title}, grid: {color: "#e6eaef"},
+          ticks: {callback: tickText(format), maxRotation: 0, autoSkip: false}};
+}
 
 function tooltip(item) {
   const cell = cells[item.raw.cell];
@@ -74,23 +80,25 @@ function tooltip(item) {
   return lines;
 }
 
+// x, y: what makes an axis of the values that lie along it.
 function scatter(id, datasets, x, y) {
+  const values = key => datasets.flatMap(d => d.data.map(p => p[key]));
   return new Chart(byId(id), {
     type: "scatter",
     data: {datasets},
     options: {
       animation: false, maintainAspectRatio: false, responsive: true,
       interaction: {mode: "nearest", intersect: true},
-      scales: {x, y},
-      plugins: {legend: {position: "bottom", labels: {usePointStyle: true, boxWidth: 8}},
+      scales: {x: x(values("x")), y: y(values("y"))},
+      plugins: {legend: {position: "bottom", labels: {usePointStyle: true, boxWidth: 7, boxHeight: 7, padding: 14}},
                 tooltip: {callbacks: {label: tooltip}}}}});
 }
 
-const SECONDS = () => logAxis("time [s]", short);
-const ERROR = () => logAxis("relative error [%]", value => short(100 * value));
-const PHOTONS = () => logAxis("photons emitted", countText);
-const RADIUS = () => logAxis("gather radius r0 [m]", short);
-const RELMSE = () => logAxis("relMSE", value => value.toExponential(0));
+const SECONDS = values => logAxis("time [s]", short, values);
+const ERROR = values => logAxis("relative error [%]", value => short(100 * value), values);
+const PHOTONS = values => logAxis("photons emitted", countText, values);
+const RADIUS = values => logAxis("gather radius r0 [m]", short, values);
+const RELMSE = values => logAxis("relMSE", value => value.toExponential(0), values);
 
 function drawErrorCharts() {
   const withPhotons = cells.filter(cell => cell.photons);
@@ -103,11 +111,11 @@ function drawErrorCharts() {
   overTime.push({label: "Pareto front", data: front, borderColor: "#9aa5b1", backgroundColor: "transparent",
                  borderWidth: 6, pointRadius: 10, pointBorderWidth: 2, pointStyle: "circle", showLine: true, stepped: "before",
                  pointHitRadius: 0, order: 9});
-  scatter("error-time", overTime, SECONDS(), ERROR());
+  scatter("error-time", overTime, SECONDS, ERROR);
   scatter("error-photons", seriesBy(withPhotons, keys).map((s, i) =>
-    dataset(s.name, sorted(s.cells.map(c => point(c, c.photons, relative(c)))), i)), PHOTONS(), ERROR());
+    dataset(s.name, sorted(s.cells.map(c => point(c, c.photons, relative(c)))), i)), PHOTONS, ERROR);
   scatter("error-radius", seriesBy(withPhotons, ["method", "spp", "photons"]).map((s, i) =>
-    dataset(s.name, sorted(s.cells.map(c => point(c, c.r0.largest, relative(c)))), i)), RADIUS(), ERROR());
+    dataset(s.name, sorted(s.cells.map(c => point(c, c.r0.largest, relative(c)))), i)), RADIUS, ERROR);
 }
 
 // Squared bias and variance of one method and sample count, over radius or photons.
@@ -134,7 +142,7 @@ function drawParts() {
     });
     byId("parts-note").textContent = data.seeds < 2 ? "They need two seeds at least."
       : hidden ? `${hidden} value${hidden > 1 ? "s" : ""} of bias\u00b2 at or below zero cannot be shown here.` : "";
-    chart = scatter("error-parts", datasets, radius ? RADIUS() : PHOTONS(), RELMSE());
+    chart = scatter("error-parts", datasets, radius ? RADIUS : PHOTONS, RELMSE);
   };
   select.addEventListener("change", draw);
   axis.addEventListener("change", draw);
