@@ -182,7 +182,7 @@ struct Bvh::Impl {
   EmbreeHandles embree;
   float to_scene = 1, to_embree = 1;  // lengths: powers of two
   QuadricGroup spheres, disks;
-  bool coherent = false;  // how packets go through the tree
+  bool coherent = false;  // how packets of mixed rays go through the tree
 
   void open();
   void set_scale(const Bounds3& bounds);
@@ -331,14 +331,15 @@ void Bvh::Impl::store_packet(const RTCRayHit16& query, size_t first, HitLanes* h
   std::copy_n(query.hit.geomID, kPacket, hits->shape + first);
 }
 
-void Bvh::intersect(const RayLanes& rays, size_t count, HitLanes* hits) const {
+void Bvh::intersect(const RayLanes& rays, size_t count, HitLanes* hits, RayOrder order) const {
+  const bool coherent = impl_->coherent || order == RayOrder::kNeighbours;
   RTCRayHit16 query;
   alignas(64) int valid[kPacket];
   impl_->start_packets(&query);
   for (size_t first = 0; first < count; first += kPacket) {
     for (size_t i = 0; i < kPacket; ++i) valid[i] = first + i < count ? -1 : 0;
     impl_->load_packet(rays, first, &query);
-    embree_intersect(impl_->embree.scene, valid, impl_->coherent, &query);
+    embree_intersect(impl_->embree.scene, valid, coherent, &query);
     impl_->store_packet(query, first, hits);
   }
 }

@@ -9,6 +9,12 @@
 
 namespace kaustik::accel {
 
+// How the rays of a packet lie: decides how it goes through the tree, hence its speed.
+enum class RayOrder {
+  kMixed,      // like nothing but perhaps a common octant of directions
+  kNeighbours  // next to each other from one point, as from the camera: they stay together as a bundle
+};
+
 // Immutable after construction; every const member may be called from any thread.
 class Bvh {
  public:
@@ -24,7 +30,7 @@ class Bvh {
   bool occluded(const Ray& ray) const;
   // Nearest hits of the first `count` rays, in packets: the bits of intersect(), save that of surfaces met at
   // exactly the same distance (a ray through an edge) another may be named, depending on the other rays.
-  void intersect(const RayLanes& rays, size_t count, HitLanes* hits) const;
+  void intersect(const RayLanes& rays, size_t count, HitLanes* hits, RayOrder order = RayOrder::kMixed) const;
   // Nearest hit as a surface point; false when the ray escapes.
   bool intersect(const Ray& ray, SurfaceInteraction* si) const;
 

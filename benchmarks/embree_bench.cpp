@@ -188,11 +188,12 @@ uint64_t our_intersect(const accel::Bvh& bvh, const std::vector<Ray>& rays) {
   return hits;
 }
 
-uint64_t our_intersect(const accel::Bvh& bvh, const std::vector<accel::RayLanes>& rays) {
+uint64_t our_intersect(const accel::Bvh& bvh, const std::vector<accel::RayLanes>& rays,
+                       accel::RayOrder order) {
   uint64_t hits = 0;
   accel::HitLanes met;
   for (const accel::RayLanes& some : rays) {
-    bvh.intersect(some, accel::kRayLanes, &met);
+    bvh.intersect(some, accel::kRayLanes, &met, order);
     for (size_t k = 0; k < accel::kRayLanes; ++k) hits += met.valid(k);
   }
   return hits;
@@ -286,14 +287,17 @@ void add_roofs(const SceneRow& row) {
 
 void add_ours(const SceneRow& row) {
   const Pass one = [](const Workbench& b, const RaySet& s) { return our_intersect(b.bvh, s.plain); };
-  const Pass many = [](const Workbench& b, const RaySet& s) { return our_intersect(b.bvh, s.lane64); };
+  const auto many = [](accel::RayOrder order) -> Pass {
+    return [=](const Workbench& b, const RaySet& s) { return our_intersect(b.bvh, s.lane64, order); };
+  };
   const Pass occluded = [](const Workbench& b, const RaySet& s) { return our_occluded(b.bvh, s.plain); };
   for (const std::string rays : {"camera", "photon"}) {
     add_end_to_end(row, "intersect", rays, intersect_pass<1>(&RaySet::ready1, false), one);
   }
   for (const std::string rays : {"camera", "packet"}) {
-    add_end_to_end(row, "lanes", rays, intersect_pass<16>(&RaySet::ready16, false), many);
-    add_end_to_end(row, "lanes-coherent", rays, intersect_pass<16>(&RaySet::ready16, true), many);
+    const Pass ours = many(rays == "camera" ? accel::RayOrder::kNeighbours : accel::RayOrder::kMixed);
+    add_end_to_end(row, "lanes", rays, intersect_pass<16>(&RaySet::ready16, false), ours);
+    add_end_to_end(row, "lanes-coherent", rays, intersect_pass<16>(&RaySet::ready16, true), ours);
   }
   add_end_to_end(row, "occluded", "shadow", bare_occluded_pass, occluded);
 }

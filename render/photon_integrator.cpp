@@ -113,18 +113,19 @@ void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* resul
 
 }  // namespace
 
-PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, Sampler& sampler,
-                             TileCounters& counters, bool with_bias) {
+PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, const Hit& first,
+                             Sampler& sampler, TileCounters& counters, bool with_bias) {
   PixelResult result;
   Rgb beta(1);
   Ray ray = camera_ray;
+  Hit hit = first;
   ++counters.rays.camera;
   for (int events = 0;; ++events) {
-    SurfaceInteraction si;
-    if (!ctx.bvh.intersect(ray, &si)) {
+    if (!hit.valid()) {
       result.emitted += beta * escaped(ctx.scene);
       return result;
     }
+    const SurfaceInteraction si = make_interaction(ctx.scene.shapes, ray, hit);
     result.emitted += beta * emitted(ctx.scene, si, -ray.d);
     const ShadingPoint x(ctx.scene, si, -ray.d);
     if (events == 0) set_features(x, ray.o, &result);
@@ -137,6 +138,7 @@ PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, Sa
     if (!s) return result;
     beta *= s->weight;
     ray = si.spawn(s->wi);
+    hit = ctx.bvh.intersect(ray);
     ++counters.rays.specular;
   }
 }

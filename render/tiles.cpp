@@ -5,14 +5,12 @@
 #include <atomic>
 #include <mutex>
 
-#include "core/sampling/sampler.h"
+#include "render/camera_rays.h"
 #include "render/photon_integrator.h"
 
 namespace kaustik::render {
 
 namespace {
-
-constexpr uint64_t kCameraStream = 0xca3e;  // keeps the image's random numbers apart from the photons'
 
 struct TileResult {
   TileCounters counters;
@@ -31,33 +29,52 @@ bool valid_radiance(const PixelResult& s, DirectEstimator direct) {
          valid(s.caustic, false) && valid(s.indirect, predicted) && is_finite(s.bias);
 }
 
-// Adds the pass's samples of pixel (x, y) of the full image. The box filter is uniform over the pixel.
-void render_pixel(const RenderContext& ctx, int x, int y, PixelSum* sum, TileResult* tile) {
-  const uint64_t pixel = uint64_t(y) * uint64_t(ctx.scene.camera.width) + uint64_t(x);
-  const uint64_t stream = hash_combine(hash_combine(ctx.settings.seed, kCameraStream), pixel);
-  for (uint64_t i = ctx.pass.first_sample; i < ctx.pass.end_sample; ++i) {
-    Sampler sampler(stream, i);
-    const Point2 u = sampler.next_2d();
-    const Ray ray = ctx.scene.camera.generate_ray({float(x) + u.x, float(y) + u.y});
+// Pixels [x0, x1) x [y0, y1) of the full image.
+struct PixelRange {
+  int x0, x1, y0, y1;
+
+  // Its part within `side` pixels of the full image.
+  PixelRange in_square(int x, int y, int side) const {
+    return {std::max(x0, x), std::min(x1, x + side), std::max(y0, y), std::min(y1, y + side)};
+  }
+};
+
+// Adds samples [first, end) of pixel (x, y).
+void shade_pixel(const RenderContext& ctx, const CameraRays& rays, int x, int y, uint64_t first, uint64_t end,
+                 PixelSum* sum, TileResult* tile) {
+  for (uint64_t i = first; i < end; ++i) {
+    Sampler sampler = pixel_sampler(ctx.settings.seed, ctx.scene.camera, x, y, i, kRayDimensions);
     // Once a pass: most of its noise is that of the photons, which all samples share.
     const bool with_bias = ctx.settings.estimate_bias.value_or(false) && i == ctx.pass.first_sample;
-    const PixelResult sample = trace_camera_ray(ctx, ray, sampler, tile->counters, with_bias);
+    const PixelResult sample =
+        trace_camera_ray(ctx, rays.ray(x, y, i), rays.hit(x, y, i), sampler, tile->counters, with_bias);
     if (valid_radiance(sample, ctx.plan.direct)) {
       sum->add(sample);
       continue;
     }
     ++tile->dropped;
-    if (tile->examples.size() < kDropExamples) tile->examples.push_back({y, x, i});
+    add_examples({{y, x, i}}, &tile->examples);
   }
 }
 
-TileResult render_tile(const RenderContext& ctx, int tile_x, int tile_y, FilmSums* film) {
+// Adds the pass's samples of pixels of one block of rays.
+void render_block(const RenderContext& ctx, const PixelRange& pixels, FilmSums* film, TileResult* tile) {
+  CameraRays rays;
+  const PassShare& pass = ctx.pass;
+  for (uint64_t first = pass.first_sample; first < pass.end_sample; first += CameraRays::kSamples) {
+    const uint64_t end = std::min(pass.end_sample, first + CameraRays::kSamples);
+    rays.trace(ctx.bvh, ctx.settings.seed, pixels.x0, pixels.y0, first, end - first);
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+      for (int x = pixels.x0; x < pixels.x1; ++x)
+        shade_pixel(ctx, rays, x, y, first, end, &film->at(x - film->x0(), y - film->y0()), tile);
+  }
+}
+
+TileResult render_tile(const RenderContext& ctx, const PixelRange& pixels, FilmSums* film) {
   TileResult tile;
-  const int x1 = std::min(film->width(), (tile_x + 1) * kTileSize);
-  const int y1 = std::min(film->height(), (tile_y + 1) * kTileSize);
-  for (int y = tile_y * kTileSize; y < y1; ++y)
-    for (int x = tile_x * kTileSize; x < x1; ++x)
-      render_pixel(ctx, film->x0() + x, film->y0() + y, &film->at(x, y), &tile);
+  for (int y = pixels.y0 - pixels.y0 % kRayBlock; y < pixels.y1; y += kRayBlock)
+    for (int x = pixels.x0 - pixels.x0 % kRayBlock; x < pixels.x1; x += kRayBlock)
+      render_block(ctx, pixels.in_square(x, y, kRayBlock), film, &tile);
   return tile;
 }
 
@@ -88,9 +105,11 @@ struct MergedTiles {
 
 bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
                   RenderStatistics* statistics) {
-  const int columns = (film->width() + kTileSize - 1) / kTileSize;
-  const int rows = (film->height() + kTileSize - 1) / kTileSize;
-  const int tiles = columns * rows;
+  const PixelRange window{film->x0(), film->x0() + film->width(), film->y0(), film->y0() + film->height()};
+  // Tiles are counted from the corner of the full image, as the blocks of rays are.
+  const int first_column = window.x0 / kTileSize, first_row = window.y0 / kTileSize;
+  const int columns = (window.x1 - 1) / kTileSize + 1 - first_column;
+  const int tiles = columns * ((window.y1 - 1) / kTileSize + 1 - first_row);
   std::mutex mutex;
   std::atomic<bool> cancelled{false};
   MergedTiles merged;
@@ -99,7 +118,8 @@ bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, Fi
       tbb::blocked_range<int>(0, tiles, 1),
       [&](const tbb::blocked_range<int>& range) {
         for (int i = range.begin(); i < range.end() && !cancelled; ++i) {
-          const TileResult tile = render_tile(ctx, i % columns, i / columns, film);
+          const int x = (first_column + i % columns) * kTileSize, y = (first_row + i / columns) * kTileSize;
+          const TileResult tile = render_tile(ctx, window.in_square(x, y, kTileSize), film);
           const std::lock_guard lock(mutex);
           merged.add(tile);
           ++done;

@@ -15,11 +15,14 @@ void PerspectiveCamera::set_default_screen_window() {
   screen_window = aspect >= 1 ? glm::vec4(-aspect, aspect, -1, 1) : glm::vec4(-1, 1, -1 / aspect, 1 / aspect);
 }
 
-Ray PerspectiveCamera::generate_ray(const Point2& raster) const {
+float PerspectiveCamera::screen_scale() const {
+  return fov_scale(fov_degrees);
+}
+
+Ray PerspectiveCamera::generate_ray(const Point2& raster, float scale) const {
   const glm::vec4& w = screen_window;
   const float x = w.x + (w.y - w.x) * (raster.x / static_cast<float>(width));
   const float y = w.w - (w.w - w.z) * (raster.y / static_cast<float>(height));
-  const float scale = fov_scale(fov_degrees);
   const Vector3 d = to_world.vector({x * scale, y * scale, 1});
   return {to_world.translation, glm::normalize(d)};
 }

@@ -16,7 +16,10 @@ struct PerspectiveCamera {
 
   void set_default_screen_window();
   // Unit direction. raster in [0, width) x [0, height).
-  Ray generate_ray(const Point2& raster) const;
+  Ray generate_ray(const Point2& raster) const { return generate_ray(raster, screen_scale()); }
+  // The same, for many rays; scale: that of screen_scale(), which costs a tangent.
+  Ray generate_ray(const Point2& raster, float scale) const;
+  float screen_scale() const;
   // Raster position of a world point in front of the camera; false behind it or outside the image.
   bool project(const Point3& p, Point2* raster) const;
 };

@@ -44,9 +44,11 @@ TEST_P(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
+// Neither image nor window is made of whole blocks of rays, and the samples do not fill the last packets.
 TEST_P(Determinism, CropIsAPartOfTheImage) {
-  const Scene scene = cornell(40);
+  const Scene scene = cornell(30);
   RenderSettings settings = settings_of(GetParam());
+  settings.spp = 6;
   const auto whole = render_with_threads(scene, settings);
   settings.crop = {7, 30, 11, 29};
   const auto part = render_with_threads(scene, settings);
