@@ -100,22 +100,29 @@ BoxTree::BoxTree(const PhotonColumns& columns, uint64_t size) {
   }
 }
 
+bool BoxTree::Start::list(const CellRanges& ranges, int shift) {
+  size_t listed = 0;  // a node may lie in several ranges
+  uint32_t next = 0;
+  size = 0;
+  for (size_t r = 0; r < ranges.size; ++r) {
+    const uint32_t begin = ranges.first[r] >> shift, end = (ranges.last[r] >> shift) + 1;
+    if ((listed += end - begin) > kMost) return false;
+    // Mostly none, one or two are new, which a branch could not foretell.
+    const uint32_t first = std::max(next, begin);
+    nodes[size] = first;
+    size += first < end;
+    nodes[size] = first + 1;
+    size += first + 1 < end;
+    for (uint32_t node = first + 2; node < end; ++node) nodes[size++] = node;
+    next = std::max(next, end);
+  }
+  return true;
+}
+
 BoxTree::Start BoxTree::start_at(const CellRanges& ranges) const {
   Start start;
   int shift = std::bit_width(kNodePhotons) - 1;
-  const auto many = [&] {
-    size_t nodes = 0;
-    for (size_t r = 0; r < ranges.size; ++r)
-      nodes += (ranges.last[r] >> shift) - (ranges.first[r] >> shift) + 1;
-    return nodes > Start::kMost;
-  };
-  for (; many(); ++start.level) shift += std::bit_width(BoxNode::kBoxes) - 1;
-  uint32_t next = 0;
-  for (size_t r = 0; r < ranges.size; ++r) {
-    next = std::max(next, ranges.first[r] >> shift);
-    for (const uint32_t last = ranges.last[r] >> shift; next <= last; ++next)
-      start.nodes[start.size++] = next;
-  }
+  for (; !start.list(ranges, shift); ++start.level) shift += std::bit_width(BoxNode::kBoxes) - 1;
   return start;
 }
 

@@ -38,7 +38,10 @@ class BoxTree {
     static constexpr size_t kMost = 32;
     int level = 0;
     size_t size = 0;
-    uint32_t nodes[kMost];
+    uint32_t nodes[kMost + 2];  // and room behind them
+
+    // The nodes of 2^shift photons that the ranges meet; false when they are too many.
+    bool list(const CellRanges& ranges, int shift);
   };
   // Those that hold the photons of the ranges: of the lowest level at which they are few.
   Start start_at(const CellRanges& ranges) const;

@@ -11,33 +11,47 @@ namespace {
 
 constexpr uint64_t kPhotonsPerEntry = 16;
 
-// Key bits of one axis.
-constexpr uint64_t kAxes[] = {spread_bits(kMortonMax), spread_bits(kMortonMax) << 1,
-                              spread_bits(kMortonMax) << 2};
+// The table's keys have so many bits of each axis, at most: fewer than 2^32 photons.
+constexpr int kEntryBits = 9;
+static_assert(kPhotonsPerEntry << (3 * kEntryBits + 3) > uint64_t{1} << 32);
 
-// At most eight cells of a level, in ascending order.
+// The two ends of an interval of cells, each of kEntryBits, are spread at once: their bits meet nowhere.
+constexpr int kUpperEnd = 36;
+constexpr uint64_t both_ends(uint64_t x) {
+  return x | x << kUpperEnd;
+}
+// spread_bits() of either end of [lo, hi].
+constexpr uint64_t spread_ends(uint32_t lo, uint32_t hi) {
+  uint64_t x = lo | uint64_t{hi} << kUpperEnd;
+  x = (x | x << 16) & both_ends(0x10000ff);
+  x = (x | x << 8) & both_ends(0x100f00f);
+  x = (x | x << 4) & both_ends(0x10c30c3);
+  return (x | x << 2) & both_ends(0x1249249);
+}
+
+// At most eight cells of a level, at most two along each axis, in ascending order. No step depends on a
+// branch: where it would go differs from query to query.
 struct Cells {
-  uint64_t key[8];
-  size_t size = 1;
+  uint32_t key[8];
+  size_t stride;  // from one cell to the next: in between the same ones stand again
 
-  // All with the coordinates of the first or of the last along each axis.
-  Cells(uint64_t first, uint64_t last) {
-    key[0] = first;
-    // An axis along which there are two doubles the cells: first that whose two keys differ in the lowest
-    // bits.
-    struct Step {
-      uint64_t differ, by;
-    } steps[3];
-    size_t count = 0;
-    for (const uint64_t axis : kAxes) {
-      const uint64_t differ = (first ^ last) & axis;
-      if (differ == 0) continue;
-      size_t at = count++;
-      for (; at > 0 && steps[at - 1].differ > differ; --at) steps[at] = steps[at - 1];
-      steps[at] = {differ, (last & axis) - (first & axis)};
+  Cells(const MortonCell& lo, const MortonCell& hi, int level) {
+    uint32_t first = 0, step[3];
+    for (size_t a = 0; a < 3; ++a) {
+      const uint64_t ends = spread_ends(lo[a] >> level, hi[a] >> level) << a;
+      const uint32_t from = uint32_t(ends & ((uint64_t{1} << (kUpperEnd - 1)) - 1));
+      first |= from;
+      step[a] = uint32_t(ends >> kUpperEnd) - from;
     }
-    for (size_t s = 0; s < count; ++s, size *= 2)
-      for (size_t i = 0; i < size; ++i) key[size + i] = key[i] + steps[s].by;
+    // Ascending, those of axes with one cell first: of two steps the larger is more than all others together.
+    const uint32_t low = std::min(step[0], step[1]), high = std::max(step[0], step[1]);
+    const uint32_t s0 = std::min(low, step[2]), s1 = std::max(low, std::min(high, step[2]));
+    const uint32_t s2 = std::max(high, step[2]);
+    const uint32_t second = first + s2;
+    const uint32_t sums[8] = {first,  first + s0,  first + s1,  first + s1 + s0,
+                              second, second + s0, second + s1, second + s1 + s0};
+    std::copy_n(sums, 8, key);
+    stride = size_t{1} << ((s0 == 0) + (s1 == 0) + (s2 == 0));
   }
 };
 
@@ -69,13 +83,14 @@ CellRanges Octree::ranges_near(const Point3& p, float radius, PhotonRange within
   const Vector3 reach(radius * (1 + 0x1p-20f));
   const MortonCell lo = cube_.cell(p - reach), hi = cube_.cell(p + reach);
   // Cells as wide as the box: it meets two at most along each axis.
-  const int narrowest = int(std::bit_width(std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]})));
+  const int narrowest = int(std::bit_width((hi[0] - lo[0]) | (hi[1] - lo[1]) | (hi[2] - lo[2])));
   const int level = std::max(narrowest, kMortonBits - entry_depth_);
-  const Cells cells(morton_key(lo) >> (3 * level), morton_key(hi) >> (3 * level));
+  const Cells cells(lo, hi, level);
   const int shift = 3 * (level - (kMortonBits - entry_depth_));
-  for (size_t i = 0; i < cells.size; ++i) {
-    const uint64_t begin = std::max<uint64_t>(within.begin, entries_[cells.key[i] << shift]);
-    const uint64_t end = std::min<uint64_t>(within.end, entries_[(cells.key[i] + 1) << shift]);
+  for (size_t i = 0; i < 8; i += cells.stride) {
+    const size_t key = cells.key[i];
+    const uint64_t begin = std::max<uint64_t>(within.begin, entries_[key << shift]);
+    const uint64_t end = std::min<uint64_t>(within.end, entries_[(key + 1) << shift]);
     ranges.first[ranges.size] = uint32_t(begin);
     ranges.last[ranges.size] = uint32_t(end - 1);
     ranges.size += begin < end;

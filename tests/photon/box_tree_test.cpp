@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "photon/nearest.h"
 #include "tests/photon/photon_sets.h"
 
@@ -90,6 +92,39 @@ TEST(BoxTree, SearchesBeginWithAllThatIsInReach) {
         ASSERT_TRUE(std::binary_search(start.nodes, start.nodes + start.size, node));
       }
     }
+  }
+}
+
+// The distinct nodes of random ascending ranges, at the lowest level at which they are few.
+TEST(BoxTree, StartHasEachNodeOfTheRangesOnce) {
+  PhotonMaker make(32);
+  for (int round = 0; round < 2000; ++round) {
+    CellRanges ranges;
+    const float longest = std::exp2(20 * make.uniform());
+    uint32_t next = uint32_t(1e6f * make.uniform());
+    for (ranges.size = 0; ranges.size < size_t(round % 9); ++ranges.size) {
+      ranges.first[ranges.size] = next + uint32_t(longest * make.uniform());
+      ranges.last[ranges.size] = ranges.first[ranges.size] + uint32_t(longest * make.uniform());
+      next = ranges.last[ranges.size] + 1;
+    }
+    const BoxTree::Start start = BoxTree().start_at(ranges);
+    const auto nodes_at = [&](int level, size_t* listed) {
+      std::set<uint32_t> nodes;
+      for (size_t r = 0; r < ranges.size; ++r) {
+        const uint32_t node_photons = BoxTree::kNodePhotons << (4 * level);
+        for (uint32_t i = ranges.first[r] / node_photons; i <= ranges.last[r] / node_photons; ++i) {
+          nodes.insert(i);
+          ++*listed;
+        }
+      }
+      return nodes;
+    };
+    size_t listed = 0, below = 0;
+    const std::set<uint32_t> expected = nodes_at(start.level, &listed);
+    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), start.nodes, start.nodes + start.size));
+    ASSERT_LE(listed, BoxTree::Start::kMost);
+    if (start.level > 0) nodes_at(start.level - 1, &below);
+    ASSERT_TRUE(start.level == 0 || below > BoxTree::Start::kMost);
   }
 }
 
