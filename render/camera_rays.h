@@ -10,10 +10,10 @@ namespace kaustik::render {
 
 inline constexpr int kRayBlock = 4;  // pixels along each axis of a block
 
-// Sample number `sample` of pixel (x, y) of the full image. The first two dimensions are the place in it.
-Sampler pixel_sampler(uint64_t seed, const PerspectiveCamera& camera, int x, int y, uint64_t sample,
-                      uint32_t first_dimension);
-inline constexpr uint32_t kRayDimensions = 2;  // that a camera ray takes
+// The Sampler seed of pixel (x, y) of the full image, whose samples are its points. Their first dimensions
+// are the place in the pixel.
+uint64_t pixel_stream(uint64_t seed, const PerspectiveCamera& camera, int x, int y);
+inline constexpr uint32_t kRayDimensions = 2;
 
 class CameraRays {
  public:

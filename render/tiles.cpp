@@ -42,8 +42,9 @@ struct PixelRange {
 // Adds samples [first, end) of pixel (x, y).
 void shade_pixel(const RenderContext& ctx, const CameraRays& rays, int x, int y, uint64_t first, uint64_t end,
                  PixelSum* sum, TileResult* tile) {
+  const uint64_t stream = pixel_stream(ctx.settings.seed, ctx.scene.camera, x, y);
   for (uint64_t i = first; i < end; ++i) {
-    Sampler sampler = pixel_sampler(ctx.settings.seed, ctx.scene.camera, x, y, i, kRayDimensions);
+    Sampler sampler(stream, i, kRayDimensions);
     // Once a pass: most of its noise is that of the photons, which all samples share.
     const bool with_bias = ctx.settings.estimate_bias.value_or(false) && i == ctx.pass.first_sample;
     const PixelResult sample =

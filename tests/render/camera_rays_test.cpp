@@ -29,7 +29,7 @@ TEST(CameraRays, AreTheRaysAndHitsOfEachSampleByItself) {
     for (int y = block.y; y < std::min(kSide, block.y + kRayBlock); ++y) {
       for (int x = block.x; x < std::min(kSide, block.x + kRayBlock); ++x) {
         for (uint64_t i = kFirst; i < kFirst + kCount; ++i) {
-          const Point2 u = pixel_sampler(kSeed, scene.camera, x, y, i, 0).next_2d();
+          const Point2 u = Sampler(pixel_stream(kSeed, scene.camera, x, y), i).next_2d();
           const Ray expected = scene.camera.generate_ray(Point2(x, y) + u), ray = rays.ray(x, y, i);
           ASSERT_EQ(ray.o, expected.o);
           ASSERT_EQ(ray.d, expected.d);
@@ -65,13 +65,15 @@ TEST(CameraRays, EveryPixelOfABlockNamesIt) {
   }
 }
 
-// A sampler that begins behind the ray goes on as one that drew it.
+// A sampler that begins behind the ray goes on as one that drew it, and no two pixels share their points.
 TEST(CameraRays, SamplersGoOnBehindTheRay) {
   const PerspectiveCamera camera;
-  Sampler whole = pixel_sampler(7, camera, 2, 3, 11, 0),
-          rest = pixel_sampler(7, camera, 2, 3, 11, kRayDimensions);
+  const uint64_t stream = pixel_stream(7, camera, 2, 3);
+  Sampler whole(stream, 11), rest(stream, 11, kRayDimensions);
   whole.next_2d();
   for (int i = 0; i < 9; ++i) EXPECT_EQ(rest.next_1d(), whole.next_1d());
+  EXPECT_NE(pixel_stream(7, camera, 3, 2), stream);
+  EXPECT_NE(pixel_stream(8, camera, 2, 3), stream);
 }
 
 }  // namespace
