@@ -15,9 +15,11 @@ struct PathLight {
 bool traces_paths(const EstimatorPlan& plan);
 
 // One path that starts at the non-specular point x with a BSDF sample. What it meets decides the class:
-//   a lamp straight from x                      direct, with the weight of BSDF sampling (--direct
-//   shadow-rays) a lamp after specular surfaces only         caustic (--caustics paths) anything after a
-//   second non-specular point  indirect (--indirect paths)
+//
+//   a lamp straight from x                direct, by the weight of BSDF sampling (if samples_lamps())
+//   a lamp after specular surfaces only   caustic (--caustics paths)
+//   what follows a second non-specular    indirect (--indirect paths)
+//
 // At each further non-specular point y: next-event estimation with MIS, and what arrives at y through
 // specular surfaces: from the caustic map if there is one (then lamps met through specular surfaces are not
 // counted again), else from lamps met. `--caustics off` therefore leaves out the class L S+ D S* E alone, and
