@@ -59,15 +59,16 @@ function tickText(format) {
   return function (value, _index, ticks) {
     const mantissa = value / 10 ** Math.floor(Math.log10(value) + 1e-9), digit = Math.round(mantissa);
     const decades = Math.log10(ticks[ticks.length - 1].value / ticks[0].value);
-    const wanted = decades > 4 ? [1] : decades > 1.6 ? [1, 2, 5] : decades > 0.7 ? [1, 2, 3, 5, 7] : [1, 2, 3, 4, 5, 6, 7, 8, 9];
+    const wanted = decades > 4 ? [1] : decades > 1.6 ? [1, 2, 5] : [1, 2, 3, 5, 7];
     return Math.abs(mantissa - digit) < 1e-6 && wanted.includes(digit) ? format(value) : null;
   };
 }
 
-// From a bit below the least of the values to a bit above the greatest, half a decade at least.
+// From a bit below the least of the values to a bit above the greatest, 0.8 decades at least, so that some ticks fall
+// into it.
 function logAxis(title, format, values) {
   const least = Math.min(...values), most = Math.max(...values);
-  const margin = Math.max(1.25, Math.sqrt(Math.sqrt(10) * least / most));
+  const margin = Math.max(1.25, Math.sqrt(10 ** 0.8 * least / most));
   const range = values.length ? {min: least / margin, max: most * margin} : {};
   return {type: "logarithmic", ...range, title: {display: true, text: title}, grid: {color: "#e6eaef"},
           ticks: {callback: tickText(format), maxRotation: 0, autoSkip: false}};
