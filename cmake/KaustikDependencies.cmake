@@ -24,7 +24,7 @@ find_package(assimp REQUIRED)
 find_file(KAUSTIK_CHART_JS NAMES chart.min.js Chart.min.js PATH_SUFFIXES share/javascript/chart.js
   DOC "Chart.js 3, minified")
 find_file(KAUSTIK_CHART_LICENCE NAMES copyright PATH_SUFFIXES share/doc/libjs-chart.js DOC "Licence of Chart.js")
-if(NOT KAUSTIK_CHART_JS OR NOT KAUSTIK_CHART_LICENCE)
+if(NOT EXISTS "${KAUSTIK_CHART_JS}" OR NOT EXISTS "${KAUSTIK_CHART_LICENCE}")
   message(FATAL_ERROR "Chart.js is missing: install the package libjs-chart.js, or give "
     "-DKAUSTIK_CHART_JS=.../chart.min.js and -DKAUSTIK_CHART_LICENCE=... (its licence text)")
 endif()
