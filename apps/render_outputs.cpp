@@ -14,6 +14,22 @@ namespace kaustik::app {
 
 namespace {
 
+// Where the photons' flux went, in shares of what the lamps emitted.
+void report_energy(const render::RenderStatistics& s, const Console& console) {
+  const photon::EnergyLedger& e = s.photons.energy;
+  if (e.emitted == 0) return;
+  const auto share = [&](int64_t units) { return 100 * double(units) / double(e.emitted); };
+  console.note(
+      fmt::format("energy: {:.5g} W emitted (R + G + B); absorbed {:.2f} %, escaped {:.2f} %, not followed "
+                  "further {:.2f} %, "
+                  "lost by roulette {:.2f} %",
+                  e.watts(e.emitted) / double(std::max<uint64_t>(1, s.passes)), share(e.absorbed),
+                  share(e.escaped), share(e.terminated), share(e.roulette)));
+  if (e.unaccounted() != 0)
+    console.warning(
+        fmt::format("energy: {:.3g} % of the photons' flux is unaccounted for", share(e.unaccounted())));
+}
+
 void report_photons(const render::RenderResult& result, const Console& console) {
   const render::RenderStatistics& s = result.statistics;
   if (s.photons.emitted == 0) return;
@@ -23,6 +39,7 @@ void report_photons(const render::RenderResult& result, const Console& console) 
         fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(s.photons.stored[k]));
   }
   console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted), stored));
+  report_energy(s, console);
   if (s.radius > 0) console.note(fmt::format("gather radius: {:.4g} m", s.radius));
   if (result.plan.direct == render::DirectEstimator::kLecture) {
     console.note(fmt::format(

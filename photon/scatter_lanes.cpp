@@ -103,13 +103,12 @@ HWY_INLINE Mask SampleDirection(const VertexLanes& lanes, const SobolLanes& numb
   return hn::And(some, hn::Gt(hn::Mul(Dot(out.wi, n), wi_z), hn::Zero(d)));
 }
 
-// The flux after the reflection and roulette in `out`.
-HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> Roulette(const Vec3<Vf>& flux, const Vec3<Vf>& weight, Vf u,
+// The flux `next` after reflection, and after roulette in `out`.
+HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> Roulette(const Vec3<Vf>& flux, const Vec3<Vf>& next, Vf u,
                                                         Vec3<Vf>& out) {
   const Floats d;
   const hn::RebindToSigned<Floats> i;
   const Vf zero = hn::Zero(d);
-  const Vec3<Vf> next = weight * flux;
   const Vf before = Largest(flux), after = Largest(next);
   const auto is_flux = [&](Vf x)
                            HWY_ATTR { return hn::And(hn::Ge(x, zero), hn::Lt(x, hn::Set(d, kInfinity))); };
@@ -121,19 +120,26 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> Roulette(const Vec3<Vf>& flux, co
   return hn::IfThenElse(hn::RebindMask(i, valid), as_alive, hn::Set(i, VertexLanes::kInvalid));
 }
 
-void ScatterLanes(VertexLanes& lanes, const SobolLanes& numbers, size_t count) {
+void ScatterLanes(VertexLanes& lanes, const SobolLanes& numbers, float units_per_watt, size_t count) {
   const Floats d;
   const hn::RebindToSigned<Floats> i;
+  const Vf scale = hn::Set(d, units_per_watt);
   for (size_t k = 0; k < count; k += hn::Lanes(d)) {
     Scattered next;
-    Vec3<Vf> flux;
+    Vec3<Vf> flux_left;
     const Mask scattered = SampleDirection(lanes, numbers, k, next);
     const Vf u = hn::IfThenElse(Have(lanes, kSpecularTrait, k), hn::Load(d, numbers.u[3] + k),
                                 hn::Load(d, numbers.u[2] + k));
-    const auto fate = Roulette(Load(lanes.flux, k), next.weight, u, flux);
-    hn::Store(hn::IfThenElseZero(hn::RebindMask(i, scattered), fate), i, lanes.fate + k);
+    const Vec3<Vf> flux = next.weight * Load(lanes.flux, k);
+    const auto fate =
+        hn::IfThenElseZero(hn::RebindMask(i, scattered), Roulette(Load(lanes.flux, k), flux, u, flux_left));
+    hn::Store(fate, i, lanes.fate + k);
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(i, scattered), Energy(flux, scale)), i,
+              lanes.scattered_energy + k);
+    hn::Store(hn::IfThenElseZero(hn::Eq(fate, hn::Set(i, VertexLanes::kAlive)), Energy(flux_left, scale)), i,
+              lanes.next_energy + k);
     Store(next.wi, lanes.next.d, k);
-    Store(flux, lanes.next_flux, k);
+    Store(flux_left, lanes.next_flux, k);
     // offset_origin()
     const Vec3<Vf> n = Load(lanes.n, k), p = Load(lanes.p, k);
     const Vf p_error = hn::Load(d, lanes.p_error + k);
@@ -150,8 +156,8 @@ namespace kaustik::photon {
 
 HWY_EXPORT(ScatterLanes);
 
-void scatter_lanes(VertexLanes& lanes, const SobolLanes& numbers, size_t count) {
-  HWY_DYNAMIC_DISPATCH(ScatterLanes)(lanes, numbers, count);
+void scatter_lanes(VertexLanes& lanes, const SobolLanes& numbers, float units_per_watt, size_t count) {
+  HWY_DYNAMIC_DISPATCH(ScatterLanes)(lanes, numbers, units_per_watt, count);
 }
 
 }  // namespace kaustik::photon

@@ -12,32 +12,13 @@
 #include <type_traits>
 #include <variant>
 
+#include "photon/shading_correction.h"
 #include "photon/tracer.h"
 #include "photon/walker_queue.h"
 
 namespace kaustik::photon {
 
 namespace detail {
-
-inline bool is_valid_flux(const Rgb& flux) {
-  return is_finite(flux) && flux.x >= 0 && flux.y >= 0 && flux.z >= 0;
-}
-
-// Shading normals. With ns the camera path's measurement is defined as (Veach 1997, section 5.3)
-//   Lo(wo) = integral f(wo, wi) Li(wi) |wi.ns| dwi,
-// while photons that cross the geometric surface from wi bring the flux dPhi = Li |wi.n| dwi dA. Hence
-//   Lo(wo) = 1/dA sum f(wo, wi) dPhi c(wi)   with   c(w) = |w.ns| / |w.n|,
-// so a deposit carries c(wi). A photon that goes on in wi carries Lo(wi) |wi.n| dwi dA: with sample_f's
-// weight f |wi.ns| / pdf the factor left is c(wo) / c(wi), where wo points back to where the photon came
-// from. Both hold for delta lobes too, whose f has 1/|wi.ns|. Directions on different sides of n and ns carry
-// nothing (no light leaks), as on camera paths.
-//
-// cos_ns = w.ns. Returns c(w), zero when the sides differ; exactly one when ns equals n.
-inline float shading_correction(const SurfaceInteraction& si, const Vector3& w, float cos_ns) {
-  const float cos_n = glm::dot(w, si.n);
-  if (!(cos_n * cos_ns > 0)) return 0;
-  return si.n == si.ns ? 1.0f : cos_ns / cos_n;
-}
 
 // Diffuse reflection has one lobe and needs no number to choose it.
 template <class B>
@@ -92,7 +73,10 @@ class Tracer {
         settings_(settings),
         sink_(sink),
         counters_(counters),
-        keys_(photon_stream(settings), upper_half) {}
+        unit_exponent_(energy_unit_exponent(scene, settings.photons)),
+        keys_(photon_stream(settings), upper_half) {
+    counters_.energy.unit_exponent = unit_exponent_;
+  }
 
   void trace(uint64_t first, uint64_t end) {
     if (settings_.max_bounces < 1) {
@@ -145,9 +129,11 @@ class Tracer {
     draw_from(0, count, 4, starts_.position_direction);
     emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_, settings_.lamp);
     std::fill_n(walkers_.state, count, WalkState());
+    to_energy_lanes(starts_.flux, count, units_per_watt_, walkers_.energy);
     for (size_t k = 0; k < count; ++k) {
       const Rgb flux = VertexLanes::get(starts_.flux, k);
       goes_on_[k] = starts_.emitted[k] && !is_black(flux) && valid(flux);
+      if (goes_on_[k]) counters_.energy.emitted += walkers_.energy[k];
     }
     push(starts_.ray, starts_.flux, count);
   }
@@ -168,10 +154,13 @@ class Tracer {
     if (settings_.kinds.indirect || (settings_.kinds.caustic && chooses_lobes)) {
       // Diffuse reflection does without the fourth number.
       draw_vertex_numbers(count, chooses_lobes ? 4 : 3);
-      scatter_lanes(lanes_, numbers_, count);
+      scatter_lanes(lanes_, numbers_, units_per_watt_, count);
     }
+    const uint64_t dropped_before = counters_.dropped_invalid;
     for (size_t k = 0; k < count; ++k) arrive(k);
     leave_photons_of_lanes(count);
+    if (counters_.dropped_invalid != dropped_before) book_dropped(count);
+    book(count);
     push(lanes_.next, lanes_.next_flux, count);
   }
 
@@ -198,6 +187,20 @@ class Tracer {
     return traits;
   }
 
+  // Where the energy of the group went.
+  void book(size_t count) {
+    std::fill(walkers_.energy + count, walkers_.energy + kGroupSize, 0);
+    std::fill(scatters_ + count, scatters_ + kGroupSize, uint8_t{0});
+    book_lanes(lanes_, scatters_, walkers_, counters_.energy);
+  }
+  void book_dropped(size_t count) {
+    for (size_t k = 0; k < count; ++k) {
+      if (!scatters_[k] || lanes_.fate[k] != VertexLanes::kInvalid) continue;
+      counters_.energy.invalid += walkers_.energy[k];
+      walkers_.energy[k] = scatters_[k] = 0;
+    }
+  }
+
   // Photon k at its vertex: what it leaves, and whether and how it goes on, in goes_on_, walkers_ and the
   // next segment of lanes_.
   void arrive(size_t k) {
@@ -208,9 +211,11 @@ class Tracer {
     if (settings_.kinds.shadow && lanes_.hit.valid(k)) cast_shadow(k, before);
   }
 
-  void arrive_alone(size_t k) {
+  // Not inlined: arrive() is, into the loop over the lanes, and most lanes have nothing to do here.
+  [[gnu::noinline]] void arrive_alone(size_t k) {
     left_[k] = kNothing;
     goes_on_[k] = false;
+    scatters_[k] = false;
     const bool straight = walkers_.state[k].is_straight();
     const Arrival photon{lanes_.ray.get(k), VertexLanes::get(lanes_.flux, k)};
     const SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
@@ -219,7 +224,7 @@ class Tracer {
           leave_photon(k, si, photon, B::kSpecular);
           if (straight) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
           const bool wanted = settings_.kinds.indirect || (B::kSpecular && settings_.kinds.caustic);
-          goes_on_[k] = wanted && !is_last(k) && scatter(k, bsdf, si, photon);
+          if (wanted && !is_last(k)) scatter_alone(k, bsdf, si, photon);
           walkers_.state[k] =
               B::kSpecular ? walkers_.state[k].behind_specular() : walkers_.state[k].behind_diffuse();
         },
@@ -236,6 +241,7 @@ class Tracer {
     counters_.stored[static_cast<size_t>(kind)] += leaves;
     const bool wanted = settings_.kinds.indirect | (specular & settings_.kinds.caustic);
     const bool asked = met & wanted & !walkers_.state[k].is_straight() & !is_last(k);
+    scatters_[k] = asked;
     counters_.dropped_invalid += asked & (lanes_.fate[k] == VertexLanes::kInvalid);
     goes_on_[k] = asked & (lanes_.fate[k] == VertexLanes::kAlive);
     walkers_.state[k] = specular ? walkers_.state[k].behind_specular() : walkers_.state[k].behind_diffuse();
@@ -309,6 +315,16 @@ class Tracer {
     sink_(kind, Photon{si.p, wi, deposit, glm::dot(wi, si.n) < 0 ? -si.n : si.n, si.surface_group});
   }
 
+  template <class B>
+  void scatter_alone(size_t k, const B& bsdf, const SurfaceInteraction& si, const Arrival& photon) {
+    const uint64_t dropped_before = counters_.dropped_invalid;
+    lanes_.scattered_energy[k] = lanes_.next_energy[k] = 0;
+    scatters_[k] = true;
+    goes_on_[k] = scatter(k, bsdf, si, photon);
+    const bool dropped = counters_.dropped_invalid != dropped_before;
+    lanes_.fate[k] = dropped ? VertexLanes::kInvalid : VertexLanes::kAlive;
+  }
+
   // Samples the next direction and plays Russian roulette; false when the photon is absorbed. Numbers of the
   // vertex: direction (0, 1), then lobe and roulette. A delta lobe needs no direction, and lobes that need no
   // choice none for it.
@@ -326,9 +342,11 @@ class Tracer {
     if (c_out == 0) return false;
     const Rgb next = sample->weight * (shading_correction(si, wo, wo_local.z) / c_out) * photon.flux;
     if (is_black(next) || !valid(next)) return false;
+    lanes_.scattered_energy[k] = energy_of(next, units_per_watt_);
     const float scale = roulette(photon.flux, next, u(kChoosesLobe<B> ? 3 : 2));
     if (scale == 0) return false;
     lanes_.set_next(k, si.spawn(wi), scale * next);
+    lanes_.next_energy[k] = energy_of(scale * next, units_per_watt_);
     return true;
   }
 
@@ -346,6 +364,8 @@ class Tracer {
   const TraceSettings& settings_;
   Sink& sink_;
   TraceCounters& counters_;
+  int unit_exponent_;  // of the energy ledger
+  float units_per_watt_ = std::ldexp(1.0f, -unit_exponent_);
   SobolKeyTable keys_;
   std::unique_ptr<WalkerQueue[]> queues_ = std::make_unique_for_overwrite<WalkerQueue[]>(8);
   // Of the group that takes a step. Lanes nobody has set are zero, not leftovers of the stack: slow
@@ -357,7 +377,8 @@ class Tracer {
   WalkerRows rows_{};
   std::array<uint32_t, kGroupSize> sets_{};  // Sobol sets to draw from
   std::array<bool, kGroupSize> goes_on_{};
-  std::array<uint8_t, kGroupSize> left_{};  // kind of the photon left by a vertex in lanes, or kNothing
+  alignas(64) uint8_t scatters_[kGroupSize]{};  // what arrives is booked as scattered, not as terminated
+  std::array<uint8_t, kGroupSize> left_{};      // kind of the photon left by a vertex in lanes, or kNothing
 };
 
 }  // namespace detail

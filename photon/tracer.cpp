@@ -8,6 +8,7 @@ TraceCounters& TraceCounters::operator+=(const TraceCounters& o) {
   shadow_rays += o.shadow_rays;
   for (size_t k = 0; k < stored.size(); ++k) stored[k] += o.stored[k];
   dropped_invalid += o.dropped_invalid;
+  energy += o.energy;
   return *this;
 }
 

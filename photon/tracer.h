@@ -19,6 +19,7 @@
 
 #include "accel/bvh.h"
 #include "photon/emission_lanes.h"
+#include "photon/energy_lanes.h"
 #include "photon/photon.h"
 #include "photon/vertex_lanes.h"
 
@@ -54,6 +55,7 @@ struct TraceCounters {
   uint64_t shadow_rays = 0;  // segments of straight paths behind the first surface
   std::array<uint64_t, kPhotonKinds> stored{};
   uint64_t dropped_invalid = 0;  // NaN, infinite or negative flux
+  EnergyLedger energy;
   TraceCounters& operator+=(const TraceCounters& o);
 };
 

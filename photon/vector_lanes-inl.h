@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include "photon/energy_ledger.h"
 #include "photon/vertex_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -60,6 +61,12 @@ HWY_INLINE Vf Largest(const Vec3<Vf>& v) {
 }
 HWY_INLINE Vf LargestMagnitude(const Vec3<Vf>& v) {
   return Largest({hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)});
+}
+
+// energy_of().
+HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> Energy(const Vec3<Vf>& flux, Vf units_per_watt) {
+  const Vf sum = hn::Add(hn::Add(flux.x, flux.y), flux.z);
+  return hn::NearestInt(hn::Min(hn::Mul(sum, units_per_watt), hn::Set(Floats(), kMostEnergy)));
 }
 
 HWY_INLINE Vec3<Vf> Load(const Columns3& c, size_t k) {

@@ -31,6 +31,8 @@ struct VertexLanes {
   // How its life goes on.
   enum Fate : int32_t { kAbsorbed = 0, kAlive = 1, kInvalid = 2 };  // kInvalid: not a flux
   int32_t fate[kLanes];
+  // Energies of the flux that is scattered, before and after Russian roulette, in units of the ledger.
+  int32_t scattered_energy[kLanes], next_energy[kLanes];
 
   // Of lane k, whose hit is on this surface.
   void set_vertex(size_t k, const SurfaceRow& surface) {
@@ -62,10 +64,10 @@ struct VertexLanes {
 // Thread-safe.
 void locate_lanes(VertexLanes& lanes, const std::vector<Shape>& shapes, size_t count);
 
-// Fills next, next_flux and fate of the first `count` lanes from what locate_lanes() left. Direction from
-// dimensions 0 and 1 of numbers, roulette from dimension 2; at specular surfaces lobe from dimension 2 and
-// roulette from dimension 3. The operations are those of the tracer's scalar code, in the same order, so the
-// bits are the same too, on every instruction set. Thread-safe.
-void scatter_lanes(VertexLanes& lanes, const SobolLanes& numbers, size_t count);
+// Fills next, next_flux, fate and the energies of the first `count` lanes from what locate_lanes() left.
+// Direction from dimensions 0 and 1 of numbers, roulette from dimension 2; at specular surfaces lobe from
+// dimension 2 and roulette from dimension 3. The operations are those of the tracer's scalar code, in the
+// same order, so the bits are the same too, on every instruction set. Thread-safe.
+void scatter_lanes(VertexLanes& lanes, const SobolLanes& numbers, float units_per_watt, size_t count);
 
 }  // namespace kaustik::photon

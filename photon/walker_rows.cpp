@@ -14,6 +14,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Words = hn::CappedTag<uint32_t, WalkerLanes::kLanes>;
 using Floats = hn::RebindToFloat<Words>;
+using Ints = hn::RebindToSigned<Words>;
 using Vu = hn::Vec<Words>;
 using Columns3 = float[3][WalkerLanes::kLanes];
 
@@ -34,7 +35,8 @@ void ToRows(const accel::RayLanes& rays, const Columns3& flux, const WalkerLanes
                           rows.part[0][k]);
     hn::StoreInterleaved4(y, z, LoadBits(flux[0] + k), LoadBits(flux[1] + k), w, rows.part[1][k]);
     hn::StoreInterleaved4(LoadBits(flux[2] + k), hn::Load(w, walkers.reversed_index + k),
-                          hn::Load(w, state + k), hn::Zero(w), w, rows.part[2][k]);
+                          hn::Load(w, state + k), hn::BitCast(w, hn::Load(Ints(), walkers.energy + k)), w,
+                          rows.part[2][k]);
     const Vu y_bit = hn::ShiftLeft<1>(hn::ShiftRight<31>(y)), z_bit = hn::ShiftLeft<2>(hn::ShiftRight<31>(z));
     hn::Store(hn::Or(hn::ShiftRight<31>(x), hn::Or(y_bit, z_bit)), w, rows.octant + k);
   }
@@ -60,6 +62,7 @@ void FromRows(const uint32_t* const (&part)[3], size_t count, accel::RayLanes& r
     StoreBits(a, flux[2] + k);
     hn::Store(b, w, walkers.reversed_index + k);
     hn::Store(c, w, state + k);
+    hn::Store(hn::BitCast(Ints(), d), Ints(), walkers.energy + k);
   }
 }
 

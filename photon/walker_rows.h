@@ -11,9 +11,10 @@ struct WalkerLanes {
   static constexpr size_t kLanes = VertexLanes::kLanes;
   alignas(64) uint32_t reversed_index[kLanes];
   WalkState state[kLanes];
+  int32_t energy[kLanes];  // of the flux, in units of the ledger; zero for straight rays
 };
 
-// Rows of twelve words in three parts: (o, d.x), (d.yz, flux.rg), (flux.b, index, state, nothing).
+// Rows of twelve words in three parts: (o, d.x), (d.yz, flux.rg), (flux.b, index, state, energy).
 struct WalkerRows {
   static constexpr size_t kLanes = VertexLanes::kLanes;
   alignas(64) uint32_t part[3][kLanes][4];

@@ -29,6 +29,12 @@ void for_each_count(Statistics& s, F&& f) {
   f("photon_bytes", s.photon_bytes), f("octree_nodes", s.octree_nodes);
 }
 
+template <class Ledger, class F>
+void for_each_energy(Ledger& e, F&& f) {
+  f("emitted", e.emitted), f("absorbed", e.absorbed), f("escaped", e.escaped);
+  f("terminated", e.terminated), f("roulette", e.roulette), f("invalid", e.invalid);
+}
+
 template <class Statistics, class F>
 void for_each_time(Statistics& s, F&& f) {
   f("photon_trace", s.photon_trace_s), f("photon_build", s.photon_build_s), f("render", s.render_s);
@@ -54,6 +60,13 @@ float from_hex(const Json& json) {
   return value;
 }
 
+// Exponents whose powers of two are doubles.
+int exponent_from(const Json& json) {
+  const int exponent = json.get<int>();
+  if (exponent < -1000 || exponent > 1000) throw std::runtime_error(fmt::format("2^{} is no unit", exponent));
+  return exponent;
+}
+
 Json settings_json(const SettingTexts& settings) {
   Json out = Json::object();
   for (const auto& [name, texts] : settings) out[name] = texts;
@@ -68,17 +81,22 @@ SettingTexts settings_from(const Json& json) {
 }
 
 Json statistics_part(const RenderStatistics& s) {
-  Json counts, seconds, examples = Json::array();
+  Json counts, seconds, energy, examples = Json::array();
   for_each_count(s, [&](const std::string& name, const uint64_t& n) { counts[name] = n; });
   for_each_time(s, [&](const std::string& name, const double& t) { seconds[name] = t; });
+  for_each_energy(s.photons.energy, [&](const std::string& name, const int64_t& n) { energy[name] = n; });
+  energy["unit_exponent"] = s.photons.energy.unit_exponent;
   for (const DroppedSample& d : s.dropped_examples) examples.push_back({d.y, d.x, d.sample});
-  return {{"counts", counts}, {"seconds", seconds}, {"dropped_examples", examples}};
+  return {{"counts", counts}, {"seconds", seconds}, {"energy", energy}, {"dropped_examples", examples}};
 }
 
 RenderStatistics statistics_from(const Json& json, const PassSums& sums) {
   RenderStatistics s;
   for_each_count(s, [&](const std::string& name, uint64_t& n) { json.at("counts").at(name).get_to(n); });
   for_each_time(s, [&](const std::string& name, double& t) { json.at("seconds").at(name).get_to(t); });
+  photon::EnergyLedger& e = s.photons.energy;
+  for_each_energy(e, [&](const std::string& name, int64_t& n) { json.at("energy").at(name).get_to(n); });
+  e.unit_exponent = exponent_from(json.at("energy").at("unit_exponent"));
   for (const Json& d : json.at("dropped_examples"))
     s.dropped_examples.push_back({d.at(0).get<int>(), d.at(1).get<int>(), d.at(2).get<uint64_t>()});
   s.passes = sums.passes.count();
@@ -95,13 +113,6 @@ PassSet passes_from(const Json& json) {
   const auto passes = PassSet::parse(text);
   if (!passes && text != "none") throw std::runtime_error(fmt::format("`{}` are no passes", text));
   return passes.value_or(PassSet());
-}
-
-// Exponents whose powers of two are doubles.
-int exponent_from(const Json& json) {
-  const int exponent = json.get<int>();
-  if (exponent < -1000 || exponent > 1000) throw std::runtime_error(fmt::format("2^{} is no unit", exponent));
-  return exponent;
 }
 
 Json window_json(const PixelWindow<PixelTotals>& p) {

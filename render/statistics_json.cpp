@@ -26,6 +26,17 @@ Json photons_json(const RenderStatistics& s) {
           {"passes", s.passes}};
 }
 
+// Watts of a pass on the mean, over the three channels.
+Json energy_json(const RenderStatistics& s) {
+  const photon::EnergyLedger& e = s.photons.energy;
+  const double passes = static_cast<double>(std::max<uint64_t>(1, s.passes));
+  const auto watts = [&](int64_t units) { return e.watts(units) / passes; };
+  return {{"emitted", watts(e.emitted)},    {"absorbed", watts(e.absorbed)},
+          {"escaped", watts(e.escaped)},    {"terminated", watts(e.terminated)},
+          {"roulette", watts(e.roulette)},  {"invalid", watts(e.invalid)},
+          {"unaccounted", e.unaccounted()}, {"unit", e.watts(1)}};
+}
+
 Json rays_json(const RenderStatistics& s) {
   return {{"camera", s.rays.camera}, {"specular", s.rays.specular}, {"shadow", s.rays.shadow},
           {"bounce", s.rays.bounce}, {"photon", s.photons.rays},    {"photon_shadow", s.photons.shadow_rays}};
@@ -123,6 +134,7 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
   out["settings"] = settings_json(settings, result.plan);
   out.update(counters_json(s));
   out["error"] = error_json(result, settings);
+  out["energy"] = energy_json(s);
   out["radius"] = s.radius;
   out["radii"] = {
       {"direct", s.direct_radius}, {"caustic", s.caustic_radius}, {"indirect", s.indirect_radius}};

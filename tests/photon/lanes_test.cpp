@@ -146,7 +146,7 @@ TEST(VertexLanes, SegmentsAreThoseOfTheScalarCode) {
       for (float& u : column) u = make.uniform();
     }
     locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
-    scatter_lanes(lanes, numbers, VertexLanes::kLanes);
+    scatter_lanes(lanes, numbers, 1, VertexLanes::kLanes);
     for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
       expect_scattered(lanes, v, {numbers.u[0][k], numbers.u[1][k], numbers.u[2][k], numbers.u[3][k]}, k);
     }
@@ -166,7 +166,7 @@ TEST(VertexLanes, WhatIsNoFluxIsInvalid) {
   SobolLanes numbers{};
   for (auto& column : numbers.u) std::fill(std::begin(column), std::end(column), 0.25f);
   locate_lanes(lanes, v.shapes, 8);
-  scatter_lanes(lanes, numbers, 8);
+  scatter_lanes(lanes, numbers, 1, 8);
   for (size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.fate[k], VertexLanes::kInvalid);
   EXPECT_EQ(lanes.fate[3], VertexLanes::kAlive);
 }
