@@ -49,9 +49,11 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
   const bool empty = !needs.specular || !needs.any_light || !needs.diffuse;
   if (empty && plan->caustics != Caustic::kOff && !settings.caustics) {
     plan->caustics = Caustic::kOff;
-    plan->notes.push_back(!needs.specular    ? "no specular surface: no caustic pass"
-                          : !needs.any_light ? "no lamp: no caustic pass"
-                                             : "no diffuse surface: no caustic pass");
+    plan->notes.push_back(
+        !needs.specular
+            ? "no specular surface: no caustic pass; saves the caustic map, and a query of it at each point"
+        : !needs.any_light ? "no lamp: no caustic pass"
+                           : "no diffuse surface: no caustic pass");
   }
   if (!needs.any_light && plan->indirect != Indirect::kOff && !settings.indirect) {
     plan->indirect = Indirect::kOff;
@@ -64,17 +66,20 @@ void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* note
   if (plan.direct == Direct::kPredicted)
     notes->push_back("direct and shadow photons are counted, not stored: they foretell which lamps are seen");
   if (!kinds.any()) {
-    notes->push_back("no estimator reads stored photons: no photon pass");
+    notes->push_back("no estimator reads stored photons: no photon pass; saves every photon's rays and records");
     return;
   }
   if (!kinds.shadow && plan.direct != Direct::kPredicted)
-    notes->push_back("shadow photons are not traced: the direct estimator does not read them");
-  if (plan.direct == Direct::kShadowRays) notes->push_back("direct photons are not stored: shadow rays");
+    notes->push_back(
+        "shadow photons are not traced: the direct estimator does not read them; saves a ray and a record for "
+        "each surface behind a direct photon's first");
+  if (plan.direct == Direct::kShadowRays) notes->push_back("direct photons are not stored: shadow rays; saves a record per photon");
   if (plan.direct == Direct::kSigned)
     notes->push_back("direct photons are not stored: only what shadow photons carry is subtracted");
   if (plan.indirect != Indirect::kPhotons)
     notes->push_back(std::string("indirect photons are not traced: indirect light ") +
-                     (plan.indirect == Indirect::kPaths ? "by paths" : "is off"));
+                     (plan.indirect == Indirect::kPaths ? "by paths" : "is off") +
+                     "; saves each photon's path behind its first diffuse surface");
 }
 
 void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
