@@ -64,6 +64,7 @@ class Builder {
   void load_sources();
   void check_area_lights();
   void build_lights(Scene& scene);
+  bool check_power(const Rgb& power, const SourceLocation& location);
   bool fits_memory();
   void place(Scene& scene);
   bool keep(const Placement& placement, PlacedShape& placed);
@@ -170,8 +171,15 @@ void Builder::build_lights(Scene& scene) {
     const auto row = std::find_if(light_rows().begin(), light_rows().end(),
                                   [&](const LightRow& r) { return &r.spec == spec; });
     auto made = row->make(ParameterReader(light, *spec), light.light_to_world, diagnostics_);
-    if (made) scene.lights.push_back(std::move(*made));
+    if (made && check_power(power(*made), light.location)) scene.lights.push_back(std::move(*made));
   }
+}
+
+// A lamp of infinite power would emit nothing, since no photon can carry its share.
+bool Builder::check_power(const Rgb& power, const SourceLocation& location) {
+  if (is_finite(power)) return true;
+  diagnostics_.error(location, "the power of this lamp is beyond the range of floats");
+  return false;
 }
 
 bool Builder::fits_memory() {
@@ -225,6 +233,7 @@ bool Builder::make_lamp(const Item& item, Shape& shape, Scene& scene) {
     light->L *= static_cast<float>(reader.number("power")) / emitted;
   }
   light->L *= static_cast<float>(reader.number("scale"));
+  if (!check_power(light->power(), directive.location)) return false;
   shape.light = static_cast<uint32_t>(scene.lights.size());
   scene.lights.push_back(std::move(*light));
   return true;
