@@ -89,6 +89,14 @@ Json common_of(const Options& options, const Job& job, int threads) {
   return out;
 }
 
+void warn_of_paths(const Options& options, const Job& job, const Console& console) {
+  if (options.reference.method == render::Method::kMc && job.scene.needs.specular)
+    console.warning(
+        "the reference `mc` finds no light of point lamps through glass or by mirrors, and that of small "
+        "lamps "
+        "rarely");
+}
+
 // The reference, with its progress bar. Ends the command when interrupted.
 Reference reference_of(const Options& options, Job& job, const SweepFolder& folder,
                        const InterruptGuard& interrupt, const Console& console) {
@@ -154,6 +162,7 @@ int run_sweep(const Options& options, const Console& console) {
   with_thread_limit(threads, [&] {
     Job job = load_job(options.scene, options.overrides, console);
     const SweepFolder folder(options.folder, common_of(options, job, threads));
+    warn_of_paths(options, job, console);
     const Reference reference = reference_of(options, job, folder, interrupt, console);
     SweepResult result{.scene = utf8(options.scene),
                        .version = std::string(version()),
