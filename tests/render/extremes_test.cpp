@@ -86,7 +86,7 @@ double spacing_in_sizes(float sizes) {
 // Surface points are wrong by up to two spacings sideways. Half of those within that of an edge come to lie
 // behind the neighbouring wall, where nothing is lit and nothing seen; each wall has four edges: of its
 // points 1/2 * 4 * 2 = 4 spacings by the size are lost, and that share of the radiance. No sample escapes
-// from the box: each sees at least the emission of a wall, 1. The box's corners are floats at all these places.
+// from the box: each sees at least the emission of a wall, 1. The corners are floats at all these places.
 TEST(Extremes, TranslatedFurnaceHasNoHoles) {
   for (const Method method : {Method::kMc, Method::kPhoton}) {
     const auto reference = render_with_threads(furnace_box(Point3(0)), settings_of(method, 16, 50'000));
