@@ -128,7 +128,7 @@ TEST(EnergyLedger, InvalidFluxHasAnEntry) {
 }
 
 // 10^7 random paths through every kind of surface: nothing that is not a flux, nothing lost. With
-// KAUSTIK_LONG_TEST_PHOTONS=100000000 in the environment the same with 10^8, in some minutes.
+// KAUSTIK_LONG_TEST_PHOTONS=100000000 in the environment the same with 10^8: half a minute on two cores.
 TEST(EnergyLedger, MillionsOfPathsStayValid) {
   const char* const wish = std::getenv("KAUSTIK_LONG_TEST_PHOTONS");
   const uint64_t photons = wish ? std::strtoull(wish, nullptr, 10) : 10'000'000;
