@@ -130,7 +130,10 @@ std::optional<Reference> render_reference(const ReferenceChoice& choice, render:
   const std::string part = folder.path("reference.kpart");
   render::RenderTask task{.passes = render::PassSet(0, render::kMostPasses), .done = begun_passes(part)};
   uint64_t passes = task.done.passes.count();
-  task.after_pass = [&](const render::PassSums& sums) { passes = sums.passes.count(); };
+  task.after_pass = [&](const render::PassSums& sums) {
+    passes = sums.passes.count();
+    return true;
+  };
   const double before = seconds_in(task.done);
   const Stopwatch watch;
   bool interrupted = false;
