@@ -64,18 +64,24 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
 void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* notes) {
   const photon::KindMask kinds = kinds_needed(plan);
   if (plan.direct == Direct::kPredicted)
-    notes->push_back("direct and shadow photons are counted, not stored: they foretell which lamps are seen");
+    notes->push_back(
+        "direct and shadow photons are counted, not stored: they foretell which lamps are seen; "
+        "saves most shadow rays");
   if (!kinds.any()) {
-    notes->push_back("no estimator reads stored photons: no photon pass; saves every photon's rays and records");
+    notes->push_back(
+        "no estimator reads stored photons: no photon pass; saves every photon's rays and records");
     return;
   }
   if (!kinds.shadow && plan.direct != Direct::kPredicted)
     notes->push_back(
-        "shadow photons are not traced: the direct estimator does not read them; saves a ray and a record for "
-        "each surface behind a direct photon's first");
-  if (plan.direct == Direct::kShadowRays) notes->push_back("direct photons are not stored: shadow rays; saves a record per photon");
+        "shadow photons are not traced: the direct estimator does not read them; saves a ray and a record "
+        "for each surface behind a direct photon's first");
+  if (plan.direct == Direct::kShadowRays)
+    notes->push_back("direct photons are not stored: shadow rays; saves a record per photon");
   if (plan.direct == Direct::kSigned)
-    notes->push_back("direct photons are not stored: only what shadow photons carry is subtracted");
+    notes->push_back(
+        "direct photons are not stored: only what shadow photons carry is subtracted; saves "
+        "a record per photon");
   if (plan.indirect != Indirect::kPhotons)
     notes->push_back(std::string("indirect photons are not traced: indirect light ") +
                      (plan.indirect == Indirect::kPaths ? "by paths" : "is off") +

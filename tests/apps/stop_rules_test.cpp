@@ -97,8 +97,8 @@ TEST_F(StopRules, LayersHoldTheError) {
   EXPECT_EQ(stats("a.json")["photons"]["passes"], 8);
   const auto file = OIIO::ImageInput::open(path("a.exr"));
   ASSERT_TRUE(file);
-  EXPECT_THAT(file->spec().channelnames, ::testing::ElementsAre("R", "G", "B", "error.R", "error.G",
-                                                                "error.B", "bias.R", "bias.G", "bias.B"));
+  EXPECT_THAT(file->spec().channelnames, ::testing::ElementsAre("R", "G", "B", "bias.R", "bias.G", "bias.B",
+                                                                "error.R", "error.G", "error.B"));
   std::vector<float> pixels(24 * 16 * 9);
   ASSERT_TRUE(file->read_image(0, 0, 0, 9, OIIO::TypeDesc::FLOAT, pixels.data()));
   size_t lit = 0, biased = 0;
