@@ -4,8 +4,8 @@
 
 namespace kaustik::app {
 
-void Checkpoint::write(const render::PassSums& sums) {
-  render::write_partial(settings_.path, manifest_of(job_, outputs_, goal_, sums), sums);
+void Checkpoint::write(const render::PassSums& sums, const std::string& stopped_by) {
+  render::write_partial(settings_.path, manifest_of(job_, outputs_, goal_, sums, stopped_by), sums);
   written_ = sums.passes;
 }
 
@@ -19,9 +19,9 @@ void Checkpoint::after_pass(const render::PassSums& sums) {
   since_written_ = {};
 }
 
-bool Checkpoint::finish(const render::PassSums& sums) {
+bool Checkpoint::finish(const render::PassSums& sums, const std::string& stopped_by) {
   if (settings_.path.empty() || sums.passes.empty()) return false;
-  if (written_ != sums.passes) write(sums);
+  if (written_ != sums.passes || !stopped_by.empty()) write(sums, stopped_by);
   return true;
 }
 

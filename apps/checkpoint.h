@@ -27,12 +27,13 @@ class Checkpoint {
 
   // Failures to write are warnings: the render goes on, and the next time may do.
   void after_pass(const render::PassSums& sums);
-  // Unless the last one written holds these passes. False when there was nothing to write. Throws
+  // stopped_by: the rule that ended the render, or nothing. Unless the last one written holds these passes,
+  // and no rule did. False when there was nothing to write. Throws
   // PartialError.
-  bool finish(const render::PassSums& sums);
+  bool finish(const render::PassSums& sums, const std::string& stopped_by);
 
  private:
-  void write(const render::PassSums& sums);
+  void write(const render::PassSums& sums, const std::string& stopped_by = {});
 
   CheckpointSettings settings_;
   const Job& job_;

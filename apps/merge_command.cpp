@@ -44,6 +44,7 @@ void add_part(const std::string& path, const render::PartialResult& part, std::v
   }
   total.sums.add(part.sums);
   total.manifest.goal.add(part.manifest.goal);
+  if (total.manifest.stopped_by.empty()) total.manifest.stopped_by = part.manifest.stopped_by;
   merged.push_back({path, part.sums.passes});
 }
 
@@ -52,15 +53,18 @@ render::PartialResult merge_files(const MergeOptions& options) {
   std::vector<MergedPart> merged = {{options.parts.front(), total.sums.passes}};
   for (size_t i = 1; i < options.parts.size(); ++i)
     add_part(options.parts[i], load_partial(options.parts[i]), merged, total);
-  total.manifest.goal = render::PassSet(
-      0, std::max(total.sums.shares, std::max(total.manifest.goal.end(), total.sums.passes.end())));
+  const uint64_t asked_for = total.manifest.stopped_by.empty() ? total.sums.shares : 0;
+  total.manifest.goal =
+      render::PassSet(0, std::max(asked_for, std::max(total.manifest.goal.end(), total.sums.passes.end())));
   total.manifest.outputs.clear();
   return total;
 }
 
-// Passes are missing where the settings ask for them, or where there are later ones.
-void check_gaps(const MergeOptions& options, const render::PassSums& sums, const Console& console) {
-  const uint64_t end = std::max(sums.shares, sums.passes.end());
+// Passes are missing where the settings ask for them, unless a rule found fewer enough, or where there are
+// later ones.
+void check_gaps(const MergeOptions& options, const render::PartialResult& total, const Console& console) {
+  const render::PassSums& sums = total.sums;
+  const uint64_t end = std::max(total.manifest.stopped_by.empty() ? sums.shares : 0, sums.passes.end());
   const render::PassSet missing = render::PassSet(0, end).without(sums.passes);
   if (missing.empty()) return;
   const std::string message = fmt::format("passes {} of {} are missing", missing.text(), end);
@@ -73,7 +77,7 @@ int run_merge(const MergeOptions& options, const Console& console) {
   if (options.outputs.files.empty()) refuse("-o names the file to write; there is no default");
   check_outputs(options.outputs);
   render::PartialResult total = merge_files(options);
-  check_gaps(options, total.sums, console);
+  check_gaps(options, total, console);
   SettingOverrides overrides = settings_of(total.manifest, options.parts.front());
   overrides.append(options.overrides);
   const Settings settings = overrides.alone();

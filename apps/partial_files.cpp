@@ -47,7 +47,8 @@ render::SettingTexts setting_texts(const Settings& settings, bool that_decide_su
 }
 
 render::PartialManifest manifest_of(const Job& job, const std::vector<std::string>& outputs,
-                                    const render::PassSet& goal, const render::PassSums& sums) {
+                                    const render::PassSet& goal, const render::PassSums& sums,
+                                    const std::string& stopped_by) {
   Settings settings = job.settings;
   settings.render.passes = sums.shares;  // as many as memory asked for stay as many
   render::PartialManifest manifest;
@@ -59,6 +60,8 @@ render::PartialManifest manifest_of(const Job& job, const std::vector<std::strin
   manifest.presentation = setting_texts(settings, false);
   for (const std::string& output : outputs) manifest.outputs.push_back(absolute(output));
   manifest.goal = goal.empty() ? render::PassSet(0, sums.shares) : goal;
+  if (!stopped_by.empty()) manifest.goal = sums.passes;
+  manifest.stopped_by = stopped_by;
   manifest.needs = job.scene.needs;
   return manifest;
 }

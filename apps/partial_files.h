@@ -20,7 +20,8 @@ render::SettingTexts setting_texts(const Settings& settings, bool that_decide_su
 // What the sums of a job go with. outputs: as they were given. An empty goal stands for all passes that the
 // settings ask for.
 render::PartialManifest manifest_of(const Job& job, const std::vector<std::string>& outputs,
-                                    const render::PassSet& goal, const render::PassSums& sums);
+                                    const render::PassSet& goal, const render::PassSums& sums,
+                                    const std::string& stopped_by = {});
 
 // read_partial; a file that cannot be used is a bad command line (ExitError).
 render::PartialResult load_partial(const std::string& path);

@@ -61,7 +61,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   settle_error_settings(console, &job.settings);
   check_passes(options, job);
   note_checkpoint(options, console);
-  RenderSession session{options.outputs, options.checkpoint, options.passes, {}};
+  RenderSession session{options.outputs, options.checkpoint, options.passes, false, {}};
   session.outputs.files = outputs_of(options, job);
   return run_session(job, std::move(session), interrupt, total, console);
 }

@@ -54,6 +54,13 @@ void report_photons(const render::RenderResult& result, const Console& console) 
 std::vector<render::Layer> layers_of(const Outcome& outcome, const Console& console) {
   const std::vector<std::string>& names = outcome.settings.render.aov;
   std::vector<render::Layer> layers = render::layers_from_names(names);
+  const bool reads_photons = outcome.result.statistics.photons.emitted > 0;
+  if (std::erase(layers, render::Layer::kBias) > 0) {
+    if (!reads_photons || outcome.settings.render.estimate_bias.value_or(false))
+      layers.push_back(render::Layer::kBias);
+    else if (names_error_layer(names))
+      console.warning("the layer bias is left out: these passes have not measured it");
+  }
   if (std::isfinite(outcome.result.error)) return layers;
   std::erase(layers, render::Layer::kError);
   std::erase(layers, render::Layer::kBias);
@@ -104,7 +111,8 @@ void write_outputs(const OutputOptions& options, const Outcome& outcome, render:
   render::WriteOptions write;
   write.layers = layers_of(outcome, console);
   write.metadata = render::metadata_of(result, outcome.settings.render);
-  if (!outcome.stopped_by.empty()) write.metadata.emplace_back("kaustik:stopped_by", outcome.stopped_by);
+  if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
+    write.metadata.emplace_back("kaustik:stopped_by", rule);
   write.tone = outcome.settings.tone;
   std::vector<std::string> written;
   for (const std::string& path : options.files) {

@@ -32,7 +32,6 @@ struct Outcome {
   const render::RenderResult& result;
   const Settings& settings;
   const render::PartialManifest& manifest;
-  std::string stopped_by{};  // a rule, or nothing
 };
 
 // All files of options, partial results only when a pass is complete; fills times.write. The log says which.

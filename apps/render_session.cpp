@@ -27,9 +27,11 @@ RenderOutcome render_with_bar(const Job& job, render::RenderTask task, ProgressB
       std::move(task));
 }
 
-// Open where a rule says when to stop.
-render::PassSet goal_of(const Job& job, const RenderSession& session) {
-  return job.settings.stop.any() ? render::PassSet(0, render::kMostPasses) : session.goal;
+// Open where a rule says when to stop; what there is, where it has already.
+render::PassSet goal_of(const Job& job, const RenderSession& session, StopRule& rule) {
+  if (rule.met_by(session.done)) return session.done.passes;
+  const bool open = job.settings.stop.any() && !session.bounded;
+  return open ? render::PassSet(0, render::kMostPasses) : session.goal;
 }
 
 bool writes_sums(const RenderSession& session) {
@@ -60,8 +62,9 @@ std::string interruption(const render::RenderResult& result) {
 void report_stop(const StopRule& rule, const render::RenderResult& result, const Console& console) {
   if (rule.reason().empty()) return;
   const std::string error = rule.progress();
-  console.note(fmt::format("stopped by --{} after {} passes{}{}", rule.reason(), result.sums.passes.count(),
-                           error.empty() ? "" : ": ", error));
+  const uint64_t passes = result.sums.passes.count();
+  console.note(fmt::format("stopped by --{} after {} pass{}{}{}", rule.reason(), passes,
+                           passes == 1 ? "" : "es", error.empty() ? "" : ": ", error));
 }
 
 int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, Checkpoint& checkpoint,
@@ -73,13 +76,14 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   bool checkpoint_written = false;
   std::string trouble;
   try {
-    checkpoint_written = checkpoint.finish(result.sums);
+    checkpoint_written = checkpoint.finish(result.sums, rule.reason());
   } catch (const std::exception& error) {
     trouble = fmt::format("no checkpoint: {}", error.what());
   }
-  const render::PartialManifest manifest = manifest_of(job, session.outputs.files, session.goal, result.sums);
+  const render::PartialManifest manifest =
+      manifest_of(job, session.outputs.files, session.goal, result.sums, rule.reason());
   report_stop(rule, result, console);
-  write_outputs(session.outputs, {result, job.settings, manifest, rule.reason()}, outcome.times, console);
+  write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
   if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
   if (!trouble.empty()) console.error(trouble);
   if (result.cancelled) return kInterrupted;
@@ -104,7 +108,7 @@ int run_session(const Job& job, RenderSession session, const InterruptGuard& int
       if (!enough) checkpoint.after_pass(sums);
       return !enough;
     };
-    render::RenderTask task{.passes = goal_of(job, session),
+    render::RenderTask task{.passes = goal_of(job, session, rule),
                             .done = std::move(session.done),
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session)};

@@ -12,6 +12,7 @@ struct RenderSession {
   OutputOptions outputs;
   CheckpointSettings checkpoint;
   render::PassSet goal;   // empty: all passes that the settings ask for
+  bool bounded = false;   // also where a rule says when to stop, which else knows no last pass
   render::PassSums done;  // passes that are there, and in the checkpoint's file
 };
 

@@ -9,7 +9,9 @@
 #include "apps/output_files.h"
 #include "apps/render_session.h"
 #include "apps/settings/values.h"
+#include "apps/stop_rules.h"
 #include "apps/thread_limit.h"
+#include "render/photon_maps.h"
 
 namespace kaustik::app {
 
@@ -51,6 +53,26 @@ Job load_again(const ResumeOptions& options, const render::PartialManifest& mani
   return job;
 }
 
+// Rules for when to stop, given now or held by the part.
+void check_rules(const ResumeOptions& options, const Job& job, const render::PassSet& goal,
+                 const Console& console) {
+  const StopSettings& stop = job.settings.stop;
+  check_stop_settings(stop);
+  if (!stop.any()) return;
+  if (goal.first() > 0)
+    throw ExitError(
+        kBadCommandLine,
+        fmt::format("{} is the part of a render that is to hold passes {}: no --target-error, no --time",
+                    options.partial, goal.text()));
+  const render::RenderSettings& settings = job.settings.render;
+  const bool photons = render::kinds_needed(render::make_plan(settings, job.scene.needs)).any();
+  if (stop.target_error && photons && !settings.estimate_bias.value_or(false))
+    console.warning(
+        fmt::format("the passes of {} have not measured their bias: --target-error is held against the "
+                    "noise alone",
+                    options.partial));
+}
+
 int run_resume(const ResumeOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
@@ -65,8 +87,11 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   check_outputs(session.outputs);
   session.checkpoint = {options.partial, options.checkpoint_every};
   const Job job = load_again(options, part.manifest, console);
+  session.bounded = options.passes > 0;
+  check_rules(options, job, session.goal, console);
+  const bool open = job.settings.stop.any() && !session.bounded;
   console.note(fmt::format("{} holds passes {}; to render: {}", options.partial, part.sums.passes.text(),
-                           session.goal.without(part.sums.passes).text()));
+                           open ? "until they are enough" : session.goal.without(part.sums.passes).text()));
   session.done = std::move(part.sums);
   return run_session(job, std::move(session), interrupt, total, console);
 }

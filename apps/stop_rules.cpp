@@ -7,6 +7,7 @@
 
 #include "apps/exit_error.h"
 #include "render/error_estimate.h"
+#include "render/passes.h"
 
 namespace kaustik::app {
 
@@ -26,31 +27,48 @@ bool names_error_layer(const std::vector<std::string>& aov) {
                      [](const std::string& name) { return name == "error" || name == "bias"; });
 }
 
+void check_stop_settings(const StopSettings& stop) {
+  if (stop.target_quantile && !stop.target_error)
+    throw ExitError(kBadCommandLine, "--target-quantile needs --target-error");
+}
+
 void settle_error_settings(const Console& console, Settings* settings) {
   render::RenderSettings& render = settings->render;
   const bool named = names_error_layer(render.aov);
-  if (settings->stop.target_quantile && !settings->stop.target_error)
-    throw ExitError(kBadCommandLine, "--target-quantile needs --target-error");
+  check_stop_settings(settings->stop);
   if (named && render.passes == 1 && !settings->stop.any())
     throw ExitError(kBadCommandLine, "the layers error and bias need --passes 2 or more");
   if (render.passes == 0 && (named || settings->stop.any())) {
     render.passes = std::min(kErrorPasses, render.photons);
-    console.note(fmt::format("each pass has one in {} of the photons and samples", render.passes));
+    const render::PassShare each = render::pass_share(0, render.passes, render.photons, render.spp);
+    console.note(fmt::format("each pass takes {} of the {} samples, and as large a part of the photons",
+                             each.end_sample, render.spp));
   }
   const bool shown = named || (has(render.aov, "all") && render.passes > 1);
   if (!render.estimate_bias && (shown || settings->stop.target_error)) render.estimate_bias = true;
   if (!render.alpha && settings->stop.any()) render.alpha = kConsistentAlpha;
 }
 
+bool StopRule::reaches_target(const render::PassSums& sums) {
+  if (!settings_.target_error) return false;
+  error_ = render::relative_error(render::estimate_errors(sums.totals), sums.passes.count(),
+                                  settings_.target_quantile);
+  if (*error_ > *settings_.target_error) return false;
+  reason_ = fmt::format("target-error {}", *settings_.target_error);
+  return true;
+}
+
+bool StopRule::met_by(const render::PassSums& sums) {
+  if (sums.passes.empty() || reaches_target(sums)) return !reason_.empty();
+  if (settings_.seconds && seconds_before_ >= *settings_.seconds)
+    reason_ = fmt::format("time {}s", *settings_.seconds);
+  return !reason_.empty();
+}
+
 bool StopRule::enough(const render::PassSums& sums) {
   const double now = seconds(), pass = now - last_;
   last_ = now;
-  if (settings_.target_error) {
-    error_ = render::relative_error(render::estimate_errors(sums.totals), sums.passes.count(),
-                                    settings_.target_quantile);
-    if (*error_ <= *settings_.target_error) reason_ = fmt::format("target-error {}", *settings_.target_error);
-  }
-  if (reason_.empty() && settings_.seconds && now + pass > *settings_.seconds)
+  if (!reaches_target(sums) && settings_.seconds && now + pass > *settings_.seconds)
     reason_ = fmt::format("time {}s", *settings_.seconds);
   return !reason_.empty();
 }

@@ -19,6 +19,9 @@ inline constexpr uint64_t kErrorPasses = 8;
 // Whether layers are asked for by name that hold the error.
 bool names_error_layer(const std::vector<std::string>& aov);
 
+// Throws ExitError (bad command line) for rules that make no sense together.
+void check_stop_settings(const StopSettings& stop);
+
 // What a new render needs so that its error can be known: passes, the measured bias; and a radius that
 // shrinks where passes go on as long as they have to. Only what nobody has said is changed; the log says
 // what. Throws ExitError (bad command line) where what was said leaves no error to know.
@@ -31,7 +34,9 @@ class StopRule {
   StopRule(const StopSettings& settings, double seconds_before, const Stopwatch& total)
       : settings_(settings), seconds_before_(seconds_before), total_(total), last_(seconds()) {}
 
-  // Whether these passes are enough.
+  // Whether these passes are enough, before the first is rendered: then there is nothing to do.
+  bool met_by(const render::PassSums& sums);
+  // Whether these passes are enough, with the one that has just been rendered.
   bool enough(const render::PassSums& sums);
   // "error 3.2 %, target 1 %": of the passes seen last; empty without --target-error.
   std::string progress() const;
@@ -39,6 +44,7 @@ class StopRule {
   const std::string& reason() const { return reason_; }
 
  private:
+  bool reaches_target(const render::PassSums& sums);
   double seconds() const { return seconds_before_ + total_.seconds(); }
 
   StopSettings settings_;

@@ -41,7 +41,7 @@ Measured measured(const PixelTotals& totals, const PixelUnits& units) {
 // The average over 3 x 3 pixels, cut at the border, and what its noise leaves of it. Neighbours share
 // photons, so that nine of them know as much as about three that do not.
 glm::dvec3 bias_beyond_noise(const PixelWindow<Measured>& film, int x, int y) {
-  constexpr double kApart = 3;
+  constexpr double kApart = 3.0 / 9;
   glm::dvec3 bias{0}, variance{0};
   double pixels = 0;
   for (int v = std::max(y - 1, 0); v <= std::min(y + 1, film.height() - 1); ++v) {
@@ -50,7 +50,7 @@ glm::dvec3 bias_beyond_noise(const PixelWindow<Measured>& film, int x, int y) {
       ++pixels;
     }
   }
-  bias /= pixels, variance /= pixels * kApart;
+  bias /= pixels, variance /= pixels * std::max(1.0, pixels * kApart);
   glm::dvec3 out{0};
   for (int c = 0; c < 3; ++c)
     out[c] = std::copysign(std::sqrt(std::max(0.0, bias[c] * bias[c] - variance[c])), bias[c]);
@@ -70,7 +70,7 @@ double least_radiance(const ErrorMap& errors) {
   double sum = 0;
   for (int y = 0; y < errors.height(); ++y)
     for (int x = 0; x < errors.width(); ++x)
-      for (int c = 0; c < 3; ++c) sum += double(errors.at(x, y).mean[c]);
+      for (int c = 0; c < 3; ++c) sum += std::abs(double(errors.at(x, y).mean[c]));
   return sum / (3.0 * errors.width() * errors.height()) / 10;
 }
 
@@ -118,7 +118,8 @@ double relative_error(const ErrorMap& errors, uint64_t passes, std::optional<dou
       double sum = 0;
       for (int c = 0; c < 3; ++c) {
         const double bound = factor * std::hypot(double(p.error[c]), double(p.bias[c]));
-        if (bound > 0) sum += bound / std::max(double(p.mean[c]), least);
+        // Of light that is subtracted means may be negative, and a picture's may be zero.
+        if (bound > 0) sum += bound / std::max(std::abs(double(p.mean[c])), least);
       }
       of_pixels.push_back(sum / 3);
     }

@@ -144,10 +144,14 @@ Json manifest_json(const PartialManifest& m, const PassSums& sums) {
   out["outputs"] = m.outputs;
   out["passes"] = sums.passes.text();
   out["goal"] = m.goal.text();
+  out["stopped_by"] = m.stopped_by;
   out["passes_of_settings"] = sums.shares;
   out["radii"] = nullptr;
   if (const auto& r = sums.radii)
-    out["radii"] = {{"direct", hex(r->direct)}, {"caustic", hex(r->caustic)}, {"indirect", hex(r->indirect)}};
+    out["radii"] = {{"direct", hex(r->direct)},
+                    {"caustic", hex(r->caustic)},
+                    {"indirect", hex(r->indirect)},
+                    {"caustic_nearest", r->caustic_nearest}};
   out["window"] = window_json(sums.totals.pixels());
   const ExactUnits& units = sums.totals.units();
   out["unit_exponents"] = {{"radiance", units.radiance}, {"square", units.square}, {"depth", units.depth}};
@@ -169,11 +173,13 @@ ReadManifest manifest_from_json(const Json& json) {
   json.at("outputs").get_to(m.outputs);
   sums.passes = passes_from(json.at("passes"));
   m.goal = passes_from(json.at("goal"));
+  json.at("stopped_by").get_to(m.stopped_by);
   json.at("passes_of_settings").get_to(sums.shares);
   if (sums.shares < 1 || sums.shares > kMostPasses)
     throw std::runtime_error("the number of passes is senseless");
   if (const Json& r = json.at("radii"); !r.is_null())
-    sums.radii = {from_hex(r.at("direct")), from_hex(r.at("caustic")), from_hex(r.at("indirect"))};
+    sums.radii = {from_hex(r.at("direct")), from_hex(r.at("caustic")), from_hex(r.at("indirect")),
+                  r.at("caustic_nearest").get<uint32_t>()};
   take_window(json.at("window"), &out);
   const Json& units = json.at("unit_exponents");
   out.units = {.radiance = exponent_from(units.at("radiance")),

@@ -29,7 +29,8 @@ class PartialError : public std::runtime_error {
 // Settings by the names of their options, as texts.
 using SettingTexts = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-// Where sums come from. Sums belong together where all but scene_path, presentation, outputs and goal agree.
+// Where sums come from. Sums belong together where all but scene_path, presentation, outputs, goal
+// and stopped_by agree.
 struct PartialManifest {
   std::string build;                 // of the program
   std::string isa;                   // instructions that decide its bits
@@ -39,6 +40,7 @@ struct PartialManifest {
   SettingTexts presentation;         // that decide how fast, and what is made of the sums
   std::vector<std::string> outputs;  // absolute paths
   PassSet goal;                      // passes that the render was to hold
+  std::string stopped_by;            // the rule that found these passes enough, or nothing
   SceneNeeds needs;
 };
 

@@ -17,12 +17,19 @@ PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp) 
   return {pass, shares, share(photons), samples * pass, samples * (pass + 1)};
 }
 
-double radius_shrink_squared(uint64_t pass, float alpha) {
+double RadiusShrink::squared(uint64_t pass, float alpha) {
   if (alpha == 1) return 1;
-  double shrink = 1;
-  for (uint64_t i = 1; i <= pass; ++i)
-    shrink *= (static_cast<double>(i) + double(alpha)) / static_cast<double>(i + 1);
-  return shrink;
+  if (pass < pass_ || alpha != alpha_) *this = {};
+  alpha_ = alpha;
+  for (; pass_ < pass; ++pass_) {
+    const double i = static_cast<double>(pass_ + 1);
+    squared_ *= (i + double(alpha)) / (i + 1);
+  }
+  return squared_;
+}
+
+double radius_shrink_squared(uint64_t pass, float alpha) {
+  return RadiusShrink().squared(pass, alpha);
 }
 
 photon::TraceSettings trace_settings(const RenderSettings& settings, const EstimatorPlan& plan,

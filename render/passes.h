@@ -29,6 +29,9 @@ PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp);
 // Gather radii r0 of the first pass, metres; 0 for maps that are not read.
 struct GatherRadii {
   float direct = 0, caustic = 0, indirect = 0;
+  // Of the photons of all passes the so-manieth to which the caustic map's radius shrinks, where nobody gave
+  // a radius; 0: it does not.
+  uint32_t caustic_nearest = 0;
   bool operator==(const GatherRadii&) const = default;
 };
 
@@ -37,6 +40,17 @@ struct GatherRadii {
 // the mean over passes both vanish, the bias like pass^(alpha - 1); alpha = 1 is 1: a fixed radius. Basic
 // arithmetic only, so that it is the same number everywhere; takes `pass` steps.
 double radius_shrink_squared(uint64_t pass, float alpha);
+
+// The same for one pass after the other: a step each.
+class RadiusShrink {
+ public:
+  double squared(uint64_t pass, float alpha);
+
+ private:
+  uint64_t pass_ = 0;
+  float alpha_ = 1;
+  double squared_ = 1;
+};
 
 // What the tracer is told for a pass. Only the kinds that the plan reads are traced.
 photon::TraceSettings trace_settings(const RenderSettings& settings, const EstimatorPlan& plan,

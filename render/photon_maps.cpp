@@ -51,21 +51,21 @@ GatherRadii settle_radii(const Scene& scene, const accel::Bvh& bvh, const Render
   const photon::KindMask kinds = kinds_needed(plan);
   const GatherRadii radii = choose_radii(scene, bvh, settings, pass, maps);
   return {kinds.direct || kinds.shadow ? radii.direct : 0, kinds.caustic ? radii.caustic : 0,
-          kinds.indirect ? radii.indirect : 0};
+          kinds.indirect ? radii.indirect : 0, kinds.caustic ? radii.caustic_nearest : 0};
 }
 
 // How the maps of this pass are read: radii, and the photons that they shrink to, fall from pass to pass.
 void set_estimates(const RenderSettings& settings, const PassShare& pass, const GatherRadii& radii,
                    PhotonMaps* maps) {
-  const double squared = radius_shrink_squared(pass.pass, settings.alpha.value_or(1)),
+  const double squared = maps->shrink.squared(pass.pass, settings.alpha.value_or(1)),
                shrink = std::sqrt(squared);
   const auto shrunk = [&](float radius) { return static_cast<float>(double(radius) * shrink); };
   for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
     read->estimate = estimate_settings(settings, pass);
     read->estimate.edges = maps->edges.get();
   }
-  if (!settings.radius && settings.nearest == 0)
-    maps->caustic.estimate.nearest = caustic_nearest(settings, pass);
+  if (radii.caustic_nearest > 0 && settings.nearest == 0)
+    maps->caustic.estimate.nearest = photons_in_reach(radii.caustic_nearest, pass.shares);
   for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
     uint32_t& nearest = read->estimate.nearest;
     // From the fewest on, r0 alone shrinks: the K-th photon does not count, so that K = 1 would see none.

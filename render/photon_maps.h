@@ -25,6 +25,7 @@ struct PhotonMaps {
   ReadMap direct, caustic, indirect;
   photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which reads it with direct.estimate
   photon::LectureSettings lecture;
+  RadiusShrink shrink;
   std::unique_ptr<const accel::EdgeIndex> edges;             // where surfaces end; the estimates point to it
   std::unique_ptr<const photon::VisibilityTree> visibility;  // only for `predicted`; of all passes
 };

@@ -14,17 +14,17 @@ namespace {
 
 constexpr uint32_t kPilotPoints = 1024;
 
-// How a map's radius follows from the distances to the k-th nearest photon.
+// How many photons are to be in reach. With M photons in a map the squared noise of an estimate of radius r
+// goes like 1 / (M r^2), its squared bias like r^4: their sum is least at r^2 ~ M^(-1/3), where k ~ M^(2/3)
+// photons are in reach (Silverman 1986, section 4.3.1, in two dimensions).
 struct RadiusRule {
-  uint32_t photons;  // k
-  double quantile;   // of those distances
+  double of_million;  // k for M = 10^6
+  double least;       // few photons leave their own noise, however small the map
 };
-// Direct light has edges; indirect light is smooth, and its blotches show where fewer photons are in reach.
-constexpr RadiusRule kDirectRule{64, 0.5};
-constexpr RadiusRule kIndirectRule{256, 0.5};
-// An upper bound: where photons are dense the radius shrinks to the kCausticNearest-th
-// (render/photon_maps.cpp).
-constexpr RadiusRule kCausticRule{kCausticNearest, 0.5};
+// Measured (docs/accuracy.md): direct light and caustics have edges, indirect light is smooth.
+constexpr RadiusRule kDirectRule{160, 64};
+constexpr RadiusRule kIndirectRule{500, 200};
+constexpr RadiusRule kCausticRule{232, kFewestInReach};
 constexpr uint64_t kPilotStream = 0x9117;  // keeps the pilot's random numbers apart from the image's
 
 // The first non-specular point of a camera ray, as a query without radius; false where there is none.
@@ -78,28 +78,33 @@ float nearest_radius(const photon::PhotonMap& map, photon::GatherQuery query, fl
   return reach;
 }
 
-// Quantile over the queries of the distance to the k-th nearest photon; queries that do not find so many are
+// Median over the queries of the distance to the k-th nearest photon; queries that do not find so many are
 // left out. Nothing found gives 0.
-float quantile_radius(const photon::PhotonMap& map, const std::vector<photon::GatherQuery>& queries,
-                      float reach, const RadiusRule& rule) {
+float median_radius(const photon::PhotonMap& map, const std::vector<photon::GatherQuery>& queries,
+                    float reach, uint32_t k) {
   std::vector<float> radii(queries.size());
   tbb::parallel_for(size_t(0), queries.size(),
-                    [&](size_t i) { radii[i] = nearest_radius(map, queries[i], reach, rule.photons); });
+                    [&](size_t i) { radii[i] = nearest_radius(map, queries[i], reach, k); });
   radii.erase(std::remove_if(radii.begin(), radii.end(), [&](float r) { return !(r > 0 && r < reach); }),
               radii.end());
   if (radii.empty()) return 0;
-  const auto chosen = radii.begin() + std::ptrdiff_t(double(radii.size()) * rule.quantile);
+  const auto chosen = radii.begin() + std::ptrdiff_t(radii.size() / 2);
   std::nth_element(radii.begin(), chosen, radii.end());
   return *chosen;
 }
 
+// Of all passes together, where the map is that of one.
+uint32_t photons_to_reach(const RadiusRule& rule, const photon::PhotonMap& map, const PassShare& pass) {
+  const double root = std::cbrt(double(map.size()) * double(pass.shares) / 1e6);
+  return static_cast<uint32_t>(std::lround(std::clamp(rule.of_million * root * root, rule.least, 1e9)));
+}
+
 // Where every query fails with k photons, fewer must do; the last resort is a fixed part of the scene.
 float auto_radius(const photon::PhotonMap& map, const std::vector<photon::GatherQuery>& queries, float reach,
-                  RadiusRule rule, const PassShare& pass) {
+                  uint32_t photons, const PassShare& pass) {
   if (map.empty()) return reach / 64;  // those of other passes need not be
-  rule.photons = photons_in_reach(rule.photons, pass.shares);
-  for (; rule.photons > 0; rule.photons /= 2)
-    if (const float r = quantile_radius(map, queries, reach, rule); r > 0) return r;
+  for (uint32_t k = photons_in_reach(photons, pass.shares); k > 0; k /= 2)
+    if (const float r = median_radius(map, queries, reach, k); r > 0) return r;
   return reach / 64;
 }
 
@@ -107,24 +112,23 @@ float auto_radius(const photon::PhotonMap& map, const std::vector<photon::Gather
 
 GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                          const PassShare& pass, const PhotonMaps& maps) {
-  if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius};
-  const float reach = 2 * scene.bounds.radius();
+  if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius, 0};
+  const float reach = 2 * scene.bounds.radius(), f = settings.radius_factor;
   const auto visible = visible_queries(scene, bvh, settings);
-  const float f = settings.radius_factor;
+  const auto choose = [&](const photon::PhotonMap& map, const auto& queries, uint32_t k) {
+    return f * auto_radius(map, queries, reach, k, pass);
+  };
   // Shadow photons lie as densely as direct ones would without what casts the shadows, and like caustics they
   // fill little of the picture.
-  const float direct = maps.direct.map.empty() && !maps.shadow.empty()
-                           ? auto_radius(maps.shadow, photon_queries(maps.shadow), reach, kDirectRule, pass)
-                           : auto_radius(maps.direct.map, visible, reach, kDirectRule, pass);
-  return {f * direct,
-          f * auto_radius(maps.caustic.map, photon_queries(maps.caustic.map), reach, kCausticRule, pass),
-          f * auto_radius(maps.indirect.map, visible, reach, kIndirectRule, pass)};
-}
-
-uint32_t caustic_nearest(const RenderSettings& settings, const PassShare& pass) {
-  const double area = double(settings.radius_factor) * double(settings.radius_factor);
-  const double all = std::clamp(kCausticNearest * area, double(kFewestInReach), 1e9);
-  return photons_in_reach(static_cast<uint32_t>(std::lround(all)), pass.shares);
+  const bool signed_light = maps.direct.map.empty() && !maps.shadow.empty();
+  const photon::PhotonMap& direct = signed_light ? maps.shadow : maps.direct.map;
+  const uint32_t caustic = photons_to_reach(kCausticRule, maps.caustic.map, pass);
+  const double scaled = std::clamp(caustic * double(f) * double(f), double(kFewestInReach), 1e9);
+  return {choose(direct, signed_light ? photon_queries(direct) : visible,
+                 photons_to_reach(kDirectRule, direct, pass)),
+          choose(maps.caustic.map, photon_queries(maps.caustic.map), caustic),
+          choose(maps.indirect.map, visible, photons_to_reach(kIndirectRule, maps.indirect.map, pass)),
+          static_cast<uint32_t>(std::lround(scaled))};
 }
 
 }  // namespace kaustik::render

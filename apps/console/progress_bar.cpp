@@ -39,16 +39,12 @@ void ProgressBar::update(const render::Progress& progress) {
   if (console_.quiet) return;
   const Clock::time_point now = Clock::now();
   const std::string phase = phase_text(progress);
-  const bool new_phase = phase_ != phase;
-  if (new_phase) {
+  if (phase_ != phase) {
     phase_ = phase;
-    phase_start_ = last_drawn_ = now;
+    phase_start_ = now;
   }
   const std::chrono::duration<double> since_drawn = now - last_drawn_, elapsed = now - phase_start_;
-  if (since_drawn.count() < (console_.terminal ? kRedrawSeconds : kLineSeconds) &&
-      !(new_phase && console_.terminal)) {
-    return;
-  }
+  if (since_drawn.count() < (console_.terminal ? kRedrawSeconds : kLineSeconds)) return;
   last_drawn_ = now;
   const double done = static_cast<double>(progress.done), total = static_cast<double>(progress.total);
   const double left = done > 0 ? elapsed.count() * (total - done) / done : -1;

@@ -32,7 +32,8 @@ class ProgressBar {
 
   const Console& console_;
   std::string phase_, remark_;
-  Clock::time_point phase_start_, last_drawn_;
+  // On a terminal the first line comes at once, in a log when there is something to say.
+  Clock::time_point phase_start_, last_drawn_ = console_.terminal ? Clock::time_point() : Clock::now();
   bool visible_ = false;
 };
 

@@ -40,16 +40,18 @@ std::string RadiusChoice::text() const {
 }
 
 Setting radius_setting() {
-  Setting s{.name = "radius",
-            .kind = ValueKind::kNumber,
-            .value_name = "R",
-            .unit = "m",
-            .range = "above 0, auto, or a multiple of auto like 0.5x",
-            .default_text = "auto",
-            .doc =
-                "Gather radius r0 of the photon maps. auto: for each map the distance that typically holds "
-                "64 (direct), 50 (caustic, shrinking where there are more) or 256 (indirect) of its photons. "
-                "0.5x: half of that."};
+  Setting s{
+      .name = "radius",
+      .kind = ValueKind::kNumber,
+      .value_name = "R",
+      .unit = "m",
+      .range = "above 0, auto, or a multiple of auto like 0.5x",
+      .default_text = "auto",
+      .doc =
+          "Gather radius r0 of the photon maps. auto: for each map so that noise and bias balance; M photons "
+          "in a "
+          "map have k ~ M^(2/3) of them in reach, for a million 160 (direct), 232 (caustic, shrinking where "
+          "there are more) or 500 (indirect). 0.5x: half of that."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     const std::optional<RadiusChoice> choice = parse_radius(texts[0]);
     if (!choice)

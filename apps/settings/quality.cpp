@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "apps/settings/number_settings.h"
 #include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
 
@@ -17,14 +16,13 @@ std::string described(const QualityPreset& preset) {
   std::string text =
       fmt::format("{}: {} photons, {} samples", preset.name, count_text(preset.photons), preset.spp);
   if (preset.passes > 1) text += fmt::format(" in {} passes", preset.passes);
-  text += preset.radius_factor == 1 ? ", radius auto" : fmt::format(", radius {}x", preset.radius_factor);
   return text;
 }
 
 std::string explanation() {
   std::vector<std::string> presets;
   for (const QualityPreset& preset : kQualityPresets) presets.push_back(described(preset));
-  return fmt::format("Preset of photons, spp, passes and radius. {}.", fmt::join(presets, "; "));
+  return fmt::format("Preset of photons, spp and passes. {}.", fmt::join(presets, "; "));
 }
 
 }  // namespace
@@ -48,7 +46,6 @@ Setting quality_setting() {
     settings.render.photons = preset->photons;
     settings.render.spp = preset->spp;
     settings.render.passes = preset->passes;
-    RadiusChoice{std::nullopt, preset->radius_factor}.apply(settings);
     return std::nullopt;
   };
   // What it set is shown under the names of what it set.

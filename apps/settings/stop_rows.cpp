@@ -6,18 +6,26 @@ namespace kaustik::app {
 
 namespace {
 
+// Takes a rule back that the scene's file or a partial result holds.
+constexpr std::string_view kNone = "none";
+Complaint take_back(std::optional<double>& rule) {
+  rule.reset();
+  return std::nullopt;
+}
+
 Setting target_error_row() {
   Setting s{
       .name = "target-error",
       .kind = ValueKind::kChoice,
       .value_name = "E",
-      .range = "above 0, like 1% or 0.01",
+      .range = "above 0, like 1% or 0.01; none",
       .default_text = "none",
       .doc =
           "Render passes until the picture's error is below E: the bound that holds with 90 % confidence for "
           "noise and kernel bias, relative to the radiance, as a mean over pixels. Radiance below a tenth of "
           "the picture's mean counts as that."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    if (texts[0] == kNone) return take_back(settings.stop.target_error);
     const std::optional<double> share = parse_share(texts[0]);
     if (!share || *share <= 0)
       return fmt::format("`{}`: expected a share above 0, like 1% or 0.01", texts[0]);
@@ -36,10 +44,11 @@ Setting target_quantile_row() {
       .name = "target-quantile",
       .kind = ValueKind::kChoice,
       .value_name = "Q",
-      .range = "above 0, at most 1, like 95% or 0.95",
+      .range = "above 0, at most 1, like 95% or 0.95; none",
       .default_text = "none (the mean)",
       .doc = "The error that --target-error bounds is that of this quantile of the pixels, not their mean."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    if (texts[0] == kNone) return take_back(settings.stop.target_quantile);
     const std::optional<double> share = parse_share(texts[0]);
     if (!share || *share <= 0 || *share > 1)
       return fmt::format("`{}`: expected a share above 0, at most 1, like 95% or 0.95", texts[0]);
@@ -59,12 +68,13 @@ Setting time_row() {
       .name = "time",
       .kind = ValueKind::kChoice,
       .value_name = "TIME",
-      .range = "like 60s, 10m or 1.5h",
+      .range = "like 60s, 10m or 1.5h; none",
       .default_text = "none",
       .doc =
           "Render passes until the next would end later than this after the start; a first pass there is "
           "always. Of a render that is resumed, the time of its earlier passes counts."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
+    if (texts[0] == kNone) return take_back(settings.stop.seconds);
     const std::optional<double> seconds = parse_duration(texts[0]);
     if (!seconds || *seconds <= 0)
       return fmt::format("`{}`: expected a time above 0 with its unit, like 60s, 10m or 1.5h", texts[0]);

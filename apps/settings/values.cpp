@@ -56,6 +56,17 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   return decimal;
 }
 
+// A finite number.
+std::optional<double> parse_double(std::string_view text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || text.empty() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+constexpr double kMostSeconds = 1e9;  // thirty years
+
 }  // namespace
 
 std::optional<uint64_t> parse_count(std::string_view text) {
@@ -109,9 +120,9 @@ std::optional<double> parse_duration(std::string_view text) {
   constexpr std::pair<std::string_view, double> kUnits[] = {{"ms", 1e-3}, {"s", 1}, {"m", 60}, {"h", 3600}};
   for (const auto& [unit, seconds] : kUnits) {
     if (!text.ends_with(unit)) continue;
-    const std::optional<float> number = parse_number(text.substr(0, text.size() - unit.size()));
-    if (!number || *number < 0) return std::nullopt;
-    return seconds * double(*number);
+    const std::optional<double> number = parse_double(text.substr(0, text.size() - unit.size()));
+    if (!number || *number < 0 || *number * seconds > kMostSeconds) return std::nullopt;
+    return seconds * *number;
   }
   return std::nullopt;
 }
@@ -119,11 +130,8 @@ std::optional<double> parse_duration(std::string_view text) {
 std::optional<double> parse_share(std::string_view text) {
   const bool percent = text.ends_with('%');
   if (percent) text.remove_suffix(1);
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end || text.empty() || !std::isfinite(value)) return std::nullopt;
-  return percent ? value / 100 : value;
+  const std::optional<double> value = parse_double(text);
+  return value && percent ? std::optional(*value / 100) : value;
 }
 
 std::optional<float> parse_number(std::string_view text) {

@@ -19,7 +19,8 @@ std::string count_text(uint64_t n);
 // A whole number with sign, no suffix.
 std::optional<int64_t> parse_integer(std::string_view text);
 
-// Seconds of a time with its unit: "90s", "1.5h", "10m", "250ms". Nothing when it is none or negative.
+// Seconds of a time with its unit: "90s", "1.5h", "10m", "250ms". Nothing when it is none, negative or above
+// 10^9 seconds.
 std::optional<double> parse_duration(std::string_view text);
 
 // A part of one: "1%" or "0.01". Nothing when it is neither.

@@ -39,8 +39,6 @@ TEST_F(Quality, SetsWhatItSays) {
     EXPECT_EQ(settings.render.photons, preset.photons);
     EXPECT_EQ(settings.render.spp, preset.spp);
     EXPECT_EQ(settings.render.passes, preset.passes);
-    EXPECT_EQ(settings.render.radius, std::nullopt);
-    EXPECT_EQ(settings.render.radius_factor, preset.radius_factor);
   }
 }
 

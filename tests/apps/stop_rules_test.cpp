@@ -77,6 +77,48 @@ TEST_F(StopRules, ALowerTargetGoesOnWhereAHigherStopped) {
   EXPECT_GT(render::read_partial(path("whole.kpart")).sums.passes.count(), 2u);
 }
 
+TEST_F(StopRules, ARuleThatIsMetRendersNothingMore) {
+  const Arguments rule = {"--target-error", "14%", "-o", path("a.kpart"), "-o", path("a.exr")};
+  expect_done(render(rule));
+  const render::PassSet passes = render::read_partial(path("a.kpart")).sums.passes;
+  EXPECT_THAT(expect_done({"resume", path("a.kpart"), "-o", path("b.exr")}).err,
+              HasSubstr("target-error 0.14"));
+  EXPECT_EQ(render::read_partial(path("a.kpart")).sums.passes, passes);
+  EXPECT_EQ(read("a.exr"), read("b.exr"));
+  expect_done({"merge", path("a.kpart"), "-o", path("c.exr")});
+  EXPECT_EQ(read("a.exr"), read("c.exr"));
+}
+
+TEST_F(StopRules, PassesAndNoneOverruleARule) {
+  expect_done(render({"--target-error", "14%", "-o", path("a.kpart")}));
+  const uint64_t passes = render::read_partial(path("a.kpart")).sums.passes.end();
+  const std::string more = std::to_string(passes + 2);
+  expect_done({"resume", path("a.kpart"), "--target-error", "0.001%", "--passes", more, "-o", path("b.exr")});
+  EXPECT_EQ(render::read_partial(path("a.kpart")).sums.passes.end(), passes + 2);
+  expect_done({"resume", path("a.kpart"), "--target-error", "none", "-o", path("b.exr")});
+  EXPECT_EQ(render::read_partial(path("a.kpart")).sums.passes.end(), passes + 2);
+}
+
+TEST_F(StopRules, WhatWasNotMeasuredIsNotShownAndSaid) {
+  expect_done(render({"--passes", "4", "-o", path("a.kpart")}));
+  const Outcome layers = expect_done({"resume", path("a.kpart"), "--aov", "error,bias", "-o", path("a.exr")});
+  EXPECT_THAT(layers.err, HasSubstr("the layer bias is left out"));
+  const auto file = OIIO::ImageInput::open(path("a.exr"));
+  ASSERT_TRUE(file);
+  EXPECT_THAT(file->spec().channelnames, ::testing::Contains("error.R"));
+  EXPECT_THAT(file->spec().channelnames, Not(::testing::Contains("bias.R")));
+  const Outcome target =
+      expect_done({"resume", path("a.kpart"), "--target-error", "60%", "-o", path("a.exr")});
+  EXPECT_THAT(target.err, HasSubstr("noise alone"));
+}
+
+TEST_F(StopRules, APartOfASplitRenderTakesNoRule) {
+  expect_done(render({"--passes", "8", "--pass-range", "4:8", "-o", path("p.kpart")}));
+  expect_refused({"resume", path("p.kpart"), "--time", "5s", "-o", path("a.exr")}, "no --time");
+  expect_refused({"resume", path("p.kpart"), "--target-quantile", "50%", "-o", path("a.exr")},
+                 "--target-quantile needs --target-error");
+}
+
 TEST_F(StopRules, AQuantileAsksForMore) {
   expect_done(render({"--target-error", "15%", "-o", path("a.exr"), "--stats", path("mean.json")}));
   expect_done(render({"--target-error", "15%", "--target-quantile", "95%", "-o", path("a.exr"), "--stats",
@@ -87,7 +129,7 @@ TEST_F(StopRules, AQuantileAsksForMore) {
 TEST_F(StopRules, TimeThatIsOverLeavesOnePass) {
   const Outcome outcome =
       expect_done(render({"--time", "1ms", "-o", path("a.exr"), "--stats", path("a.json")}));
-  EXPECT_THAT(outcome.err, HasSubstr("stopped by --time 0.001s after 1 passes"));
+  EXPECT_THAT(outcome.err, HasSubstr("stopped by --time 0.001s after 1 pass"));
   EXPECT_EQ(stats("a.json")["photons"]["passes"], 1);
   EXPECT_TRUE(stats("a.json")["error"].is_null());
 }

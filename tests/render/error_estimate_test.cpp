@@ -102,6 +102,15 @@ TEST(ErrorEstimate, RelativeErrorOfDarkAndBiasedPixels) {
   }
 }
 
+// Light that is subtracted leaves noise below zero.
+TEST(ErrorEstimate, NegativeMeansAreJudgedByTheirSize) {
+  ErrorMap errors(1, 1);
+  errors.at(0, 0) = {Rgb(-2), Rgb(0.1f), Rgb(0)};
+  EXPECT_NEAR(relative_error(errors, 8), confidence_factor(8) * 0.05, 1e-6);
+  errors.at(0, 0).mean = Rgb(0);
+  EXPECT_EQ(relative_error(errors, 8), kInfinity);
+}
+
 TEST(ErrorEstimate, BlackPicturesHaveNoError) {
   EXPECT_EQ(relative_error(estimate_errors(totals_of(2, {0, 0}, {0, 0})), 2), 0);
 }

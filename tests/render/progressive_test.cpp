@@ -218,7 +218,7 @@ TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
                        &radii, &ignored);
       const double squared = radius_shrink_squared(pass, 0.5f);
       const auto k = [&](uint32_t first) { return uint32_t(std::max(8.0, std::round(first * squared))); };
-      EXPECT_EQ(maps.caustic.estimate.nearest, k(nearest > 0 ? nearest : kCausticNearest)) << pass;
+      EXPECT_EQ(maps.caustic.estimate.nearest, k(nearest > 0 ? nearest : radii->caustic_nearest)) << pass;
       EXPECT_EQ(maps.direct.estimate.nearest, nearest > 0 ? k(nearest) : 0) << pass;
       EXPECT_EQ(maps.indirect.estimate.radius, float(double(radii->indirect) * std::sqrt(squared))) << pass;
       EXPECT_EQ(maps.lecture.radius, maps.direct.estimate.radius);
