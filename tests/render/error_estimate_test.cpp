@@ -62,13 +62,14 @@ TEST(ErrorEstimate, StandardErrorOfTheMean) {
   }
 }
 
-// Mean bias 0.5, variance of its mean (1/4 + 1/4) / 12 = 1/24, of nine pixels that count as three 1/72.
+// Mean bias 0.5, variance of its mean (4 / 16) / 12 = 1/48: of nine pixels that count as three 1/144, of the
+// four about a corner 1/64.
 TEST(ErrorEstimate, BiasIsWhatTheNoiseDoesNotExplain) {
   const ErrorMap errors = estimate_errors(totals_of(3, {1, 1, 1, 1}, {0.25, 0.75, 0.25, 0.75}));
-  const float expected = std::sqrt(0.25f - 0.0625f * 4 / 3 / 4 / 3);
-  EXPECT_FLOAT_EQ(errors.at(1, 1).bias.x, expected);
+  const float middle = std::sqrt(0.25f - 1 / 144.0f), corner = std::sqrt(0.25f - 1 / 64.0f);
+  EXPECT_FLOAT_EQ(errors.at(1, 1).bias.x, middle);
   EXPECT_EQ(errors.at(1, 1).bias.y, 0);
-  EXPECT_FLOAT_EQ(errors.at(0, 0).bias.z, -expected);
+  EXPECT_FLOAT_EQ(errors.at(0, 0).bias.z, -corner);
   // Of a mean of 1/8 the noise of +-3 leaves nothing.
   EXPECT_EQ(estimate_errors(totals_of(3, {1, 1}, {3.125, -2.875})).at(1, 1).bias.x, 0);
 }
