@@ -23,8 +23,12 @@ struct Options {
   bool json = false;
 };
 
-Json triple(const glm::vec3& v) {
+Json triple(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
+}
+
+glm::dvec3 in_world(const Scene& scene, const Point3& p) {
+  return scene.origin + glm::dvec3(p);
 }
 
 std::string_view type_name(const Bsdf& bsdf) {
@@ -98,7 +102,9 @@ Json info_json(const std::string& path, const Job& job) {
   out["image"] = {
       {"width", scene.camera.width}, {"height", scene.camera.height}, {"spp", job.settings.render.spp}};
   out["shapes"] = shapes_json(scene);
-  out["bounds"] = {{"min", triple(scene.bounds.min)}, {"max", triple(scene.bounds.max)}};
+  out["bounds"] = {{"min", triple(in_world(scene, scene.bounds.min))},
+                   {"max", triple(in_world(scene, scene.bounds.max))}};
+  out["origin"] = triple(scene.origin);
   out["materials"] = materials_json(scene);
   out["lights"] = lights_json(scene);
   out["surface_groups"] = groups_json(scene);
@@ -115,8 +121,20 @@ Json info_json(const std::string& path, const Job& job) {
   return out;
 }
 
-std::string triple_text(const glm::vec3& v) {
-  return fmt::format("({:.5g}, {:.5g}, {:.5g})", v.x, v.y, v.z);
+std::string triple_text(const glm::dvec3& v, int digits = 5) {
+  return fmt::format("({:.{}g}, {:.{}g}, {:.{}g})", v.x, digits, v.y, digits, v.z, digits);
+}
+
+std::string bounds_text(const Scene& scene) {
+  const bool far = scene.origin != glm::dvec3(0);
+  const int digits = far ? 12 : 5;
+  std::string text =
+      fmt::format("bounds     {} to {} m\n", triple_text(in_world(scene, scene.bounds.min), digits),
+                  triple_text(in_world(scene, scene.bounds.max), digits));
+  if (far)
+    text += fmt::format("origin     {} m: the scene is far from the world's and has its own\n",
+                        triple_text(scene.origin, digits));
+  return text;
 }
 
 std::string info_text(const std::string& path, const Job& job) {
@@ -128,8 +146,7 @@ std::string info_text(const std::string& path, const Job& job) {
     text += fmt::format("shape      {} x {}, {}\n", s["shapes"].get<uint64_t>(), s["type"].get<std::string>(),
                         counted(s["primitives"].get<uint64_t>(), "primitive"));
   }
-  text +=
-      fmt::format("bounds     {} to {} m\n", triple_text(scene.bounds.min), triple_text(scene.bounds.max));
+  text += bounds_text(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
     text += fmt::format("material   {}: {}, albedo {}\n", name.empty() ? fmt::format("#{}", i) : name,

@@ -105,7 +105,7 @@ int shoot_and_write(const Options& options, const photon::KindMask& mask, const 
                              grouped(kind.buffer->records.size())));
   }
   if (!options.cloud.empty()) {
-    photon::write_photons_ply(options.cloud, photons);
+    photon::write_photons_ply(options.cloud, photons, job.scene.origin);
     console.note("wrote " + options.cloud);
   }
   if (!options.image.empty()) {

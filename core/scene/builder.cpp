@@ -8,6 +8,7 @@
 
 #include "core/diagnostics/nearest_name.h"
 #include "core/scene/camera_builder.h"
+#include "core/scene/local_origin.h"
 #include "core/scene/material_table.h"
 #include "core/scene/shape_source.h"
 #include "core/scene/surface_groups.h"
@@ -22,6 +23,7 @@ constexpr uint64_t kMostInstancedTriangles = 1'000'000'000;
 struct Item {
   const ShapeDescription* description = nullptr;
   uint32_t material = 0;
+  std::optional<size_t> object;  // whose shape it is; nothing for shapes that stand in the world
   std::optional<ShapeSource> source;
   DiagnosticList diagnostics;  // of making the source
 };
@@ -45,6 +47,7 @@ class Builder {
     MaterialTable materials(description_, warned_, diagnostics_);
     collect(materials);
     load_sources();
+    choose_origin(scene);
     check_area_lights();
     build_lights(scene);
     if (diagnostics_.has_errors() || !fits_memory()) return std::nullopt;
@@ -58,10 +61,16 @@ class Builder {
 
  private:
   void collect(MaterialTable& materials);
-  std::optional<size_t> add_item(const ShapeDescription& shape, MaterialTable& materials);
+  std::optional<size_t> add_item(const ShapeDescription& shape, std::optional<size_t> object,
+                                 MaterialTable& materials);
   void add_instance(const InstanceDescription& instance,
                     const std::map<std::string_view, std::vector<size_t>>& items_of);
   void load_sources();
+  std::optional<ShapeSource> make_source(const Item& item, const glm::dvec3& mesh_origin,
+                                         DiagnosticList& diagnostics) const;
+  std::vector<ExactBounds> item_bounds() const;
+  void choose_origin(Scene& scene);
+  void move_inline_meshes(const std::vector<ExactBounds>& of_item, const glm::dvec3& origin);
   void check_area_lights();
   void build_lights(Scene& scene);
   bool check_power(const Rgb& power, const SourceLocation& location);
@@ -82,7 +91,8 @@ class Builder {
 };
 
 // Nothing when the shape is bad, or is no surface at all.
-std::optional<size_t> Builder::add_item(const ShapeDescription& shape, MaterialTable& materials) {
+std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::optional<size_t> object,
+                                        MaterialTable& materials) {
   const uint32_t material = materials.resolve(shape.material, diagnostics_);
   const TypeSpec* spec = find_type(category("Shape"), shape, diagnostics_);
   bool ok = spec && check_parameters("shape", *spec, shape, warned_, diagnostics_);
@@ -98,21 +108,22 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, MaterialT
     }
     return std::nullopt;
   }
-  items_.push_back({&shape, material, std::nullopt, {}});
+  items_.push_back({&shape, material, object, std::nullopt, {}});
   return items_.size() - 1;
 }
 
 void Builder::collect(MaterialTable& materials) {
   for (const ShapeDescription& shape : description_.shapes) {
-    if (const auto item = add_item(shape, materials)) {
+    if (const auto item = add_item(shape, std::nullopt, materials)) {
       placements_.push_back({*item, shape.object_to_world, shape.area_light.has_value(), true});
     }
   }
   std::map<std::string_view, std::vector<size_t>> items_of;
-  for (const ObjectDescription& object : description_.objects) {
+  for (size_t o = 0; o < description_.objects.size(); ++o) {
+    const ObjectDescription& object = description_.objects[o];
     std::vector<size_t>& items = items_of[object.name];
     for (const ShapeDescription& shape : object.shapes) {
-      if (const auto item = add_item(shape, materials)) items.push_back(*item);
+      if (const auto item = add_item(shape, o, materials)) items.push_back(*item);
       if (shape.area_light) {
         diagnostics_.warning(shape.location, "the area light is ignored: shapes of an object are no lamps");
       }
@@ -141,15 +152,61 @@ void Builder::add_instance(const InstanceDescription& instance,
   }
 }
 
+std::optional<ShapeSource> Builder::make_source(const Item& item, const glm::dvec3& mesh_origin,
+                                                DiagnosticList& diagnostics) const {
+  const auto& types = shape_types();
+  const auto spec = std::find_if(types.begin(), types.end(),
+                                 [&](const TypeSpec& t) { return t.name == item.description->type; });
+  return make_shape_source(*item.description, *spec, load_mesh_, diagnostics, mesh_origin);
+}
+
 void Builder::load_sources() {
   tbb::parallel_for(size_t{0}, items_.size(), [&](size_t i) {
-    Item& item = items_[i];
-    const auto& types = shape_types();
-    const auto spec = std::find_if(types.begin(), types.end(),
-                                   [&](const TypeSpec& t) { return t.name == item.description->type; });
-    item.source = make_shape_source(*item.description, *spec, load_mesh_, item.diagnostics);
+    items_[i].source = make_source(items_[i], glm::dvec3(0), items_[i].diagnostics);
   });
   for (Item& item : items_) diagnostics_.append(std::move(item.diagnostics));
+}
+
+// Of each item, in its own space.
+std::vector<ExactBounds> Builder::item_bounds() const {
+  std::vector<ExactBounds> bounds(items_.size());
+  tbb::parallel_for(size_t{0}, items_.size(),
+                    [&](size_t i) { bounds[i] = object_bounds(*items_[i].description, *items_[i].source); });
+  return bounds;
+}
+
+// From here on placements are relative to the scene's origin.
+void Builder::choose_origin(Scene& scene) {
+  if (diagnostics_.has_errors()) return;
+  const std::vector<ExactBounds> of_item = item_bounds();
+  ExactBounds bounds;
+  for (const Placement& p : placements_) bounds.add(mapped(p.to_world, of_item[p.item]));
+  scene.origin = local_origin(bounds);
+  if (scene.origin == glm::dvec3(0)) return;
+  move_inline_meshes(of_item, scene.origin);
+  for (Placement& p : placements_) p.to_world = relative_to(scene.origin, p.to_world);
+  const glm::dmat4 camera = description_.camera ? description_.camera->camera_to_world : glm::dmat4(1);
+  scene.camera.to_world = Transform::from_matrix(relative_to(scene.origin, camera));
+}
+
+// Vertices that are written in double may lie as far from their own origin as the scene from the world's.
+// They are rounded relative to the scene's origin, or to one of their object, which its shapes have in common
+// so that vertices that coincide still do.
+void Builder::move_inline_meshes(const std::vector<ExactBounds>& of_item, const glm::dvec3& origin) {
+  std::vector<ExactBounds> of_object(description_.objects.size());
+  for (size_t i = 0; i < items_.size(); ++i)
+    if (items_[i].object)
+      of_object[*items_[i].object].add(mapped(items_[i].description->object_to_world, of_item[i]));
+  tbb::parallel_for(size_t{0}, items_.size(), [&](size_t i) {
+    Item& item = items_[i];
+    const glm::dvec3 around = item.object ? local_origin(of_object[*item.object]) : origin;
+    if (!item.description->find("P") || around == glm::dvec3(0)) return;
+    const glm::dmat4 to_mesh = glm::inverse(item.description->object_to_world);
+    DiagnosticList
+        beyond_floats;  // of a mesh that is tiny in the world, around a point far from it: as it was
+    auto moved = make_source(item, glm::dvec3(to_mesh * glm::dvec4(around, 1)), beyond_floats);
+    if (moved) item.source = std::move(moved);
+  });
 }
 
 void Builder::check_area_lights() {
@@ -170,7 +227,8 @@ void Builder::build_lights(Scene& scene) {
     }
     const auto row = std::find_if(light_rows().begin(), light_rows().end(),
                                   [&](const LightRow& r) { return &r.spec == spec; });
-    auto made = row->make(ParameterReader(light, *spec), light.light_to_world, diagnostics_);
+    auto made = row->make(ParameterReader(light, *spec), relative_to(scene.origin, light.light_to_world),
+                          diagnostics_);
     if (made && check_power(power(*made), light.location)) scene.lights.push_back(std::move(*made));
   }
 }

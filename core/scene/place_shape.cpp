@@ -37,7 +37,9 @@ PlacedShape place_shape(ShapeSource source, const glm::dmat4& object_to_world, b
   PlacedShape placed;
   const Transform to_world = Transform::from_matrix(object_to_world * source.local);
   if (auto* mesh = std::get_if<TriangleMesh>(&source.geometry)) {
-    place_mesh(object_to_world, reverse_orientation, *mesh, placed);
+    // A product with the identity could change the sign of a zero.
+    const bool moved = source.local != glm::dmat4(1);
+    place_mesh(moved ? object_to_world * source.local : object_to_world, reverse_orientation, *mesh, placed);
     placed.shape.geometry = std::move(*mesh);
     // The cross product of the edges turns over when the transform mirrors.
     placed.shape.flip_normal = reverse_orientation != (glm::determinant(glm::dmat3(object_to_world)) < 0);

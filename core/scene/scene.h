@@ -13,6 +13,9 @@
 namespace kaustik {
 
 struct Scene {
+  // World coordinates less this, in metres, are what everything below holds. Zero unless the scene lies far
+  // from the world's origin (core/scene/local_origin.h).
+  glm::dvec3 origin{0};
   PerspectiveCamera camera;
   std::vector<Shape> shapes;
   std::vector<Bsdf> materials;

@@ -13,6 +13,7 @@ struct Context {
   const ShapeDescription& shape;
   const ParameterReader& reader;
   DiagnosticList& diagnostics;
+  glm::dvec3 mesh_origin;
 
   void error(const SourceLocation& where, std::string message) const {
     diagnostics.error(where, std::move(message));
@@ -31,6 +32,15 @@ std::vector<V> vectors(const Parameter* p) {
   out.resize(p->numbers.size() / kSize);
   for (size_t i = 0; i < out.size(); ++i) {
     for (int k = 0; k < kSize; ++k) out[i][k] = static_cast<float>(p->numbers[i * kSize + k]);
+  }
+  return out;
+}
+
+std::vector<Point3> positions(const Context& c, const Parameter& P) {
+  std::vector<Point3> out(P.numbers.size() / 3);
+  for (size_t i = 0; i < out.size(); ++i) {
+    const double* p = &P.numbers[3 * i];
+    out[i] = Point3(glm::dvec3(p[0], p[1], p[2]) - c.mesh_origin);
   }
   return out;
 }
@@ -75,7 +85,7 @@ std::optional<ShapeSource> make_trianglemesh(const Context& c) {
   const Parameter* P = c.required("P");
   if (!P) return std::nullopt;
   TriangleMesh mesh;
-  mesh.P = vectors<Point3, 3>(P);
+  mesh.P = positions(c, *P);
   mesh.N = vectors<Normal3, 3>(c.shape.find("N"));
   mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
   const bool complete = check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) &&
@@ -83,14 +93,14 @@ std::optional<ShapeSource> make_trianglemesh(const Context& c) {
   auto indices = faces<3>(c, mesh.P.size());
   if (!complete || !indices) return std::nullopt;
   mesh.indices = std::move(*indices);
-  return ShapeSource{std::move(mesh)};
+  return ShapeSource{std::move(mesh), glm::translate(glm::dmat4(1), c.mesh_origin)};
 }
 
 std::optional<ShapeSource> make_bilinearmesh(const Context& c) {
   const Parameter* P = c.required("P");
   if (!P) return std::nullopt;
   PatchMesh mesh;
-  mesh.P = vectors<Point3, 3>(P);
+  mesh.P = positions(c, *P);
   mesh.N = vectors<Normal3, 3>(c.shape.find("N"));
   mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
   const bool complete = check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) &&
@@ -98,7 +108,7 @@ std::optional<ShapeSource> make_bilinearmesh(const Context& c) {
   auto patches = faces<4>(c, mesh.P.size());
   if (!complete || !patches) return std::nullopt;
   mesh.patches = std::move(*patches);
-  return ShapeSource{triangulate_patches(mesh)};
+  return ShapeSource{triangulate_patches(mesh), glm::translate(glm::dmat4(1), c.mesh_origin)};
 }
 
 std::optional<ShapeSource> make_plymesh(const Context& c, const MeshLoader& load_mesh) {
@@ -178,9 +188,10 @@ std::optional<ShapeSource> make_geometry(const Context& c, const MeshLoader& loa
 }  // namespace
 
 std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
-                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics) {
+                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics,
+                                             const glm::dvec3& mesh_origin) {
   const ParameterReader reader(shape, spec);
-  const Context context{shape, reader, diagnostics};
+  const Context context{shape, reader, diagnostics, mesh_origin};
   std::optional<ShapeSource> source = make_geometry(context, load_mesh);
   if (!source) return std::nullopt;
   const auto* mesh = std::get_if<TriangleMesh>(&source->geometry);

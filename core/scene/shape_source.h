@@ -18,14 +18,17 @@ struct DiskSource {
 
 struct ShapeSource {
   std::variant<TriangleMesh, SphereSource, DiskSource> geometry;
-  glm::dmat4 local{1};  // from the unit sphere or disk to the shape's space; identity for meshes
+  // To the shape's space: from the unit sphere or disk, or from a mesh's own origin.
+  glm::dmat4 local{1};
 };
 
 // Nothing, with errors added, when the parameters contradict each other or the mesh is bad: indices out of
 // range, positions or normals that are not finite. The directive must have passed check_parameters.
-// Thread-safe.
+// mesh_origin: in the shape's space; vertices that are written in the scene file are rounded to float
+// relative to it. Thread-safe.
 std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
-                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics);
+                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics,
+                                             const glm::dvec3& mesh_origin = glm::dvec3(0));
 
 struct PlacedShape {
   Shape shape;

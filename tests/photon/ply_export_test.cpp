@@ -29,7 +29,7 @@ TEST(PlyExport, WritesEachPhotonAsOneVertex) {
   const PhotonBuffer direct = make_buffer(lit), shadow = make_buffer(dark);
   const PlyPhotons parts[] = {{PhotonKind::kDirect, &direct}, {PhotonKind::kShadow, &shadow}};
   const fs::path path = output("photons.ply");
-  write_photons_ply(path, parts);
+  write_photons_ply(path, parts, glm::dvec3(0));
   EXPECT_FALSE(fs::exists(path.string() + ".part"));
   for (const auto& entry : fs::directory_iterator(path.parent_path()))  // nothing unfinished either
     EXPECT_FALSE(entry.path().filename().string().starts_with(".photons.")) << entry.path();
@@ -52,16 +52,41 @@ TEST(PlyExport, WritesEachPhotonAsOneVertex) {
   }
 }
 
+// Where floats are too coarse for the world's coordinates, these are doubles: the sum is exact.
+TEST(PlyExport, FarScenesAreWrittenInTheWorldsCoordinates) {
+  PhotonMaker make(31);
+  const std::vector<Photon> lit = {make.on_wall(), make.on_wall()};
+  const PhotonBuffer direct = make_buffer(lit);
+  const PlyPhotons parts[] = {{PhotonKind::kDirect, &direct}};
+  const glm::dvec3 origin(0x1p20, -0x1p21, 6);
+  const fs::path path = output("far.ply");
+  write_photons_ply(path, parts, origin);
+  const std::string text = read(path), end = "end_header\n";
+  const size_t body = text.find(end) + end.size();
+  EXPECT_NE(text.find("property double x\nproperty double y\nproperty double z\nproperty float nx\n"),
+            std::string::npos);
+  ASSERT_EQ(text.size() - body, 2u * 40);
+  for (size_t i = 0; i < 2; ++i) {
+    glm::dvec3 p;
+    Normal3 n;
+    std::memcpy(&p, text.data() + body + 40 * i, sizeof(p));
+    std::memcpy(&n, text.data() + body + 40 * i + sizeof(p), sizeof(n));
+    EXPECT_EQ(p, origin + glm::dvec3(lit[i].p));
+    EXPECT_EQ(n, lit[i].n);
+    EXPECT_EQ(text[body + 40 * i + 39], char(PhotonKind::kDirect));
+  }
+}
+
 TEST(PlyExport, AnEmptyCloudIsAFileWithoutVertices) {
   const fs::path path = output("none.ply");
-  write_photons_ply(path, {});
+  write_photons_ply(path, {}, glm::dvec3(0));
   EXPECT_NE(read(path).find("element vertex 0\n"), std::string::npos);
 }
 
 TEST(PlyExport, SaysWhichPathCannotBeWritten) {
   const fs::path path = output("no such folder") / "a.ply";
   try {
-    write_photons_ply(path, {});
+    write_photons_ply(path, {}, glm::dvec3(0));
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
