@@ -219,5 +219,24 @@ TEST(LocalOrigin, FloatsOfMeshFilesAreMovedExactly) {
     EXPECT_EQ(glm::dvec3(mesh_of(scene.shapes[0]).P[i]) + scene.origin, glm::dvec3(file.mesh.P[i]));
 }
 
+// A metre of the second mesh is 1e36 of its units: the origin, 1024 m away, is beyond floats there.
+TEST(LocalOrigin, MeshesThatAreTinyInTheWorldStayAroundTheirOwn) {
+  const auto triangle = [](double size, const glm::dmat4& to_world) {
+    return shape("trianglemesh", {numbers(ParameterType::kPoint3, "P", {0, 0, 0, size, 0, 0, 0, size, 0})},
+                 to_world);
+  };
+  const glm::dvec3 at(0x1p20, 0, 0), aside(-0x1p10, 0, 0);
+  SceneDescription d;
+  d.shapes.push_back(triangle(1, translation(at)));
+  d.shapes.push_back(triangle(1e36, glm::scale(translation(at + aside), glm::dvec3(1e-36))));
+  const Scene scene = built(d);
+  ASSERT_EQ(scene.shapes.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    const glm::dvec3 corner = glm::dvec3(mesh_of(scene.shapes[i]).P[0]) + scene.origin;
+    EXPECT_EQ(corner, at + double(i) * aside);
+    EXPECT_NEAR(mesh_of(scene.shapes[i]).P[1].x - mesh_of(scene.shapes[i]).P[0].x, 1, 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace kaustik

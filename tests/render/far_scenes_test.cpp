@@ -154,5 +154,53 @@ TEST(FarScenes, BoxWithSpheresKeepsItsLight) {
   }
 }
 
+// A ball of triangles whose corners are the floats next to their places at `move`.
+TriangleMesh rounded_ball(const Vector3& move) {
+  constexpr uint32_t kRings = 8, kSectors = 16;
+  TriangleMesh mesh;
+  for (uint32_t ring = 0; ring <= kRings; ++ring)
+    for (uint32_t sector = 0; sector < kSectors; ++sector) {
+      const float theta = kPi * float(ring) / float(kRings), phi = 2 * kPi * float(sector) / float(kSectors);
+      const float r = ring % kRings == 0 ? 0 : std::sin(theta);
+      mesh.P.push_back(Vector3(r * std::cos(phi), r * std::sin(phi), std::cos(theta)) + move);
+    }
+  for (uint32_t ring = 0; ring < kRings; ++ring)
+    for (uint32_t sector = 0; sector < kSectors; ++sector) {
+      const uint32_t a = ring * kSectors + sector, b = ring * kSectors + (sector + 1) % kSectors;
+      mesh.indices.push_back({a, a + kSectors, b + kSectors});
+      mesh.indices.push_back({a, b + kSectors, b});
+    }
+  return mesh;
+}
+
+// At 1e5 sizes floats are 1/64 m apart: the ball is rough, but closed, so it is a furnace of radiance 2. Of
+// its 32 triangles at the poles half have no area. Noise as above.
+TEST(FarScenes, BallOfRoundedVerticesHasNoHoles) {
+  const Vector3 move(1.1e5f, -0.53e5f, 2e5f);
+  const std::string path = output_file("furnace-ball.pbrt");
+  std::ofstream(path) << "LookAt 110000.2 -53000 200000  110001 -53000 200001  0 1 0\n"
+                         "Camera \"perspective\" \"float fov\" 90\nWorldBegin\nReverseOrientation\n"
+                         "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
+                         "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n"
+                         "Shape \"plymesh\" \"string filename\" \"ball\"\n";
+  Diagnostics diagnostics;
+  auto scene = build_scene(
+      imported(path),
+      [&](const auto&, const auto&) {
+        return MeshResult{rounded_ball(move), {}};
+      },
+      diagnostics);
+  ASSERT_TRUE(scene) << diagnostics.format_all();
+  scene->camera.width = scene->camera.height = 32;
+  for (const Method method : {Method::kMc, Method::kPhoton}) {
+    const auto result = render_with_threads(*scene, settings_of(method, 50'000));
+    expect_sound(result);
+    EXPECT_NEAR(total_mean(result.film), 2, 4.0 / 128);
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x) EXPECT_GE(result.film.at(x, y).radiance().x, 1) << x << " " << y;
+    EXPECT_EQ(result.statistics.photons.energy.escaped, 0u);
+  }
+}
+
 }  // namespace
 }  // namespace kaustik::render
