@@ -95,7 +95,7 @@ void SceneParser::on_transform_times(const Token& word) {
 void SceneParser::on_camera(const Token& word) {
   CameraDescription camera;
   if (!read_directive(word, "camera", camera)) return;
-  camera.camera_to_world = glm::inverse(state_.ctm);
+  camera.camera_to_world = inverse_transform(state_.ctm);
   coordinate_systems_["camera"] = camera.camera_to_world;
   if (scene_.camera) {
     diagnostics_.warning(word.location, "this `Camera` replaces an earlier one",

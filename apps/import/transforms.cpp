@@ -1,6 +1,7 @@
 #include "apps/import/transforms.h"
 
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 
 namespace kaustik::pbrt {
 namespace {
@@ -61,6 +62,12 @@ glm::dmat4 matrix(const std::vector<double>& v) {
   glm::dmat4 m;
   for (size_t i = 0; i < 16; ++i) m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = v[i];
   return m;
+}
+
+glm::dmat4 inverse_transform(const glm::dmat4& m) {
+  glm::dmat4 out = glm::inverse(m);
+  if (glm::row(m, 3) == glm::dvec4(0, 0, 0, 1)) out = glm::row(out, 3, glm::dvec4(0, 0, 0, 1));
+  return out;
 }
 
 }  // namespace kaustik::pbrt

@@ -17,4 +17,7 @@ glm::dmat4 scale(const std::vector<double>& values);
 // Sixteen numbers, column by column, as in the file.
 glm::dmat4 matrix(const std::vector<double>& values);
 
+// Of an affine map an affine one, to the bit: glm's last row can be off by a rounding.
+glm::dmat4 inverse_transform(const glm::dmat4& m);
+
 }  // namespace kaustik::pbrt

@@ -1,6 +1,7 @@
 // What scenes mean: transforms, state, materials, lamps, objects, files.
 #include <numbers>
 
+#include "apps/import/transforms.h"
 #include "tests/apps/import_support.h"
 
 namespace kaustik::pbrt {
@@ -276,6 +277,17 @@ TEST_F(ImportScene, CarriageReturnsCommentsAndByteOrderMark) {
                       "\"sphere\"\r\nShape\r\n\"sphere\"#x\r\n\"float radius\"[2]\r\n")
                       .scene;
   EXPECT_EQ(s.shapes.size(), 1u);
+}
+
+// Rounding must not make a camera look projective: such are refused.
+TEST(Transforms, InversesOfAffineMapsAreAffine) {
+  for (int i = 1; i <= 1000; ++i) {
+    const double t = 0.37 * i;
+    const auto view =
+        look_at({std::sin(t), std::cos(3 * t), std::sin(5 * t), 3, 2 + std::sin(t), 4, 0, 1, 0});
+    const glm::dmat4 m = inverse_transform(scale({-7, 7, 7}) * *view);
+    for (int c = 0; c < 4; ++c) EXPECT_EQ(m[c][3], c == 3 ? 1 : 0) << i;
+  }
 }
 
 }  // namespace
