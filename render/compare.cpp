@@ -94,7 +94,7 @@ CompareResult compare(const Image& reference, const Image& image, const CompareO
   const double count = 3.0 * double(result.compared);
   result.rmse = std::sqrt(sums.squared / count);
   result.relmse = sums.relative / count;
-  result.psnr = 20 * std::log10(sums.peak / result.rmse);
+  result.psnr = result.rmse > 0 ? 20 * std::log10(sums.peak / result.rmse) : kInfinity;
   result.mean_image = sums.image / count;
   result.mean_reference = sums.reference / count;
   return result;

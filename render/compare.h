@@ -22,7 +22,8 @@ struct CompareResult {
   uint64_t nan_image = 0, nan_reference = 0;  // pixels with a NaN or infinite channel: left out of the means
   double rmse = 0;                            // sqrt(mean (I - R)^2)
   double relmse = 0;                          // mean (I - R)^2 / (R^2 + 0.01)
-  double psnr = 0;            // 20 log10(peak / rmse), dB; peak = largest compared reference channel
+  // 20 log10(peak / rmse), dB; peak = largest compared reference channel; infinite where rmse is 0
+  double psnr = 0;
   double max_difference = 0;  // largest |I - R|
   int max_x = 0, max_y = 0, max_channel = 0;
   double mean_image = 0, mean_reference = 0;

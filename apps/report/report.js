@@ -81,16 +81,30 @@ function tooltip(item) {
   return lines;
 }
 
+// Logarithmic axes have no place for 0: such points lie a decade below the least of the others. Whether there are any.
+function floorZeros(datasets, key) {
+  const points = datasets.flatMap(d => d.data), above = points.map(p => p[key]).filter(value => value > 0);
+  const floor = above.length ? Math.min(...above) / 10 : 1e-6;
+  const zeros = points.filter(p => !(p[key] > 0));
+  for (const p of zeros) p[key] = floor;
+  return zeros.length > 0;
+}
+
 // x, y: what makes an axis of the values that lie along it.
 function scatter(id, datasets, x, y) {
-  const values = key => datasets.flatMap(d => d.data.map(p => p[key]));
+  const zeros = {x: floorZeros(datasets, "x"), y: floorZeros(datasets, "y")};
+  const axis = (key, made) => {
+    const scale = made(datasets.flatMap(d => d.data.map(p => p[key])));
+    if (zeros[key]) scale.title.text += "; the least are 0";
+    return scale;
+  };
   return new Chart(byId(id), {
     type: "scatter",
     data: {datasets},
     options: {
       animation: false, maintainAspectRatio: false, responsive: true,
       interaction: {mode: "nearest", intersect: true},
-      scales: {x: x(values("x")), y: y(values("y"))},
+      scales: {x: axis("x", x), y: axis("y", y)},
       plugins: {legend: {position: "bottom", labels: {usePointStyle: true, boxWidth: 7, boxHeight: 7, padding: 14}},
                 tooltip: {callbacks: {label: tooltip}}}}});
 }

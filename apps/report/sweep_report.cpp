@@ -8,16 +8,13 @@
 
 #include "apps/import/scene_files.h"
 #include "apps/report/html.h"
+#include "apps/stop_rules.h"
 #include "apps/sweep/sweep_files.h"
 #include "report_assets.h"
 
 namespace kaustik::app {
 
 namespace {
-
-std::string percent(double fraction) {
-  return fmt::format("{:.3g} %", 100 * fraction);
-}
 
 std::string data_uri(const std::filesystem::path& path) {
   std::string error;

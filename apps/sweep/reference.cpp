@@ -12,6 +12,7 @@
 #include "apps/render_job.h"
 #include "apps/stopwatch.h"
 #include "apps/sweep/pictures.h"
+#include "core/content_hash.h"
 #include "render/image_io.h"
 #include "render/names.h"
 #include "render/renderer.h"
@@ -27,22 +28,25 @@ namespace {
 constexpr uint64_t kPassPhotons = 1'000'000;
 constexpr double kPassSamples = 1 << 20;       // of all pixels, about
 constexpr uint64_t kSeedApart = 0x7265660000;  // added to the sweep's seed
+constexpr double kLongest = 1e12;              // seconds that the progress tells: far from the end of 64 bits
+constexpr const char *kPictureName = "reference.exr", *kAboutName = "reference.json";
 
 Settings reference_settings(const Job& job, render::Method method) {
-  Settings settings = job.settings;
-  render::RenderSettings& s = settings.render;
+  const render::RenderSettings& own = job.settings.render;
   const auto [width, height] = picture_size(job);
+  Settings settings;
+  render::RenderSettings& s = settings.render;
   s.method = method;
-  s.direct.reset(), s.caustics.reset(), s.indirect.reset();
   const double pixels = double(width) * double(height);
   s.photons = kPassPhotons;
   s.passes = 1;
   s.spp = static_cast<int>(std::clamp(kPassSamples / pixels, 4.0, 64.0));
-  s.radius.reset();
-  s.radius_factor = 1;
-  s.nearest = 0;
   s.alpha = 2.0f / 3;
-  s.seed += kSeedApart;
+  s.seed = own.seed + kSeedApart;
+  s.max_bounces = own.max_bounces;
+  s.threads = own.threads;
+  s.width = own.width, s.height = own.height, s.crop = own.crop;
+  s.photon_memory = own.photon_memory;
   return settings;
 }
 
@@ -67,32 +71,36 @@ double mean_of(const render::Image& image) {
   return sum / (3.0 * double(image.pixels.size()));
 }
 
-void check_size(const render::Image& image, const Job& job, const std::string& path) {
+// Throws ImageError, also for another size than the job's.
+render::Image read_picture(const std::string& path, const Job& job) {
+  render::Image image = render::read_image(path);
   const auto [width, height] = picture_size(job);
   if (image.width != width || image.height != height)
-    throw ExitError(kBadCommandLine,
-                    fmt::format("--reference: {} has {} x {} pixels, the scene's picture {} x {}", path,
-                                image.width, image.height, width, height));
+    throw render::ImageError(path, fmt::format("{} x {} pixels, the scene's picture {} x {}", image.width,
+                                               image.height, width, height));
+  return image;
 }
 
 Reference read_reference(const std::string& path, const Job& job) {
   Reference reference;
   try {
-    reference.image = render::read_image(path);
+    reference.image = read_picture(path, job);
   } catch (const render::ImageError& error) {
     throw ExitError(kBadCommandLine, fmt::format("--reference: {}", error.what()));
   }
-  check_size(reference.image, job, path);
   reference.about.source = utf8(path);
   return reference;
 }
 
-// The one that an earlier run finished.
-std::optional<Reference> find_reference(const Job& job, const SweepFolder& folder) {
-  const std::optional<Json> about = folder.read("reference.json");
-  const std::string path = folder.path("reference.exr");
-  if (!about || !fs::exists(path)) return std::nullopt;
-  Reference reference = read_reference(path, job);
+// The one that an earlier run finished. Throws what is wrong with it.
+Reference kept_reference(const Job& job, const SweepFolder& folder) {
+  const std::optional<Json> about = folder.read(kAboutName);
+  if (!about) throw std::runtime_error(folder.path(kAboutName) + ": it is no JSON");
+  Reference reference;
+  reference.image = read_picture(folder.path(kPictureName), job);
+  if (about->at("hash") != picture_hash(reference.image))
+    throw std::runtime_error(
+        fmt::format("{}: this is not the picture that {} describes", folder.path(kPictureName), kAboutName));
   about->at("source").get_to(reference.about.source);
   about->at("seconds").get_to(reference.about.seconds);
   about->at("passes").get_to(reference.about.passes);
@@ -101,34 +109,57 @@ std::optional<Reference> find_reference(const Job& job, const SweepFolder& folde
   return reference;
 }
 
+std::optional<Reference> find_reference(const Job& job, const SweepFolder& folder, const Console& console) {
+  if (!fs::exists(folder.path(kAboutName)) || !fs::exists(folder.path(kPictureName))) return std::nullopt;
+  const auto warn = [&](const std::string& what) {
+    console.warning(fmt::format("{}; the reference is rendered again", what));
+    return std::nullopt;
+  };
+  try {
+    return kept_reference(job, folder);
+  } catch (const Json::exception&) {
+    return warn(folder.path(kAboutName) + ": something is missing, or of another kind");
+  } catch (const std::exception& error) {
+    return warn(error.what());
+  }
+}
+
 double seconds_in(const render::PassSums& sums) {
   const render::RenderStatistics& s = sums.statistics;
   return s.photon_trace_s + s.photon_build_s + s.render_s;
 }
 
 // Passes of an interrupted run. The folder's own mark has checked scene, build and settings.
-render::PassSums begun_passes(const std::string& path) {
+render::PassSums begun_passes(const std::string& path, const Console& console) {
   if (!fs::exists(path)) return {};
-  return load_partial(path).sums;
+  try {
+    return render::read_partial(path).sums;
+  } catch (const render::PartialError& error) {
+    console.warning(fmt::format("{}; the reference is rendered from the start", error.what()));
+    return {};
+  }
 }
 
 void keep_reference(const Reference& reference, const SweepFolder& folder) {
-  render::write_image(folder.path("reference.exr"), reference.image);
+  render::write_image(folder.path(kPictureName), reference.image);
   const SweepReference& about = reference.about;
-  const Json json = {{"source", about.source},
+  const Json json = {{"hash", picture_hash(reference.image)},
+                     {"source", about.source},
                      {"seconds", about.seconds},
                      {"passes", about.passes},
                      {"noise_relmse", about.noise ? Json(*about.noise) : Json(nullptr)}};
-  write_text_file(folder.path("reference.json"), json.dump(2) + "\n");
+  write_text_file(folder.path(kAboutName), json.dump(2) + "\n");
   std::error_code ignored;
   fs::remove(folder.path("reference.kpart"), ignored);
 }
 
 std::optional<Reference> render_reference(const ReferenceChoice& choice, render::Method method, Job& job,
-                                          const SweepFolder& folder, const ReferenceProgress& progress) {
+                                          const SweepFolder& folder, const ReferenceProgress& progress,
+                                          const Console& console) {
   const SettingsGuard guard(job, reference_settings(job, method));
   const std::string part = folder.path("reference.kpart");
-  render::RenderTask task{.passes = render::PassSet(0, render::kMostPasses), .done = begun_passes(part)};
+  render::RenderTask task{.passes = render::PassSet(0, render::kMostPasses),
+                          .done = begun_passes(part, console)};
   uint64_t passes = task.done.passes.count();
   task.after_pass = [&](const render::PassSums& sums) {
     passes = sums.passes.count();
@@ -139,7 +170,7 @@ std::optional<Reference> render_reference(const ReferenceChoice& choice, render:
   bool interrupted = false;
   const auto go_on = [&](const render::Progress&) {
     const double spent = before + watch.seconds();
-    const auto ms = [](double seconds) { return static_cast<uint64_t>(1e3 * seconds); };
+    const auto ms = [](double seconds) { return static_cast<uint64_t>(1e3 * std::min(seconds, kLongest)); };
     interrupted = interrupted || !progress(std::min(ms(spent), ms(choice.seconds)), ms(choice.seconds));
     return !interrupted && (passes < 2 || spent < choice.seconds);
   };
@@ -150,7 +181,7 @@ std::optional<Reference> render_reference(const ReferenceChoice& choice, render:
       render::write_partial(part, manifest_of(job, {}, {}, result.sums), result.sums);
     return std::nullopt;
   }
-  Reference reference{render::image_of(result.film), {}};
+  Reference reference{render::image_of(result.film), {}, {}};
   reference.about = {.source = fmt::format("method {}, {} passes", render::name_of(method), passes),
                      .noise = render::relative_noise(result.sums.totals),
                      .seconds = before + watch.seconds(),
@@ -168,22 +199,30 @@ std::pair<int, int> picture_size(const Job& job) {
   return {crop.x1 - crop.x0, crop.y1 - crop.y0};
 }
 
+std::string picture_hash(const render::Image& image) {
+  ContentHash hash;
+  hash.add(fmt::format("{} x {}", image.width, image.height));
+  hash.add(image.pixels.data(), image.pixels.size() * sizeof(Rgb));
+  return hash.text();
+}
+
 render::Method reference_method(const SceneNeeds& needs) {
   return needs.specular ? render::Method::kAuto : render::Method::kMc;
 }
 
 std::optional<Reference> make_reference(const ReferenceChoice& choice, Job& job, const SweepFolder& folder,
-                                        const ReferenceProgress& progress) {
+                                        const ReferenceProgress& progress, const Console& console) {
   std::optional<Reference> reference;
   if (!choice.file.empty())
     reference = read_reference(choice.file, job);
   else
-    reference = find_reference(job, folder);
+    reference = find_reference(job, folder, console);
   if (!reference) {
     const render::Method method = choice.method.value_or(reference_method(job.scene.needs));
-    reference = render_reference(choice, method, job, folder, progress);
+    reference = render_reference(choice, method, job, folder, progress, console);
   }
   if (!reference) return std::nullopt;
+  reference->hash = picture_hash(reference->image);
   reference->about.mean = mean_of(reference->image);
   reference->about.picture = "reference.png";
   write_picture(folder.path(reference->about.picture), reference->image, job.settings.tone);

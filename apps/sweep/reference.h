@@ -24,6 +24,7 @@ render::Method reference_method(const SceneNeeds& needs);
 
 struct Reference {
   render::Image image;
+  std::string hash;  // of the image: what is measured against another one is another measurement
   SweepReference about;
 };
 
@@ -31,11 +32,16 @@ struct Reference {
 using ReferenceProgress = std::function<bool(uint64_t done, uint64_t total)>;
 
 // Reads the file, or takes the one in the folder, or renders passes into it until the time is over (two at
-// least), with a seed that no cell has. Nothing when cancelled: then the passes that are complete are kept in
-// the folder for the next time. Throws ExitError (bad command line) for a picture that cannot be read or has
-// another size. job's settings are the same afterwards.
+// least), with a seed that no cell has, and without what a sweep examines: of the settings only size, crop,
+// bounces and memory are the job's. Nothing when cancelled: then the passes that are complete are kept in the
+// folder for the next time. What is damaged in the folder is rendered again, after a warning. Throws
+// ExitError (bad command line) for a file that cannot be read or has another size. job's settings are the
+// same afterwards.
 std::optional<Reference> make_reference(const ReferenceChoice& choice, Job& job, const SweepFolder& folder,
-                                        const ReferenceProgress& progress);
+                                        const ReferenceProgress& progress, const Console& console);
+
+// Of size and pixels, to the bit.
+std::string picture_hash(const render::Image& image);
 
 // Width and height of the pictures of a job.
 std::pair<int, int> picture_size(const Job& job);

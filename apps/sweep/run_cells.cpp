@@ -31,8 +31,10 @@ class CellRun {
         settings_(settings_at(point, sweep.grid, sweep.job.settings, sweep.overrides)),
         errors_(sweep.reference.image, sweep.compare) {
     cell_.point = point;
-    cell_.flags = flags_of(point, sweep.grid);
-    key_ = folder.key({{"settings", setting_texts(settings_, true)}, {"seeds", sweep.grid.seeds}});
+    cell_.flags = flags_of(point, sweep.grid, sweep.overrides);
+    key_ = folder.key({{"settings", setting_texts(settings_, true)},
+                       {"seeds", sweep.grid.seeds},
+                       {"reference", sweep.reference.hash}});
     cell_.picture = "cells/" + key_ + ".png";
     cell_.error_map = "cells/" + key_ + "-error.png";
   }

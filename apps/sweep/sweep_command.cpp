@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cctype>
+#include <filesystem>
 
 #include "apps/bench/bench_json.h"
 #include "apps/bench/machine.h"
@@ -29,6 +31,8 @@
 
 namespace kaustik::app {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 struct Options {
@@ -49,14 +53,21 @@ constexpr std::string_view kSettings[] = {"direct",  "caustics", "indirect",    
 constexpr std::string_view kVaried[] = {"method",  "direct", "caustics", "indirect",
                                         "photons", "radius", "spp"};
 
+// Those that do nothing here: threads are told apart, layers are not written, and every point and the
+// reference have their own rule for when they are done.
+constexpr std::string_view kIdle[] = {"threads", "aov", "target-error", "target-quantile", "time"};
+
+template <size_t Size>
+bool among(const std::string_view (&names)[Size], std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
 // The settings that all cells have in common.
 Json common_settings(const Settings& settings) {
   Json out = Json::object();
   for (const bool sums : {true, false})
     for (const auto& [name, texts] : setting_texts(settings, sums))
-      if (std::find(std::begin(kVaried), std::end(kVaried), name) == std::end(kVaried) && name != "aov" &&
-          name != "threads")
-        out[name] = fmt::format("{}", fmt::join(texts, " "));
+      if (!among(kVaried, name) && !among(kIdle, name)) out[name] = fmt::format("{}", fmt::join(texts, " "));
   return out;
 }
 
@@ -68,6 +79,9 @@ std::string hash_of_file(const std::string& path) {
   hash.add(*bytes);
   return hash.text();
 }
+
+// Pictures that can hold any radiance.
+constexpr std::string_view kFloatPictures[] = {".exr", ".hdr", ".pfm", ".tif", ".tiff"};
 
 Json reference_mark(const Options& options, const Job& job) {
   if (!options.reference.file.empty()) return {{"file", hash_of_file(options.reference.file)}};
@@ -89,7 +103,14 @@ Json common_of(const Options& options, const Job& job, int threads) {
   return out;
 }
 
-void warn_of_paths(const Options& options, const Job& job, const Console& console) {
+void warn_of_reference(const Options& options, const Job& job, const Console& console) {
+  std::string extension = fs::path(options.reference.file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!extension.empty() && !among(kFloatPictures, extension))
+    console.warning(
+        fmt::format("the reference {} is in a format of whole numbers: radiance above 1 is cut off, and "
+                    "its steps count as errors",
+                    options.reference.file));
   if (options.reference.method == render::Method::kMc && job.scene.needs.specular)
     console.warning(
         "the reference `mc` finds no light of point lamps through glass or by mirrors, and that of small "
@@ -101,11 +122,11 @@ void warn_of_paths(const Options& options, const Job& job, const Console& consol
 Reference reference_of(const Options& options, Job& job, const SweepFolder& folder,
                        const InterruptGuard& interrupt, const Console& console) {
   ProgressBar bar(console);
-  std::optional<Reference> reference =
-      make_reference(options.reference, job, folder, [&](uint64_t done, uint64_t total) {
-        bar.update({"reference", done, std::max<uint64_t>(total, 1)});
-        return !interrupt.requested();
-      });
+  const auto progress = [&](uint64_t done, uint64_t total) {
+    bar.update({"reference", done, std::max<uint64_t>(total, 1)});
+    return !interrupt.requested();
+  };
+  std::optional<Reference> reference = make_reference(options.reference, job, folder, progress, console);
   bar.clear();
   if (!reference) throw ExitError(kInterrupted, "interrupted; the same command goes on with the reference");
   const SweepReference& about = reference->about;
@@ -114,10 +135,9 @@ Reference reference_of(const Options& options, Job& job, const SweepFolder& fold
   return std::move(*reference);
 }
 
-std::vector<SweepCell> cells_of(const SweepJob& sweep, const SweepFolder& folder,
-                                const InterruptGuard& interrupt, const Console& console) {
-  const std::vector<SweepPoint> points =
-      points_of(sweep.grid, sweep.job.settings, sweep.overrides, sweep.job.scene.needs);
+std::vector<SweepCell> cells_of(const SweepJob& sweep, const std::vector<SweepPoint>& points,
+                                const SweepFolder& folder, const InterruptGuard& interrupt,
+                                const Console& console) {
   console.note(
       fmt::format("{}, each with {}", counted(points.size(), "point"), counted(sweep.grid.seeds, "seed")));
   ProgressBar bar(console);
@@ -161,8 +181,9 @@ int run_sweep(const Options& options, const Console& console) {
   program_build();  // asks Embree for its version, now that it is not at work
   with_thread_limit(threads, [&] {
     Job job = load_job(options.scene, options.overrides, console);
+    const auto points = points_of(grid, job.settings, options.overrides, job.scene.needs);
     const SweepFolder folder(options.folder, common_of(options, job, threads));
-    warn_of_paths(options, job, console);
+    warn_of_reference(options, job, console);
     const Reference reference = reference_of(options, job, folder, interrupt, console);
     SweepResult result{.scene = utf8(options.scene),
                        .version = std::string(version()),
@@ -177,7 +198,7 @@ int run_sweep(const Options& options, const Console& console) {
                        .reference = reference.about,
                        .cells = {}};
     const SweepJob sweep{job, grid, options.overrides, reference, {.mask_bright = options.mask_bright}};
-    result.cells = cells_of(sweep, folder, interrupt, console);
+    result.cells = cells_of(sweep, points, folder, interrupt, console);
     warn_of_noise(result, console);
     write_result(result, folder, console);
   });

@@ -1,6 +1,8 @@
 #include "apps/sweep/sweep_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -24,7 +26,8 @@ constexpr const char* kCommonName = "sweep-of.json";
   throw ExitError(kBadCommandLine, message);
 }
 
-void make_folder(const fs::path& folder) {
+// The folder, made where it is missing.
+fs::path made(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     refuse(fmt::format("cannot write {}: this is not a folder", folder.string()));
@@ -32,6 +35,7 @@ void make_folder(const fs::path& folder) {
   if (error) refuse(fmt::format("cannot write {}: {}", folder.string(), error.message()));
   if (access(folder.c_str(), W_OK | X_OK) != 0 || access((folder / "cells").c_str(), W_OK | X_OK) != 0)
     refuse(fmt::format("cannot write {}: {}", folder.string(), std::strerror(errno)));
+  return folder;
 }
 
 // "scene (there 1f.., here 2a..)": the first thing that is not the same.
@@ -52,9 +56,20 @@ std::string difference(const Json& there, const Json& here, const std::string& n
 
 }  // namespace
 
+FolderLock::FolderLock(const fs::path& folder)
+    : file_(open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (file_ < 0) refuse(fmt::format("cannot write {}: {}", folder.string(), std::strerror(errno)));
+  if (flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(file_);
+  refuse(fmt::format("{}: another sweep is at work in this folder", folder.string()));
+}
+
+FolderLock::~FolderLock() {
+  close(file_);
+}
+
 SweepFolder::SweepFolder(const std::string& path, const Json& common)
-    : folder_(path), common_(common.dump(2) + "\n") {
-  make_folder(folder_);
+    : folder_(made(path)), lock_(folder_), common_(common.dump(2) + "\n") {
   if (!fs::exists(folder_ / kCommonName)) {
     write_text_file(this->path(kCommonName), common_);
     return;

@@ -4,8 +4,11 @@
 //
 //   sweep-of.json   what all cells have in common: scene, build, settings, reference
 //   reference.exr, reference.json, reference.kpart (while it is rendered)
-//   cells/KEY.json, KEY.png, KEY-error.png; KEY hashes the common part and the cell's own settings
+//   cells/KEY.json, KEY.png, KEY-error.png; KEY hashes the common part, the reference's picture and the
+//   cell's
+//     own settings
 //   sweep.json, sweep.csv, report.html   once every cell is finished
+//   .lock           of the sweep at work
 
 #include <filesystem>
 #include <optional>
@@ -16,10 +19,25 @@
 
 namespace kaustik::app {
 
+// One process at a time in a folder. Ends with the process, however that ends; file systems without locks
+// hold nobody off.
+class FolderLock {
+ public:
+  // Throws ExitError (bad command line) when another sweep holds it.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_;
+};
+
 class SweepFolder {
  public:
-  // Makes the folder where it is missing. Throws ExitError (bad command line) when it cannot be written, or
-  // belongs to a sweep of another scene, build, settings or reference: says which.
+  // Makes the folder where it is missing. Throws ExitError (bad command line) when it cannot be written,
+  // another sweep is at work in it, or it belongs to a sweep of another scene, build, settings or reference:
+  // says which.
   SweepFolder(const std::string& path, const Json& common);
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -34,6 +52,7 @@ class SweepFolder {
 
  private:
   std::filesystem::path folder_;
+  FolderLock lock_;
   std::string common_;
 };
 

@@ -53,6 +53,13 @@ std::vector<render::Method> methods_from(const std::vector<std::string>& texts) 
   return methods;
 }
 
+// What the render would refuse, with nothing rendered yet.
+void check_passes(uint64_t passes, uint64_t photons) {
+  if (passes > photons)
+    refuse(fmt::format("--photons: {} photons are fewer than the {} passes that share them",
+                       count_text(photons), count_text(passes)));
+}
+
 }  // namespace
 
 SweepGrid parse_grid(const GridTexts& texts) {
@@ -99,13 +106,15 @@ std::vector<SweepPoint> points_of(const SweepGrid& grid, const Settings& base,
         points.push_back(bare);
         continue;
       }
-      for (const uint64_t photons : grid.photons)
+      for (const uint64_t photons : grid.photons) {
+        check_passes(base.render.passes, photons);
         for (const RadiusChoice& radius : grid.radii) points.push_back({method, spp, photons, radius});
+      }
     }
   return points;
 }
 
-std::string flags_of(const SweepPoint& point, const SweepGrid& grid) {
+std::string flags_of(const SweepPoint& point, const SweepGrid& grid, const SettingOverrides& overrides) {
   std::string flags;
   const auto add = [&](std::string_view name, const std::string& value) {
     flags += fmt::format("{}--{} {}", flags.empty() ? "" : " ", name, value);
@@ -116,6 +125,10 @@ std::string flags_of(const SweepPoint& point, const SweepGrid& grid) {
     add("radius", point.radius.text());
   }
   if (!grid.spp.empty() || !point.reads_photons()) add("spp", fmt::format("{}", point.spp));
+  const Settings given = overrides.alone();
+  for (const Setting& setting : settings_table())
+    if (overrides.sets(setting.name))
+      add(setting.name, fmt::format("{}", fmt::join(setting.show(given), " ")));
   return flags;
 }
 

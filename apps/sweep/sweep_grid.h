@@ -47,12 +47,12 @@ Settings settings_at(const SweepPoint& point, const SweepGrid& grid, const Setti
                      const SettingOverrides& overrides);
 
 // By method, samples, photons, radius, as the lists have them. A method that reads no photons has one point
-// for each sample count.
+// for each sample count. Throws ExitError (bad command line) for a point with fewer photons than passes.
 std::vector<SweepPoint> points_of(const SweepGrid& grid, const Settings& base,
                                   const SettingOverrides& overrides, const SceneNeeds& needs);
 
-// "--method photon --photons 1M --radius 0.5x": what to type for the point, of the lists that the grid varies
-// or the user gave.
-std::string flags_of(const SweepPoint& point, const SweepGrid& grid);
+// "--method photon --photons 1M --radius 0.5x --width 64": what to type for the point, of the lists that the
+// grid varies or the user gave, and the settings that the command line gave.
+std::string flags_of(const SweepPoint& point, const SweepGrid& grid, const SettingOverrides& overrides);
 
 }  // namespace kaustik::app

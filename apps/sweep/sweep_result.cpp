@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/stop_rules.h"
+
 namespace kaustik::app {
 
 std::vector<size_t> pareto_front(const std::vector<SweepCell>& cells) {
@@ -21,10 +23,6 @@ std::vector<size_t> pareto_front(const std::vector<SweepCell>& cells) {
 }
 
 namespace {
-
-std::string percent(double fraction) {
-  return fmt::format("{:.3g} %", 100 * fraction);
-}
 
 std::string seconds_text(double seconds) {
   return seconds < 10 ? fmt::format("{:.2g} s", seconds) : fmt::format("{:.0f} s", seconds);

@@ -57,8 +57,8 @@ struct Advice {
   std::string text;            // "For 5 % on this scene: --photons 1M --radius 0.5x, 0.85 s."
 };
 
-// For relative errors of 20, 10, 5, 2 and 1 %: those that a cell reaches and that are not trivial (reached by
-// every cell), and the first that none does.
+// For relative errors of 20, 10, 5, 2 and 1 %: those that a cell reaches, of several with the same cheapest
+// cell only the smallest, and the first that none does.
 std::vector<Advice> advice_of(const std::vector<SweepCell>& cells);
 
 }  // namespace kaustik::app

@@ -2,12 +2,18 @@
 
 #include <gmock/gmock.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
+#include "apps/sweep/reference.h"
+#include "render/image_io.h"
 #include "render/partial_result.h"
 #include "tests/apps/child_process.h"
 #include "tests/apps/program.h"
@@ -68,6 +74,13 @@ class SweepCommand : public testing::ProgramTest {
       if (name.ends_with(".json") && !name.starts_with(".")) texts[name] = read(folder + "/cells/" + name);
     }
     return texts;
+  }
+
+  // A sweep of one cell, with a reference that is rendered.
+  Arguments with_reference(const Arguments& more = {}) const {
+    return Arguments{"sweep",   scene_, "--photons",        "1k",   "--radius", "auto",      "--spp", "2",
+                     "--seeds", "1",    "--reference-time", "10ms", "-o",       path("out"), "-q"} +
+           more;
   }
 
   std::string scene_ = small_scene(film(24, 16));
@@ -267,6 +280,94 @@ TEST_F(SweepCommand, ADamagedCellIsRenderedAgain) {
   EXPECT_THAT(outcome.err, HasSubstr("the cell is rendered again"));
   const Json after = result()["cells"];
   for (size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i]["error"], before[i]["error"]);
+}
+
+TEST_F(SweepCommand, ADamagedReferenceIsRenderedAgain) {
+  expect_done(with_reference());
+  const std::string about = read("out/reference.json"), picture = read("out/reference.exr");
+  const auto expect_again = [&](const std::string& what) {
+    const Outcome outcome = run_kaustik(with_reference());
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(what));
+    EXPECT_THAT(outcome.err, HasSubstr("the reference is rendered"));
+    EXPECT_THAT(run_kaustik(with_reference()).err, Not(HasSubstr("the reference is rendered")));
+  };
+  for (const char* text : {"{\"source\":1}", "[]", "{"}) {
+    write("out/reference.json", text);
+    expect_again("reference.json");
+  }
+  write("out/reference.exr", "garbage");
+  expect_again("reference.exr");
+  write("out/reference.exr", picture);
+  write("out/reference.json",
+        about.substr(0, about.find("hash") + 8) + "x" + about.substr(about.find("hash") + 8));
+  expect_again("not the picture");
+  std::filesystem::remove(path("out/reference.exr"));
+  write("out/reference.kpart", "garbage");
+  expect_again("reference.kpart");
+}
+
+// A cell belongs to the picture that it was measured against.
+TEST_F(SweepCommand, AnotherReferenceMeansOtherCells) {
+  expect_done(with_reference());
+  const auto before = cells();
+  expect_done(with_reference());
+  EXPECT_EQ(cells(), before);  // the picture in the file is the one that was rendered, to the bit
+  // As if it had been rendered anew, with another number of passes.
+  std::filesystem::copy_file(path("ref.exr"), path("out/reference.exr"),
+                             std::filesystem::copy_options::overwrite_existing);
+  Json about = Json::parse(read("out/reference.json"));
+  about["hash"] = picture_hash(render::read_image(path("ref.exr")));
+  write("out/reference.json", about.dump());
+  expect_done(with_reference());
+  EXPECT_EQ(cells().size(), before.size() + 1);
+}
+
+// What a sweep examines does not reach the reference: two of as many passes are the same picture. (Two passes
+// of 10^6 photons take longer than 10 ms, so there are two.)
+TEST_F(SweepCommand, TheReferenceDoesNotTakePartInTheSweep) {
+  const Arguments other = {"--lookup",   "leaf",          "--kernel",  "cone",
+                           "--emission", "uniform-angle", "--nearest", "3"};
+  const auto mean_after = [&](const Arguments& more) {
+    expect_done(with_reference(more));
+    const Json reference = result()["reference"];
+    std::filesystem::remove_all(path("out"));
+    return std::pair(uint64_t(reference["passes"]), double(reference["mean"]));
+  };
+  const auto plain = mean_after({}), examined = mean_after(other);
+  if (plain.first != examined.first) GTEST_SKIP() << "different numbers of passes";
+  EXPECT_EQ(plain.second, examined.second);
+}
+
+TEST_F(SweepCommand, OneSweepAtATimeInAFolder) {
+  expect_done(sweep(against_file()));
+  const int file = open(path("out/.lock").c_str(), O_RDWR);
+  ASSERT_GE(file, 0);
+  ASSERT_EQ(flock(file, LOCK_EX | LOCK_NB), 0);
+  expect_refused(sweep(against_file()), "another sweep is at work");
+  close(file);
+  expect_done(sweep(against_file()));
+}
+
+// When to stop is no setting of a sweep's renders.
+TEST_F(SweepCommand, StopRulesOfTheSceneAreLeftOut) {
+  small_scene(film(24, 16) +
+              "\nIntegrator \"photonmap\" \"string target-error\" \"10%\" \"string time\" \"2s\"");
+  expect_done(sweep(against_file()));
+  for (const char* name : {"target-error", "target-quantile", "time"})
+    EXPECT_FALSE(result()["settings"].contains(name)) << name;
+}
+
+TEST_F(SweepCommand, APictureOfWholeNumbersIsWarnedOf) {
+  EXPECT_EQ(run_kaustik({"render", scene_, "--spp", "1", "-o", path("ref.png"), "-q"}).code, kDone);
+  const std::string warning = "a format of whole numbers";
+  EXPECT_THAT(run_kaustik(sweep({"--reference", path("ref.png")}, "png")).err, HasSubstr(warning));
+  EXPECT_THAT(run_kaustik(sweep(against_file())).err, Not(HasSubstr(warning)));
+}
+
+TEST_F(SweepCommand, ABadGridIsFoundBeforeAnythingIsRendered) {
+  expect_refused(with_reference({"--photons", "100", "--passes", "1000"}), "fewer than the 1k passes");
+  EXPECT_FALSE(exists("out"));
 }
 
 }  // namespace

@@ -78,10 +78,10 @@ TEST(SweepGrid, PointsAreThoseThatDiffer) {
                                      .seeds = "1"});
   const auto points = points_of(grid, {}, {}, glass());
   ASSERT_THAT(points, SizeIs(2 + 2 * 4));
-  EXPECT_EQ(flags_of(points[0], grid), "--method mc --spp 1");
-  EXPECT_EQ(flags_of(points[1], grid), "--method mc --spp 4");
-  EXPECT_EQ(flags_of(points[2], grid), "--method photon --photons 1k --radius auto --spp 1");
-  EXPECT_EQ(flags_of(points[9], grid), "--method photon --photons 2k --radius 2x --spp 4");
+  EXPECT_EQ(flags_of(points[0], grid, {}), "--method mc --spp 1");
+  EXPECT_EQ(flags_of(points[1], grid, {}), "--method mc --spp 4");
+  EXPECT_EQ(flags_of(points[2], grid, {}), "--method photon --photons 1k --radius auto --spp 1");
+  EXPECT_EQ(flags_of(points[9], grid, {}), "--method photon --photons 2k --radius 2x --spp 4");
 }
 
 TEST(SweepGrid, WithoutMethodsTheScenesOwnEstimatorsHold) {
@@ -92,7 +92,7 @@ TEST(SweepGrid, WithoutMethodsTheScenesOwnEstimatorsHold) {
   const SweepGrid grid = parse_grid({.photons = {"1k"}, .radii = {"auto"}});
   const auto points = points_of(grid, base, {}, glass());
   ASSERT_THAT(points, SizeIs(1));
-  EXPECT_EQ(flags_of(points[0], grid), "--photons 1k --radius auto");
+  EXPECT_EQ(flags_of(points[0], grid, {}), "--photons 1k --radius auto");
   const Settings at = settings_at(points[0], grid, base, {});
   EXPECT_EQ(at.render.indirect, render::IndirectEstimator::kPhotons);
   EXPECT_EQ(at.render.spp, 7);
@@ -100,6 +100,37 @@ TEST(SweepGrid, WithoutMethodsTheScenesOwnEstimatorsHold) {
   const SweepGrid named = parse_grid({.methods = {"mc"}});
   EXPECT_EQ(settings_at(points_of(named, base, {}, glass())[0], named, base, {}).render.indirect,
             std::nullopt);
+}
+
+// What the command line says of all points is part of what to type for one.
+TEST(SweepGrid, FlagsHoldTheSettingsThatWereGiven) {
+  SettingOverrides overrides;
+  overrides.add(*find_setting("width"), {"64"});
+  overrides.add(*find_setting("direct"), {"signed"});
+  overrides.add(*find_setting("crop"), {"0", "8", "2", "6"});
+  Settings base;
+  base.render.nearest = 5;  // the scene's own
+  overrides.apply(base);
+  const SweepGrid grid = parse_grid({.photons = {"1k"}, .radii = {"auto"}});
+  const auto points = points_of(grid, base, overrides, glass());
+  ASSERT_THAT(points, SizeIs(1));
+  EXPECT_EQ(flags_of(points[0], grid, overrides),
+            "--photons 1k --radius auto --direct signed --width 64 --crop 0 8 2 6");
+}
+
+TEST(SweepGrid, RefusesFewerPhotonsThanPasses) {
+  Settings base;
+  base.render.passes = 1000;
+  const SweepGrid grid = parse_grid({.photons = {"1k", "100"}, .methods = {"mc", "photon"}});
+  try {
+    points_of(grid, base, {}, glass());
+    FAIL();
+  } catch (const ExitError& error) {
+    EXPECT_EQ(error.code(), kBadCommandLine);
+    EXPECT_THAT(error.what(), HasSubstr("100 photons are fewer than the 1k passes"));
+  }
+  // Paths take no photons.
+  EXPECT_THAT(points_of(parse_grid({.photons = {"100"}, .methods = {"mc"}}), base, {}, glass()), SizeIs(1));
 }
 
 SweepCell cell(double time, double relative_error, std::string flags) {

@@ -33,6 +33,8 @@ TEST(Compare, EqualImagesHaveNoError) {
   EXPECT_EQ(r.relmse, 0);
   EXPECT_TRUE(std::isinf(r.psnr));
   EXPECT_EQ(r.max_difference, 0);
+  const Image black(2, 2);  // its peak is 0 too
+  EXPECT_EQ(compare(black, black).psnr, kInfinity);
 }
 
 // A bright pixel hides the 5 x 5 square about it, cut at the border: a corner hides 3 x 3.

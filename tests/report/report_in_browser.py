@@ -108,6 +108,22 @@ def check_points(browser, rows):
     assert phases == [[float(row[name]) for row in rows] for name in names]
 
 
+def check_zeros(browser, kaustik, out):
+    """Errors of exactly 0, those of a scene without light, have their points inside the chart."""
+    scene = out / "dark.pbrt"
+    scene.write_text(SCENE.replace("[10 10 10]", "[0 0 0]"))
+    subprocess.run([kaustik, "sweep", str(scene), "--photons", "1k,2k", "--radius", "0.01", "--seeds", "1", "--width", "24",
+                    "--reference-time", "10ms", "-o", str(out / "dark"), "--quiet"], check=True)
+    with open(out / "dark" / "sweep.csv", newline="") as file:
+        assert all(float(row["relmse"]) == 0 for row in csv.DictReader(file))
+    browser.get((out / "dark" / "report.html").resolve().as_uri())
+    inside = browser.execute_script("""
+        const chart = Chart.getChart("error-time"), y = chart.scales.y;
+        return chart.data.datasets.flatMap(d => d.data.map(p => y.min < p.y && p.y < y.max));""")
+    assert inside and all(inside), inside
+    assert "the least are 0" in browser.execute_script("return Chart.getChart('error-time').scales.y.options.title.text")
+
+
 def check_table(browser, rows):
     lines = browser.find_elements(By.CSS_SELECTOR, "#points tbody tr")
     assert len(lines) == len(rows)
@@ -209,6 +225,7 @@ def main():
         for width, name in ((1280, "desk"), (360, "phone")):
             screenshot(browser, width, out / f"report-{name}.png")
         check_quiet(browser)
+        check_zeros(browser, sys.argv[1], out)
     finally:
         browser.quit()
     print(f"{len(rows)} points found; screenshots in {out}")
