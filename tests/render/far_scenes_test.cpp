@@ -183,9 +183,11 @@ TEST(FarScenes, BallOfRoundedVerticesHasNoHoles) {
                          "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
                          "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n"
                          "Shape \"plymesh\" \"string filename\" \"ball\"\n";
-  Diagnostics diagnostics;
+  Diagnostics diagnostics;  // the scene's warnings name its file
+  const auto description = pbrt::import_scene(path, diagnostics);
+  ASSERT_TRUE(description);
   auto scene = build_scene(
-      imported(path),
+      *description,
       [&](const auto&, const auto&) {
         return MeshResult{rounded_ball(move), {}};
       },
