@@ -11,6 +11,7 @@
 #include "apps/render_session.h"
 #include "apps/stop_rules.h"
 #include "apps/thread_limit.h"
+#include "render/photon_maps.h"
 
 namespace kaustik::app {
 
@@ -35,6 +36,12 @@ std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job
 }
 
 void check_passes(const RenderOptions& options, const Job& job) {
+  const render::RenderSettings& settings = job.settings.render;
+  if (settings.passes > settings.photons &&
+      render::kinds_needed(render::make_plan(settings, job.scene.needs)).any())
+    throw ExitError(kBadCommandLine,
+                    fmt::format("--passes {}: there must be at least as many photons, not {}",
+                                settings.passes, settings.photons));
   if (!options.passes.empty() && job.settings.render.passes == 0)
     throw ExitError(
         kBadCommandLine,

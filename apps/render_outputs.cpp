@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <exception>
 
 #include "apps/output_files.h"
 #include "apps/scene_loading.h"
@@ -115,14 +116,19 @@ void write_outputs(const OutputOptions& options, const Outcome& outcome, render:
     write.metadata.emplace_back("kaustik:stopped_by", rule);
   write.tone = outcome.settings.tone;
   std::vector<std::string> written;
+  std::exception_ptr trouble;  // with one file must not cost the others
   for (const std::string& path : options.files) {
     const bool partial = render::is_partial_name(path);
     if (partial && result.sums.passes.empty()) continue;
-    if (partial)
-      render::write_partial(path, outcome.manifest, result.sums);
-    else
-      render::write_film(path, result.film, write);
-    written.push_back(path);
+    try {
+      if (partial)
+        render::write_partial(path, outcome.manifest, result.sums);
+      else
+        render::write_film(path, result.film, write);
+      written.push_back(path);
+    } catch (const std::exception&) {
+      if (!trouble) trouble = std::current_exception();
+    }
   }
   times.write = watch.seconds();
   times.total += times.write;
@@ -134,6 +140,7 @@ void write_outputs(const OutputOptions& options, const Outcome& outcome, render:
   report(result, times, console);
   report_error(result, outcome.settings.render, console);
   for (const std::string& path : written) console.note("wrote " + path);
+  if (trouble) std::rethrow_exception(trouble);
 }
 
 void report(const render::RenderResult& result, const render::OuterTimes& times, const Console& console) {

@@ -171,6 +171,7 @@ TEST_F(StopRules, SenselessRulesAreRefused) {
   expect_refused(render({"--time", "60", "-o", out}), "with its unit");
   expect_refused(render({"--time", "5s", "--passes", "4", "--pass-range", "0:2", "-o", out}), "--pass-range");
   expect_refused(render({"--aov", "error", "--passes", "1", "-o", out}), "--passes 2 or more");
+  expect_refused(render({"--photons", "3", "--passes", "4", "-o", out}), "at least as many photons");
   EXPECT_FALSE(exists("a.exr"));
 }
 
