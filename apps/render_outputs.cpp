@@ -55,13 +55,10 @@ void report_photons(const render::RenderResult& result, const Console& console) 
 std::vector<render::Layer> layers_of(const Outcome& outcome, const Console& console) {
   const std::vector<std::string>& names = outcome.settings.render.aov;
   std::vector<render::Layer> layers = render::layers_from_names(names);
-  const bool reads_photons = outcome.result.statistics.photons.emitted > 0;
-  if (std::erase(layers, render::Layer::kBias) > 0) {
-    if (!reads_photons || outcome.settings.render.estimate_bias.value_or(false))
-      layers.push_back(render::Layer::kBias);
-    else if (names_error_layer(names))
-      console.warning("the layer bias is left out: these passes have not measured it");
-  }
+  const bool bias_known =
+      outcome.result.statistics.photons.emitted == 0 || outcome.settings.render.estimate_bias.value_or(false);
+  if (!bias_known && std::erase(layers, render::Layer::kBias) > 0 && names_error_layer(names))
+    console.warning("the layer bias is left out: these passes have not measured it");
   if (std::isfinite(outcome.result.error)) return layers;
   std::erase(layers, render::Layer::kError);
   std::erase(layers, render::Layer::kBias);

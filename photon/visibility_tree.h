@@ -54,8 +54,6 @@ class VisibilityTree {
   // n as for votes. Nothing is foretold of lamps without votes.
   VisibilityGuess guess(uint32_t lamp, const Point3& p, const Normal3& n) const;
 
-  uint64_t memory_bytes() const { return nodes_.size() * sizeof(Node); }
-
  private:
   static constexpr int kLevels = 9;  // of two bits an axis
   static constexpr int kDirections = 6;

@@ -1,9 +1,9 @@
 #include "render/error_estimate.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "render/for_each_pixel.h"
 
 namespace kaustik::render {
 
@@ -55,14 +55,6 @@ glm::dvec3 bias_beyond_noise(const PixelWindow<Measured>& film, int x, int y) {
   for (int c = 0; c < 3; ++c)
     out[c] = std::copysign(std::sqrt(std::max(0.0, bias[c] * bias[c] - variance[c])), bias[c]);
   return out;
-}
-
-// fn(x, y) for all pixels, rows in parallel.
-template <class Fn>
-void for_each_pixel(int width, int height, const Fn& fn) {
-  tbb::parallel_for(0, height, [&](int y) {
-    for (int x = 0; x < width; ++x) fn(x, y);
-  });
 }
 
 // The smallest radiance that errors are taken relative to.

@@ -1,10 +1,10 @@
 #include "render/film_totals.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
+
+#include "render/for_each_pixel.h"
 
 namespace kaustik::render {
 
@@ -105,14 +105,6 @@ template <class Window>
 bool same_window(const PixelWindow<PixelTotals>& a, const Window& b) {
   return a.width() == b.width() && a.height() == b.height() && a.x0() == b.x0() && a.y0() == b.y0() &&
          a.full_width() == b.full_width() && a.full_height() == b.full_height();
-}
-
-// f(x, y) for all pixels, rows in parallel.
-template <class F>
-void for_each_pixel(int width, int height, F&& f) {
-  tbb::parallel_for(0, height, [&](int y) {
-    for (int x = 0; x < width; ++x) f(x, y);
-  });
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ Setting radius_setting() {
       .default_text = "auto",
       .doc =
           "Gather radius r0 of the photon maps. auto: for each map so that noise and bias balance; M photons "
-          "in a "
-          "map have k ~ M^(2/3) of them in reach, for a million 160 (direct), 232 (caustic, shrinking where "
+          "in a map have k ~ M^(2/3) of them in reach, for a million 160 (direct), 232 (caustic, shrinking "
+          "where "
           "there are more) or 500 (indirect). 0.5x: half of that."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     const std::optional<RadiusChoice> choice = parse_radius(texts[0]);
