@@ -1,7 +1,9 @@
 #pragma once
 // What a scene may say: one table per kind of directive, one row per type, one entry per parameter. The
 // checks, the error messages, the defaults and the tables of docs/scene_format.md all come from here. A new
-// material or light is a row of schema.cpp; the row holds the function that makes it from its parameters.
+// material is a row of schema.cpp, a light one of light_rows.cpp; the row holds the function that makes it
+// from its parameters.
+// from its parameters.
 
 #include <functional>
 #include <limits>
