@@ -72,8 +72,8 @@ Json materials_json(const Scene& scene) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
     out.push_back({{"name", name},
-                   {"type", type_name(scene.materials[i])},
-                   {"albedo", triple(albedo(scene.materials[i]))},
+                   {"type", type_name(scene.materials[i].typical())},
+                   {"albedo", triple(albedo(scene.materials[i].typical()))},
                    {"shapes", uses[i]}});
   }
   return out;
@@ -150,7 +150,7 @@ std::string info_text(const std::string& path, const Job& job) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
     text += fmt::format("material   {}: {}, albedo {}\n", name.empty() ? fmt::format("#{}", i) : name,
-                        type_name(scene.materials[i]), triple_text(albedo(scene.materials[i])));
+                        type_name(scene.materials[i].typical()), triple_text(albedo(scene.materials[i].typical())));
   }
   for (const Light& light : scene.lights) {
     text += fmt::format("light      {}, power {} W\n", type_name(light), triple_text(power(light)));

@@ -37,27 +37,27 @@ void set_bsdf(SurfaceRow& row, const Dielectric& bsdf) {
   row.traits |= kSpecularTrait | kDielectricTrait;
 }
 
-SurfaceRow make_row(const Shape& shape, const std::vector<Bsdf>& materials) {
+SurfaceRow make_row(const Shape& shape, const std::vector<Material>& materials) {
   SurfaceRow row{&kNoIndices, &kNoPoint};
   row.traits = 0;
   row.flip = shape.flip_normal ? -1.0f : 1.0f;
   row.surface_group = shape.surface_group;
   set_geometry(row, shape);
+  const Material& material = materials[shape.material];
   std::visit(
       [&](const auto& bsdf) {
         if constexpr (requires { set_bsdf(row, bsdf); }) {
-          set_bsdf(row, bsdf);
-        } else {
-          row.traits |= kScalarTrait;
+          if (material.constant()) return set_bsdf(row, bsdf);
         }
+        row.traits |= kScalarTrait;
       },
-      materials[shape.material]);
+      material.typical());
   return row;
 }
 
 }  // namespace
 
-SurfaceTable::SurfaceTable(const std::vector<Shape>& shapes, const std::vector<Bsdf>& materials)
+SurfaceTable::SurfaceTable(const std::vector<Shape>& shapes, const std::vector<Material>& materials)
     : shapes_(&shapes) {
   rows_.reserve(shapes.size() + 1);
   uint64_t triangles = 0;

@@ -16,7 +16,7 @@ enum SurfaceTraits : uint32_t {
   kDielectricTrait = 2,  // parameter[0] is eta
   kRoughTrait = 4,       // Oren and Nayar: parameter is A, B
   kSphereTrait = 8,
-  kScalarTrait = 16,  // has what is not computed in lanes: vertex normals, disks, other BSDFs
+  kScalarTrait = 16,  // has what is not computed in lanes: vertex normals, disks, textures, other BSDFs
   kMissedTrait = 32,  // no surface at all
 };
 
@@ -36,7 +36,7 @@ struct alignas(64) SurfaceRow {
 class SurfaceTable {
  public:
   explicit SurfaceTable(const Scene& scene) : SurfaceTable(scene.shapes, scene.materials) {}
-  SurfaceTable(const std::vector<Shape>& shapes, const std::vector<Bsdf>& materials);
+  SurfaceTable(const std::vector<Shape>& shapes, const std::vector<Material>& materials);
 
   // kNoIndex gives the row of rays that meet nothing.
   const SurfaceRow& row(uint32_t shape) const { return rows_[std::min<size_t>(shape, rows_.size() - 1)]; }

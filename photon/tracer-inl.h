@@ -228,7 +228,7 @@ class Tracer {
           walkers_.state[k] =
               B::kSpecular ? walkers_.state[k].behind_specular() : walkers_.state[k].behind_diffuse();
         },
-        scene_.bsdf(si));
+        *BsdfAt(scene_.materials, si));
   }
 
   // The same for what lanes_ has computed, but for shadow photons. The flux was found valid when it was made.

@@ -13,12 +13,12 @@ struct ShadingPoint {
   Vector3 wo{0};  // unit, world, to the viewer (or to the previous vertex of the camera path)
   Frame frame;    // about si.ns
   Vector3 wo_local{0};
-  const Bsdf* bsdf = nullptr;
+  BsdfAt bsdf;
 
   // Where wo lies on different sides of the geometric and the shading surface of a non-specular material, the
   // geometric normal is shaded: the interpolated one means nothing there.
   ShadingPoint(const Scene& scene, const SurfaceInteraction& interaction, const Vector3& to_viewer)
-      : si(interaction), wo(to_viewer), bsdf(&scene.bsdf(interaction)) {
+      : si(interaction), wo(to_viewer), bsdf(scene.materials, interaction) {
     if (!is_specular(*bsdf) && glm::dot(wo, si.n) * glm::dot(wo, si.ns) <= 0) si.ns = si.n;
     frame = Frame::from_z(si.ns);
     wo_local = frame.to_local(wo);

@@ -53,6 +53,7 @@ SurfaceInteraction make_interaction(const std::vector<Shape>& shapes, const Ray&
   SurfaceInteraction si;
   si.shape = hit.shape;
   si.primitive = hit.primitive;
+  si.hit_uv = hit.uv;
   si.material = shape.material;
   si.light = shape.light;
   si.surface_group = shape.surface_group;

@@ -24,6 +24,7 @@ struct SurfaceInteraction {
   Normal3 ns{0, 0, 1};  // shading normal, unit, in n's hemisphere
   uint32_t shape = kNoIndex, primitive = 0;
   uint32_t material = 0, light = kNoIndex, surface_group = 0;
+  Point2 hit_uv{0};  // of the Hit: from it surface_parameters() makes uv and its derivatives where asked for
 
   // Ray leaving in direction w (need not be unit).
   Ray spawn(const Vector3& w, float t_max = kInfinity) const {

@@ -24,8 +24,8 @@ MaterialTable::MaterialTable(const SceneDescription& description, WarnedOnce& wa
   }
 }
 
-uint32_t MaterialTable::add(const Bsdf& bsdf, std::string name) {
-  materials_.push_back(bsdf);
+uint32_t MaterialTable::add(Material made, std::string name) {
+  materials_.push_back(std::move(made));
   names_.push_back(std::move(name));
   return static_cast<uint32_t>(materials_.size() - 1);
 }
@@ -37,7 +37,7 @@ uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& wa
   const auto row = std::find_if(material_rows().begin(), material_rows().end(),
                                 [&](const MaterialRow& r) { return &r.spec == spec; });
   if (!row->make) return kInterface;
-  return add(row->make(ParameterReader(material, *spec)),
+  return add(row->make(MaterialInputs(material_inputs(ParameterReader(material, *spec)))),
              material.name.empty() ? material.type : material.name);
 }
 

@@ -20,15 +20,15 @@ class MaterialTable {
   // where no material was set, pbrt's default: diffuse of reflectance 0.5.
   uint32_t resolve(const MaterialReference& reference, DiagnosticList& diagnostics);
 
-  std::vector<Bsdf>& materials() { return materials_; }
+  std::vector<Material>& materials() { return materials_; }
   std::vector<std::string>& names() { return names_; }
 
  private:
-  uint32_t add(const Bsdf& bsdf, std::string name);
+  uint32_t add(Material made, std::string name);
   uint32_t make(const MaterialDescription& material, WarnedOnce& warned, DiagnosticList& diagnostics);
   uint32_t default_material();
 
-  std::vector<Bsdf> materials_;
+  std::vector<Material> materials_;
   std::vector<std::string> names_;
   std::vector<uint32_t> of_description_;
   std::map<std::string, uint32_t, std::less<>> by_name_;

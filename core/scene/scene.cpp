@@ -23,7 +23,7 @@ void set_scene_sphere(std::vector<Light>& lights, const Bounds3& bounds) {
 SceneNeeds needs_of(const Scene& scene) {
   SceneNeeds needs;
   for (const Shape& shape : scene.shapes) {
-    (is_specular(scene.materials[shape.material]) ? needs.specular : needs.diffuse) = true;
+    (is_specular(scene.materials[shape.material].typical()) ? needs.specular : needs.diffuse) = true;
   }
   needs.any_light = !scene.lights.empty();
   needs.infinite_light = !scene.infinite_lights.empty();

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/bsdf/bsdf.h"
 #include "core/camera/perspective.h"
 #include "core/geometry/interaction.h"
 #include "core/light/light.h"
+#include "core/scene/material.h"
 #include "core/scene/needs.h"
 
 namespace kaustik {
@@ -18,7 +18,7 @@ struct Scene {
   glm::dvec3 origin{0};
   PerspectiveCamera camera;
   std::vector<Shape> shapes;
-  std::vector<Bsdf> materials;
+  std::vector<Material> materials;
   std::vector<std::string> material_names;  // for `kaustik info`
   std::vector<std::string> surface_group_names;
   std::vector<Light> lights;
@@ -26,8 +26,6 @@ struct Scene {
   std::vector<uint32_t> infinite_lights;  // indices into lights
   Bounds3 bounds;                         // of all shapes
   SceneNeeds needs;
-
-  const Bsdf& bsdf(const SurfaceInteraction& si) const { return materials[si.material]; }
 };
 
 // Fills what follows from shapes, materials and lights: bounds, scene spheres of distant and infinite lights,

@@ -39,7 +39,7 @@ Conductor conductor_of_reflectance(const Rgb& reflectance) {
   return {Rgb(1), 2.0f * glm::sqrt(r) / glm::sqrt(Rgb(1) - r)};
 }
 
-Bsdf make_conductor(const ParameterReader& p) {
+Bsdf make_conductor(const MaterialInputs& p) {
   if (p.has("reflectance")) return conductor_of_reflectance(p.rgb("reflectance"));
   // Copper's measured index at the wavelengths of the three primaries (Johnson and Christy 1972).
   Conductor copper{Rgb(0.200438f, 0.924033f, 1.102212f), Rgb(3.912949f, 2.452848f, 2.142188f)};
@@ -53,16 +53,16 @@ std::vector<MaterialRow> make_material_rows() {
       rgb("reflectance", 0.5, "", kUnit, "share of the light that is reflected");
   return {
       {{"diffuse", "Ideal diffuse reflection, both sides.", material({reflectance})},
-       [](const ParameterReader& p) -> Bsdf { return Lambertian{p.rgb("reflectance")}; }},
+       [](const MaterialInputs& p) -> Bsdf { return Lambertian{p.rgb("reflectance")}; }},
       {{"orennayar", "Rough diffuse reflection (Oren and Nayar 1994), both sides. Not in pbrt.",
         material({reflectance, number("sigma", 0, "degrees", {0, 90},
                                       "standard deviation of the facets' slope angle; 0: as diffuse")})},
-       [](const ParameterReader& p) -> Bsdf {
+       [](const MaterialInputs& p) -> Bsdf {
          return OrenNayar::from_sigma_degrees(p.rgb("reflectance"), static_cast<float>(p.number("sigma")));
        }},
       {{"dielectric", "Smooth glass or water: Fresnel reflection and refraction.",
         smooth_material({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")})},
-       [](const ParameterReader& p) -> Bsdf { return Dielectric{static_cast<float>(p.number("eta"))}; }},
+       [](const MaterialInputs& p) -> Bsdf { return Dielectric{static_cast<float>(p.number("eta"))}; }},
       {{"conductor", "Smooth metal: give `reflectance`, or `eta` and `k`.",
         smooth_material(
             {without_default(rgb("reflectance", 0, "", kUnit, "reflectance at normal incidence"), "none"),
@@ -71,7 +71,7 @@ std::vector<MaterialRow> make_material_rows() {
        make_conductor},
       {{"mirror", "Ideal mirror of constant reflectance, both sides. Not in pbrt.",
         material({rgb("reflectance", 1, "", kUnit, "share of the light that is reflected")})},
-       [](const ParameterReader& p) -> Bsdf { return Mirror{p.rgb("reflectance")}; }},
+       [](const MaterialInputs& p) -> Bsdf { return Mirror{p.rgb("reflectance")}; }},
       {{"interface", "No surface at all: its shapes are left out.", {}}, nullptr},
   };
 }

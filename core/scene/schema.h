@@ -13,10 +13,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/bsdf/bsdf.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/light/light.h"
 #include "core/scene/description.h"
+#include "core/scene/material.h"
 
 namespace kaustik {
 
@@ -77,12 +77,13 @@ class ParameterReader {
   glm::dvec3 vec3(std::string_view name) const;
   std::string text(std::string_view name) const;  // empty when absent
   const Directive& directive() const { return directive_; }
+  const TypeSpec& spec() const { return spec_; }
+  // As written, or the defaults; empty when there are neither.
+  const std::vector<double>& numbers(std::string_view name) const;
   // Of the parameter's first value; of the directive's type when absent.
   SourceLocation location(std::string_view name) const;
 
  private:
-  const std::vector<double>& numbers(std::string_view name) const;
-
   const Directive& directive_;
   const TypeSpec& spec_;
 };
@@ -90,7 +91,7 @@ class ParameterReader {
 struct MaterialRow {
   TypeSpec spec;
   // Null: a surface that is not there ("interface").
-  Bsdf (*make)(const ParameterReader&) = nullptr;
+  BsdfMaker make = nullptr;
 };
 
 struct LightRow {

@@ -122,7 +122,7 @@ TEST_F(ImportScene, Materials) {
     MakeNamedMaterial "later" "string type" "mirror"
     Material "interface" Shape "sphere")");
   ASSERT_EQ(s.shapes.size(), 8u);
-  const auto bsdf = [&](size_t i) { return s.materials[s.shapes[i].material]; };
+  const auto bsdf = [&](size_t i) { return s.materials[s.shapes[i].material].typical(); };
   EXPECT_EQ(std::get<Lambertian>(bsdf(0)).reflectance, Rgb(.5f));
   EXPECT_EQ(std::get<Lambertian>(bsdf(1)).reflectance, Rgb(.1f, .2f, .3f));
   EXPECT_EQ(std::get<OrenNayar>(bsdf(2)).A, OrenNayar::from_sigma_degrees(Rgb(0), 20).A);
@@ -155,8 +155,8 @@ TEST_F(ImportScene, StateEndsWithItsBlock) {
   EXPECT_FALSE(s.shapes[2].flip_normal);
   EXPECT_NE(s.shapes[0].light, kNoIndex);
   EXPECT_EQ(s.shapes[2].light, kNoIndex);
-  EXPECT_TRUE(is_specular(s.materials[s.shapes[0].material]));
-  EXPECT_FALSE(is_specular(s.materials[s.shapes[2].material]));
+  EXPECT_TRUE(is_specular(s.materials[s.shapes[0].material].typical()));
+  EXPECT_FALSE(is_specular(s.materials[s.shapes[2].material].typical()));
 }
 
 TEST_F(ImportScene, Lights) {
@@ -234,7 +234,7 @@ TEST_F(ImportScene, IncludedFiles) {
     return (sphere ? sphere->to_world : std::get<Disk>(s.shapes[i].geometry).to_world).translation.x;
   };
   EXPECT_EQ((std::vector<float>{x(0), x(1), x(2), x(3), x(4), x(5)}), (std::vector<float>{1, 1, 1, 2, 2, 1}));
-  EXPECT_TRUE(is_specular(s.materials[s.shapes[2].material]));  // Include keeps what was set
+  EXPECT_TRUE(is_specular(s.materials[s.shapes[2].material].typical()));  // Include keeps what was set
 }
 
 TEST_F(ImportScene, QuadricsAndMirroring) {

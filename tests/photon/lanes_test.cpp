@@ -16,12 +16,12 @@ namespace {
 // with a BSDF of its own.
 struct Vertices {
   std::vector<Shape> shapes;
-  std::vector<Bsdf> materials;
+  std::vector<Material> materials;
   std::vector<Hit> hits;
   std::vector<Ray> rays;
   std::vector<Rgb> flux;
 
-  const Bsdf& bsdf(size_t k) const { return materials[shapes[hits[k].shape].material]; }
+  const Bsdf& bsdf(size_t k) const { return materials[shapes[hits[k].shape].material].typical(); }
 };
 
 TriangleMesh make_triangle(PhotonMaker& make, bool degenerate) {
