@@ -33,7 +33,8 @@ TEST(SchemaDocument, EveryMaterialAndLightIsThere) {
   for (const MaterialRow& row : material_rows()) {
     EXPECT_TRUE(has_row("Material", row.spec.name));
     Directive nothing;
-    if (row.make) made.insert(row.make(ParameterReader(nothing, row.spec)).index());
+    if (row.make)
+      made.insert(row.make(MaterialInputs(material_inputs(ParameterReader(nothing, row.spec)))).index());
   }
   EXPECT_EQ(made.size(), std::variant_size_v<Bsdf>);
   for (const std::string_view name :
