@@ -101,6 +101,16 @@ PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
   return out;
 }
 
+double largest_gain(const Sensor& sensor) {
+  double largest = 0;
+  for (int row = 0; row < 3; ++row) {
+    double sum = 0;
+    for (int column = 0; column < 3; ++column) sum += std::abs(double(sensor.response[column][row]));
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
 template <class Window>
 bool same_window(const PixelWindow<PixelTotals>& a, const Window& b) {
   return a.width() == b.width() && a.height() == b.height() && a.x0() == b.x0() && a.y0() == b.y0() &&
@@ -118,6 +128,8 @@ ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   double brightest = 0;
   for (const Light& light : scene.lights)
     brightest = std::max(brightest, std::visit(LampBrightness{size}, light));
+  // No channel of a sample is more than this times its brightest one.
+  if (!scene.sensor.neutral) brightest *= largest_gain(scene.sensor);
   const Point3 eye = scene.camera.to_world.point(Point3(0));
   const double farthest = double(glm::distance(eye, scene.bounds.center())) + size;
   const int samples = exponent_above(static_cast<double>(samples_per_pass));

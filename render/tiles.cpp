@@ -29,6 +29,11 @@ bool valid_radiance(const PixelResult& s, DirectEstimator direct) {
          valid(s.caustic, false) && valid(s.indirect, predicted) && is_finite(s.bias);
 }
 
+void expose(const Sensor& sensor, PixelResult* s) {
+  if (sensor.neutral) return;
+  for (Rgb* light : {&s->emitted, &s->direct, &s->caustic, &s->indirect, &s->bias}) *light = sensor(*light);
+}
+
 // Pixels [x0, x1) x [y0, y1) of the full image.
 struct PixelRange {
   int x0, x1, y0, y1;
@@ -47,9 +52,10 @@ void shade_pixel(const RenderContext& ctx, const CameraRays& rays, int x, int y,
     Sampler sampler(stream, i, kRayDimensions);
     // Once a pass: most of its noise is that of the photons, which all samples share.
     const bool with_bias = ctx.settings.estimate_bias.value_or(false) && i == ctx.pass.first_sample;
-    const PixelResult sample =
+    PixelResult sample =
         trace_camera_ray(ctx, rays.ray(x, y, i), rays.hit(x, y, i), sampler, tile->counters, with_bias);
     if (valid_radiance(sample, ctx.plan.direct)) {
+      expose(ctx.scene.sensor, &sample);
       sum->add(sample);
       continue;
     }

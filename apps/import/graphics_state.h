@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/description.h"
+#include "core/spectrum/colour_space.h"
 
 namespace kaustik::pbrt {
 
@@ -18,7 +19,8 @@ struct GraphicsState {
   MaterialReference material;
   std::optional<uint32_t> area_light;
   bool reverse_orientation = false;
-  std::map<std::string, Defaults, std::less<>> defaults;  // "shape", "light", "material"
+  const ColourSpace* colour_space = find_colour_space("srgb");  // of rgb parameters
+  std::map<std::string, Defaults, std::less<>> defaults;        // "shape", "light", "material"
 };
 
 }  // namespace kaustik::pbrt

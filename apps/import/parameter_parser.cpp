@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/diagnostics/nearest_name.h"
+#include "core/spectrum/colour_space.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -112,6 +113,21 @@ void skip_list(Tokenizer& tokens) {
   if (tokens.peek().is(TokenKind::kClose)) tokens.next();
 }
 
+// "xyz L", of pbrt-v3.
+bool is_xyz(const Token& declaration) {
+  constexpr std::string_view kBlanks = " \t";
+  const size_t begin = declaration.text.find_first_not_of(kBlanks);
+  const size_t end = declaration.text.find_first_of(kBlanks, begin);
+  return begin != end && declaration.text.substr(begin, end - begin) == "xyz";
+}
+
+void to_rgb(Parameter& p) {
+  for (size_t i = 0; i + 2 < p.numbers.size(); i += 3) {
+    const glm::dvec3 c = xyz_to_ours() * glm::dvec3(p.numbers[i], p.numbers[i + 1], p.numbers[i + 2]);
+    for (int k = 0; k < 3; ++k) p.numbers[i + static_cast<size_t>(k)] = std::max(0.0, c[k]);
+  }
+}
+
 // Splits "type name"; reports what is wrong with it.
 bool parse_declaration(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
   constexpr std::string_view kBlanks = " \t";
@@ -141,6 +157,10 @@ bool parse_declaration(const Token& token, Parameter& p, DiagnosticList& diagnos
 }  // namespace
 
 std::optional<ParameterType> parameter_type(std::string_view word) {
+  // pbrt-v3's words.
+  if (word == "color" || word == "xyz") return ParameterType::kRgb;
+  if (word == "point") return ParameterType::kPoint3;
+  if (word == "vector") return ParameterType::kVector3;
   for (const ParameterType type : kTypes) {
     if (parameter_type_name(type) == word) return type;
   }
@@ -220,12 +240,15 @@ std::vector<Parameter> parse_parameters(Tokenizer& tokens, DiagnosticList& diagn
   std::vector<Parameter> out;
   while (tokens.peek().is(TokenKind::kString)) {
     Parameter p;
+    const bool xyz = is_xyz(tokens.peek());
     if (!parse_declaration(tokens.next(), p, diagnostics)) {
       if (tokens.peek().is(TokenKind::kOpen)) tokens.next();
       skip_list(tokens);
       continue;
     }
-    if (parse_values(tokens, p, diagnostics)) out.push_back(std::move(p));
+    if (!parse_values(tokens, p, diagnostics)) continue;
+    if (xyz) to_rgb(p);
+    out.push_back(std::move(p));
   }
   return out;
 }

@@ -67,6 +67,7 @@ const std::map<std::string_view, SceneParser::Entry>& SceneParser::directives() 
       {"TransformTimes", {&P::on_transform_times, kOptions}},
       {"Translate", {&P::on_translate, kAny}},
       {"WorldBegin", {&P::on_world_begin, kAny}},
+      {"WorldEnd", {&P::on_world_end, kWorld}},
   };
   return table;
 }
@@ -129,10 +130,6 @@ void SceneParser::run(const Token& word) {
 }
 
 void SceneParser::report_unknown(const Token& word) {
-  if (word.text == "WorldEnd") {
-    diagnostics_.error(word.location, "`WorldEnd` is not of pbrt-v4: its scenes end with the file");
-    return;
-  }
   std::vector<std::string_view> names;
   for (const auto& [name, entry] : directives()) names.push_back(name);
   diagnostics_.error(word.location, fmt::format("unknown directive `{}`{}", word.text.substr(0, 60),
@@ -164,6 +161,7 @@ bool SceneParser::read_directive(const Token& word, std::string_view target, Dir
   out.type_location = type->location;
   out.parameters = parse_parameters(*tokens_, diagnostics_);
   add_defaults(target, out.parameters);
+  v3_.upgrade(word.text, out);
   if (!tokens_->peek().is(TokenKind::kWord) && !tokens_->peek().is(TokenKind::kEnd)) {
     diagnostics_.error(tokens_->peek().location,
                        fmt::format("expected a parameter \"type name\" or a directive, not `{}`",

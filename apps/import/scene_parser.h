@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/import/colours.h"
 #include "apps/import/graphics_state.h"
+#include "apps/import/pbrt_v3.h"
 #include "apps/import/scene_files.h"
 #include "apps/import/tokenizer.h"
 #include "core/scene/description.h"
@@ -16,7 +18,12 @@ namespace kaustik::pbrt {
 class SceneParser {
  public:
   SceneParser(std::filesystem::path main_file, SceneFiles& files, Diagnostics& diagnostics)
-      : main_file_(std::move(main_file)), files_(files), diagnostics_(diagnostics) {}
+      : main_file_(std::move(main_file)),
+        files_(files),
+        diagnostics_(diagnostics),
+        colours_([this](const std::string& name, std::string& error) { return open_beside(name, error); },
+                 diagnostics),
+        v3_(diagnostics) {}
 
   // Reads a whole scene. After an error it goes on at the next directive.
   SceneDescription parse(uint32_t file);
@@ -45,6 +52,7 @@ class SceneParser {
   std::optional<Token> quoted(std::string_view what, const Token& word);
   bool read_directive(const Token& word, std::string_view target, Directive& out);
   void add_defaults(std::string_view target, std::vector<Parameter>& parameters);
+  std::optional<uint32_t> open_beside(const std::string& name, std::string& error);
   void concat(const glm::dmat4& m) { state_.ctm = state_.ctm * m; }
 
   // Transforms (scene_parser_transforms.cpp).
@@ -66,6 +74,7 @@ class SceneParser {
   void on_option(const Token& word);
   void on_color_space(const Token& word);
   void on_world_begin(const Token& word);
+  void on_world_end(const Token& word);
 
   // Blocks and state.
   void on_attribute_begin(const Token& word);
@@ -93,6 +102,8 @@ class SceneParser {
   std::filesystem::path main_file_;
   SceneFiles& files_;
   Diagnostics& diagnostics_;
+  ColourReducer colours_;
+  V3Upgrader v3_;
   SceneDescription scene_;
   GraphicsState state_;
   std::vector<Open> stack_;

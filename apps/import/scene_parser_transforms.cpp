@@ -142,9 +142,19 @@ void SceneParser::on_option(const Token& word) {
 
 void SceneParser::on_color_space(const Token& word) {
   const auto name = quoted("a name", word);
-  if (!name || name->text == "srgb" || name->text == "rec709") return;
+  if (!name) return;
+  if (const ColourSpace* space = find_colour_space(unescape(name->text))) {
+    state_.colour_space = space;
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const ColourSpace& space : colour_spaces()) names.push_back(space.name);
   diagnostics_.error(name->location,
-                     fmt::format("color space \"{}\" is not rendered; there are: srgb, rec709", name->text));
+                     fmt::format("unknown color space \"{}\"{}", name->text, name_hint(name->text, names)));
+}
+
+void SceneParser::on_world_end(const Token& word) {
+  diagnostics_.warning(word.location, "`WorldEnd` is of pbrt-v3: the scene ends with the file");
 }
 
 void SceneParser::on_world_begin(const Token& word) {

@@ -20,6 +20,7 @@ constexpr uint64_t kMostBytes = uint64_t{8} << 30;
 void SceneParser::on_material(const Token& word) {
   MaterialDescription material;
   if (!read_directive(word, "material", material)) return;
+  colours_.reduce("Material", *state_.colour_space, material);
   state_.material = {static_cast<uint32_t>(scene_.materials.size()), {}, material.location};
   scene_.materials.push_back(std::move(material));
 }
@@ -39,6 +40,8 @@ void SceneParser::on_make_named_material(const Token& word) {
   material.type = type->strings[0];
   material.type_location = type->value_location(0);
   std::erase_if(material.parameters, [](const Parameter& p) { return p.name == "type"; });
+  v3_.upgrade("Material", material);
+  colours_.reduce("Material", *state_.colour_space, material);
   scene_.materials.push_back(std::move(material));
 }
 
@@ -50,6 +53,7 @@ void SceneParser::on_named_material(const Token& word) {
 void SceneParser::on_area_light(const Token& word) {
   Directive light;
   if (!read_directive(word, "light", light)) return;
+  colours_.reduce(word.text, *state_.colour_space, light);
   state_.area_light = static_cast<uint32_t>(scene_.area_lights.size());
   scene_.area_lights.push_back(std::move(light));
 }
@@ -57,6 +61,7 @@ void SceneParser::on_area_light(const Token& word) {
 void SceneParser::on_light(const Token& word) {
   LightDescription light;
   if (!read_directive(word, "light", light)) return;
+  colours_.reduce(word.text, *state_.colour_space, light);
   light.light_to_world = state_.ctm;
   scene_.lights.push_back(std::move(light));
 }
@@ -116,6 +121,11 @@ void SceneParser::on_import(const Token& word) {
   include(word, false);
 }
 
+std::optional<uint32_t> SceneParser::open_beside(const std::string& name, std::string& error) {
+  const std::filesystem::path naming(diagnostics_.files.name(open_files_.back()));
+  return files_.open(resolve_path(name, naming, main_file_), error);
+}
+
 void SceneParser::include(const Token& word, bool keep_state) {
   const auto name = quoted("a file name", word);
   if (!name) return;
@@ -123,9 +133,8 @@ void SceneParser::include(const Token& word, bool keep_state) {
     return diagnostics_.error(name->location,
                               fmt::format("more than {} files included inside each other", kDeepestInclude));
   }
-  const std::filesystem::path naming(diagnostics_.files.name(open_files_.back()));
   std::string error;
-  const auto file = files_.open(resolve_path(unescape(name->text), naming, main_file_), error);
+  const auto file = open_beside(unescape(name->text), error);
   if (!file) return diagnostics_.error(name->location, error);
   if (std::find(open_files_.begin(), open_files_.end(), *file) != open_files_.end()) {
     return diagnostics_.error(name->location,

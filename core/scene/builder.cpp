@@ -10,6 +10,7 @@
 #include "core/scene/camera_builder.h"
 #include "core/scene/local_origin.h"
 #include "core/scene/material_table.h"
+#include "core/scene/sensor_builder.h"
 #include "core/scene/shape_source.h"
 #include "core/scene/surface_groups.h"
 
@@ -44,6 +45,7 @@ class Builder {
   std::optional<Scene> build() {
     Scene scene;
     scene.camera = build_camera(description_, warned_, diagnostics_);
+    scene.sensor = build_sensor(description_, diagnostics_);
     MaterialTable materials(description_, warned_, diagnostics_);
     collect(materials);
     load_sources();

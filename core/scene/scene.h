@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/camera/perspective.h"
+#include "core/camera/sensor.h"
 #include "core/geometry/interaction.h"
 #include "core/light/light.h"
 #include "core/scene/material.h"
@@ -17,6 +18,7 @@ struct Scene {
   // from the world's origin (core/scene/local_origin.h).
   glm::dvec3 origin{0};
   PerspectiveCamera camera;
+  Sensor sensor;
   std::vector<Shape> shapes;
   std::vector<Material> materials;
   std::vector<std::string> material_names;  // for `kaustik info`

@@ -68,8 +68,8 @@ std::vector<TypeSpec> make_camera_types() {
             without_default(number("frameaspectratio", 0, "", kPositive, "width over height"), "the film's"),
             window, ignored("lensradius", {Type::kFloat}, "depth of field", 0),
             ignored("focaldistance", {Type::kFloat}, "no effect on a pinhole"),
-            ignored("shutteropen", {Type::kFloat}, "nothing moves"),
-            ignored("shutterclose", {Type::kFloat}, "nothing moves")}}};
+            number("shutteropen", 0, "s", kAnyNumber, "nothing moves, but the film is exposed from then"),
+            number("shutterclose", 1, "s", kAnyNumber, "till then: radiance is multiplied by the time")}}};
 }
 
 std::vector<TypeSpec> make_film_types() {
@@ -88,9 +88,11 @@ std::vector<TypeSpec> make_film_types() {
             integer("yresolution", 720, "pixels", side, "height"),
             text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop,
             bounds, ignored("diagonal", {Type::kFloat}, "of a lens camera"),
-            ignored("sensor", {Type::kString}, "the film is linear Rec. 709"),
-            ignored("iso", {Type::kFloat}, "no exposure", 100),
-            ignored("whitebalance", {Type::kFloat}, "no white balance", 0),
+            text("sensor", "cie1931", "colours are those of this one, in linear Rec. 709"),
+            number("iso", 100, "", kPositive, "radiance is multiplied by iso / 100"),
+            without_default(number("exposuretime", 1, "s", kPositive, "radiance is multiplied by it"),
+                            "shutterclose - shutteropen"),
+            number("whitebalance", 0, "K", {0, 25000}, "daylight of this colour becomes white; 0: as it is"),
             ignored("maxcomponentvalue", {Type::kFloat}, "samples are not clamped"),
             ignored("savefp16", {Type::kBool}, "layers are 32-bit floats")}}};
 }

@@ -1,0 +1,145 @@
+// Spectra, blackbodies and colour spaces in scene files, and the sensor of the film.
+
+#include <gmock/gmock.h>
+
+#include "core/spectrum/colour_space.h"
+#include "core/spectrum/named_spectra.h"
+#include "import_support.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+// Colours are computed in double and kept as float: one rounding, of numbers below 4.
+constexpr double kFloat = 3e-7;
+
+using ImportColours = ImportTest;
+
+void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = kFloat) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
+}
+
+Rgb intensity(const Scene& scene) {
+  return std::get<PointLight>(scene.lights.at(0)).I;
+}
+Rgb reflectance(const Scene& scene) {
+  return std::get<Lambertian>(scene.materials.at(0).typical()).reflectance;
+}
+constexpr std::string_view kSphere = "Shape \"sphere\"\n";
+
+// A lamp of a spectrum has luminance 1 before `scale` and `power`, whatever the numbers of the spectrum.
+TEST_F(ImportColours, LampsHaveLuminanceOne) {
+  for (const std::string text : {"\"blackbody I\" 5500", "\"spectrum I\" \"stdillum-F11\"",
+                                 "\"spectrum I\" [ 400 7 700 7 ]", "\"blackbody I\" 1200"}) {
+    const Scene scene = world("LightSource \"point\" " + text);
+    // luminance() has four digits of the weights, which is up to 1e-4 of colours with channels up to 5.
+    EXPECT_NEAR(luminance(intensity(scene)), 1, 5e-4) << text;
+  }
+  expect_near(intensity(world("LightSource \"point\" \"spectrum I\" \"stdillum-D65\" \"float scale\" 3")),
+              glm::dvec3(3));
+  expect_near(intensity(world("LightSource \"point\" \"blackbody I\" 5500 \"float scale\" 2")),
+              2.0 * emitted_colour(blackbody(5500)));
+  // 100 lumens, so to speak: power goes by luminance.
+  EXPECT_NEAR(
+      luminance(power(world("LightSource \"point\" \"blackbody I\" 3000 \"float power\" 100").lights[0])),
+      100, 1e-4 * 100);
+}
+
+// pbrt-v3's second number.
+TEST_F(ImportColours, BlackbodyWithFactor) {
+  expect_near(intensity(world("LightSource \"point\" \"blackbody I\" [ 4000 5 ]")),
+              5.0 * emitted_colour(blackbody(4000)), 1e-6);
+}
+
+TEST_F(ImportColours, SurfacesUnderDaylight) {
+  expect_near(reflectance(world("Material \"diffuse\" \"spectrum reflectance\" [ 300 0.25 900 0.25 ]\n" +
+                                std::string(kSphere))),
+              glm::dvec3(0.25));
+  // Light beyond 600 nm alone is redder than any Rec. 709 red: green and blue end at zero.
+  const Rgb red = reflectance(
+      world("Material \"diffuse\" \"spectrum reflectance\" [ 600 0 601 1 800 1 ]\n" + std::string(kSphere)));
+  EXPECT_GT(red.r, 0.3f);
+  EXPECT_EQ(red.g, 0);
+  EXPECT_EQ(red.b, 0);
+}
+
+TEST_F(ImportColours, FilesOfSpectra) {
+  write("lamp.spd", "# wavelength value\n300 2\n 900 2 # flat\n");
+  const auto flat = Spectrum::from([](double) { return 2; });
+  expect_near(intensity(world("LightSource \"point\" \"spectrum I\" \"lamp.spd\"")), emitted_colour(flat));
+  write("bad.spd", "300 2\n900");
+  EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"bad.spd\""),
+              testing::HasSubstr("a spectrum is pairs of wavelength and value, not 3 numbers"));
+  write("worse.spd", "300 2\n200 2");
+  EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"worse.spd\""),
+              testing::HasSubstr("worse.spd:2:1: error: wavelengths must increase"));
+  write("text.spd", "300 two");
+  EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"text.spd\""),
+              testing::HasSubstr("text.spd:1:5: error: expected a number"));
+}
+
+TEST_F(ImportColours, MetalsKeepTheirColour) {
+  const Scene scene =
+      world("Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\"\n" +
+            std::string(kSphere));
+  const auto& gold = std::get<Conductor>(scene.materials.at(0).typical());
+  const MetalColour expected = metal_colour(*named_spectrum("metal-Au-eta"), *named_spectrum("metal-Au-k"));
+  EXPECT_EQ(gold.eta, Rgb(expected.eta));
+  EXPECT_EQ(gold.k, Rgb(expected.k));
+}
+
+TEST_F(ImportColours, GlassIsItsIndexAtTheSodiumLine) {
+  const Scene scene =
+      world("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n" + std::string(kSphere) +
+            "Material \"dielectric\" \"spectrum eta\" \"glass-SF11\"\n" + std::string(kSphere));
+  EXPECT_NEAR(std::get<Dielectric>(scene.materials.at(0).typical()).eta, 1.51680, 1e-5);
+  EXPECT_EQ(diagnostics_.warning_count(), 1u);  // of dispersion, once
+}
+
+TEST_F(ImportColours, ColourSpaces) {
+  const std::string p3 = "ColorSpace \"dci-p3\"\n";
+  // White is white; a colour within our gamut is changed by the matrices; one beyond is cut.
+  expect_near(intensity(world(p3 + "LightSource \"point\" \"rgb I\" [ 2 2 2 ]")), glm::dvec3(2));
+  const glm::dvec3 c(0.5, 0.4, 0.3);
+  expect_near(intensity(world(p3 + "LightSource \"point\" \"rgb I\" [ 0.5 0.4 0.3 ]")),
+              find_colour_space("dci-p3")->light_to_ours() * c);
+  const Rgb green =
+      reflectance(world(p3 + "Material \"diffuse\" \"rgb reflectance\" [ 0 1 0 ]\n" + std::string(kSphere)));
+  EXPECT_EQ(green.r, 0);
+  EXPECT_EQ(green.g, 1);
+  // It belongs to the state, and what is in no other space does not change at all.
+  const std::string state =
+      "AttributeBegin\n" + p3 + "AttributeEnd\nLightSource \"point\" \"rgb I\" [ 0 1 0 ]";
+  EXPECT_EQ(intensity(world(state)), Rgb(0, 1, 0));
+}
+
+TEST_F(ImportColours, Exposure) {
+  const auto sensor = [&](const std::string& camera, const std::string& film) {
+    return load("Camera \"perspective\" " + camera + "\nFilm \"rgb\" " + film + "\nWorldBegin").scene.sensor;
+  };
+  EXPECT_TRUE(sensor("", "").neutral);
+  EXPECT_TRUE(sensor("\"float shutteropen\" 0 \"float shutterclose\" 1", "\"float iso\" 100").neutral);
+  // The imaging ratio: time times iso / 100.
+  EXPECT_EQ(
+      sensor("\"float shutteropen\" 0.25 \"float shutterclose\" 0.75", "\"float iso\" 800")(Rgb(1, 2, 3)),
+      Rgb(4, 8, 12));
+  EXPECT_EQ(sensor("", "\"float exposuretime\" 0.5")(Rgb(1, 2, 3)), Rgb(0.5f, 1, 1.5f));
+}
+
+TEST_F(ImportColours, WhiteBalance) {
+  const Sensor sensor = load("Film \"rgb\" \"float whitebalance\" 5000\nWorldBegin").scene.sensor;
+  expect_near(sensor(Rgb(emitted_colour(daylight(5000)))), glm::dvec3(1), 1e-5);
+  const Sensor none = load("Film \"rgb\" \"float whitebalance\" 6500\nWorldBegin").scene.sensor;
+  expect_near(none(Rgb(1, 0.5, 0.25)), glm::dvec3(1, 0.5, 0.25), 1e-5);
+}
+
+TEST_F(ImportColours, Sensors) {
+  EXPECT_THAT(messages("Film \"rgb\" \"string sensor\" \"canon_eos_5d\"\nWorldBegin"),
+              testing::HasSubstr("warning: sensor \"canon_eos_5d\" is taken for \"cie1931\""));
+  EXPECT_THAT(messages("Film \"rgb\" \"string sensor\" \"canon_eos_6d\"\nWorldBegin"),
+              testing::HasSubstr("error: unknown sensor \"canon_eos_6d\"; did you mean"));
+  EXPECT_THAT(messages("Camera \"perspective\" \"float shutterclose\" 0\nWorldBegin"),
+              testing::HasSubstr("1:43: error: the shutter does not open"));
+}
+
+}  // namespace
+}  // namespace kaustik::pbrt
