@@ -25,9 +25,14 @@ struct LampBrightness {
   double scene_size;
   double operator()(const DiffuseAreaLight& l) const { return double(max_component(l.L)); }
   double operator()(const InfiniteLight& l) const { return double(max_component(l.L)); }
+  double operator()(const ImageInfiniteLight& l) const {
+    return double(l.scale) * double(max_component(l.map->brightest()));
+  }
   double operator()(const DistantLight& l) const { return double(max_component(l.L)); }
   double operator()(const PointLight& l) const { return near(l.I); }
   double operator()(const SpotLight& l) const { return near(l.I); }
+  double operator()(const GoniometricLight& l) const { return near(l.I * l.map->brightest().x); }
+  double operator()(const ProjectionLight& l) const { return near(l.scale * l.image->brightest()); }
   double near(const Rgb& I) const { return 0x1p20 * double(max_component(I)) / (scene_size * scene_size); }
 };
 

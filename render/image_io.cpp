@@ -136,6 +136,18 @@ std::pair<int, int> colour_channels(const OIIO::ImageSpec& spec) {
   return {0, spec.nchannels >= 3 ? 3 : 1};
 }
 
+// Refuses what a broken or hostile header may say.
+void check_header(const std::string& path, const OIIO::ImageSpec& spec, uint64_t most_pixels) {
+  constexpr int kLongestSide = 1 << 16;
+  if (spec.deep || spec.depth > 1) throw ImageError(path, "deep or three-dimensional images are not read");
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw ImageError(path, "it holds no pixels");
+  const uint64_t pixels = uint64_t(spec.width) * uint64_t(spec.height);
+  if (spec.width > kLongestSide || spec.height > kLongestSide || pixels > most_pixels)
+    throw ImageError(path,
+                     fmt::format("{} x {} pixels are more than the {} that are read, or more than {} a side",
+                                 spec.width, spec.height, most_pixels, kLongestSide));
+}
+
 }  // namespace
 
 std::vector<Layer> layers_from_names(const std::vector<std::string>& names) {
@@ -179,11 +191,12 @@ void write_image(const std::string& path, const Image& image, const ToneSettings
     write_srgb8(path, image, tone, metadata);
 }
 
-Image read_image(const std::string& path) {
+Image read_image(const std::string& path, uint64_t most_pixels) {
   auto in = OIIO::ImageInput::open(path);
   if (!in) throw ImageError(path, OIIO::geterror());
   in->threads(1);
   const OIIO::ImageSpec spec = in->spec();
+  check_header(path, spec, most_pixels);
   const auto [first, count] = colour_channels(spec);
   std::vector<float> values(size_t(spec.width) * size_t(spec.height) * size_t(count));
   if (!in->read_image(0, 0, first, first + count, OIIO::TypeDesc::FLOAT, values.data()))

@@ -51,8 +51,12 @@ void write_film(const std::string& path, const Film& film, const WriteOptions& o
 void write_image(const std::string& path, const Image& image, const ToneSettings& tone = {},
                  const Metadata& metadata = {});
 
+inline constexpr uint64_t kMostPixelsRead = uint64_t{1} << 30;
+
 // Reads R, G, B (or one grey channel three times) of any format OpenImageIO knows, as linear floats: integer
-// formats are decoded from sRGB. Only the data window is returned. Throws ImageError.
-Image read_image(const std::string& path);
+// formats are decoded from sRGB. Only the data window is returned. Throws ImageError; also,
+// before memory is taken, when the header promises more pixels than most_pixels, a side of more than 2^16,
+// deep data or none.
+Image read_image(const std::string& path, uint64_t most_pixels = kMostPixelsRead);
 
 }  // namespace kaustik::render

@@ -54,19 +54,20 @@ Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight w
   const Point2 u = sampler.next_2d();
   const Scene& scene = ctx.scene;
   if (dark(scene)) return Rgb(0);
-  const auto lamp = scene.light_power.sample(u_lamp);
+  const auto lamp = scene.light_sampler.choose(x.receiver(), u_lamp);
+  if (!lamp) return Rgb(0);
   // The number that chose the lamp is uniform again, whatever the lamp and the point on it.
-  const photon::VisibilityGuess guess = foretold(ctx, x, lamp.index);
-  const bool traced = lamp.u_remapped < guess.p;
+  const photon::VisibilityGuess guess = foretold(ctx, x, lamp->lamp);
+  const bool traced = lamp->u_remapped < guess.p;
   if (!traced && guess.v == 0) return Rgb(0);
-  const auto s = sample_lamp(scene, lamp.index, x.si.p, u);
+  const auto s = sample_lamp(scene, lamp->lamp, x.si.p, u);
   if (!s || !(s->pdf > 0)) return Rgb(0);
   const Rgb f = f_cos(x, s->wi);
   if (is_black(f) || is_black(s->Li)) return Rgb(0);
   const float V = traced ? guess.v + (trace_visibility(ctx, x, *s, counters) - guess.v) / guess.p : guess.v;
   if (V == 0) return Rgb(0);
-  const float pdf = s->pdf * lamp.pdf;
-  const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[lamp.index]);
+  const float pdf = s->pdf * lamp->probability;
+  const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[lamp->lamp]);
   const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi)) : 1;
   return f * s->Li * (V * w / pdf);
 }
@@ -77,8 +78,8 @@ Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& 
   const Scene& scene = ctx.scene;
   if (dark(scene)) return Rgb(0);
   if (scene.lights.size() > kMostLampsSummed) {
-    const auto lamp = scene.light_power.sample(u_lamp);
-    return unoccluded_from(scene, lamp.index, x, u) / lamp.pdf;
+    const auto lamp = scene.light_sampler.choose(x.receiver(), u_lamp);
+    return lamp ? unoccluded_from(scene, lamp->lamp, x, u) / lamp->probability : Rgb(0);
   }
   Rgb sum(0);
   for (uint32_t lamp = 0; lamp < scene.lights.size(); ++lamp) sum += unoccluded_from(scene, lamp, x, u);
@@ -91,24 +92,26 @@ Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w) 
   return area ? area->Le(si.n, w) : Rgb(0);
 }
 
-Rgb escaped(const Scene& scene) {
+Rgb escaped(const Scene& scene, const Ray& ray) {
   Rgb sum(0);
-  for (const uint32_t i : scene.infinite_lights) sum += std::get<InfiniteLight>(scene.lights[i]).Le();
+  for (const uint32_t i : scene.infinite_lights) sum += escaped_radiance(scene.lights[i], ray);
   return sum;
 }
 
-float emitter_hit_weight(const Scene& scene, const Point3& ref, const Vector3& wi, float bsdf_pdf,
+float emitter_hit_weight(const Scene& scene, const LightReceiver& x, const Vector3& wi, float bsdf_pdf,
                          const SurfaceInteraction& si) {
   const auto* area = std::get_if<DiffuseAreaLight>(&scene.lights[si.light]);
   if (!area) return 0;
-  return power_heuristic(bsdf_pdf, scene.light_power.pdf(si.light) * area->pdf_Li(ref, wi, si));
+  const float lamp = scene.light_sampler.probability(x, si.light);
+  return power_heuristic(bsdf_pdf, lamp * area->pdf_Li(x.p, wi, si));
 }
 
-Rgb escaped_weighted(const Scene& scene, float bsdf_pdf) {
+Rgb escaped_weighted(const Scene& scene, const LightReceiver& x, const Ray& ray, float bsdf_pdf) {
   Rgb sum(0);
   for (const uint32_t i : scene.infinite_lights) {
-    const auto& light = std::get<InfiniteLight>(scene.lights[i]);
-    sum += light.Le() * power_heuristic(bsdf_pdf, scene.light_power.pdf(i) * light.pdf_Li());
+    const Light& light = scene.lights[i];
+    const float light_pdf = scene.light_sampler.probability(x, i) * escaped_pdf(light, x.p, ray.d);
+    sum += escaped_radiance(light, ray) * power_heuristic(bsdf_pdf, light_pdf);
   }
   return sum;
 }

@@ -13,15 +13,15 @@ enum class LightWeight {
   kMis     // its share against BSDF sampling (power heuristic, Veach 1997, section 9.2.4)
 };
 
-// One-sample estimate of  int f(wo, wi) Le V |cos| dwi  over all lamps, W/(m^2 sr). One lamp is chosen in
-// proportion to its power; anything between blocks, glass too: light through specular surfaces belongs to the
+// One-sample estimate of  int f(wo, wi) Le V |cos| dwi  over all lamps, W/(m^2 sr). One lamp is chosen by the
+// scene's LightSampler; anything between blocks, glass too: light through specular surfaces belongs to the
 // caustic class. Delta lamps always have weight one. With ctx.maps.visibility most shadow rays are not traced
 // and V is an unbiased estimate, of either sign (photon/visibility_tree.h). Draws three dimensions, always.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
                   TileCounters& counters);
 
 // The same as if nothing were in the way, V = 1, and of every lamp, so that only the lamps' extent makes
-// noise; of one that is chosen by power where there are more than kMostLampsSummed. Draws three dimensions,
+// noise; of one that is chosen where there are more than kMostLampsSummed. Draws three dimensions,
 // always.
 inline constexpr size_t kMostLampsSummed = 16;
 Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler);
@@ -29,15 +29,16 @@ Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& 
 // Radiance that a surface point itself emits towards w (unit, world).
 Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w);
 
-// Radiance of the infinite lamps, for a ray that escapes.
-Rgb escaped(const Scene& scene);
+// Radiance of the infinite lamps, for a ray of unit direction that escapes.
+Rgb escaped(const Scene& scene, const Ray& ray);
 
-// The share of BSDF sampling for a ray from ref in direction wi, of density bsdf_pdf, that met emitter `si`:
+// The share of BSDF sampling for a ray from x in direction wi, of density bsdf_pdf, that met emitter `si`:
 // bsdf_pdf^2 / (bsdf_pdf^2 + light_pdf^2).
-float emitter_hit_weight(const Scene& scene, const Point3& ref, const Vector3& wi, float bsdf_pdf,
+float emitter_hit_weight(const Scene& scene, const LightReceiver& x, const Vector3& wi, float bsdf_pdf,
                          const SurfaceInteraction& si);
 
-// Radiance of the infinite lamps times the share of BSDF sampling, each lamp with its own.
-Rgb escaped_weighted(const Scene& scene, float bsdf_pdf);
+// Radiance of the infinite lamps for a ray from x that escapes, times the share of BSDF sampling, each lamp
+// with its own.
+Rgb escaped_weighted(const Scene& scene, const LightReceiver& x, const Ray& ray, float bsdf_pdf);
 
 }  // namespace kaustik::render

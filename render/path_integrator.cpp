@@ -11,7 +11,7 @@ struct PathState {
   int events = 1;         // scattering events since x, x included
   int diffuse = 1;        // non-specular points since x, x included
   bool specular = false;  // the last event was specular
-  Point3 ref{0};          // last non-specular point: where densities are measured from
+  LightReceiver ref;      // last non-specular point: where densities are measured from
   float pdf = 0;          // density of the ray that left it
 };
 
@@ -42,10 +42,11 @@ void add_lamp(const RenderContext& ctx, const PathState& path, const SurfaceInte
   *owner += path.beta * Le * w;
 }
 
-void add_escape(const RenderContext& ctx, const PathState& path, PathLight* light) {
+void add_escape(const RenderContext& ctx, const PathState& path, const Ray& ray, PathLight* light) {
   if (ctx.scene.infinite_lights.empty()) return;
   if (Rgb* owner = owner_of_lamp(ctx, path, light))
-    *owner += path.beta * (path.specular ? escaped(ctx.scene) : escaped_weighted(ctx.scene, path.pdf));
+    *owner += path.beta * (path.specular ? escaped(ctx.scene, ray)
+                                         : escaped_weighted(ctx.scene, path.ref, ray, path.pdf));
 }
 
 // Light that arrives at y, at least the second non-specular point, and is scattered along the path.
@@ -65,7 +66,7 @@ bool continue_path(const ShadingPoint& v, PathState* path, Ray* ray, Sampler& sa
   if (!s->transmission) path->roulette *= max_component(s->weight);
   path->specular = s->specular;
   if (!s->specular) {
-    path->ref = v.si.p;
+    path->ref = v.receiver();
     path->pdf = s->pdf;
   }
   *ray = v.si.spawn(s->wi);
@@ -100,7 +101,7 @@ PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& s
     ++counters.rays.bounce;
     SurfaceInteraction si;
     if (!ctx.bvh.intersect(ray, &si)) {
-      add_escape(ctx, path, &light);
+      add_escape(ctx, path, ray, &light);
       return light;
     }
     add_lamp(ctx, path, si, ray, &light);

@@ -122,7 +122,7 @@ PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, co
   ++counters.rays.camera;
   for (int events = 0;; ++events) {
     if (!hit.valid()) {
-      result.emitted += beta * escaped(ctx.scene);
+      result.emitted += beta * escaped(ctx.scene, ray);
       return result;
     }
     const SurfaceInteraction si = make_interaction(ctx.scene.shapes, ray, hit);

@@ -25,6 +25,13 @@ struct ShadingPoint {
   }
 
   bool specular() const { return is_specular(*bsdf); }
+
+  // As the choice of a lamp sees it: diffuse surfaces scatter light on the viewer's side alone.
+  LightReceiver receiver() const {
+    const bool diffuse =
+        std::holds_alternative<Lambertian>(*bsdf) || std::holds_alternative<OrenNayar>(*bsdf);
+    return {si.p, wo_local.z < 0 ? -si.ns : si.ns, !diffuse};
+  }
 };
 
 // f(wo, wi) |wi . ns| in 1/sr. Zero where wi lies on different sides of the geometric and the shading

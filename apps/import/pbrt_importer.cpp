@@ -3,6 +3,7 @@
 #include <mutex>
 #include <set>
 
+#include "apps/import/light_image_file.h"
 #include "apps/import/ply.h"
 #include "apps/import/scene_parser.h"
 #include "core/content_hash.h"
@@ -12,22 +13,22 @@ namespace kaustik::pbrt {
 
 namespace {
 
-// What the meshes that a scene names hold, by name; filled from several threads.
-class MeshContents {
+// What the meshes and images that a scene names hold, by name; filled from several threads.
+class NamedContents {
  public:
   void add(const std::string& name, std::string content) {
     const std::lock_guard lock(mutex_);
-    meshes_.emplace(name, std::move(content));
+    contents_.emplace(name, std::move(content));
   }
-  const std::set<std::pair<std::string, std::string>>& all() const { return meshes_; }
+  const std::set<std::pair<std::string, std::string>>& all() const { return contents_; }
 
  private:
   std::mutex mutex_;
-  std::set<std::pair<std::string, std::string>> meshes_;
+  std::set<std::pair<std::string, std::string>> contents_;
 };
 
-// Of the texts in the order in which they were opened, then of the meshes in the order of their names.
-std::string content_hash(const SourceFiles& files, const MeshContents& meshes) {
+// Of the texts in the order in which they were opened, then of the other files in the order of their names.
+std::string content_hash(const SourceFiles& files, const NamedContents& named) {
   ContentHash hash;
   const auto add = [&hash](std::string_view text) {
     const uint64_t size = text.size();
@@ -35,7 +36,7 @@ std::string content_hash(const SourceFiles& files, const MeshContents& meshes) {
     hash.add(text);
   };
   for (uint32_t i = 0; i < files.size(); ++i) add(files.text(i));
-  for (const auto& [name, content] : meshes.all()) add(name), add(content);
+  for (const auto& [name, content] : named.all()) add(name), add(content);
   return hash.text();
 }
 
@@ -55,18 +56,20 @@ std::optional<SceneDescription> import_scene(const std::filesystem::path& path, 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
   auto description = import_scene(path, diagnostics);
   if (!description) return std::nullopt;
-  MeshContents meshes;
-  const MeshLoader load_mesh = [&](const std::string& name, const SourceLocation& where) {
-    const std::filesystem::path naming(where.valid() ? diagnostics.files.name(where.file) : path.string());
-    std::string content;
-    MeshResult result = load_ply(resolve_path(name, naming, path), &content);
-    meshes.add(name, std::move(content));
-    return result;
+  NamedContents named;
+  const auto load_with = [&](auto load) {
+    return [&, load](const std::string& name, const SourceLocation& where) {
+      const std::filesystem::path naming(where.valid() ? diagnostics.files.name(where.file) : path.string());
+      std::string content;
+      auto result = load(resolve_path(name, naming, path), &content);
+      named.add(name, std::move(content));
+      return result;
+    };
   };
-  auto scene = build_scene(*description, load_mesh, diagnostics);
+  auto scene = build_scene(*description, load_with(load_ply), diagnostics, load_with(load_light_image));
   diagnostics.sort_by_location();
   if (!scene || diagnostics.has_errors()) return std::nullopt;
-  return LoadedScene{std::move(*scene), std::move(*description), content_hash(diagnostics.files, meshes)};
+  return LoadedScene{std::move(*scene), std::move(*description), content_hash(diagnostics.files, named)};
 }
 
 }  // namespace kaustik::pbrt

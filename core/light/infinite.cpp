@@ -4,22 +4,50 @@
 #include "core/sampling/warp.h"
 
 namespace kaustik {
+namespace {
+
+// A ray from infinity: uniform over the disk that hides the scene's bounding sphere from `to_light`.
+Ray ray_into_scene(const Point3& scene_center, float scene_radius, const Vector3& to_light, const Point2& u) {
+  const Point2 disk = sample_uniform_disk_concentric(u);
+  const Vector3 offset = Frame::from_z(to_light).to_world({disk.x, disk.y, 1});
+  return {scene_center + scene_radius * offset, -to_light};
+}
+
+}  // namespace
 
 std::optional<LightSample> InfiniteLight::sample_Li(const Point3& /*ref*/, const Point2& u) const {
   return LightSample{sample_uniform_sphere(u), L, kUniformSpherePdf, Point3(0), true};
 }
 
-float InfiniteLight::pdf_Li() const {
+float InfiniteLight::pdf_Li(const Point3& /*ref*/, const Vector3& /*wi*/) const {
   return kUniformSpherePdf;
 }
 
 std::optional<EmissionSample> InfiniteLight::sample_Le(const Point2& u_pos, const Point2& u_dir,
                                                        EmissionMode /*mode*/) const {
   if (!(scene_radius > 0)) return std::nullopt;
-  const Vector3 to_light = sample_uniform_sphere(u_dir);
-  const Point2 disk = sample_uniform_disk_concentric(u_pos);
-  const Vector3 offset = Frame::from_z(to_light).to_world({disk.x, disk.y, 1});
-  return EmissionSample{{scene_center + scene_radius * offset, -to_light}, power()};
+  return EmissionSample{ray_into_scene(scene_center, scene_radius, sample_uniform_sphere(u_dir), u_pos),
+                        power()};
+}
+
+std::optional<LightSample> ImageInfiniteLight::sample_Li(const Point3& /*ref*/, const Point2& u) const {
+  const DirectionMap::Sample s = map->sample(u);
+  if (is_black(s.value)) return std::nullopt;
+  return LightSample{to_world * s.w, scale * s.value, s.pdf, Point3(0), true};
+}
+
+float ImageInfiniteLight::pdf_Li(const Point3& /*ref*/, const Vector3& wi) const {
+  return map->pdf(to_map(wi));
+}
+
+std::optional<EmissionSample> ImageInfiniteLight::sample_Le(const Point2& u_pos, const Point2& u_dir,
+                                                            EmissionMode /*mode*/) const {
+  const DirectionMap::Sample s = map->sample(u_dir);
+  if (!(scene_radius > 0) || is_black(s.value)) return std::nullopt;
+  // L / pdf of the direction, times the disk's area.
+  const float per_radiance = kPi * scene_radius * scene_radius * (scale / s.pdf);
+  return EmissionSample{ray_into_scene(scene_center, scene_radius, to_world * s.w, u_pos),
+                        per_radiance * s.value};
 }
 
 }  // namespace kaustik

@@ -1,4 +1,7 @@
 #pragma once
+#include <memory>
+
+#include "core/light/direction_map.h"
 #include "core/light/light_types.h"
 
 namespace kaustik {
@@ -12,12 +15,35 @@ struct InfiniteLight {
   Point3 scene_center{0};
   float scene_radius = 0;
 
-  Rgb Le() const { return L; }
+  Rgb Le(const Ray& /*escaping*/) const { return L; }
   std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
-  float pdf_Li() const;  // of sample_Li, uniform over the sphere of directions
+  float pdf_Li(const Point3& ref, const Vector3& wi) const;  // uniform over the sphere of directions
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
   // Flux that enters the scene's bounding sphere.
   Rgb power() const { return 4 * kPi * kPi * scene_radius * scene_radius * L; }
+};
+
+// Radiance from every direction by an image. The builder sets the scene's bounding sphere.
+struct ImageInfiniteLight {
+  static constexpr bool kDelta = false;
+  static constexpr std::string_view kName = "infinite image";
+
+  std::shared_ptr<const DirectionMap> map;
+  glm::mat3 to_world{1};  // orthogonal
+  float scale = 1;
+  Point3 scene_center{0};
+  float scene_radius = 0;
+
+  Rgb Le(const Ray& escaping) const { return scale * map->value(to_map(escaping.d)); }
+  // In proportion to the luminance of the image.
+  std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
+  float pdf_Li(const Point3& ref, const Vector3& wi) const;
+  std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
+  // Flux that enters the scene's bounding sphere.
+  Rgb power() const { return 4 * kPi * kPi * scene_radius * scene_radius * scale * map->mean(); }
+
+ private:
+  Vector3 to_map(const Vector3& w) const { return w * to_world; }  // by the transposed matrix
 };
 
 }  // namespace kaustik

@@ -7,20 +7,49 @@
 
 #include "core/light/area.h"
 #include "core/light/distant.h"
+#include "core/light/goniometric.h"
 #include "core/light/infinite.h"
 #include "core/light/point.h"
+#include "core/light/projection.h"
 #include "core/light/spot.h"
 #include "core/sampling/discrete.h"
 
 namespace kaustik {
 
-using Light = std::variant<PointLight, SpotLight, DistantLight, InfiniteLight, DiffuseAreaLight>;
+using Light = std::variant<PointLight, SpotLight, GoniometricLight, ProjectionLight, DistantLight,
+                           InfiniteLight, ImageInfiniteLight, DiffuseAreaLight>;
 
 inline Rgb power(const Light& light) {
   return std::visit([](const auto& l) { return l.power(); }, light);
 }
 inline bool is_delta(const Light& light) {
   return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kDelta; }, light);
+}
+// Lights that rays meet when they leave the scene.
+template <class L>
+concept InfinitelyFar = requires(const L& light, const Ray& ray) {
+  light.Le(ray);
+};
+inline bool is_infinite(const Light& light) {
+  return std::visit([]<class L>(const L&) { return InfinitelyFar<L>; }, light);
+}
+// Radiance that an escaping ray of unit direction meets; zero unless is_infinite().
+inline Rgb escaped_radiance(const Light& light, const Ray& ray) {
+  return std::visit(
+      [&]<class L>(const L& l) {
+        if constexpr (InfinitelyFar<L>) return l.Le(ray);
+        return Rgb(0);
+      },
+      light);
+}
+// Density of sample_Li from ref for a direction in which nothing is met; zero unless is_infinite().
+inline float escaped_pdf(const Light& light, const Point3& ref, const Vector3& wi) {
+  return std::visit(
+      [&]<class L>(const L& l) {
+        if constexpr (InfinitelyFar<L>) return l.pdf_Li(ref, wi);
+        return 0.0f;
+      },
+      light);
 }
 // Probabilities in proportion to luminance of power (uniform when every power is zero).
 DiscreteDistribution light_power_distribution(const std::vector<Light>& lights);

@@ -1,12 +1,13 @@
 #pragma once
 // What every light has in common. A light is a value type with these members:
-//   std::optional<LightSample> sample_Li(ref, u) const       incident light at a point; nothing when it
-//   cannot arrive float pdf_Li(ref, wi, on_light) const                    density of sample_Li per solid
-//   angle; zero for delta lights std::optional<EmissionSample> sample_Le(u_pos, u_dir, emission) const    a
-//   photon's start Rgb power() const                                        watts per channel static
-//   constexpr bool kDelta                             cannot be hit by a ray (point, spot, distant) static
-//   constexpr std::string_view kName
-// Area and infinite lights also have Le: radiance towards a viewer.
+//   std::optional<LightSample> sample_Li(ref, u) const           incident light at a point; nothing when it
+//                                                                cannot arrive
+//   std::optional<EmissionSample> sample_Le(u_pos, u_dir, emission) const   a photon's start
+//   Rgb power() const                                            watts per channel
+//   static constexpr bool kDelta                                 cannot be met by a ray (point, spot,
+//   distant) static constexpr std::string_view kName
+// Area and infinite lights also have Le, the radiance towards a viewer, and pdf_Li, the density of sample_Li
+// per solid angle.
 
 #include <optional>
 #include <string_view>
@@ -31,6 +32,19 @@ struct LightSample {
       0};  // where it comes from, already offset off the lamp towards the point; infinite lights: unused
   bool infinite = false;  // no end point: trace to t_max = infinity
 };
+
+// sample_Li of a lamp without extent; intensity(w): W/sr in the unit direction w from the lamp.
+template <class Intensity>
+std::optional<LightSample> sample_point_lamp(const Point3& position, const Point3& ref,
+                                             const Intensity& intensity) {
+  const Vector3 to_light = position - ref;
+  const float distance2 = length_squared(to_light);
+  if (!(distance2 > 0)) return std::nullopt;
+  const Vector3 wi = to_light / std::sqrt(distance2);
+  const Rgb Li = intensity(-wi) / distance2;
+  if (is_black(Li)) return std::nullopt;
+  return LightSample{wi, Li, 1, position, false};
+}
 
 // Start of a photon path.
 struct EmissionSample {

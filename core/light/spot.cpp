@@ -27,13 +27,7 @@ Rgb SpotLight::intensity(float cos_theta) const {
 }
 
 std::optional<LightSample> SpotLight::sample_Li(const Point3& ref, const Point2& /*u*/) const {
-  const Vector3 to_light = position - ref;
-  const float distance2 = length_squared(to_light);
-  if (!(distance2 > 0)) return std::nullopt;
-  const Vector3 wi = to_light / std::sqrt(distance2);
-  const Rgb Li = intensity(glm::dot(-wi, frame.z)) / distance2;
-  if (is_black(Li)) return std::nullopt;
-  return LightSample{wi, Li, 1, position, false};
+  return sample_point_lamp(position, ref, [&](const Vector3& w) { return intensity(glm::dot(w, frame.z)); });
 }
 
 std::optional<EmissionSample> SpotLight::sample_Le(const Point2& /*u_pos*/, const Point2& u_dir,

@@ -8,6 +8,7 @@
 
 #include "core/diagnostics/nearest_name.h"
 #include "core/scene/camera_builder.h"
+#include "core/scene/light_images.h"
 #include "core/scene/local_origin.h"
 #include "core/scene/material_table.h"
 #include "core/scene/sensor_builder.h"
@@ -39,8 +40,12 @@ struct Placement {
 
 class Builder {
  public:
-  Builder(const SceneDescription& description, const MeshLoader& load_mesh, Diagnostics& diagnostics)
-      : description_(description), load_mesh_(load_mesh), diagnostics_(diagnostics) {}
+  Builder(const SceneDescription& description, const MeshLoader& load_mesh, Diagnostics& diagnostics,
+          const LightImageLoader& load_light_image)
+      : description_(description),
+        load_mesh_(load_mesh),
+        diagnostics_(diagnostics),
+        light_images_(load_light_image, diagnostics) {}
 
   std::optional<Scene> build() {
     Scene scene;
@@ -85,6 +90,7 @@ class Builder {
   const SceneDescription& description_;
   const MeshLoader& load_mesh_;
   Diagnostics& diagnostics_;
+  LightImages light_images_;
   WarnedOnce warned_;
   std::vector<Item> items_;
   std::vector<Placement> placements_;
@@ -229,8 +235,8 @@ void Builder::build_lights(Scene& scene) {
     }
     const auto row = std::find_if(light_rows().begin(), light_rows().end(),
                                   [&](const LightRow& r) { return &r.spec == spec; });
-    auto made = row->make(ParameterReader(light, *spec), relative_to(scene.origin, light.light_to_world),
-                          diagnostics_);
+    auto made = row->make(
+        {ParameterReader(light, *spec), light.light_to_world, scene.origin, light_images_, diagnostics_});
     if (made && check_power(power(*made), light.location)) scene.lights.push_back(std::move(*made));
   }
 }
@@ -336,8 +342,8 @@ void Builder::place(Scene& scene) {
 }  // namespace
 
 std::optional<Scene> build_scene(const SceneDescription& description, const MeshLoader& load_mesh,
-                                 Diagnostics& diagnostics) {
-  return Builder(description, load_mesh, diagnostics).build();
+                                 Diagnostics& diagnostics, const LightImageLoader& load_light_image) {
+  return Builder(description, load_mesh, diagnostics, load_light_image).build();
 }
 
 }  // namespace kaustik

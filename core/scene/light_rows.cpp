@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/light_images.h"
+#include "core/scene/local_origin.h"
 #include "core/scene/parameter_spec.h"
 
 namespace kaustik {
@@ -18,72 +20,148 @@ ParameterSpec power_spec() {
                                 "then by `scale`"),
                          "none");
 }
-ParameterSpec image() {
-  return not_rendered("filename", {ParameterType::kString}, "images as lamps are not rendered");
+ParameterSpec image(std::string_view doc) {
+  return text("filename", "none", doc);
 }
 
-// Scales `colour` so that `measure` (luminance of what colour gives) becomes the parameter's value, where
-// given.
-bool scale_to(const ParameterReader& p, std::string_view name, float measure, Rgb& colour,
-              DiagnosticList& diagnostics) {
-  if (!p.has(name)) return true;
-  if (!(measure > 0)) {
-    diagnostics.error(p.location(name), fmt::format("`{}` of a light that emits nothing", name));
-    return false;
+// Scales `emission` so that `measure` (luminance of what it gives) becomes the parameter's value, where that
+// is given, and by `scale`. False, with an error, when there is nothing to scale.
+template <class Emission>
+bool scale_to(const LightInputs& in, std::string_view name, double measure, Emission& emission) {
+  const ParameterReader& p = in.parameters;
+  if (p.has(name)) {
+    if (!(measure > 0)) {
+      in.diagnostics.error(p.location(name), fmt::format("`{}` of a light that emits nothing", name));
+      return false;
+    }
+    emission *= static_cast<float>(p.number(name)) / static_cast<float>(measure);
   }
-  colour *= static_cast<float>(p.number(name)) / measure;
+  emission *= static_cast<float>(p.number("scale"));
   return true;
 }
 
-std::optional<glm::dvec3> direction(const ParameterReader& p, const glm::dvec3& d, const glm::dmat4& m,
-                                    DiagnosticList& diagnostics) {
-  const glm::dvec3 world = glm::dmat3(m) * d;
+bool has_image(const LightInputs& in) {
+  if (in.parameters.has("filename")) return true;
+  in.diagnostics.error(
+      in.parameters.directive().location,
+      fmt::format("light \"{}\" needs an image: \"string filename\"", in.parameters.directive().type));
+  return false;
+}
+
+glm::dmat4 to_scene(const LightInputs& in) {
+  return relative_to(in.origin, in.light_to_world);
+}
+
+std::optional<glm::dvec3> direction(const LightInputs& in, const glm::dvec3& d) {
+  const glm::dvec3 world = glm::dmat3(in.light_to_world) * d;
   const double length = glm::length(world);
   if (length > 0 && std::isfinite(length)) return world / length;
-  diagnostics.error(p.location("to"), "`from` and `to` must be two points");
+  in.diagnostics.error(in.parameters.location("to"), "`from` and `to` must be two points");
   return std::nullopt;
 }
 
-std::optional<Light> make_point(const ParameterReader& p, const glm::dmat4& m, DiagnosticList& diagnostics) {
-  PointLight light{Point3(m * glm::dvec4(p.vec3("from"), 1)), p.rgb("I")};
-  if (!scale_to(p, "power", luminance(light.power()), light.I, diagnostics)) return std::nullopt;
-  light.I *= static_cast<float>(p.number("scale"));
+// The orthogonal part of a map that scales evenly, up to the rounding of what a scene file says.
+std::optional<glm::mat3> rotation(const LightInputs& in) {
+  constexpr double kTolerance = 1e-3;
+  const glm::dmat3 m(in.light_to_world);
+  const glm::dvec3 x = glm::normalize(m[0]), y = glm::normalize(m[1] - glm::dot(m[1], x) * x);
+  const double side = glm::dot(glm::cross(x, y), m[2]) < 0 ? -1 : 1;
+  const glm::dmat3 orthogonal(x, y, side * glm::cross(x, y));
+  const double size = glm::length(m[0]);
+  for (int c = 0; c < 3; ++c) {
+    if (glm::length(m[c] - size * orthogonal[c]) <= kTolerance * size) continue;
+    in.diagnostics.error(in.parameters.directive().location,
+                         "the transform of this light scales unevenly or shears: expected a rotation, with "
+                         "mirroring or even scaling");
+    return std::nullopt;
+  }
+  return glm::mat3(orthogonal);
+}
+
+std::optional<Light> make_point(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  PointLight light{Point3(to_scene(in) * glm::dvec4(p.vec3("from"), 1)), p.rgb("I")};
+  if (!scale_to(in, "power", luminance(light.power()), light.I)) return std::nullopt;
   return light;
 }
 
-std::optional<Light> make_spot(const ParameterReader& p, const glm::dmat4& m, DiagnosticList& diagnostics) {
-  const auto axis = direction(p, p.vec3("to") - p.vec3("from"), m, diagnostics);
+std::optional<Light> make_spot(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  const auto axis = direction(in, p.vec3("to") - p.vec3("from"));
   if (!axis) return std::nullopt;
   const double cone = glm::radians(p.number("coneangle"));
   const double start = std::max(0.0, cone - glm::radians(p.number("conedeltaangle")));
   SpotLight light;
-  light.position = Point3(m * glm::dvec4(p.vec3("from"), 1));
+  light.position = Point3(to_scene(in) * glm::dvec4(p.vec3("from"), 1));
   light.frame = Frame::from_z(Vector3(*axis));
   light.I = p.rgb("I");
   light.cos_falloff_start = static_cast<float>(std::cos(start));
   light.cos_total_width = static_cast<float>(std::cos(cone));
-  if (!scale_to(p, "power", luminance(light.power()), light.I, diagnostics)) return std::nullopt;
-  light.I *= static_cast<float>(p.number("scale"));
+  if (!scale_to(in, "power", luminance(light.power()), light.I)) return std::nullopt;
   return light;
 }
 
-std::optional<Light> make_distant(const ParameterReader& p, const glm::dmat4& m,
-                                  DiagnosticList& diagnostics) {
-  const auto to_light = direction(p, p.vec3("from") - p.vec3("to"), m, diagnostics);
+std::optional<Light> make_goniometric(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  const auto map_to_world = rotation(in);
+  if (!has_image(in) || !map_to_world) return std::nullopt;
+  GoniometricLight light;
+  light.map = in.images.directions(p, "filename", true);
+  if (!light.map) return std::nullopt;
+  light.position = Point3(to_scene(in)[3]);
+  // The map's +z is the lamp's +y, as in pbrt.
+  light.to_world = *map_to_world * glm::mat3(1, 0, 0, 0, 0, 1, 0, 1, 0);
+  light.I = p.rgb("I");
+  if (!scale_to(in, "power", luminance(light.power()), light.I)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_projection(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  const auto axes = rotation(in);
+  if (!has_image(in) || !axes) return std::nullopt;
+  const auto image = in.images.get(p, "filename");
+  if (!image) return std::nullopt;
+  ProjectionLight light;
+  light.position = Point3(to_scene(in)[3]);
+  light.to_world = *axes;
+  light.image = std::make_shared<const ProjectedImage>(image, p.number("fov"));
+  if (!scale_to(in, "power", luminance(light.power()), light.scale)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_distant(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  const auto to_light = direction(in, p.vec3("from") - p.vec3("to"));
   if (!to_light) return std::nullopt;
   DistantLight light;
   light.to_light = Vector3(*to_light);
   light.L = p.rgb("L");
-  if (!scale_to(p, "illuminance", luminance(light.L), light.L, diagnostics)) return std::nullopt;
-  light.L *= static_cast<float>(p.number("scale"));
+  if (!scale_to(in, "illuminance", luminance(light.L), light.L)) return std::nullopt;
   return light;
 }
 
-std::optional<Light> make_infinite(const ParameterReader& p, const glm::dmat4&, DiagnosticList& diagnostics) {
+std::optional<Light> make_image_infinite(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  if (p.has("L")) {
+    in.diagnostics.error(p.location("L"), "an infinite light has `L` or `filename`, not both");
+    return std::nullopt;
+  }
+  const auto map_to_world = rotation(in);
+  ImageInfiniteLight light;
+  light.map = in.images.directions(p, "filename");
+  if (!light.map || !map_to_world) return std::nullopt;
+  light.to_world = *map_to_world;
+  if (!scale_to(in, "illuminance", light.map->irradiance(), light.scale)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_infinite(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  if (p.has("filename")) return make_image_infinite(in);
   InfiniteLight light;
   light.L = p.rgb("L");
-  if (!scale_to(p, "illuminance", kPi * luminance(light.L), light.L, diagnostics)) return std::nullopt;
-  light.L *= static_cast<float>(p.number("scale"));
+  if (!scale_to(in, "illuminance", kPi * luminance(light.L), light.L)) return std::nullopt;
   return light;
 }
 
@@ -103,17 +181,32 @@ std::vector<LightRow> make_light_rows() {
          number("coneangle", 30, "degrees", {0, 180, true, false}, "from the axis to the cone's edge"),
          number("conedeltaangle", 5, "degrees", {0, 180}, "width of the fall-off inside that edge")}},
        make_spot},
+      {{"goniometric",
+        "Shines from a point, by an image of all directions whose +z is the lamp's +y.",
+        {intensity, scale(), power_spec(),
+         image(
+             "factor of `I`, the mean of R, G and B: a square equal-area map, or a latitude-longitude map of "
+             "2:1 (not in pbrt-v4)")}},
+       make_goniometric},
+      {{"projection",
+        "Shines from a point, through an image before it: along +z, its upper edge towards +y.",
+        {scale(), power_spec(), image("radiant intensity, R G B"),
+         number("fov", 90, "degrees", {0, 180, true, true}, "full angle of the image's shorter side")}},
+       make_projection},
       {{"distant",
         "Parallel light from `from` towards `to`.",
         {rgb("L", 1, "W/m^2", kNotNegative, "irradiance on a plane that faces it"), scale(),
          illuminance("luminance of that irradiance: `L` is scaled to it, then by `scale`"), from, to}},
        make_distant},
       {{"infinite",
-        "The same radiance from every direction.",
+        "Radiance from every direction: the same, or by an image.",
         {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(),
-         illuminance("luminance of the irradiance of a plane that sees half of it: `L` is scaled to it, then "
-                     "by `scale`"),
-         image(), ignored("portal", {ParameterType::kPoint3}, "a hint for sampling")}},
+         illuminance(
+             "luminance of the irradiance of a plane that faces the light's +z: the radiance is scaled to "
+             "it, then by `scale`"),
+         image("radiance: a square equal-area map as in pbrt-v4, or a latitude-longitude map of 2:1 as in "
+               "pbrt-v3, both about +z"),
+         ignored("portal", {ParameterType::kPoint3}, "a hint for sampling")}},
        make_infinite},
   };
 }
@@ -122,7 +215,8 @@ std::vector<TypeSpec> make_area_light_types() {
   return {{"diffuse",
            "Makes the shapes that follow emit the same radiance in all directions, on their outside.",
            {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(), power_spec(),
-            flag("twosided", false, "emits on both sides"), image()}}};
+            flag("twosided", false, "emits on both sides"),
+            not_rendered("filename", {ParameterType::kString}, "images as lamps are not rendered")}}};
 }
 
 }  // namespace

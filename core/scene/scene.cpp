@@ -10,13 +10,14 @@ void set_scene_sphere(std::vector<Light>& lights, const Bounds3& bounds) {
   const Point3 center = bounds.center();
   const float radius = bounds.radius() * (1 + gamma_bound(16)) + gamma_bound(16) * max_abs_component(center);
   for (Light& light : lights) {
-    if (auto* distant = std::get_if<DistantLight>(&light)) {
-      distant->scene_center = center;
-      distant->scene_radius = radius;
-    } else if (auto* infinite = std::get_if<InfiniteLight>(&light)) {
-      infinite->scene_center = center;
-      infinite->scene_radius = radius;
-    }
+    std::visit(
+        [&](auto& l) {
+          if constexpr (requires { l.scene_radius; }) {
+            l.scene_center = center;
+            l.scene_radius = radius;
+          }
+        },
+        light);
   }
 }
 
@@ -39,11 +40,10 @@ void finalize_scene(Scene& scene) {
   for (const Shape& shape : scene.shapes) scene.bounds.add(bounds_of(shape));
   set_scene_sphere(scene.lights, scene.bounds);
   scene.light_power = light_power_distribution(scene.lights);
+  scene.light_sampler = LightSampler(scene.lights);
   scene.infinite_lights.clear();
   for (size_t i = 0; i < scene.lights.size(); ++i) {
-    if (std::holds_alternative<InfiniteLight>(scene.lights[i])) {
-      scene.infinite_lights.push_back(static_cast<uint32_t>(i));
-    }
+    if (is_infinite(scene.lights[i])) scene.infinite_lights.push_back(static_cast<uint32_t>(i));
   }
   scene.needs = needs_of(scene);
 }

@@ -7,7 +7,7 @@
 #include "core/camera/perspective.h"
 #include "core/camera/sensor.h"
 #include "core/geometry/interaction.h"
-#include "core/light/light.h"
+#include "core/light/light_sampler.h"
 #include "core/scene/material.h"
 #include "core/scene/needs.h"
 
@@ -24,14 +24,16 @@ struct Scene {
   std::vector<std::string> material_names;  // for `kaustik info`
   std::vector<std::string> surface_group_names;
   std::vector<Light> lights;
-  DiscreteDistribution light_power;       // emission and next-event probabilities
+  DiscreteDistribution light_power;       // probabilities of emission
+  LightSampler light_sampler;             // and of next-event estimation
   std::vector<uint32_t> infinite_lights;  // indices into lights
   Bounds3 bounds;                         // of all shapes
   SceneNeeds needs;
 };
 
 // Fills what follows from shapes, materials and lights: bounds, scene spheres of distant and infinite lights,
-// light_power, infinite_lights, needs. Called by build_scene, and by tests that make scenes in code.
+// light_power, light_sampler, infinite_lights, needs. Called by build_scene, and by tests that make scenes in
+// code.
 void finalize_scene(Scene& scene);
 
 }  // namespace kaustik

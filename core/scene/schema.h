@@ -94,11 +94,21 @@ struct MaterialRow {
   BsdfMaker make = nullptr;
 };
 
+class LightImages;
+
+// What a light is made from.
+struct LightInputs {
+  ParameterReader parameters;
+  glm::dmat4 light_to_world{1};
+  glm::dvec3 origin{0};  // of the scene (core/scene/scene.h): what is made lies relative to it
+  LightImages& images;
+  DiagnosticList& diagnostics;
+};
+
 struct LightRow {
   TypeSpec spec;
-  // Nothing, with an error added, when the parameters contradict each other. The matrix takes the light to
-  // the world.
-  std::optional<Light> (*make)(const ParameterReader&, const glm::dmat4&, DiagnosticList&) = nullptr;
+  // Nothing, with an error added, when the parameters contradict each other.
+  std::optional<Light> (*make)(const LightInputs&) = nullptr;
 };
 
 // Lights that are surfaces get their radiance from the row; the builder adds the shape.

@@ -190,7 +190,7 @@ std::vector<Category> make_categories() {
         "thindielectric"}},
       {"Shape", "shape", specs_of(shape_types()), {"curve", "cylinder", "loopsubdiv"}},
       {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
-      {"LightSource", "light", specs_of(light_rows()), {"goniometric", "projection"}},
+      {"LightSource", "light", specs_of(light_rows()), {}},
   };
 }
 

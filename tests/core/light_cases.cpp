@@ -31,6 +31,41 @@ Shape disk_shape(float inner, bool flip) {
   return shape;
 }
 
+// Pixels of random colour, a few of them black and one very bright.
+std::shared_ptr<const LightImage> random_image(int width, int height) {
+  LightImage image{width, height, {}};
+  IndependentRandom random(77);
+  for (int i = 0; i < width * height; ++i) {
+    const Rgb c(random.next(), random.next(), random.next());
+    image.pixels.push_back(i % 7 == 3 ? Rgb(0) : c);
+  }
+  image.pixels[static_cast<size_t>(width * height / 3)] = Rgb(20, 30, 10);
+  return std::make_shared<const LightImage>(std::move(image));
+}
+
+// A rotation with mirroring.
+glm::mat3 some_axes() {
+  const Frame f = Frame::from_z(glm::normalize(Vector3(0.3f, -0.8f, 0.5f)));
+  return {f.y, f.x, f.z};
+}
+
+std::vector<LightCase> image_cases(const std::vector<Point3>& below) {
+  std::vector<LightCase> cases;
+  const auto add = [&](const std::string& name, const Light& light) {
+    cases.push_back({name, light, {}, below});
+  };
+  const auto square =
+      std::make_shared<const DirectionMap>(random_image(8, 8), DirectionMap::Layout::kEqualArea);
+  const auto wide = std::make_shared<const DirectionMap>(random_image(12, 6), DirectionMap::Layout::kLatLong);
+  add("equal-area sky", ImageInfiniteLight{square, some_axes(), 1.5f, Point3(0), 2.5f});
+  add("latitude-longitude sky", ImageInfiniteLight{wide, some_axes(), 1.5f, Point3(0), 2.5f});
+  add("goniometric", GoniometricLight{{0, 0, 2}, some_axes(), wide, Rgb(1, 2, 3)});
+  const auto slide = std::make_shared<const ProjectedImage>(random_image(5, 3), 70);
+  const Frame down = Frame::from_z(glm::normalize(Vector3(0.1f, 0.2f, -1)));
+  add("projection", ProjectionLight{{0, 0, 2}, glm::mat3(down.x, down.y, down.z), slide, 2});
+  return cases;
+}
+
 std::vector<LightCase> make_cases() {
   std::vector<LightCase> cases;
   const std::vector<Point3> below = {{0.2f, 0.1f, 0}, {1.5f, -1, 1}};
@@ -46,6 +81,7 @@ std::vector<LightCase> make_cases() {
       "distant", DistantLight{glm::normalize(Vector3(1, 0, 2)), Rgb(1, 2, 3), Point3(0), 3}, {}, below};
   LightCase infinite{"infinite", InfiniteLight{Rgb(1, 2, 3), Point3(0), 2.5f}, {}, below};
   cases = {point, spot, distant, infinite};
+  for (LightCase& c : image_cases(below)) cases.push_back(std::move(c));
 
   cases.push_back(area_case("triangle", triangle_shape({0, 0, 2}, {0, 1, 2}, {1, 0, 2}), false, below));
   cases.push_back(area_case("bent mesh", bent_mesh(), false, below));
@@ -77,7 +113,7 @@ Cone cone_of(const LightCase& c, const Point3& ref) {
 }
 
 double density(const LightCase& c, const Point3& ref, const Vector3& wi) {
-  if (const auto* infinite = std::get_if<InfiniteLight>(&c.light)) return infinite->pdf_Li();
+  if (is_infinite(c.light)) return escaped_pdf(c.light, ref, wi);
   // Every part of the lamp along the ray counts: sample_Li knows no visibility.
   const auto& area = std::get<DiffuseAreaLight>(c.light);
   double sum = 0;

@@ -1,0 +1,18 @@
+#pragma once
+#include <vector>
+
+#include "core/math/vec.h"
+
+namespace kaustik {
+
+// A picture that a lamp emits: linear Rec. 709, row 0 on top, finite and not negative.
+struct LightImage {
+  int width = 0, height = 0;
+  std::vector<Rgb> pixels;
+
+  const Rgb& at(int x, int y) const {
+    return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+  }
+};
+
+}  // namespace kaustik
