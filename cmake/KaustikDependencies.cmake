@@ -20,6 +20,7 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(assimp REQUIRED)
+find_package(ZLIB REQUIRED)
 # Draws the charts of `kaustik sweep`'s report, which carries it with its licence.
 find_file(KAUSTIK_CHART_JS NAMES chart.min.js Chart.min.js PATH_SUFFIXES share/javascript/chart.js
   DOC "Chart.js 3, minified")

@@ -1,12 +1,13 @@
 #include "apps/import/ply.h"
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
-#include <assimp/Importer.hpp>
+#include <algorithm>
 
-#include "apps/import/ply_structure.h"
+#include "apps/import/gzip.h"
+#include "apps/import/ply_body.h"
+#include "apps/import/polygon.h"
 #include "apps/import/scene_files.h"
 #include "core/content_hash.h"
 
@@ -15,62 +16,107 @@ namespace {
 
 constexpr uint64_t kLargestMeshFile = uint64_t{1} << 38;
 
-// Before triangulation, which looks the vertices up.
-std::string check_faces(const aiMesh& mesh) {
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    const aiFace& face = mesh.mFaces[f];
-    for (unsigned k = 0; k < face.mNumIndices; ++k) {
-      if (face.mIndices[k] >= mesh.mNumVertices) {
-        return fmt::format("face {} has vertex {}: there are {} vertices", f,
-                           static_cast<int32_t>(face.mIndices[k]), mesh.mNumVertices);
-      }
+class MeshReader {
+ public:
+  MeshReader(std::string_view bytes, const PlyHeader& header) : bytes_(bytes), header_(header) {}
+
+  MeshResult read() {
+    std::vector<PlyExtent> extents;
+    for (size_t e = 0, begin = header_.body; e < header_.elements.size(); ++e) {
+      auto extent = walk_ply(bytes_, header_, e, begin, error_);
+      if (!extent) return {{}, std::move(error_)};
+      begin = extent->end;
+      extents.push_back(std::move(*extent));
     }
+    if (read_vertices(extents[header_.vertex]) && read_faces(extents[header_.face]))
+      return {std::move(mesh_), {}};
+    return {{}, std::move(error_)};
   }
-  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    const aiVector3D& p = mesh.mVertices[i];
-    if (!is_finite(Point3(p.x, p.y, p.z))) return fmt::format("the position of vertex {} is not finite", i);
+
+ private:
+  const PlyElement& vertex() const { return header_.elements[header_.vertex]; }
+
+  // Calls fn(block) for all, in parallel; keeps the error of the first block that has one.
+  template <class Fn>
+  bool for_each_block(const PlyExtent& extent, const Fn& fn) {
+    std::vector<std::string> errors(extent.blocks.size());
+    tbb::parallel_for(size_t{0}, extent.blocks.size(), [&](size_t i) { errors[i] = fn(extent.blocks[i]); });
+    const auto found = std::find_if(errors.begin(), errors.end(), [](const auto& e) { return !e.empty(); });
+    if (found != errors.end()) error_ = std::move(*found);
+    return error_.empty();
   }
-  return {};
+
+  // Indices of properties that all are there, or nothing.
+  std::optional<std::vector<size_t>> columns(std::initializer_list<std::string_view> names) const {
+    std::vector<size_t> found;
+    for (const std::string_view name : names) {
+      const auto i = vertex().find(name);
+      if (!i) return std::nullopt;
+      found.push_back(*i);
+    }
+    return found;
+  }
+
+  bool read_vertices(const PlyExtent& extent) {
+    const auto P = *columns({"x", "y", "z"});
+    const auto N = columns({"nx", "ny", "nz"});
+    auto uv = columns({"u", "v"});
+    for (const auto& [u, v] : {std::pair{"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}})
+      if (!uv) uv = columns({u, v});
+    mesh_.P.resize(vertex().count);
+    if (N) mesh_.N.resize(vertex().count);
+    if (uv) mesh_.uv.resize(vertex().count);
+    return for_each_block(extent, [&](const PlyBlock& block) {
+      return read_ply_block(bytes_, header_, header_.vertex, block, std::nullopt, [&](const PlyValues& v) {
+        const auto at = [&](size_t column) { return static_cast<float>(v.scalars[column]); };
+        Point3& p = mesh_.P[v.number];
+        p = {at(P[0]), at(P[1]), at(P[2])};
+        if (N) mesh_.N[v.number] = {at((*N)[0]), at((*N)[1]), at((*N)[2])};
+        if (uv) mesh_.uv[v.number] = {at((*uv)[0]), at((*uv)[1])};
+        if (is_finite(p)) return std::string();
+        return ply_error(v.position, fmt::format("the position of vertex {} is not finite", v.number));
+      });
+    });
+  }
+
+  bool read_faces(const PlyExtent& extent) {
+    const auto list = header_.elements[header_.face].find_indices();
+    mesh_.indices.resize(extent.triangles);
+    return for_each_block(extent, [&](const PlyBlock& block) {
+      std::array<uint32_t, 3>* out = mesh_.indices.data() + block.triangles;
+      std::vector<uint32_t> corners;
+      return read_ply_block(bytes_, header_, header_.face, block, list, [&](const PlyValues& face) {
+        corners.clear();
+        for (const int64_t i : face.indices) {
+          if (i < 0 || static_cast<uint64_t>(i) >= mesh_.P.size()) {
+            return ply_error(face.position, fmt::format("face {} has vertex {}: there are {} vertices",
+                                                        face.number, i, mesh_.P.size()));
+          }
+          corners.push_back(static_cast<uint32_t>(i));
+        }
+        triangulate(corners, mesh_.P, out);
+        out += corners.size() - 2;
+        return std::string();
+      });
+    });
+  }
+
+  std::string_view bytes_;
+  const PlyHeader& header_;
+  TriangleMesh mesh_;
+  std::string error_;
+};
+
+MeshResult read_mesh(std::string_view bytes) {
+  std::string error;
+  const auto header = read_ply_header(bytes, error);
+  return header ? MeshReader(bytes, *header).read() : MeshResult{{}, std::move(error)};
 }
 
-TriangleMesh converted(const aiMesh& in) {
-  TriangleMesh out;
-  out.P.reserve(in.mNumVertices);
-  for (unsigned i = 0; i < in.mNumVertices; ++i) {
-    out.P.emplace_back(in.mVertices[i].x, in.mVertices[i].y, in.mVertices[i].z);
-  }
-  if (in.HasNormals()) {
-    for (unsigned i = 0; i < in.mNumVertices; ++i) {
-      out.N.emplace_back(in.mNormals[i].x, in.mNormals[i].y, in.mNormals[i].z);
-    }
-  }
-  if (in.HasTextureCoords(0)) {
-    for (unsigned i = 0; i < in.mNumVertices; ++i) {
-      out.uv.emplace_back(in.mTextureCoords[0][i].x, in.mTextureCoords[0][i].y);
-    }
-  }
-  out.indices.reserve(in.mNumFaces);
-  for (unsigned f = 0; f < in.mNumFaces; ++f) {
-    const aiFace& face = in.mFaces[f];
-    if (face.mNumIndices == 3) out.indices.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
-  }
-  return out;
-}
-
-// assimp reads what check_ply found sound, as one mesh, without any of its clean-up steps.
-MeshResult import(const std::string& bytes, const PlyStructure& structure) {
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "ply");
-  if (!scene) return {{}, importer.GetErrorString()};
-  if (scene->mNumMeshes != 1 || scene->mMeshes[0]->mNumVertices != structure.vertices ||
-      scene->mMeshes[0]->mNumFaces != structure.faces) {
-    return {{}, "it holds more than one mesh, or elements that cannot be read"};
-  }
-  std::string error = check_faces(*scene->mMeshes[0]);
-  if (!error.empty()) return {{}, std::move(error)};
-  if (structure.polygons) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (!scene) return {{}, importer.GetErrorString()};
-  return {converted(*scene->mMeshes[0]), {}};
+MeshResult read_packed(std::string_view bytes) {
+  std::string error;
+  const auto unpacked = unpack_gzip(bytes, error);
+  return unpacked ? read_mesh(*unpacked) : MeshResult{{}, std::move(error)};
 }
 
 }  // namespace
@@ -84,8 +130,7 @@ MeshResult load_ply(const std::filesystem::path& path, std::string* content) {
     hash.add(*bytes);
     *content = hash.text();
   }
-  const auto structure = check_ply(*bytes, error);
-  MeshResult result = structure ? import(*bytes, *structure) : MeshResult{{}, std::move(error)};
+  MeshResult result = is_gzip(*bytes) ? read_packed(*bytes) : read_mesh(*bytes);
   if (!result.error.empty())
     result.error = fmt::format("cannot read \"{}\": {}", path.string(), result.error);
   return result;

@@ -4,7 +4,9 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <zlib.h>
 
+#include "apps/import/gzip.h"
 #include "apps/import/ply.h"
 #include "tests/apps/import_support.h"
 
@@ -79,7 +81,8 @@ std::string pyramid(Order order, const std::string& u, const std::string& v) {
 
 TEST_F(ImportPly, KeepsVerticesNormalsAndTextureCoordinatesInEveryOrder) {
   for (const Order order : {Order::kAscii, Order::kLittle, Order::kBig}) {
-    for (const auto& [u, v] : {std::pair{"u", "v"}, std::pair{"s", "t"}}) {
+    for (const auto& [u, v] :
+         {std::pair{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}) {
       const MeshResult result = read(pyramid(order, u, v));
       ASSERT_EQ(result.error, "");
       const TriangleMesh& m = result.mesh;
@@ -172,9 +175,15 @@ TEST_F(ImportPly, RefusesWhatIsNoMesh) {
                                                        : at(text, bad.place, bad.message);
     EXPECT_EQ(error(text), expected);
   }
-  EXPECT_EQ(error(replaced("3 0 1 2", "3 0 1 3")), "face 0 has vertex 3: there are 3 vertices");
-  EXPECT_EQ(error(replaced("3 0 1 2", "3 0 1 -1")), "face 0 has vertex -1: there are 3 vertices");
-  EXPECT_EQ(error(replaced("0 1 0\n3", "0 nan 0\n3")), "the position of vertex 2 is not finite");
+  const auto misread = [&](std::string_view from, std::string_view to, std::string_view message) {
+    const std::string text = replaced(from, to);
+    EXPECT_EQ(error(text), at(text, to, message));
+  };
+  misread("3 0 1 2", "3 0 1 3", "face 0 has vertex 3: there are 3 vertices");
+  misread("3 0 1 2", "3 0 1 -1", "face 0 has vertex -1: there are 3 vertices");
+  misread("3 0 1 2", "3 0 1", "element `face` 0 has too few values on its line");
+  misread("0 1 0\n3", "0 nan 0\n3", "the position of vertex 2 is not finite");
+  misread("3 0 1 2", "3 0 1 x", "expected a number, not `x`");
   EXPECT_NE(error(replaced("end_header\n", "")), "");
 }
 
@@ -189,6 +198,94 @@ TEST_F(ImportPly, RefusesPromisesThatTheFileCannotHold) {
   EXPECT_EQ(error(replaced("element vertex 3", "element vertex 18446744073709551616")),
             "byte 21: an element needs a count");
   EXPECT_EQ(error(replaced("element vertex 3", "element vertex -3")), "byte 21: an element needs a count");
+}
+
+// Concave corners: no triangle lies outside of the polygon.
+TEST_F(ImportPly, ConcavePolygonsKeepTheirArea) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 1\n4 0 1\n4 4 1\n2 1 1\n0 4 1\n-1 2 1\n1 2 1\n"
+      "5 0 1 2 3 4\n4 5 0 6 4\n";
+  const MeshResult result = read(text);
+  ASSERT_EQ(result.error, "");
+  ASSERT_EQ(result.mesh.indices.size(), 5u);
+  double area = 0;
+  for (const auto& [a, b, c] : result.mesh.indices) {
+    const auto& P = result.mesh.P;
+    const double twice = glm::cross(glm::dvec3(P[b] - P[a]), glm::dvec3(P[c] - P[a])).z;
+    EXPECT_GE(twice, 0);
+    area += 0.5 * twice;
+  }
+  // Shoelace: 16 - (4 x 3) / 2 = 10 for the first, (1 x 4) / 2 + (1 x 4) / 2 = 4 for the kite.
+  EXPECT_NEAR(area, 10 + 4, 1e-12);
+}
+
+// Many blocks, read in parallel, in every order; polygons on the way.
+TEST_F(ImportPly, LargeMeshesAreReadWhole) {
+  constexpr uint32_t kCount = 100'000;
+  for (const Order order : {Order::kAscii, Order::kLittle, Order::kBig}) {
+    std::string text = format_line(order) + fmt::format("element face {}\n", kCount) +
+                       "property list uchar int vertex_indices\nproperty int face_indices\n" +
+                       fmt::format("element vertex {}\n", kCount) +
+                       "property float x\nproperty double y\nproperty float z\nend_header\n";
+    for (uint32_t i = 0; i < kCount; ++i) {
+      const bool quad = i % 1000 == 7;
+      put(text, order, uint8_t(quad ? 4 : 3));
+      for (uint32_t k = 0; k < (quad ? 4u : 3u); ++k) put(text, order, int32_t((i + k) % kCount));
+      put(text, order, int32_t(i));
+      if (order == Order::kAscii) text += '\n';
+    }
+    for (uint32_t i = 0; i < kCount; ++i) {
+      put(text, order, float(i));
+      put(text, order, 0.5 * i);
+      put(text, order, float(i % 7));
+      if (order == Order::kAscii) text += '\n';
+    }
+    const MeshResult result = read(text);
+    ASSERT_EQ(result.error, "");
+    ASSERT_EQ(result.mesh.P.size(), kCount);
+    ASSERT_EQ(result.mesh.indices.size(), kCount + kCount / 1000);
+    for (uint32_t i = 0; i < kCount; i += 37)
+      ASSERT_EQ(result.mesh.P[i], Point3(float(i), 0.5f * float(i), float(i % 7)));
+    EXPECT_EQ(result.mesh.indices[6], (std::array<uint32_t, 3>{6, 7, 8}));
+    EXPECT_EQ(result.mesh.indices[kCount - 1 + 100][0], kCount - 1);
+  }
+}
+
+std::string gzipped(const std::string& text) {
+  std::string out(text.size() + 1000, '\0');
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+TEST_F(ImportPly, ReadsGzip) {
+  const std::string packed = gzipped(pyramid(Order::kLittle, "u", "v"));
+  const MeshResult result = read(packed);
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.mesh.P.size(), 5u);
+  EXPECT_EQ(result.mesh.indices.size(), 6u);
+  for (size_t n = 2; n < packed.size(); ++n) {
+    EXPECT_NE(error(packed.substr(0, n)).find("of the gzip file: "), std::string::npos) << n;
+    std::string damaged = packed;
+    damaged[n] = static_cast<char>(~damaged[n]);
+    read(damaged);  // does no harm
+  }
+}
+
+TEST_F(ImportPly, GzipBombsAreRefused) {
+  const std::string bomb = gzipped(std::string(kFreeGzipBytes + 1, ' '));
+  ASSERT_LT(bomb.size() * kMostGzipRatio, kFreeGzipBytes);
+  EXPECT_NE(error(bomb).find(fmt::format("it unpacks to more than {} bytes", kFreeGzipBytes)),
+            std::string::npos);
 }
 
 TEST_F(ImportPly, EveryTruncationIsRefusedOrSound) {
