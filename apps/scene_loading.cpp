@@ -50,8 +50,7 @@ bool names_place(const DiagnosticList& diagnostics, const SourceLocation& place)
 }
 
 // The image's size: the scene's, or the command line's with the missing side in proportion.
-void resolve_size(const SceneSettings& file, const render::RenderSettings& settings,
-                  PerspectiveCamera& camera) {
+void resolve_size(const SceneSettings& file, const render::RenderSettings& settings, Camera& camera) {
   int width = settings.width, height = settings.height;
   const double aspect = double(file.width) / double(file.height);
   if (width == 0 && height == 0) width = file.width, height = file.height;
@@ -62,8 +61,8 @@ void resolve_size(const SceneSettings& file, const render::RenderSettings& setti
   if (!file.fixed_screen_window) camera.set_default_screen_window();
 }
 
-void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides,
-                  const PerspectiveCamera& camera, render::RenderSettings& settings, const Console& console) {
+void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides, const Camera& camera,
+                  render::RenderSettings& settings, const Console& console) {
   const bool same_size = camera.width == file.width && camera.height == file.height;
   if (!overrides.sets("crop") && !settings.crop.empty() && !same_size) {
     settings.crop = {};
@@ -80,7 +79,7 @@ void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides,
 // Bytes of the film of a pass, of the totals and of the picture.
 uint64_t film_of(const Job& job) {
   const render::CropWindow& crop = job.settings.render.crop;
-  const PerspectiveCamera& camera = job.scene.camera;
+  const Camera& camera = job.scene.camera;
   const uint64_t pixels = crop.empty() ? uint64_t(camera.width) * uint64_t(camera.height)
                                        : uint64_t(crop.x1 - crop.x0) * uint64_t(crop.y1 - crop.y0);
   return pixels * (sizeof(render::PixelSum) + sizeof(render::PixelTotals) + sizeof(render::PixelResult));

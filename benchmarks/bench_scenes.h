@@ -54,7 +54,7 @@ inline void add_sheet(Scene& scene, uint32_t material, float height, float wave,
 // eye, point looked at, up: nine numbers.
 inline void set_camera(Scene& scene, const std::vector<double>& look_at, float fov_degrees) {
   scene.camera.to_world = Transform::from_matrix(glm::inverse(*pbrt::look_at(look_at)));
-  scene.camera.fov_degrees = fov_degrees;
+  scene.camera.projection = PerspectiveProjection{fov_degrees, {}};
   scene.camera.set_default_screen_window();
 }
 

@@ -11,7 +11,7 @@ namespace kaustik::benchmarks {
 // One ray in each of 512 x 256 parts of the picture, in tiles of 16 x 16: neighbours are alike.
 inline std::vector<Ray> camera_rays(const Scene& scene) {
   constexpr int kColumns = 512, kRows = 256, kTile = 16;
-  const PerspectiveCamera& camera = scene.camera;
+  const Camera& camera = scene.camera;
   std::vector<Ray> rays;
   for (int tile = 0; tile < (kColumns / kTile) * (kRows / kTile); ++tile) {
     for (int i = 0; i < kTile * kTile; ++i) {

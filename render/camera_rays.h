@@ -11,9 +11,11 @@ namespace kaustik::render {
 inline constexpr int kRayBlock = 4;  // pixels along each axis of a block
 
 // The Sampler seed of pixel (x, y) of the full image, whose samples are its points. Their first dimensions
-// are the place in the pixel.
-uint64_t pixel_stream(uint64_t seed, const PerspectiveCamera& camera, int x, int y);
-inline constexpr uint32_t kRayDimensions = 2;
+// are the place in the pixel, and that on the lens where there is one.
+uint64_t pixel_stream(uint64_t seed, const Camera& camera, int x, int y);
+inline uint32_t ray_dimensions(const Camera& camera) {
+  return camera.lens_radius() > 0 ? 4 : 2;
+}
 
 class CameraRays {
  public:
@@ -21,11 +23,13 @@ class CameraRays {
   static constexpr uint64_t kSamples = accel::kRayLanes / (kRayBlock * kRayBlock);
 
   // Rays of samples [first, first + count) of the pixels of block (x / kRayBlock, y / kRayBlock), and what
-  // they meet. Uniform over each pixel (box filter). Beyond the image its last pixels stand again.
+  // they meet. As dense as the pixel filter's modulus. Beyond the image its last pixels stand again.
   void trace(const accel::Bvh& bvh, uint64_t seed, int x, int y, uint64_t first, uint64_t count);
 
   Ray ray(int x, int y, uint64_t sample) const { return rays_.get(lane(x, y, sample)); }
   Hit hit(int x, int y, uint64_t sample) const { return hits_.get(lane(x, y, sample)); }
+  // 1, or -1 where the pixel filter is negative.
+  int weight(int x, int y, uint64_t sample) const { return weights_[lane(x, y, sample)]; }
 
  private:
   size_t lane(int x, int y, uint64_t sample) const {
@@ -35,6 +39,7 @@ class CameraRays {
 
   accel::RayLanes rays_;
   accel::HitLanes hits_;
+  int8_t weights_[accel::kRayLanes];
   uint64_t first_ = 0;
 };
 

@@ -22,13 +22,13 @@ double variance_of_mean(double squares, double mean, double n) {
 
 Measured measured(const PixelTotals& totals, const PixelUnits& units) {
   Measured out;
-  if (totals.samples == 0) return out;
-  const double n = static_cast<double>(totals.passes), samples = static_cast<double>(totals.samples);
+  if (totals.weight == 0) return out;
+  const double n = static_cast<double>(totals.passes), weight = static_cast<double>(totals.weight);
   for (int c = 0; c < 3; ++c) {
     double sum = 0;
     for (const SumChannel first : {kEmittedSum, kDirectSum, kCausticSum, kIndirectSum})
       sum += totals.sums[size_t(first + c)].value(units.sums[size_t(first + c)]);
-    out.mean[c] = sum / samples;
+    out.mean[c] = sum / weight;
     out.bias[c] = totals.sums[size_t(kBiasSum + c)].value(units.sums[size_t(kBiasSum + c)]) / n;
     if (totals.passes < 2) continue;
     out.variance[c] = variance_of_mean(totals.squares[size_t(c)].value(units.square), out.mean[c], n);

@@ -43,18 +43,23 @@ struct PixelResult {
   Rgb radiance() const { return emitted + direct + caustic + indirect; }
 };
 
-// Sums over a pass's samples, in double.
+// Sums over a pass's samples, in double. Samples count 1, or -1 where the pixel filter is negative.
 struct PixelSum {
   glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
   double depth = 0, photons = 0;
   glm::dvec3 bias{0};  // of the first sample alone
   uint64_t count = 0;
+  int64_t weight = 0;  // sum of the samples' weights
 
-  void add(const PixelResult& s) {
-    emitted += s.emitted, direct += s.direct, caustic += s.caustic, indirect += s.indirect;
-    albedo += s.albedo, normal += s.normal, depth += s.depth, photons += s.photons;
+  void add(const PixelResult& s, int sample_weight = 1) {
+    const double w = sample_weight;
+    const auto add3 = [w](glm::dvec3& sum, const glm::vec3& v) { sum += w * glm::dvec3(v); };
+    add3(emitted, s.emitted), add3(direct, s.direct), add3(caustic, s.caustic), add3(indirect, s.indirect);
+    add3(albedo, s.albedo), add3(normal, s.normal);
+    depth += w * double(s.depth), photons += w * double(s.photons);
     bias += s.bias;
     ++count;
+    weight += sample_weight;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "core/geometry/surface_bounds.h"
 #include "render/for_each_pixel.h"
 
 namespace kaustik::render {
@@ -67,13 +68,14 @@ uint64_t add_pixel(const PixelSum& pass, const PerUnit& per_unit, PixelTotals* t
   uint64_t clamped = 0;
   const auto channels = channels_of(pass);
   for (size_t i = 0; i < kSumChannels; ++i) clamped += !totals->sums[i].add(channels[i], per_unit.sums[i]);
-  const glm::dvec3 mean =
-      (pass.emitted + pass.direct + pass.caustic + pass.indirect) / static_cast<double>(pass.count);
+  // Of a few samples a negative filter's weights may cancel; their number then stands in.
+  const double weight = pass.weight > 0 ? static_cast<double>(pass.weight) : static_cast<double>(pass.count);
+  const glm::dvec3 mean = (pass.emitted + pass.direct + pass.caustic + pass.indirect) / weight;
   for (int c = 0; c < 3; ++c) {
     clamped += !totals->squares[size_t(c)].add(mean[c] * mean[c], per_unit.square);
     clamped += !totals->bias_squares[size_t(c)].add(pass.bias[c] * pass.bias[c], per_unit.square);
   }
-  totals->samples += pass.count;
+  totals->weight += pass.weight;
   ++totals->passes;
   return clamped;
 }
@@ -84,17 +86,17 @@ void add_pixel(const PixelTotals& part, PixelTotals* totals) {
     totals->squares[c] += part.squares[c];
     totals->bias_squares[c] += part.bias_squares[c];
   }
-  totals->samples += part.samples;
+  totals->weight += part.weight;
   totals->passes += part.passes;
 }
 
 PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
   PixelResult out;
   out.error = Rgb(kInfinity);  // one film knows nothing of it
-  if (totals.samples == 0) return out;
-  const double samples = static_cast<double>(totals.samples);
+  if (totals.weight == 0) return out;
+  const double weight = static_cast<double>(totals.weight);
   const auto mean = [&](size_t i) {
-    return static_cast<float>(totals.sums[i].value(units.sums[i]) / samples);
+    return static_cast<float>(totals.sums[i].value(units.sums[i]) / weight);
   };
   const auto mean3 = [&](SumChannel first) {
     return glm::vec3(mean(first), mean(first + 1), mean(first + 2));
@@ -136,7 +138,8 @@ ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   // No channel of a sample is more than this times its brightest one.
   if (!scene.sensor.neutral) brightest *= largest_gain(scene.sensor);
   const Point3 eye = scene.camera.to_world.point(Point3(0));
-  const double farthest = double(glm::distance(eye, scene.bounds.center())) + size;
+  const double lens = double(scene.camera.lens_radius() * max_row_sum(scene.camera.to_world.linear));
+  const double farthest = double(glm::distance(eye, scene.bounds.center())) + size + lens;
   const int samples = exponent_above(static_cast<double>(samples_per_pass));
   const int lamp = std::clamp(exponent_above(brightest), -400, 400);  // squares within double's range
   return {.radiance = lamp + samples + 20 - ExactSum::kTermBits,

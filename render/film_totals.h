@@ -45,8 +45,8 @@ struct PixelTotals {
   std::array<ExactSum, kSumChannels> sums;
   // Over passes, of the pass's mean R, G and B; of its bias.
   std::array<ExactSum, 3> squares, bias_squares;
-  uint64_t samples = 0;  // that were valid
-  uint64_t passes = 0;   // that had a valid sample
+  int64_t weight = 0;   // of the valid samples: 1 each, or -1 where the pixel filter is negative
+  uint64_t passes = 0;  // that had a valid sample
   bool operator==(const PixelTotals&) const = default;
 };
 
@@ -69,7 +69,7 @@ class FilmTotals {
   uint64_t add(const FilmSums& pass);
   // Adds other passes of the same window in the same units; std::invalid_argument otherwise.
   void add(const FilmTotals& other);
-  // Means over samples; black where there are none.
+  // Weighted means over samples; black where there are none, or where their weights cancel.
   Film mean() const;
 
   const ExactUnits& units() const { return units_; }

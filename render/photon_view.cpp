@@ -38,15 +38,16 @@ float mean_luminance(const photon::PhotonBuffer& buffer) {
 
 void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons,
                    std::vector<PixelCount>& counts) {
-  const PerspectiveCamera& camera = bvh.scene().camera;
+  const Camera& camera = bvh.scene().camera;
   const photon::PhotonBuffer& buffer = *photons.buffer;
   const float mean_flux = mean_luminance(buffer);
   tbb::parallel_for(tbb::blocked_range<size_t>(0, buffer.records.size(), 4096), [&](const auto& range) {
     for (size_t i = range.begin(); i < range.end(); ++i) {
       const photon::Photon photon = photon::unpack(buffer.records[i], buffer.flux_unit);
       Point2 raster;
-      if (!camera.project(photon.p, &raster)) continue;
-      if (!visible(bvh, camera.to_world.translation, photon.p)) continue;
+      Point3 eye;
+      if (!camera.project(photon.p, &raster, &eye)) continue;
+      if (!visible(bvh, eye, photon.p)) continue;
       const size_t x = std::min(static_cast<size_t>(raster.x), static_cast<size_t>(camera.width - 1));
       const size_t y = std::min(static_cast<size_t>(raster.y), static_cast<size_t>(camera.height - 1));
       PixelCount& pixel = counts[y * static_cast<size_t>(camera.width) + x];
@@ -62,10 +63,10 @@ void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons,
 // The scene lit from the eye, dimly: enough to know the place.
 void draw_background(const accel::Bvh& bvh, Image& image) {
   constexpr float kDim = 0.06f;
-  const Scene& scene = bvh.scene();
+  const RayGenerator camera(bvh.scene().camera);
   tbb::parallel_for(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
-      const Ray ray = scene.camera.generate_ray({float(x) + 0.5f, float(y) + 0.5f});
+      const Ray ray = camera({float(x) + 0.5f, float(y) + 0.5f});
       SurfaceInteraction si;
       if (!bvh.intersect(ray, &si)) continue;
       image.at(x, y) = Rgb(kDim * abs_dot(si.ns, glm::normalize(ray.d)));
@@ -76,7 +77,7 @@ void draw_background(const accel::Bvh& bvh, Image& image) {
 }  // namespace
 
 Image draw_photons(const accel::Bvh& bvh, std::span<const photon::PlyPhotons> photons) {
-  const PerspectiveCamera& camera = bvh.scene().camera;
+  const Camera& camera = bvh.scene().camera;
   Image image(camera.width, camera.height);
   draw_background(bvh, image);
   std::vector<PixelCount> counts(image.pixels.size());

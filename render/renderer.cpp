@@ -20,7 +20,7 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw std::invalid_argument(message);
 }
 
-void check_settings(const RenderSettings& s, const PerspectiveCamera& camera) {
+void check_settings(const RenderSettings& s, const Camera& camera) {
   require(camera.width > 0 && camera.height > 0, "the image has no pixels");
   require(s.spp >= 1, "spp must be at least 1");
   require(s.max_bounces >= 1, "max_bounces must be at least 1");
@@ -36,7 +36,7 @@ void check_settings(const RenderSettings& s, const PerspectiveCamera& camera) {
 }
 
 template <class Pixel>
-PixelWindow<Pixel> make_window(const CropWindow& crop, const PerspectiveCamera& camera) {
+PixelWindow<Pixel> make_window(const CropWindow& crop, const Camera& camera) {
   if (crop.empty()) return {camera.width, camera.height};
   return {crop.x1 - crop.x0, crop.y1 - crop.y0, crop.x0, crop.y0, camera.width, camera.height};
 }

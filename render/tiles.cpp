@@ -48,15 +48,16 @@ struct PixelRange {
 void shade_pixel(const RenderContext& ctx, const CameraRays& rays, int x, int y, uint64_t first, uint64_t end,
                  PixelSum* sum, TileResult* tile) {
   const uint64_t stream = pixel_stream(ctx.settings.seed, ctx.scene.camera, x, y);
+  const uint32_t dimensions = ray_dimensions(ctx.scene.camera);
   for (uint64_t i = first; i < end; ++i) {
-    Sampler sampler(stream, i, kRayDimensions);
+    Sampler sampler(stream, i, dimensions);
     // Once a pass: most of its noise is that of the photons, which all samples share.
     const bool with_bias = ctx.settings.estimate_bias.value_or(false) && i == ctx.pass.first_sample;
     PixelResult sample =
         trace_camera_ray(ctx, rays.ray(x, y, i), rays.hit(x, y, i), sampler, tile->counters, with_bias);
     if (valid_radiance(sample, ctx.plan.direct)) {
       expose(ctx.scene.sensor, &sample);
-      sum->add(sample);
+      sum->add(sample, rays.weight(x, y, i));
       continue;
     }
     ++tile->dropped;

@@ -30,4 +30,18 @@ Point2 equal_area_sphere_to_square(const Vector3& w) {
   return glm::clamp(0.5f * (s + 1.0f), Point2(0), Point2(1));
 }
 
+Point2 wrap_equal_area_square(Point2 p) {
+  if (p.x < 0) {
+    p = {-p.x, 1 - p.y};
+  } else if (p.x > 1) {
+    p = {2 - p.x, 1 - p.y};
+  }
+  if (p.y < 0) {
+    p = {1 - p.x, -p.y};
+  } else if (p.y > 1) {
+    p = {1 - p.x, 2 - p.y};
+  }
+  return p;
+}
+
 }  // namespace kaustik

@@ -9,5 +9,7 @@ namespace kaustik {
 Vector3 equal_area_square_to_sphere(const Point2& p);
 // The inverse, for unit vectors; within the square.
 Point2 equal_area_sphere_to_square(const Vector3& w);
+// A point beyond the square by at most one, as the one of the square where the sphere goes on.
+Point2 wrap_equal_area_square(Point2 p);
 
 }  // namespace kaustik

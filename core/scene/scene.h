@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/camera/perspective.h"
+#include "core/camera/camera.h"
 #include "core/camera/sensor.h"
 #include "core/geometry/interaction.h"
 #include "core/light/light_sampler.h"
@@ -17,7 +17,7 @@ struct Scene {
   // World coordinates less this, in metres, are what everything below holds. Zero unless the scene lies far
   // from the world's origin (core/scene/local_origin.h).
   glm::dvec3 origin{0};
-  PerspectiveCamera camera;
+  Camera camera;
   Sensor sensor;
   std::vector<Shape> shapes;
   std::vector<Material> materials;

@@ -1,4 +1,4 @@
-// The rows of shapes, camera, film, sampler, filter, accelerator and options, and the list of all categories.
+// The rows of shapes, film, sampler, accelerator and options, and the list of all categories.
 
 #include <algorithm>
 
@@ -27,8 +27,9 @@ std::vector<TypeSpec> make_shape_types() {
   const ParameterSpec uv = list(Type::kPoint2, "uv", 1, "none", "", "texture coordinates, one per vertex");
   const ParameterSpec face_indices =
       ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
+  const Range turn{0, 360, true, false};
   const ParameterSpec phimax =
-      not_rendered("phimax", {Type::kFloat}, "only full turns are rendered: must be 360", 360);
+      number("phimax", 360, "degrees", turn, "how far it reaches about the axis, from +x");
   return {
       {"trianglemesh", "Triangles. Without `N`, the outside is the side of cross(p1 - p0, p2 - p0).",
        shape({P,
@@ -41,9 +42,12 @@ std::vector<TypeSpec> make_shape_types() {
               ignored("edgelength", {Type::kFloat}, "of displaced geometry")})},
       {"sphere", "About the origin, exact; an ellipsoid under a transform that does not scale evenly.",
        shape({number("radius", 1, "m", kPositive, "radius"),
-              without_default(number("zmin", 0, "m", kAnyNumber, "must not cut the sphere"), "-radius"),
-              without_default(number("zmax", 0, "m", kAnyNumber, "must not cut the sphere"), "radius"),
+              without_default(number("zmin", 0, "m", kAnyNumber, "where it is cut off below"), "-radius"),
+              without_default(number("zmax", 0, "m", kAnyNumber, "where it is cut off above"), "radius"),
               phimax})},
+      {"cylinder", "About the z axis, without caps; the outside is away from the axis.",
+       shape({number("radius", 1, "m", kPositive, "radius"), number("zmin", -1, "m", kAnyNumber, "lower end"),
+              number("zmax", 1, "m", kAnyNumber, "upper end"), phimax})},
       {"disk", "In the plane z = height; the outside is the side of +z.",
        shape({number("radius", 1, "m", kPositive, "outer radius"),
               number("innerradius", 0, "m", kNotNegative, "radius of the hole"),
@@ -55,21 +59,11 @@ std::vector<TypeSpec> make_shape_types() {
                    "four corners per patch, from zero"),
               N, uv, face_indices,
               not_rendered("emissionfilename", {Type::kString}, "images as lamps are not rendered")})},
+      {"loopsubdiv", "The limit surface of Loop's subdivision (Loop 1987), as triangles with its normals.",
+       shape({P, list(Type::kInteger, "indices", 3, "required", "", "three vertices per triangle, from zero"),
+              integer("levels", 3, "", {0, 12}, "how often each triangle is cut into four"),
+              ignored("scheme", {Type::kString}, "there is one scheme")})},
   };
-}
-
-std::vector<TypeSpec> make_camera_types() {
-  ParameterSpec window = list(Type::kFloat, "screenwindow", 4, "the film's shape, shorter side -1 to 1", "",
-                              "x min, x max, y min, y max of the image plane");
-  window.max_items = 4;
-  return {{"perspective",
-           "Pinhole camera at the origin of its space: +x right, +y up, +z ahead.",
-           {number("fov", 90, "degrees", {0, 180, true, true}, "full angle of the shorter image side"),
-            without_default(number("frameaspectratio", 0, "", kPositive, "width over height"), "the film's"),
-            window, ignored("lensradius", {Type::kFloat}, "depth of field", 0),
-            ignored("focaldistance", {Type::kFloat}, "no effect on a pinhole"),
-            number("shutteropen", 0, "s", kAnyNumber, "nothing moves, but the film is exposed from then"),
-            number("shutterclose", 1, "s", kAnyNumber, "till then: radiance is multiplied by the time")}}};
 }
 
 std::vector<TypeSpec> make_film_types() {
@@ -82,19 +76,20 @@ std::vector<TypeSpec> make_film_types() {
   bounds.max_items = 4;
   bounds.range = kNotNegative;
   const Range side{1, 1 << 20};
-  return {{"rgb",
-           "The image.",
-           {integer("xresolution", 1280, "pixels", side, "width"),
-            integer("yresolution", 720, "pixels", side, "height"),
-            text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop,
-            bounds, ignored("diagonal", {Type::kFloat}, "of a lens camera"),
-            text("sensor", "cie1931", "colours are those of this one, in linear Rec. 709"),
-            number("iso", 100, "", kPositive, "radiance is multiplied by iso / 100"),
-            without_default(number("exposuretime", 1, "s", kPositive, "radiance is multiplied by it"),
-                            "shutterclose - shutteropen"),
-            number("whitebalance", 0, "K", {0, 25000}, "daylight of this colour becomes white; 0: as it is"),
-            ignored("maxcomponentvalue", {Type::kFloat}, "samples are not clamped"),
-            ignored("savefp16", {Type::kBool}, "layers are 32-bit floats")}}};
+  return {
+      {"rgb",
+       "The image.",
+       {integer("xresolution", 1280, "pixels", side, "width"),
+        integer("yresolution", 720, "pixels", side, "height"),
+        text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop, bounds,
+        number("diagonal", 35, "mm", kPositive, "of pbrt's realistic camera; without effect on the others"),
+        text("sensor", "cie1931", "colours are those of this one, in linear Rec. 709"),
+        number("iso", 100, "", kPositive, "radiance is multiplied by iso / 100"),
+        without_default(number("exposuretime", 1, "s", kPositive, "radiance is multiplied by it"),
+                        "shutterclose - shutteropen"),
+        number("whitebalance", 0, "K", {0, 25000}, "daylight of this colour becomes white; 0: as it is"),
+        ignored("maxcomponentvalue", {Type::kFloat}, "samples are not clamped"),
+        ignored("savefp16", {Type::kBool}, "layers are 32-bit floats")}}};
 }
 
 std::vector<TypeSpec> make_sampler_types() {
@@ -114,25 +109,6 @@ std::vector<TypeSpec> make_sampler_types() {
                     integer("ysamples", 4, "", {1, 1 << 15}, "rows of strata"), seed,
                     ignored("jitter", {Type::kBool}, "always jittered")}});
   return types;
-}
-
-std::vector<TypeSpec> make_filter_types() {
-  constexpr std::string_view kDoc = "pixels are means over their own square";
-  const auto radii = [&](std::optional<double> neutral) {
-    return std::vector<ParameterSpec>{ignored("xradius", {Type::kFloat}, kDoc, neutral),
-                                      ignored("yradius", {Type::kFloat}, kDoc, neutral)};
-  };
-  const auto with = [&](std::initializer_list<std::string_view> names) {
-    std::vector<ParameterSpec> all = radii(std::nullopt);
-    for (const std::string_view name : names) all.push_back(ignored(name, {Type::kFloat}, kDoc));
-    return all;
-  };
-  constexpr std::string_view kOther = "Accepted; a box of one pixel is used.";
-  return {{"box", "Pixels are means over their own square.", radii(0.5)},
-          {"gaussian", kOther, with({"sigma"})},
-          {"mitchell", kOther, with({"B", "C"})},
-          {"sinc", kOther, with({"tau"})},
-          {"triangle", kOther, with({})}};
 }
 
 std::vector<TypeSpec> make_accelerator_types() {
@@ -178,7 +154,7 @@ std::vector<const TypeSpec*> specs_of(const std::vector<Row>& rows) {
 
 std::vector<Category> make_categories() {
   return {
-      {"Camera", "camera", specs_of(camera_types()), {"orthographic", "realistic", "spherical"}},
+      {"Camera", "camera", specs_of(camera_types()), {"realistic"}},
       {"Film", "film", specs_of(film_types()), {"gbuffer", "spectral"}},
       {"Sampler", "sampler", specs_of(sampler_types()), {}},
       {"PixelFilter", "pixel filter", specs_of(filter_types()), {}},
@@ -188,7 +164,7 @@ std::vector<Category> make_categories() {
        specs_of(material_rows()),
        {"coatedconductor", "coateddiffuse", "diffusetransmission", "hair", "measured", "mix", "subsurface",
         "thindielectric"}},
-      {"Shape", "shape", specs_of(shape_types()), {"curve", "cylinder", "loopsubdiv"}},
+      {"Shape", "shape", specs_of(shape_types()), {"curve"}},
       {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
       {"LightSource", "light", specs_of(light_rows()), {}},
   };
@@ -200,20 +176,12 @@ const std::vector<TypeSpec>& shape_types() {
   static const std::vector<TypeSpec> types = make_shape_types();
   return types;
 }
-const std::vector<TypeSpec>& camera_types() {
-  static const std::vector<TypeSpec> types = make_camera_types();
-  return types;
-}
 const std::vector<TypeSpec>& film_types() {
   static const std::vector<TypeSpec> types = make_film_types();
   return types;
 }
 const std::vector<TypeSpec>& sampler_types() {
   static const std::vector<TypeSpec> types = make_sampler_types();
-  return types;
-}
-const std::vector<TypeSpec>& filter_types() {
-  static const std::vector<TypeSpec> types = make_filter_types();
   return types;
 }
 const std::vector<TypeSpec>& accelerator_types() {

@@ -55,9 +55,9 @@ TEST_F(ImportScene, TheCameraLooksAlongPositiveZLeftHanded) {
         .scene.camera;
   };
   // From (0, 0, -5) along +z: right is +x, up is +y.
-  const PerspectiveCamera c = camera("LookAt 0 0 -5  0 0 0  0 1 0");
+  const Camera c = camera("LookAt 0 0 -5  0 0 0  0 1 0");
   EXPECT_EQ(c.width, 200);
-  EXPECT_EQ(c.fov_degrees, 90);
+  EXPECT_EQ(std::get<PerspectiveProjection>(c.projection).fov_degrees, 90);
   expect_near(c.to_world.translation, {0, 0, -5});
   expect_near(c.generate_ray({100, 50}).d, {0, 0, 1});
   // The right edge: the shorter side has half the angle 45 degrees, so the right edge lies at tan = 2.
@@ -72,7 +72,7 @@ TEST_F(ImportScene, TheCameraLooksAlongPositiveZLeftHanded) {
   expect_near(camera("LookAt 0 0 5  0 0 0  0 1 0 Scale -1 1 1").generate_ray({200, 50}).d,
               glm::normalize(Vector3(2, 0, -1)));
   // The matrix takes the world to the camera: z is turned, the camera stands at z = 6.8, y = 1.
-  const PerspectiveCamera m = camera("Transform [1 0 0 0  0 1 0 0  0 0 -1 0  0 -1 6.8 1]");
+  const Camera m = camera("Transform [1 0 0 0  0 1 0 0  0 0 -1 0  0 -1 6.8 1]");
   expect_near(m.to_world.translation, {0, 1, 6.8f});
   expect_near(m.generate_ray({100, 50}).d, {0, 0, -1});
 }

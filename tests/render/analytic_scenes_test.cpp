@@ -13,7 +13,7 @@ namespace {
 constexpr double kRho = 0.5;
 
 // Point of the plane y = 0 that a raster position shows.
-glm::dvec3 on_plane(const PerspectiveCamera& camera, double x, double y) {
+glm::dvec3 on_plane(const Camera& camera, double x, double y) {
   const Ray ray = camera.generate_ray({float(x), float(y)});
   const glm::dvec3 o(ray.o), d(ray.d);
   return o - d * (o.y / d.y);
@@ -22,7 +22,7 @@ glm::dvec3 on_plane(const PerspectiveCamera& camera, double x, double y) {
 // Least and largest value of a form of the plane's points over a pixel, from a grid that includes its
 // corners.
 template <class Form>
-std::pair<double, double> over_pixel(const PerspectiveCamera& camera, int x, int y, Form&& form) {
+std::pair<double, double> over_pixel(const Camera& camera, int x, int y, Form&& form) {
   constexpr int kGrid = 4;
   double low = 1e30, high = -1e30;
   for (int j = 0; j <= kGrid; ++j)

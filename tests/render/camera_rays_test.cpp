@@ -67,9 +67,9 @@ TEST(CameraRays, EveryPixelOfABlockNamesIt) {
 
 // A sampler that begins behind the ray goes on as one that drew it, and no two pixels share their points.
 TEST(CameraRays, SamplersGoOnBehindTheRay) {
-  const PerspectiveCamera camera;
+  const Camera camera;
   const uint64_t stream = pixel_stream(7, camera, 2, 3);
-  Sampler whole(stream, 11), rest(stream, 11, kRayDimensions);
+  Sampler whole(stream, 11), rest(stream, 11, ray_dimensions(camera));
   whole.next_2d();
   for (int i = 0; i < 9; ++i) EXPECT_EQ(rest.next_1d(), whole.next_1d());
   EXPECT_NE(pixel_stream(7, camera, 3, 2), stream);

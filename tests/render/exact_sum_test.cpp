@@ -127,7 +127,7 @@ TEST(FilmTotals, HoldMeansAndSquares) {
   pass.at(0, 0).count = 1;
   totals.add(pass);
   const PixelTotals& p = totals.pixels().at(0, 0);
-  EXPECT_EQ(p.samples, 3u);
+  EXPECT_EQ(p.weight, 3);
   EXPECT_EQ(p.passes, 2u);
   EXPECT_EQ(totals.mean().at(0, 0).direct, Rgb(2, 8.0f / 3, 10.0f / 3));
   EXPECT_EQ(totals.mean().at(0, 0).depth, 3.0f);

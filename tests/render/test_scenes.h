@@ -80,7 +80,7 @@ inline void look_at(Scene& scene, const Point3& eye, const Point3& target, const
   const glm::dvec3 above = glm::cross(right, forward);
   scene.camera.to_world = Transform::from_matrix(glm::dmat4(
       glm::dvec4(right, 0), glm::dvec4(above, 0), glm::dvec4(forward, 0), glm::dvec4(glm::dvec3(eye), 1)));
-  scene.camera.fov_degrees = fov;
+  scene.camera.projection = PerspectiveProjection{fov, {}};
   scene.camera.width = width;
   scene.camera.height = height;
   scene.camera.set_default_screen_window();
