@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "core/scene/scene.h"
@@ -37,6 +38,13 @@ class BruteForce {
  private:
   static void keep(Nearest* best, double t, uint32_t shape, uint32_t primitive) {
     if (t > 0 && t < best->t) *best = {t, shape, primitive};
+  }
+
+  // In the instance's own space: t is the same there.
+  static void intersect_shape(const InstancedMesh& instance, uint32_t shape, const glm::dvec3& o,
+                              const glm::dvec3& d, Nearest* best) {
+    const LocalRay r = to_local(instance.to_world, o, d);
+    intersect_shape(*instance.mesh, shape, r.o, r.d, best);
   }
 
   // Moeller and Trumbore 1997.
@@ -82,6 +90,33 @@ class BruteForce {
     const double t = -r.o.z / r.d.z;
     const double radius = std::hypot(r.o.x + t * r.d.x, r.o.y + t * r.d.y);
     if (radius <= 1 && radius >= disk.inner) keep(best, t, shape, 0);
+  }
+
+  static bool within_turn(const Quadric& q, const glm::dvec3& p) {
+    const double phi = std::atan2(p.y, p.x);
+    return q.full_turn() || (phi < 0 ? phi + 2 * std::numbers::pi : phi) <= double(q.phi_max);
+  }
+
+  static void intersect_shape(const Quadric& q, uint32_t shape, const glm::dvec3& o, const glm::dvec3& d,
+                              Nearest* best) {
+    const LocalRay r = to_local(q.to_world, o, d);
+    if (q.kind == QuadricKind::kDisk) {
+      const glm::dvec3 p = r.o - r.o.z / r.d.z * r.d;
+      const double radius = std::hypot(p.x, p.y);
+      if (r.d.z != 0 && radius <= 1 && radius >= double(q.inner) && within_turn(q, p))
+        keep(best, -r.o.z / r.d.z, shape, 0);
+      return;
+    }
+    const double round = q.kind == QuadricKind::kSphere ? 1 : 0;
+    const glm::dvec3 w(1, 1, round);
+    const double a = glm::dot(w * r.d, r.d), b = glm::dot(w * r.o, r.d), c = glm::dot(w * r.o, r.o) - 1;
+    const double discriminant = b * b - a * c;
+    if (discriminant < 0 || a == 0) return;
+    for (const double sign : {-1.0, 1.0}) {
+      const double t = (-b + sign * std::sqrt(discriminant)) / a;
+      const glm::dvec3 p = r.o + t * r.d;
+      if (p.z >= double(q.z_min) && p.z <= double(q.z_max) && within_turn(q, p)) keep(best, t, shape, 0);
+    }
   }
 
   const Scene* scene_;

@@ -1,5 +1,6 @@
-// Bvh on Embree. Geometry ids: a triangle mesh has its shape's index; all spheres are one user geometry and
-// all disks another, behind them, whose hits name the shape as well.
+// Bvh on Embree. Geometry ids: a triangle mesh has its shape's index; all spheres are one user geometry, all
+// disks another and all other quadrics a third, behind them, whose hits name the shape as well. An instanced
+// mesh is a scene of its own, which all its instances share; an instance has its shape's index.
 //
 // Embree sees the scene divided by a power of two that brings its largest coordinate into [1, 2): exact, and
 // undone exactly. So Embree's few absolute thresholds (it gives up barycentrics when area falls below 1e-18)
@@ -19,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <map>
 #include <new>
 #include <optional>
 
@@ -48,8 +50,7 @@ constexpr uint64_t kFewPrimitives = 64;
 uint64_t primitive_count(const std::vector<Shape>& shapes) {
   uint64_t count = 0;
   for (const Shape& shape : shapes) {
-    const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-    count += mesh ? mesh->indices.size() : 1;
+    count += kaustik::primitive_count(shape);
   }
   return count;
 }
@@ -97,6 +98,8 @@ float intersect_quadric(const QuadricGroup& group, uint32_t primitive, RTCRayN* 
   const Ray ray = to_ray(rays, N, i, group.to_scene);
   if constexpr (std::is_same_v<Geometry, Sphere>) {
     return group.to_embree * intersect_sphere(geometry, ray);
+  } else if constexpr (std::is_same_v<Geometry, Quadric>) {
+    return group.to_embree * kaustik::intersect_quadric(geometry, ray, uv);
   } else {
     return group.to_embree * intersect_disk(geometry, ray, uv);
   }
@@ -152,8 +155,9 @@ void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
   Point2 uv[kPacket] = {};
   intersect_all<Geometry>(group, primitive, rays, N, t, uv);
   for (unsigned i = 0; i < N; ++i) {
-    if (!args->valid[i] || !replaces(RTCRayN_tfar(rays, N, i), RTCHitN_geomID(hits, N, i), t[i], shape))
-      continue;
+    const unsigned instance = RTCHitN_instID(hits, N, i, 0);
+    const unsigned held = instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(hits, N, i) : instance;
+    if (!args->valid[i] || !replaces(RTCRayN_tfar(rays, N, i), held, t[i], shape)) continue;
     RTCRayN_tfar(rays, N, i) = t[i];
     RTCHitN_u(hits, N, i) = uv[i].x;
     RTCHitN_v(hits, N, i) = uv[i].y;
@@ -175,22 +179,56 @@ void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
   }
 }
 
+RTCScene new_scene(RTCDevice device) {
+  RTCScene scene = rtcNewScene(device);
+  check(device, "making the scene");
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+  return scene;
+}
+
+// The one that brings the largest coordinate into [1, 2) when it is divided by it; 1 for boxes without
+// extent.
+float power_of_two_of(const Bounds3& bounds) {
+  if (bounds.empty()) return 1;
+  const float largest = std::max(max_abs_component(bounds.min), max_abs_component(bounds.max));
+  if (!(largest > 0) || !std::isfinite(largest)) return 1;
+  return std::ldexp(1.0f, std::clamp(std::ilogb(largest), -100, 100));
+}
+
+// An instanced mesh, divided by a power of two of its own.
+struct OwnScene {
+  RTCScene scene = nullptr;
+  float scale = 1;
+
+  OwnScene() = default;
+  OwnScene(const OwnScene&) = delete;
+  OwnScene& operator=(const OwnScene&) = delete;
+  ~OwnScene() {
+    if (scene) rtcReleaseScene(scene);
+  }
+};
+
 }  // namespace
 
 struct Bvh::Impl {
   std::atomic<int64_t> bytes{0};
   EmbreeHandles embree;
   float to_scene = 1, to_embree = 1;  // lengths: powers of two
-  QuadricGroup spheres, disks;
-  bool coherent = false;  // how packets of mixed rays go through the tree
+  QuadricGroup spheres, disks, others;
+  std::map<const TriangleMesh*, OwnScene> own_scenes;  // of instanced meshes
+  bool coherent = false;                               // how packets of mixed rays go through the tree
+  bool instances = false;                              // hits may name one
 
   void open();
   void set_scale(const Bounds3& bounds);
   void add_shapes(const std::vector<Shape>& all);
   void add_mesh(const TriangleMesh& mesh, uint32_t shape);
+  void add_instance(const InstancedMesh& instance, uint32_t shape);
+  RTCGeometry make_geometry(const TriangleMesh& mesh, float scale);
   template <class Geometry>
   void add_group(QuadricGroup& group, unsigned geometry_id);
-  void attach(RTCGeometry geometry, unsigned geometry_id);
+  void attach(RTCScene scene, RTCGeometry geometry, unsigned geometry_id);
   void commit(int threads);
   void start_packets(RTCRayHit16* query) const;
   void load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query) const;
@@ -201,30 +239,52 @@ void Bvh::Impl::open() {
   // No "threads=" here: Embree would cap the whole process by it. commit() caps the build alone.
   embree.open_device();
   rtcSetDeviceMemoryMonitorFunction(embree.device, count_memory, &bytes);
-  embree.scene = rtcNewScene(embree.device);
-  check(embree.device, "making the scene");
-  rtcSetSceneFlags(embree.scene, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(embree.scene, RTC_BUILD_QUALITY_MEDIUM);
+  embree.scene = new_scene(embree.device);
 }
 
-void Bvh::Impl::attach(RTCGeometry geometry, unsigned geometry_id) {
+void Bvh::Impl::attach(RTCScene scene, RTCGeometry geometry, unsigned geometry_id) {
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(embree.scene, geometry, geometry_id);
+  rtcAttachGeometryByID(scene, geometry, geometry_id);
   rtcReleaseGeometry(geometry);
   check(embree.device, "adding a shape");
 }
 
-void Bvh::Impl::add_mesh(const TriangleMesh& mesh, uint32_t shape) {
-  if (mesh.indices.empty()) return;
+RTCGeometry Bvh::Impl::make_geometry(const TriangleMesh& mesh, float scale) {
   RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree pads its own buffer: it reads 16 bytes at each vertex, 4 past the last one.
   auto* vertices = static_cast<Point3*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Point3), mesh.P.size()));
   check(embree.device, "copying vertices");
-  std::transform(mesh.P.begin(), mesh.P.end(), vertices, [this](const Point3& p) { return to_embree * p; });
+  std::transform(mesh.P.begin(), mesh.P.end(), vertices, [scale](const Point3& p) { return scale * p; });
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                              sizeof(mesh.indices[0]), mesh.indices.size());
-  attach(geometry, shape);
+  return geometry;
+}
+
+void Bvh::Impl::add_mesh(const TriangleMesh& mesh, uint32_t shape) {
+  if (!mesh.indices.empty()) attach(embree.scene, make_geometry(mesh, to_embree), shape);
+}
+
+void Bvh::Impl::add_instance(const InstancedMesh& instance, uint32_t shape) {
+  if (instance.mesh->indices.empty()) return;
+  OwnScene& own = own_scenes[instance.mesh.get()];
+  if (!own.scene) {
+    own.scale = power_of_two_of(instance.local);
+    own.scene = new_scene(embree.device);
+    attach(own.scene, make_geometry(*instance.mesh, 1 / own.scale), 0);
+    rtcCommitScene(own.scene);
+    check(embree.device, "building an instance's tree");
+  }
+  RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, own.scene);
+  const glm::mat3 linear = instance.to_world.linear * (own.scale * to_embree);
+  const Vector3 translation = instance.to_world.translation * to_embree;
+  const float columns[] = {linear[0].x, linear[0].y,   linear[0].z,   linear[1].x,
+                           linear[1].y, linear[1].z,   linear[2].x,   linear[2].y,
+                           linear[2].z, translation.x, translation.y, translation.z};
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  attach(embree.scene, geometry, shape);
+  instances = true;
 }
 
 template <class Geometry>
@@ -238,30 +298,32 @@ void Bvh::Impl::add_group(QuadricGroup& group, unsigned geometry_id) {
   rtcSetGeometryBoundsFunction(geometry, quadric_bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, quadric_intersect<Geometry>);
   rtcSetGeometryOccludedFunction(geometry, quadric_occluded<Geometry>);
-  attach(geometry, geometry_id);
+  attach(embree.scene, geometry, geometry_id);
 }
 
 void Bvh::Impl::set_scale(const Bounds3& bounds) {
-  if (bounds.empty()) return;
-  const float largest = std::max(max_abs_component(bounds.min), max_abs_component(bounds.max));
-  if (!(largest > 0) || !std::isfinite(largest)) return;
-  const int exponent = std::clamp(std::ilogb(largest), -100, 100);
-  to_scene = std::ldexp(1.0f, exponent);
-  to_embree = std::ldexp(1.0f, -exponent);
+  to_scene = power_of_two_of(bounds);
+  to_embree = 1 / to_scene;
 }
 
 void Bvh::Impl::add_shapes(const std::vector<Shape>& all) {
   const auto shapes = static_cast<uint32_t>(all.size());
-  spheres.shapes = disks.shapes = &all;
+  spheres.shapes = disks.shapes = others.shapes = &all;
   for (uint32_t i = 0; i < shapes; ++i) {
-    if (const auto* mesh = std::get_if<TriangleMesh>(&all[i].geometry)) {
-      add_mesh(*mesh, i);
-    } else {
-      (std::holds_alternative<Sphere>(all[i].geometry) ? spheres : disks).members.push_back(i);
-    }
+    std::visit(
+        [&](const auto& geometry) {
+          using Geometry = std::decay_t<decltype(geometry)>;
+          if constexpr (std::is_same_v<Geometry, TriangleMesh>) add_mesh(geometry, i);
+          if constexpr (std::is_same_v<Geometry, InstancedMesh>) add_instance(geometry, i);
+          if constexpr (std::is_same_v<Geometry, Sphere>) spheres.members.push_back(i);
+          if constexpr (std::is_same_v<Geometry, Disk>) disks.members.push_back(i);
+          if constexpr (std::is_same_v<Geometry, Quadric>) others.members.push_back(i);
+        },
+        all[i].geometry);
   }
   add_group<Sphere>(spheres, shapes);
   add_group<Disk>(disks, shapes + 1);
+  add_group<Quadric>(others, shapes + 2);
   coherent = primitive_count(all) <= kFewPrimitives;
 }
 
@@ -297,7 +359,8 @@ Hit Bvh::intersect(const Ray& ray) const {
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
   hit.t = query.ray.tfar * impl_->to_scene;
   hit.uv = {query.hit.u, query.hit.v};
-  hit.shape = query.hit.geomID;
+  const unsigned instance = query.hit.instID[0];
+  hit.shape = instance == RTC_INVALID_GEOMETRY_ID ? query.hit.geomID : instance;
   hit.primitive = query.hit.primID;
   return hit;
 }
@@ -329,6 +392,11 @@ void Bvh::Impl::store_packet(const RTCRayHit16& query, size_t first, HitLanes* h
   std::copy_n(query.hit.v, kPacket, hits->v + first);
   std::copy_n(query.hit.primID, kPacket, hits->primitive + first);
   std::copy_n(query.hit.geomID, kPacket, hits->shape + first);
+  if (!instances) return;
+  for (size_t i = 0; i < kPacket; ++i) {
+    const unsigned instance = query.hit.instID[0][i];
+    if (instance != RTC_INVALID_GEOMETRY_ID) hits->shape[first + i] = instance;
+  }
 }
 
 void Bvh::intersect(const RayLanes& rays, size_t count, HitLanes* hits, RayOrder order) const {

@@ -38,7 +38,7 @@ std::string_view type_name(const Light& light) {
   return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kName; }, light);
 }
 std::string_view type_name(const Shape& shape) {
-  constexpr std::string_view kNames[] = {"trianglemesh", "sphere", "disk"};
+  constexpr std::string_view kNames[] = {"trianglemesh", "sphere", "disk", "instance", "quadric"};
   return kNames[shape.geometry.index()];
 }
 
@@ -150,7 +150,8 @@ std::string info_text(const std::string& path, const Job& job) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
     text += fmt::format("material   {}: {}, albedo {}\n", name.empty() ? fmt::format("#{}", i) : name,
-                        type_name(scene.materials[i].typical()), triple_text(albedo(scene.materials[i].typical())));
+                        type_name(scene.materials[i].typical()),
+                        triple_text(albedo(scene.materials[i].typical())));
   }
   for (const Light& light : scene.lights) {
     text += fmt::format("light      {}, power {} W\n", type_name(light), triple_text(power(light)));

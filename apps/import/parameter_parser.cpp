@@ -19,6 +19,7 @@ constexpr std::array kTypes = {ParameterType::kFloat,  ParameterType::kInteger, 
                                ParameterType::kRgb,    ParameterType::kSpectrum, ParameterType::kBlackbody,
                                ParameterType::kTexture};
 // Integers are kept in doubles.
+constexpr size_t kMostParameters = 1000;                // of a directive: they are compared with each other
 constexpr double kLargestInteger = 9007199254740992.0;  // 2^53
 
 std::string quoted(const Token& token) {
@@ -238,6 +239,7 @@ bool parse_values(Tokenizer& tokens, Parameter& p, DiagnosticList& diagnostics) 
 
 std::vector<Parameter> parse_parameters(Tokenizer& tokens, DiagnosticList& diagnostics) {
   std::vector<Parameter> out;
+  bool too_many = false;
   while (tokens.peek().is(TokenKind::kString)) {
     Parameter p;
     const bool xyz = is_xyz(tokens.peek());
@@ -246,7 +248,11 @@ std::vector<Parameter> parse_parameters(Tokenizer& tokens, DiagnosticList& diagn
       skip_list(tokens);
       continue;
     }
-    if (!parse_values(tokens, p, diagnostics)) continue;
+    if (out.size() == kMostParameters) {
+      if (!too_many) diagnostics.error(p.location, fmt::format("more than {} parameters", kMostParameters));
+      too_many = true;
+    }
+    if (!parse_values(tokens, p, diagnostics) || too_many) continue;
     if (xyz) to_rgb(p);
     out.push_back(std::move(p));
   }

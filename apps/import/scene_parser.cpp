@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "apps/import/parameter_parser.h"
@@ -15,6 +16,7 @@ namespace {
 // A file with more errors than this is no scene.
 constexpr size_t kMostErrors = 1000;
 constexpr size_t kMostNestedBlocks = 10'000;
+constexpr size_t kMostUnclosed = 10;  // that are reported
 // Defaults are copied into every shape that they apply to.
 constexpr size_t kLongestDefault = 1024;
 
@@ -82,7 +84,7 @@ SceneDescription SceneParser::parse(uint32_t file) {
 void SceneParser::finish(const SourceLocation& end) {
   if (stopped_) return;
   if (!in_world_ && !misses_world_begin_) diagnostics_.error(end, "the file ends without `WorldBegin`");
-  for (const Open& open : stack_) {
+  for (const Open& open : std::span(stack_).first(std::min(stack_.size(), kMostUnclosed))) {
     diagnostics_.error(open.location, fmt::format("this block is not closed: expected `{}`",
                                                   open.object ? "ObjectEnd" : "AttributeEnd"));
   }

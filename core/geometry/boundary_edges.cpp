@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <span>
 #include <tuple>
 
+#include "core/geometry/rims.h"
 #include "core/geometry/surface_bounds.h"
 
 namespace kaustik {
@@ -107,15 +109,6 @@ void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, st
   }
 }
 
-// An edge from a to b of the facet with the inner point c.
-BoundaryEdge make_edge(const Point3& a, const Point3& b, const Point3& c, const Normal3& n, uint32_t group) {
-  const glm::dvec3 along = glm::normalize(glm::dvec3(b) - glm::dvec3(a));
-  const glm::dvec3 to_c = glm::dvec3(c) - glm::dvec3(a);
-  const glm::dvec3 inward = to_c - glm::dot(to_c, along) * along;
-  const double height = glm::length(inward);
-  return {a, b, n, Normal3(0), Vector3(-inward / height), float(height), group};
-}
-
 // The sides of one edge, seen over all meshes.
 class Joint {
  public:
@@ -195,28 +188,46 @@ void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>*
   }
 }
 
-// A polygon about the disk's outer rim, or inside its inner one: no point of the disk lies beyond its edges.
-void add_rim(const Disk& disk, const Shape& shape, bool outer, std::vector<BoundaryEdge>* edges) {
-  constexpr int kSides = 64;
-  const double step = 2 * std::numbers::pi / kSides;
-  const double radius = outer ? 1 / std::cos(0.5 * step) : double(disk.inner);
-  const auto corner = [&](int i) {
-    const double phi = step * (i % kSides);
-    return disk.to_world.point(Point3(radius * std::cos(phi), radius * std::sin(phi), 0));
-  };
-  const Normal3 n = shape.flip_normal ? -disk_normal(disk.to_world) : disk_normal(disk.to_world);
-  const Point3 center = disk.to_world.point(Point3(0));
-  for (int i = 0; i < kSides; ++i) {
-    BoundaryEdge edge = make_edge(corner(i), corner(i + 1), center, n, shape.surface_group);
-    if (!(edge.height > 0)) continue;
-    if (!outer) {
-      edge.outward = -edge.outward;
-      edge.height *= (1 - disk.inner) / disk.inner;
-    } else {
-      edge.height *= 1 - disk.inner;
-    }
-    edges->push_back(edge);
+// Of an instanced mesh, in its own space.
+struct OwnEdges {
+  std::vector<BoundaryEdge> edges;
+  uint64_t instances = 0;
+};
+
+std::vector<BoundaryEdge> own_edges(const InstancedMesh& instance, bool flip_normal) {
+  std::vector<Shape> alone(1);
+  alone[0].geometry = *instance.mesh;
+  alone[0].flip_normal = flip_normal;
+  std::vector<BoundaryEdge> edges;
+  add_mesh_edges(alone, &edges);
+  return edges;
+}
+
+void add_placed(const OwnEdges& own, const Transform& t, uint32_t group, std::vector<BoundaryEdge>* edges) {
+  for (const BoundaryEdge& e : own.edges) {
+    const Point3 inner = 0.5f * (e.a + e.b) - e.height * e.outward;
+    BoundaryEdge placed =
+        make_edge(t.point(e.a), t.point(e.b), t.point(inner), glm::normalize(t.normal(e.n)), group);
+    if (!(placed.height > 0)) continue;
+    if (e.beyond != Normal3(0)) placed.beyond = glm::normalize(t.normal(e.beyond));
+    edges->push_back(placed);
   }
+}
+
+void add_instance_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges) {
+  std::map<std::pair<const TriangleMesh*, bool>, OwnEdges> own;
+  const auto for_each_instance = [&](const auto& fn) {
+    for (const Shape& shape : shapes)
+      if (const auto* instance = std::get_if<InstancedMesh>(&shape.geometry))
+        fn(shape, *instance, own[{instance->mesh.get(), shape.flip_normal}]);
+  };
+  for_each_instance([](const Shape& shape, const InstancedMesh& instance, OwnEdges& found) {
+    if (found.instances++ == 0) found.edges = own_edges(instance, shape.flip_normal);
+  });
+  for_each_instance([&](const Shape& shape, const InstancedMesh& instance, const OwnEdges& found) {
+    if (found.edges.size() * found.instances <= kMostInstanceEdges)
+      add_placed(found, instance.to_world, shape.surface_group, edges);
+  });
 }
 
 }  // namespace
@@ -224,12 +235,8 @@ void add_rim(const Disk& disk, const Shape& shape, bool outer, std::vector<Bound
 std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes) {
   std::vector<BoundaryEdge> edges;
   add_mesh_edges(shapes, &edges);
-  for (const Shape& shape : shapes) {
-    const auto* disk = std::get_if<Disk>(&shape.geometry);
-    if (!disk) continue;
-    add_rim(*disk, shape, true, &edges);
-    if (disk->inner > 0) add_rim(*disk, shape, false, &edges);
-  }
+  add_instance_edges(shapes, &edges);
+  for (const Shape& shape : shapes) add_rims(shape, &edges);
   return edges;
 }
 

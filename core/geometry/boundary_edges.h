@@ -1,6 +1,6 @@
 #pragma once
-// Where surfaces end: the edges of meshes and the rims of disks. A density estimate on a disc that reaches
-// over them must know how much of it lies on the surface.
+// Where surfaces end: the edges of meshes and the rims of disks and other quadrics. A density estimate on a
+// disc that reaches over them must know how much of it lies on the surface.
 //
 // Not handled: an end that no edge marks, e.g. the line in which one surface cuts through another, and a
 // round rim whose facets each bend by less than kBendCosine.
@@ -22,15 +22,20 @@ struct BoundaryEdge {
   uint32_t surface_group = 0;
 };
 
+// Most edges of all instances of one mesh: where there are more, they are left out, and estimates next to
+// them are too dark.
+inline constexpr uint64_t kMostInstanceEdges = 1 << 20;
+
 // Facets that meet at an angle of a cosine above this (26 degrees) are one surface for every observer.
 inline constexpr float kBendCosine = 0.9f;
 
 // Edges of triangles at which their surface group ends or bends, those of a bend once for each side. Two
 // triangles share an edge when both ends are bit-identical in world space, whatever their winding and mesh;
-// at an edge of three or more triangles each goes on in the one that bends least. Rims of disks are polygons
-// of 64 sides that hold the disk. Spheres have no edges; triangles without area are left out. Edges where
-// unwelded facets meet are listed although the surface goes on, see accel::without_continued. O(n log n); the
-// order depends on shapes alone and not on their scale.
+// at an edge of three or more triangles each goes on in the one that bends least. Instances that share a mesh
+// have its edges, each for itself. Rims of disks are polygons of 64 sides that hold the disk, those of other
+// quadrics polygons of corners on the rim. Whole spheres have no edges; triangles without area are left out.
+// Edges where unwelded facets meet are listed although the surface goes on, see accel::without_continued. O(n
+// log n); the order depends on shapes alone and not on their scale.
 std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes);
 
 }  // namespace kaustik

@@ -5,6 +5,15 @@
 namespace kaustik {
 namespace {
 
+// Shading normal from the vertices', where there is one; the geometric normal is turned to its side.
+bool shade(const Normal3& ns, SurfaceInteraction& si) {
+  const float length2 = length_squared(ns);
+  if (!(length2 > 0 && std::isfinite(length2))) return false;
+  si.ns = ns / std::sqrt(length2);
+  if (glm::dot(si.n, si.ns) < 0) si.n = -si.n;
+  return true;
+}
+
 void fill(const TriangleMesh& mesh, const Shape& shape, const Ray& /*ray*/, const Hit& hit,
           SurfaceInteraction& si) {
   const auto [i0, i1, i2] = mesh.indices[hit.primitive];
@@ -18,15 +27,44 @@ void fill(const TriangleMesh& mesh, const Shape& shape, const Ray& /*ray*/, cons
   si.n = triangle_normal(e1, e2);
   if (!mesh.N.empty()) {
     const Normal3 ns = (1 - b1 - b2) * mesh.N[i0] + b1 * mesh.N[i1] + b2 * mesh.N[i2];
-    const float length2 = length_squared(ns);
-    if (length2 > 0 && std::isfinite(length2)) {
-      si.ns = ns / std::sqrt(length2);
-      if (glm::dot(si.n, si.ns) < 0) si.n = -si.n;
-      return;
-    }
+    if (shade(ns, si)) return;
   }
   if (shape.flip_normal) si.n = -si.n;
   si.ns = si.n;
+}
+
+void fill(const InstancedMesh& instance, const Shape& shape, const Ray& /*ray*/, const Hit& hit,
+          SurfaceInteraction& si) {
+  const TriangleMesh& mesh = *instance.mesh;
+  const Transform& t = instance.to_world;
+  const auto [i0, i1, i2] = mesh.indices[hit.primitive];
+  const Point3 p0 = mesh.P[i0];
+  const Vector3 e1 = mesh.P[i1] - p0, e2 = mesh.P[i2] - p0;
+  const float b1 = hit.uv.x, b2 = hit.uv.y;
+  const Point3 p = p0 + (b1 * e1 + b2 * e2);
+  si.p = t.point(p);
+  si.p_error = instance_error(t, p, e1, e2);
+  si.n = glm::normalize(t.normal(triangle_normal(e1, e2)));
+  if (!mesh.N.empty()) {
+    const Normal3 ns = (1 - b1 - b2) * mesh.N[i0] + b1 * mesh.N[i1] + b2 * mesh.N[i2];
+    if (shade(t.normal(ns), si)) return;
+  }
+  if (shape.flip_normal) si.n = -si.n;
+  si.ns = si.n;
+}
+
+void fill(const Quadric& q, const Shape& shape, const Ray& ray, const Hit& hit, SurfaceInteraction& si) {
+  const Transform& t = q.to_world;
+  Point3 p(hit.uv.x, hit.uv.y, 0);
+  if (q.kind != QuadricKind::kDisk) p = t.inverse_point(ray.o) + hit.t * t.inverse_vector(ray.d);
+  const Normal3 local(normal_at(q, glm::dvec3(p)));
+  // Back to the surface: only along it does the ray's length matter.
+  if (q.kind == QuadricKind::kSphere) p = local;
+  if (q.kind == QuadricKind::kCylinder) p = {local.x, local.y, p.z};
+  const Normal3 n = glm::normalize(t.normal(local));
+  si.p = t.point(p);
+  si.p_error = quadric_error(q);
+  si.n = si.ns = shape.flip_normal ? -n : n;
 }
 
 void fill(const Sphere& sphere, const Shape& shape, const Ray& ray, const Hit& hit, SurfaceInteraction& si) {

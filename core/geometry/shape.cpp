@@ -63,6 +63,40 @@ double area(const Sphere& s) {
   return std::abs(glm::determinant(m)) * sum * 4 * kPiDouble / (kRings * kSectors);
 }
 
+// Of the mapped box's corners: larger than need be, but found without a look at the triangles.
+Bounds3 bounds(const InstancedMesh& instance) {
+  const Bounds3& local = instance.local;
+  Bounds3 b;
+  if (local.empty()) return b;
+  float error = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Point3 p(corner & 1 ? local.max.x : local.min.x, corner & 2 ? local.max.y : local.min.y,
+                   corner & 4 ? local.max.z : local.min.z);
+    b.add(instance.to_world.point(p));
+    error = std::max(error, instance_error(instance.to_world, p, Vector3(0), Vector3(0)));
+  }
+  b.min -= error;
+  b.max += error;
+  return b;
+}
+Bounds3 bounds(const Quadric& q) {
+  return bounds_of(q);
+}
+
+double area(const InstancedMesh& instance) {
+  double sum = 0;
+  const glm::dmat3 m(instance.to_world.linear);
+  for (const auto& [i0, i1, i2] : instance.mesh->indices) {
+    const glm::dvec3 p0(instance.mesh->P[i0]);
+    sum += 0.5 * glm::length(glm::cross(m * (glm::dvec3(instance.mesh->P[i1]) - p0),
+                                        m * (glm::dvec3(instance.mesh->P[i2]) - p0)));
+  }
+  return sum;
+}
+double area(const Quadric& q) {
+  return area_of(q);
+}
+
 double area(const Disk& d) {
   const glm::dvec3 x(d.to_world.linear[0]);
   const glm::dvec3 y(d.to_world.linear[1]);
@@ -81,7 +115,7 @@ double surface_area(const Shape& shape) {
 }
 
 uint64_t primitive_count(const Shape& shape) {
-  const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+  const TriangleMesh* mesh = shape.mesh();
   return mesh ? mesh->indices.size() : 1;
 }
 

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
+#include "core/geometry/quadric.h"
 #include "core/math/bounds.h"
 #include "core/math/transform.h"
 #include "core/math/vec.h"
@@ -21,6 +23,14 @@ struct TriangleMesh {
   std::vector<Normal3> N;
   std::vector<Point2> uv;
   std::vector<std::array<uint32_t, 3>> indices;
+};
+
+// A mesh in a space of its own, placed by to_world; any number of instances share it. Where N is given its
+// vectors are of unit length, and turned over if the shape's orientation is reversed.
+struct InstancedMesh {
+  std::shared_ptr<const TriangleMesh> mesh;
+  Bounds3 local;  // of the mesh
+  Transform to_world;
 };
 
 // Image of the unit sphere about the origin under to_world: exact, ellipsoids included.
@@ -38,12 +48,18 @@ struct Disk {
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
 struct Shape {
-  std::variant<TriangleMesh, Sphere, Disk> geometry;
+  std::variant<TriangleMesh, Sphere, Disk, InstancedMesh, Quadric> geometry;
   uint32_t material = 0;       // into Scene::materials
   uint32_t light = kNoIndex;   // into Scene::lights when the shape emits
   uint32_t surface_group = 0;  // photons are shared within a group only
   bool flip_normal =
       false;  // ReverseOrientation xor handedness of the transform (not applied where N is given)
+
+  // Its triangles, in the world or in a space of their own; null where there are none.
+  const TriangleMesh* mesh() const {
+    if (const auto* instance = std::get_if<InstancedMesh>(&geometry)) return instance->mesh.get();
+    return std::get_if<TriangleMesh>(&geometry);
+  }
 };
 
 Bounds3 bounds_of(const Shape& shape);

@@ -20,6 +20,20 @@ inline float triangle_error(const Point3& p, const Vector3& e1, const Vector3& e
   return surface_error(max_abs_component(p), max_abs_component(e1) + max_abs_component(e2));
 }
 
+// Of the image of p = p0 + b1 e1 + b2 e2, a point of an instance's own space, under to_world. To the errors
+// of p and of the map (4 roundings) comes that of taking the ray to the instance's space: the map's inverse
+// is made from floats, so it is off by some 8 roundings times the map's condition, amplified by the condition
+// on its way back; and its product with the origin rounds relative to coordinates in the world, 5 times.
+inline float instance_error(const Transform& to_world, const Point3& p, const Vector3& e1,
+                            const Vector3& e2) {
+  const float scale = max_row_sum(to_world.linear);
+  const float condition = std::max(1.0f, scale * max_row_sum(to_world.inverse_linear));
+  const float own = scale * max_abs_component(p);
+  const float world = own + max_abs_component(to_world.translation);
+  return scale * triangle_error(p, e1, e2) + gamma_bound(4) * world + gamma_bound(5) * condition * 2 * world +
+         gamma_bound(8) * condition * condition * own;
+}
+
 // Of a point on a round sphere.
 inline float sphere_error(const Point3& center, float radius) {
   return surface_error(max_abs_component(center) + radius, 2 * radius);

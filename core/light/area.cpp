@@ -36,6 +36,13 @@ SurfaceSample sample_surface(const DiskEmitter& e, const Point2& u) {
   return {p, disk_error(e.to_world), e.n};
 }
 
+SurfaceSample sample_surface(const QuadricEmitter& e, const Point2& u) {
+  const Transform& t = e.quadric.to_world;
+  const Point3 p = sample_uniform(e.quadric, u);
+  const Normal3 n = glm::normalize(t.normal(Normal3(normal_at(e.quadric, glm::dvec3(p)))));
+  return {t.point(p), quadric_error(e.quadric), e.inward ? -n : n};
+}
+
 // Clearly outside: points of the sphere itself, known up to their rounding, count as inside, where sampling
 // by area is right from either side.
 bool outside(const SphereEmitter& e, const Point3& ref) {

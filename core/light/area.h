@@ -23,6 +23,10 @@ struct SphereEmitter {
   float radius;
   bool inward = false;  // emits to the inside
 };
+struct QuadricEmitter {
+  Quadric quadric;
+  bool inward = false;  // emits to the inside
+};
 struct DiskEmitter {
   Transform to_world;
   float inner;
@@ -34,12 +38,13 @@ struct DiffuseAreaLight {
   static constexpr bool kDelta = false;
   static constexpr std::string_view kName = "diffuse";
 
-  std::variant<TriangleEmitter, SphereEmitter, DiskEmitter> surface;
+  std::variant<TriangleEmitter, SphereEmitter, DiskEmitter, QuadricEmitter> surface;
   Rgb L{1};
   bool twosided = false;
   float area = 0;  // m^2, one side
 
-  // Empty when the shape cannot emit by area sampling: a sphere under a non-uniform transform.
+  // Empty when the shape cannot emit by area sampling: a sphere or cylinder under a transform that does not
+  // keep it round, or an instance.
   static std::optional<DiffuseAreaLight> make(const Shape& shape, const Rgb& L, bool twosided);
 
   // Radiance leaving point p with outside normal n in direction w (unit).

@@ -39,6 +39,15 @@ bool is_similarity(const glm::mat3& m) {
   return size > 0;
 }
 
+// Whether equal areas of the quadric's own space are equal in the world.
+bool keeps_areas_even(const Quadric& q) {
+  if (q.kind == QuadricKind::kDisk) return true;
+  glm::mat3 m = q.to_world.linear;
+  // A cylinder may be of any length.
+  if (q.kind == QuadricKind::kCylinder) m[2] *= glm::length(m[0]) / glm::length(m[2]);
+  return is_similarity(m);
+}
+
 }  // namespace
 
 std::optional<DiffuseAreaLight> DiffuseAreaLight::make(const Shape& shape, const Rgb& L, bool twosided) {
@@ -53,6 +62,11 @@ std::optional<DiffuseAreaLight> DiffuseAreaLight::make(const Shape& shape, const
     const Transform& t = sphere->to_world;
     if (!is_similarity(t.linear)) return std::nullopt;
     light.surface = SphereEmitter{t.translation, glm::length(t.linear[0]), shape.flip_normal};
+  } else if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
+    if (!keeps_areas_even(*quadric)) return std::nullopt;
+    light.surface = QuadricEmitter{*quadric, shape.flip_normal};
+  } else if (!std::holds_alternative<Disk>(shape.geometry)) {
+    return std::nullopt;
   } else {
     const auto& disk = std::get<Disk>(shape.geometry);
     const Normal3 n = disk_normal(disk.to_world);

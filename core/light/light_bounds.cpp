@@ -83,6 +83,14 @@ void add_surface(const DiskEmitter& e, LightBounds& b) {
   b.cos_o = 1;
 }
 
+void add_surface(const QuadricEmitter& e, LightBounds& b) {
+  b.box.add(bounds_of(e.quadric));
+  if (e.quadric.kind != QuadricKind::kDisk) return;
+  const Normal3 n = disk_normal(e.quadric.to_world);
+  b.w = e.inward ? -n : n;
+  b.cos_o = 1;
+}
+
 std::optional<LightBounds> bounds(const DiffuseAreaLight& l) {
   LightBounds b;
   std::visit([&](const auto& e) { add_surface(e, b); }, l.surface);

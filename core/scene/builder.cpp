@@ -18,8 +18,8 @@
 namespace kaustik {
 namespace {
 
-// Instances are copied: past this many triangles that is a mistake, or a scene for another machine.
-constexpr uint64_t kMostInstancedTriangles = 1'000'000'000;
+// Each takes some hundred bytes: past this many it is a mistake, or a scene for another machine.
+constexpr uint64_t kMostPlacements = 10'000'000;
 
 // A Shape line that passed the checks, and its geometry.
 struct Item {
@@ -27,7 +27,9 @@ struct Item {
   uint32_t material = 0;
   std::optional<size_t> object;  // whose shape it is; nothing for shapes that stand in the world
   std::optional<ShapeSource> source;
-  DiagnosticList diagnostics;  // of making the source
+  size_t placements = 0;
+  std::optional<SharedMesh> shared;  // made from the source where its placements share it
+  DiagnosticList diagnostics;        // of making the source
 };
 
 // One placement of an item.
@@ -35,7 +37,8 @@ struct Placement {
   size_t item = 0;
   glm::dmat4 to_world{1};
   bool lamp = false;
-  bool last = false;  // of the item: may take the geometry instead of copying it
+  bool last = false;    // of the item: may take the geometry instead of copying it
+  size_t instance = 0;  // into SceneDescription::instances, for shapes of objects
 };
 
 class Builder {
@@ -57,7 +60,8 @@ class Builder {
     choose_origin(scene);
     check_area_lights();
     build_lights(scene);
-    if (diagnostics_.has_errors() || !fits_memory()) return std::nullopt;
+    if (diagnostics_.has_errors()) return std::nullopt;
+    share_meshes();
     place(scene);
     if (diagnostics_.has_errors()) return std::nullopt;
     scene.materials = std::move(materials.materials());
@@ -70,8 +74,8 @@ class Builder {
   void collect(MaterialTable& materials);
   std::optional<size_t> add_item(const ShapeDescription& shape, std::optional<size_t> object,
                                  MaterialTable& materials);
-  void add_instance(const InstanceDescription& instance,
-                    const std::map<std::string_view, std::vector<size_t>>& items_of);
+  bool fits_memory(const std::map<std::string_view, std::vector<size_t>>& items_of);
+  void add_instance(size_t index, const std::map<std::string_view, std::vector<size_t>>& items_of);
   void load_sources();
   std::optional<ShapeSource> make_source(const Item& item, const glm::dvec3& mesh_origin,
                                          DiagnosticList& diagnostics) const;
@@ -81,11 +85,12 @@ class Builder {
   void check_area_lights();
   void build_lights(Scene& scene);
   bool check_power(const Rgb& power, const SourceLocation& location);
-  bool fits_memory();
+  void share_meshes();
   void place(Scene& scene);
   bool keep(const Placement& placement, PlacedShape& placed);
   bool make_lamp(const Item& item, Shape& shape, Scene& scene);
   std::string group_name(const ShapeDescription& shape) const;
+  std::string group_key(const Placement& placement) const;
 
   const SceneDescription& description_;
   const MeshLoader& load_mesh_;
@@ -116,7 +121,10 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
     }
     return std::nullopt;
   }
-  items_.push_back({&shape, material, object, std::nullopt, {}});
+  Item& item = items_.emplace_back();
+  item.description = &shape;
+  item.material = material;
+  item.object = object;
   return items_.size() - 1;
 }
 
@@ -137,11 +145,26 @@ void Builder::collect(MaterialTable& materials) {
       }
     }
   }
-  for (const InstanceDescription& instance : description_.instances) add_instance(instance, items_of);
+  if (!fits_memory(items_of)) return;
+  for (size_t i = 0; i < description_.instances.size(); ++i) add_instance(i, items_of);
 }
 
-void Builder::add_instance(const InstanceDescription& instance,
-                           const std::map<std::string_view, std::vector<size_t>>& items_of) {
+bool Builder::fits_memory(const std::map<std::string_view, std::vector<size_t>>& items_of) {
+  uint64_t placed = 0;
+  for (const InstanceDescription& instance : description_.instances) {
+    const auto found = items_of.find(instance.object);
+    if (found != items_of.end()) placed += found->second.size();
+    if (placed <= kMostPlacements) continue;
+    diagnostics_.error(
+        instance.location,
+        fmt::format("instances place more than the {} shapes that are accepted", kMostPlacements));
+    return false;
+  }
+  return true;
+}
+
+void Builder::add_instance(size_t index, const std::map<std::string_view, std::vector<size_t>>& items_of) {
+  const InstanceDescription& instance = description_.instances[index];
   const auto found = items_of.find(instance.object);
   if (found == items_of.end()) {
     std::vector<std::string_view> names;
@@ -156,7 +179,7 @@ void Builder::add_instance(const InstanceDescription& instance,
   }
   for (const size_t item : found->second) {
     placements_.push_back(
-        {item, instance.instance_to_world * items_[item].description->object_to_world, false, false});
+        {item, instance.instance_to_world * items_[item].description->object_to_world, false, false, index});
   }
 }
 
@@ -248,17 +271,13 @@ bool Builder::check_power(const Rgb& power, const SourceLocation& location) {
   return false;
 }
 
-bool Builder::fits_memory() {
-  uint64_t triangles = 0;
-  for (const Placement& placement : placements_) {
-    const auto* mesh = std::get_if<TriangleMesh>(&items_[placement.item].source->geometry);
-    if (mesh && !placement.last) triangles += mesh->indices.size();
-  }
-  if (triangles <= kMostInstancedTriangles) return true;
-  diagnostics_.error(description_.instances.front().location,
-                     fmt::format("instances are copied: {} triangles are more than the {} that are accepted",
-                                 triangles, kMostInstancedTriangles));
-  return false;
+void Builder::share_meshes() {
+  for (const Placement& placement : placements_) ++items_[placement.item].placements;
+  tbb::parallel_for(size_t{0}, items_.size(), [&](size_t i) {
+    Item& item = items_[i];
+    if (!pays_to_share(*item.source, item.placements)) return;
+    item.shared = share_mesh(std::move(*item.source), item.description->reverse_orientation);
+  });
 }
 
 // Reports what placing found; false when nothing is left of the shape.
@@ -269,7 +288,7 @@ bool Builder::keep(const Placement& placement, PlacedShape& placed) {
     return false;
   }
   if (placed.without_area > 0 && warned_without_area_.insert(placement.item).second) {
-    const auto& mesh = std::get<TriangleMesh>(placed.shape.geometry);
+    const TriangleMesh& mesh = *placed.shape.mesh();
     diagnostics_.warning(shape.location,
                          fmt::format("{} of {} triangles have no area and are left out", placed.without_area,
                                      mesh.indices.size() + placed.without_area));
@@ -283,9 +302,10 @@ bool Builder::make_lamp(const Item& item, Shape& shape, Scene& scene) {
   const ParameterReader reader(directive, *area_light_specs_[index]);
   auto light = DiffuseAreaLight::make(shape, reader.rgb("L"), reader.flag("twosided"));
   if (!light) {
-    const bool sphere = std::holds_alternative<Sphere>(shape.geometry);
+    const bool sphere =
+        std::holds_alternative<Sphere>(shape.geometry) || std::holds_alternative<Quadric>(shape.geometry);
     diagnostics_.error(item.description->location,
-                       sphere ? "a sphere that is scaled unevenly cannot be a lamp"
+                       sphere ? "a sphere or cylinder that is scaled unevenly cannot be a lamp"
                               : "the area of this lamp is zero or not finite",
                        {{directive.location, "the area light"}});
     return false;
@@ -306,9 +326,18 @@ bool Builder::make_lamp(const Item& item, Shape& shape, Scene& scene) {
 }
 
 std::string Builder::group_name(const ShapeDescription& shape) const {
+  if (const Parameter* group = shape.find("surfacegroup")) return group->strings[0];
   if (!shape.location.valid()) return shape.type;
   return fmt::format("{} at {}:{}", shape.type, diagnostics_.files.name(shape.location.file),
                      shape.location.line);
+}
+
+// Of one key are shapes of one named group, in each instance of an object for itself.
+std::string Builder::group_key(const Placement& placement) const {
+  const Item& item = items_[placement.item];
+  const Parameter* group = item.description->find("surfacegroup");
+  if (!group) return {};
+  return item.object ? fmt::format("{}\n{}", group->strings[0], placement.instance) : group->strings[0];
 }
 
 void Builder::place(Scene& scene) {
@@ -316,6 +345,10 @@ void Builder::place(Scene& scene) {
   tbb::parallel_for(size_t{0}, placements_.size(), [&](size_t i) {
     const Placement& p = placements_[i];
     Item& item = items_[p.item];
+    if (item.shared) {
+      placed[i] = place_instance(*item.shared, p.to_world, item.description->reverse_orientation);
+      return;
+    }
     // Only a Shape line's own placement is its last one, and then its only one: no other thread reads the
     // source.
     ShapeSource source = p.last ? std::move(*item.source) : *item.source;
@@ -329,9 +362,8 @@ void Builder::place(Scene& scene) {
     if (!keep(placements_[i], placed[i])) continue;
     shape.material = item.material;
     if (placements_[i].lamp && !make_lamp(item, shape, scene)) continue;
-    const Parameter* group = item.description->find("surfacegroup");
-    names.push_back(group ? group->strings[0] : std::string());
-    places.push_back(group ? names.back() : group_name(*item.description));
+    names.push_back(group_key(placements_[i]));
+    places.push_back(group_name(*item.description));
     scene.shapes.push_back(std::move(shape));
   }
   scene.surface_group_names.resize(assign_surface_groups(scene.shapes, names));

@@ -16,8 +16,10 @@ ExactBounds object_bounds(const ShapeDescription& shape, const ShapeSource& sour
   ExactBounds box;
   const auto* mesh = std::get_if<TriangleMesh>(&source.geometry);
   if (!mesh) {
-    box.add(glm::dvec3(-1));
-    box.add(glm::dvec3(1));
+    const auto* quadric = std::get_if<Quadric>(&source.geometry);
+    const bool cylinder = quadric && quadric->kind == QuadricKind::kCylinder;
+    box.add(glm::dvec3(-1, -1, cylinder ? double(quadric->z_min) : -1));
+    box.add(glm::dvec3(1, 1, cylinder ? double(quadric->z_max) : 1));
     return mapped(source.local, box);
   }
   if (const Parameter* P = shape.find("P")) {

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/scene/bilinear.h"
+#include "core/scene/loop_subdivision.h"
 
 namespace kaustik {
 namespace {
@@ -111,6 +112,23 @@ std::optional<ShapeSource> make_bilinearmesh(const Context& c) {
   return ShapeSource{triangulate_patches(mesh), glm::translate(glm::dmat4(1), c.mesh_origin)};
 }
 
+std::optional<ShapeSource> make_loopsubdiv(const Context& c) {
+  const Parameter* P = c.required("P");
+  if (!P || !c.required("indices")) return std::nullopt;
+  TriangleMesh cage;
+  cage.P = positions(c, *P);
+  auto indices = faces<3>(c, cage.P.size());
+  if (!indices) return std::nullopt;
+  cage.indices = std::move(*indices);
+  std::string error;
+  auto mesh = subdivide_loop(cage, static_cast<int>(c.reader.number("levels")), &error);
+  if (!mesh) {
+    c.error(c.reader.location("indices"), fmt::format("this mesh cannot be subdivided: {}", error));
+    return std::nullopt;
+  }
+  return ShapeSource{std::move(*mesh), glm::translate(glm::dmat4(1), c.mesh_origin)};
+}
+
 std::optional<ShapeSource> make_plymesh(const Context& c, const MeshLoader& load_mesh) {
   if (!c.required("filename")) return std::nullopt;
   const SourceLocation where = c.reader.location("filename");
@@ -122,25 +140,45 @@ std::optional<ShapeSource> make_plymesh(const Context& c, const MeshLoader& load
   return ShapeSource{std::move(result.mesh)};
 }
 
-// zmin and zmax may be given as long as they leave the whole sphere.
-bool check_whole_sphere(const Context& c, double radius) {
-  const auto cuts = [&](std::string_view name, double sign) {
-    const Parameter* p = c.shape.find(name);
-    if (!p || sign * p->numbers[0] >= radius) return false;
-    c.error(p->value_location(0),
-            fmt::format("`{}` = {} cuts the sphere of radius {}: only whole spheres are rendered", name,
-                        p->numbers[0], radius));
-    return true;
-  };
-  const bool cut_below = cuts("zmin", -1);
-  const bool cut_above = cuts("zmax", 1);
-  return !cut_below && !cut_above;
+float turn_of(const Context& c) {
+  return static_cast<float>(glm::radians(c.reader.number("phimax")));
+}
+
+bool check_extent(const Context& c, double z_min, double z_max) {
+  if (z_min < z_max) return true;
+  c.error(
+      c.reader.location(c.shape.find("zmin") ? "zmin" : "zmax"),
+      fmt::format("nothing of the {} lies between `zmin` = {} and `zmax` = {}", c.shape.type, z_min, z_max));
+  return false;
 }
 
 std::optional<ShapeSource> make_sphere(const Context& c) {
   const double radius = c.reader.number("radius");
-  if (!check_whole_sphere(c, radius)) return std::nullopt;
-  return ShapeSource{SphereSource{}, glm::scale(glm::dmat4(1), glm::dvec3(radius))};
+  const auto limit = [&](std::string_view name, double whole) {
+    return c.reader.has(name) ? std::clamp(c.reader.number(name), -radius, radius) : whole;
+  };
+  const double z_min = limit("zmin", -radius), z_max = limit("zmax", radius);
+  if (!check_extent(c, z_min, z_max)) return std::nullopt;
+  const glm::dmat4 local = glm::scale(glm::dmat4(1), glm::dvec3(radius));
+  if (z_min == -radius && z_max == radius && c.reader.number("phimax") == 360)
+    return ShapeSource{SphereSource{}, local};
+  Quadric q;
+  q.z_min = static_cast<float>(z_min / radius);
+  q.z_max = static_cast<float>(z_max / radius);
+  q.phi_max = turn_of(c);
+  return ShapeSource{q, local};
+}
+
+std::optional<ShapeSource> make_cylinder(const Context& c) {
+  const double radius = c.reader.number("radius");
+  const double z_min = c.reader.number("zmin"), z_max = c.reader.number("zmax");
+  if (!check_extent(c, z_min, z_max)) return std::nullopt;
+  Quadric q;
+  q.kind = QuadricKind::kCylinder;
+  q.z_min = static_cast<float>(z_min / radius);
+  q.z_max = static_cast<float>(z_max / radius);
+  q.phi_max = turn_of(c);
+  return ShapeSource{q, glm::scale(glm::dmat4(1), glm::dvec3(radius))};
 }
 
 std::optional<ShapeSource> make_disk(const Context& c) {
@@ -153,7 +191,13 @@ std::optional<ShapeSource> make_disk(const Context& c) {
   }
   const glm::dmat4 local = glm::scale(
       glm::translate(glm::dmat4(1), glm::dvec3(0, 0, c.reader.number("height"))), glm::dvec3(radius));
-  return ShapeSource{DiskSource{static_cast<float>(inner / radius)}, local};
+  if (c.reader.number("phimax") == 360)
+    return ShapeSource{DiskSource{static_cast<float>(inner / radius)}, local};
+  Quadric q;
+  q.kind = QuadricKind::kDisk;
+  q.inner = static_cast<float>(inner / radius);
+  q.phi_max = turn_of(c);
+  return ShapeSource{q, local};
 }
 
 // What both inline meshes and files can get wrong.
@@ -181,7 +225,9 @@ std::optional<ShapeSource> make_geometry(const Context& c, const MeshLoader& loa
   if (c.shape.type == "trianglemesh") return make_trianglemesh(c);
   if (c.shape.type == "plymesh") return make_plymesh(c, load_mesh);
   if (c.shape.type == "bilinearmesh") return make_bilinearmesh(c);
+  if (c.shape.type == "loopsubdiv") return make_loopsubdiv(c);
   if (c.shape.type == "sphere") return make_sphere(c);
+  if (c.shape.type == "cylinder") return make_cylinder(c);
   return make_disk(c);
 }
 

@@ -17,7 +17,8 @@ struct DiskSource {
 };
 
 struct ShapeSource {
-  std::variant<TriangleMesh, SphereSource, DiskSource> geometry;
+  // The quadric's own map is not used.
+  std::variant<TriangleMesh, SphereSource, DiskSource, Quadric> geometry;
   // To the shape's space: from the unit sphere or disk, or from a mesh's own origin.
   glm::dmat4 local{1};
 };
@@ -38,5 +39,20 @@ struct PlacedShape {
 
 // Bakes the transform. Triangles keep their order.
 PlacedShape place_shape(ShapeSource source, const glm::dmat4& object_to_world, bool reverse_orientation);
+
+// A mesh that its instances share.
+struct SharedMesh {
+  InstancedMesh instance;  // not placed yet
+  glm::dmat4 local{1};     // as of ShapeSource
+  size_t without_area = 0;
+  bool finite = true;
+};
+
+// Whether so many placements of the shape share its mesh, rather than being copied: copies are faster to
+// trace while they are few and small.
+bool pays_to_share(const ShapeSource& source, size_t placements);
+SharedMesh share_mesh(ShapeSource source, bool reverse_orientation);
+PlacedShape place_instance(const SharedMesh& shared, const glm::dmat4& object_to_world,
+                           bool reverse_orientation);
 
 }  // namespace kaustik

@@ -93,6 +93,31 @@ TEST(Bvh, MatchesBruteForceOnDisks) {
   expect_matches_oracle(scene, {}, random, 3000);
 }
 
+TEST(Bvh, MatchesBruteForceOnQuadrics) {
+  Random random(5);
+  Scene scene;
+  testing::add_quadrics(scene, random, {}, 300);
+  testing::finish(scene);
+  expect_matches_oracle(scene, {}, random, 3000);
+}
+
+// Meshes of any size of their own, placed by maps of any kind.
+TEST(Bvh, MatchesBruteForceOnInstances) {
+  for (const float size : {1.0f, 1e-4f, 3e5f}) {
+    for (const Placement& place : {Placement{}, Placement{1e-4f, {0, 0, 0}}, Placement{1, {100, -200, 50}}}) {
+      SCOPED_TRACE(::testing::Message() << size << " scale " << place.scale << " offset " << place.offset.x);
+      Random random(6);
+      Scene scene;
+      testing::add_instances(scene, random, place, 20, 30, size);
+      testing::add_triangles(scene, random, place, 20, 0.3f);
+      testing::add_quadrics(scene, random, place, 20);
+      testing::add_instances(scene, random, place, 10, 15, 2 * size);
+      testing::finish(scene);
+      expect_matches_oracle(scene, place, random, 1500);
+    }
+  }
+}
+
 TEST(Bvh, MatchesBruteForceOnMixedShapesAnywhere) {
   for (const Placement& place : {Placement{}, Placement{1e-4f, {0, 0, 0}}, Placement{3e4f, {0, 0, 0}},
                                  Placement{1, {100, -200, 50}}, Placement{1e-3f, {-500, 10, 1000}}}) {

@@ -73,6 +73,16 @@ TEST(BvhPackets, AreSingleRaysInScenesOfManyPrimitives) {
   expect_packets_are_single_rays(scene, place, random);
 }
 
+TEST(BvhPackets, AreSingleRaysAmongInstancesAndQuadrics) {
+  Random random(13);
+  Scene scene;
+  testing::add_instances(scene, random, {}, 20, 40, 3);
+  testing::add_quadrics(scene, random, {}, 30);
+  testing::add_triangles(scene, random, {}, 20, 0.5f);
+  testing::finish(scene);
+  expect_packets_are_single_rays(scene, {}, random);
+}
+
 TEST(BvhPackets, EmptySceneLetsAllRaysEscape) {
   Scene scene;
   testing::finish(scene);

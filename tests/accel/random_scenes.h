@@ -76,6 +76,42 @@ inline void add_disks(Scene& scene, Random& random, const Placement& place, int 
   }
 }
 
+// Cylinders and parts of spheres and disks in turn.
+inline void add_quadrics(Scene& scene, Random& random, const Placement& place, int count) {
+  for (int i = 0; i < count; ++i) {
+    const float r = random.uniform(0.02f, 0.3f);
+    Quadric q;
+    q.kind = static_cast<QuadricKind>(i % 3);
+    q.z_min = random.uniform(-0.9f, 0);
+    q.z_max = random.uniform(0.1f, 0.9f);
+    q.inner = q.kind == QuadricKind::kDisk ? random.uniform(0.1f, 0.6f) : 0.0f;
+    if (i % 2) q.phi_max = random.uniform(1, 6);
+    const Vector3 radii = r * Vector3(random.uniform(0.5f, 1), random.uniform(0.5f, 1), 1);
+    q.to_world = place.transform(random.in_cube(), Frame::from_z(random.direction()), radii);
+    Shape shape;
+    shape.geometry = q;
+    scene.shapes.push_back(std::move(shape));
+  }
+}
+
+// Instances of one mesh of `triangles` triangles in [-1, 1]^3 times `size`, turned, mirrored now and then,
+// and scaled unevenly.
+inline void add_instances(Scene& scene, Random& random, const Placement& place, int count, int triangles,
+                          float size) {
+  Scene own;
+  add_triangles(own, random, {size, {0, 0, 0}}, triangles, 0.3f);
+  const auto mesh = std::make_shared<const TriangleMesh>(std::get<TriangleMesh>(own.shapes[0].geometry));
+  for (int i = 0; i < count; ++i) {
+    const float r = random.uniform(0.1f, 0.4f) / size;
+    const Vector3 radii = r * Vector3(random.uniform(0.5f, 1), i % 3 ? 0.8f : -0.8f, 1);
+    Shape shape;
+    shape.geometry =
+        InstancedMesh{mesh, bounds_of(own.shapes[0]),
+                      place.transform(random.in_cube(), Frame::from_z(random.direction()), radii)};
+    scene.shapes.push_back(std::move(shape));
+  }
+}
+
 inline void finish(Scene& scene) {
   scene.materials.emplace_back(Lambertian{});
   finalize_scene(scene);

@@ -98,6 +98,67 @@ TEST(Robustness, RaysNeverHitTheTriangleTheyLeave) {
   EXPECT_GT(tried, 100000);
 }
 
+// A triangle of an instance, whatever the map: turned, mirrored and scaled unevenly.
+TEST(Robustness, RaysNeverHitTheInstanceTheyLeave) {
+  Random random(16);
+  int tried = 0;
+  for (const Placement& place : kPlaces) {
+    for (int round = 0; round < 300; ++round) {
+      Scene scene;
+      testing::add_instances(scene, random, place, 1, 1, round % 2 ? 1.0f : 1e3f);
+      testing::finish(scene);
+      const Bvh bvh(scene);
+      const auto& instance = std::get<InstancedMesh>(scene.shapes[0].geometry);
+      const auto& P = instance.mesh->P;
+      for (int i = 0; i < 10; ++i) {
+        const float b1 = random.uniform(), b2 = random.uniform(0, 1 - b1);
+        const Point3 target = instance.to_world.point((1 - b1 - b2) * P[0] + b1 * P[1] + b2 * P[2]);
+        const Point3 o = place.point(3.0f * random.in_cube());
+        SurfaceInteraction si;
+        if (!bvh.intersect({o, glm::normalize(target - o)}, &si)) continue;
+        // A few units in the last place of the coordinates: what is left is a usable offset.
+        ASSERT_LT(si.p_error, 1e-4f * place.scale * (2 + glm::length(place.offset)));
+        for (float cosine : kCosines) {
+          for (float side : {-1.0f, 1.0f}) {
+            ++tried;
+            ASSERT_FALSE(bvh.intersect(si.spawn(side * tilted(si.n, cosine, random))).valid())
+                << "scale " << place.scale << " offset " << place.offset.x << " cosine " << cosine;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(tried, 50000);
+}
+
+// Outwards: what is round meets its own other side inwards.
+TEST(Robustness, RaysNeverHitTheQuadricTheyLeave) {
+  Random random(17);
+  int tried = 0;
+  for (const Placement& place : kPlaces) {
+    for (int round = 0; round < 300; ++round) {
+      Scene scene;
+      testing::add_quadrics(scene, random, place, 3);
+      std::swap(scene.shapes[0], scene.shapes[size_t(round % 3)]);
+      scene.shapes.resize(1);
+      testing::finish(scene);
+      const Bvh bvh(scene);
+      const Point3 center = scene.bounds.center();
+      for (int i = 0; i < 20; ++i) {
+        const Point3 o = place.point(3.0f * random.in_cube());
+        SurfaceInteraction si;
+        if (!bvh.intersect({o, glm::normalize(center - o)}, &si)) continue;
+        for (float cosine : kCosines) {
+          ++tried;
+          ASSERT_FALSE(bvh.intersect(si.spawn(tilted(si.n, cosine, random))).valid())
+              << "scale " << place.scale << " offset " << place.offset.x << " cosine " << cosine;
+        }
+      }
+    }
+  }
+  EXPECT_GT(tried, 20000);
+}
+
 TEST(Robustness, RaysNeverHitTheSphereOrDiskTheyLeave) {
   Random random(13);
   int tried = 0;

@@ -7,38 +7,40 @@ namespace {
 class ImportErrors : public ImportTest {};
 
 TEST_F(ImportErrors, OneRunShowsThemAll) {
-  EXPECT_EQ(messages("Camera \"perspectiv\"\n"
-                     "WorldBegin\n"
-                     "\tMaterial \"difuse\"\n"
-                     "Material \"diffuse\" \"rgb reflectanc\" [ .5 .5 .5 ]\n"
-                     "Shpae \"sphere\"\n"
-                     "Shape \"sphere\" \"float radius\" [ -1 ]  # no\n"
-                     "Translate 1 2 x\n"
-                     "Shape \"plymesh\" \"string filename\" \"none.ply\"\n"),
-            "scene.pbrt:1:8: error: unknown camera \"perspectiv\"; did you mean `perspective`?\n"
-            "Camera \"perspectiv\"\n"
-            "       ^\n"
-            "scene.pbrt:3:11: error: unknown material \"difuse\"; did you mean `diffuse`? known: diffuse, "
-            "orennayar, "
-            "dielectric, conductor, mirror, interface\n"
-            "\tMaterial \"difuse\"\n"
-            "\t         ^\n"
-            "scene.pbrt:4:20: error: material \"diffuse\" has no parameter `reflectanc`; did you mean "
-            "`reflectance`?\n"
-            "Material \"diffuse\" \"rgb reflectanc\" [ .5 .5 .5 ]\n"
-            "                   ^\n"
-            "scene.pbrt:5:1: error: unknown directive `Shpae`; did you mean `Shape`?\n"
-            "Shpae \"sphere\"\n"
-            "^\n"
-            "scene.pbrt:6:33: error: `radius` of shape \"sphere\" must be > 0, not -1\n"
-            "Shape \"sphere\" \"float radius\" [ -1 ]  # no\n"
-            "                                ^\n"
-            "scene.pbrt:7:15: error: `Translate` takes 3 numbers: expected number 3, not `x`\n"
-            "Translate 1 2 x\n"
-            "              ^\n"
-            "scene.pbrt:8:35: error: cannot open \"none.ply\": no such file\n"
-            "Shape \"plymesh\" \"string filename\" \"none.ply\"\n"
-            "                                  ^\n");
+  EXPECT_EQ(
+      messages("Camera \"perspectiv\"\n"
+               "WorldBegin\n"
+               "\tMaterial \"difuse\"\n"
+               "Material \"diffuse\" \"rgb reflectanc\" [ .5 .5 .5 ]\n"
+               "Shpae \"sphere\"\n"
+               "Shape \"sphere\" \"float radius\" [ -1 ]  # no\n"
+               "Translate 1 2 x\n"
+               "Shape \"plymesh\" \"string filename\" \"none.ply\"\n"),
+      "scene.pbrt:1:8: error: unknown camera \"perspectiv\"; did you mean `perspective`? known: perspective, "
+      "orthographic, spherical\n"
+      "Camera \"perspectiv\"\n"
+      "       ^\n"
+      "scene.pbrt:3:11: error: unknown material \"difuse\"; did you mean `diffuse`? known: diffuse, "
+      "orennayar, "
+      "dielectric, conductor, mirror, interface\n"
+      "\tMaterial \"difuse\"\n"
+      "\t         ^\n"
+      "scene.pbrt:4:20: error: material \"diffuse\" has no parameter `reflectanc`; did you mean "
+      "`reflectance`?\n"
+      "Material \"diffuse\" \"rgb reflectanc\" [ .5 .5 .5 ]\n"
+      "                   ^\n"
+      "scene.pbrt:5:1: error: unknown directive `Shpae`; did you mean `Shape`?\n"
+      "Shpae \"sphere\"\n"
+      "^\n"
+      "scene.pbrt:6:33: error: `radius` of shape \"sphere\" must be > 0, not -1\n"
+      "Shape \"sphere\" \"float radius\" [ -1 ]  # no\n"
+      "                                ^\n"
+      "scene.pbrt:7:15: error: `Translate` takes 3 numbers: expected number 3, not `x`\n"
+      "Translate 1 2 x\n"
+      "              ^\n"
+      "scene.pbrt:8:35: error: cannot open \"none.ply\": no such file\n"
+      "Shape \"plymesh\" \"string filename\" \"none.ply\"\n"
+      "                                  ^\n");
 }
 
 struct Case {
@@ -113,11 +115,11 @@ INSTANTIATE_TEST_SUITE_P(
              R"(2:33: error: `radius` of shape "sphere" is given twice)"},
         Case{R"(Shape "curve")",
              R"(2:7: error: pbrt's shape "curve" is not rendered; there are: trianglemesh, plymesh, )"
-             R"(sphere, disk, bilinearmesh)"},
-        Case{R"(Shape "sphere" "float zmin" -.5)",
-             R"(2:29: error: `zmin` = -0.5 cuts the sphere of radius 1: only whole spheres are rendered)"},
-        Case{R"(Shape "disk" "float phimax" 90)",
-             R"(2:29: error: `phimax` of shape "disk": only full turns are rendered: must be 360)"},
+             R"(sphere, cylinder, disk, bilinearmesh, loopsubdiv)"},
+        Case{R"(Shape "sphere" "float zmin" .5 "float zmax" .5)",
+             R"(2:29: error: nothing of the sphere lies between `zmin` = 0.5 and `zmax` = 0.5)"},
+        Case{R"(Shape "disk" "float phimax" 361)",
+             R"(2:29: error: `phimax` of shape "disk" must be > 0 and <= 360, not 361)"},
         Case{R"(Shape "disk" "float innerradius" 1)",
              R"(2:34: error: `innerradius` = 1 leaves nothing of a disk of radius 1)"},
         Case{R"(Shape "trianglemesh" "integer indices" [0 1 2])",
@@ -244,8 +246,7 @@ TEST_F(ImportErrors, OfIncludedFilesNameThoseFiles) {
   write("sub/part.pbrt", "Shape \"spere\"\n");
   EXPECT_EQ(messages("WorldBegin\nInclude \"sub/part.pbrt\"\n"),
             "sub/part.pbrt:1:7: error: unknown shape \"spere\"; did you mean `sphere`? known: trianglemesh, "
-            "plymesh, "
-            "sphere, disk, bilinearmesh\nShape \"spere\"\n      ^\n");
+            "plymesh, sphere, cylinder, disk, bilinearmesh, loopsubdiv\nShape \"spere\"\n      ^\n");
 }
 
 TEST_F(ImportErrors, AFileThatIsNotThere) {

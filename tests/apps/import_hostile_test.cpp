@@ -60,6 +60,33 @@ TEST_F(ImportHostile, DeepBlocksEndWithOneError) {
   EXPECT_EQ(first_lines(text), "10002:1: error: more than 10000 blocks inside each other\n");
 }
 
+TEST_F(ImportHostile, DeepTransformsAndObjectsEndWithOneError) {
+  std::string text;
+  for (int i = 0; i < 1'000'000; ++i) text += "TransformBegin\n";
+  messages("WorldBegin\n" + text);
+  EXPECT_EQ(diagnostics_.error_count(), 11u);  // and ten of the blocks that are not closed
+}
+
+TEST_F(ImportHostile, ManyParametersEndWithOneError) {
+  std::string text = "Shape \"sphere\"\n";
+  for (int i = 0; i < 200'000; ++i) text += "\"float a" + std::to_string(i) + "\" 1\n";
+  messages("WorldBegin\n" + text);
+  EXPECT_LE(diagnostics_.error_count(), 1002u);
+  EXPECT_EQ(diagnostics_.entries()[0].message, "more than 1000 parameters");
+}
+
+// An object that is instanced many times is small in the file and large in memory.
+TEST_F(ImportHostile, InstancesThatMultiplyAreRefused) {
+  std::string text = "WorldBegin\nObjectBegin \"a\"\n";
+  for (int i = 0; i < 4'000; ++i) text += "Shape \"sphere\"\n";
+  text += "ObjectEnd\n";
+  for (int i = 0; i < 4'000; ++i) text += "ObjectInstance \"a\"\n";
+  messages(text);
+  ASSERT_EQ(diagnostics_.error_count(), 1u);
+  EXPECT_EQ(diagnostics_.entries()[0].message,
+            "instances place more than the 10000000 shapes that are accepted");
+}
+
 TEST_F(ImportHostile, IncludesThatIncludeEachOther) {
   write("a.pbrt", "Include \"b.pbrt\"\n");
   write("b.pbrt", "Include \"a.pbrt\"\n");

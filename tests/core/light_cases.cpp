@@ -66,6 +66,24 @@ std::vector<LightCase> image_cases(const std::vector<Point3>& below) {
   return cases;
 }
 
+// Parts of quadrics of radius 0.6 about (0.3, 0, 2.5), tilted; a cylinder is twice as long as it is wide.
+Shape quadric_shape(QuadricKind kind, bool flip) {
+  Quadric q;
+  q.kind = kind;
+  q.z_min = -0.7f;
+  q.z_max = 0.4f;
+  q.inner = kind == QuadricKind::kDisk ? 0.3f : 0.0f;
+  q.phi_max = 4;
+  glm::dmat3 m = glm::dmat3(0.8, 0, -0.6, 0, 1, 0, 0.6, 0, 0.8) * 0.6;
+  if (kind == QuadricKind::kCylinder) m[2] *= 2;
+  if (kind == QuadricKind::kDisk) m[1] *= 0.5;
+  q.to_world = Transform::from_matrix(affine(m, {0.3, 0, 2.5}));
+  Shape shape;
+  shape.geometry = q;
+  shape.flip_normal = flip;
+  return shape;
+}
+
 std::vector<LightCase> make_cases() {
   std::vector<LightCase> cases;
   const std::vector<Point3> below = {{0.2f, 0.1f, 0}, {1.5f, -1, 1}};
@@ -94,6 +112,15 @@ std::vector<LightCase> make_cases() {
   cases.push_back(area_case("sphere", sphere_shape(center, 4), true, {{0.1f, 0.2f, 2}, {8, 1, 1}}));
   cases.push_back(area_case("disk", disk_shape(0, true), false, below));
   cases.push_back(area_case("annulus", disk_shape(0.6f, false), true, {{0, 0, 0}, {0.5f, 0.5f, 4}}));
+  // From inside: seen from outside, density has no bound at the silhouette of what is sampled by area.
+  for (const auto& [name, kind] :
+       {std::pair{"part of a sphere", QuadricKind::kSphere}, {"cylinder", QuadricKind::kCylinder}}) {
+    for (const bool twosided : {false, true}) {
+      cases.push_back(area_case(name, quadric_shape(kind, true), twosided, {{0.3f, 0.05f, 2.45f}}));
+      cases.back().receiver_radius = 0.2f;
+    }
+  }
+  cases.push_back(area_case("part of a disk", quadric_shape(QuadricKind::kDisk, true), true, below));
   return cases;
 }
 

@@ -31,6 +31,8 @@ inline Hit brute_force(const std::vector<Shape>& shapes, const Ray& ray) {
     hit.shape = s;
     if (const auto* sphere = std::get_if<Sphere>(&shapes[s].geometry)) {
       hit.t = intersect_sphere(*sphere, ray);
+    } else if (const auto* quadric = std::get_if<Quadric>(&shapes[s].geometry)) {
+      hit.t = intersect_quadric(*quadric, ray, &hit.uv);
     } else {
       hit.t = intersect_disk(std::get<Disk>(shapes[s].geometry), ray, &hit.uv);
     }

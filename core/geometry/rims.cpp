@@ -1,0 +1,102 @@
+#include "core/geometry/rims.h"
+
+#include <cmath>
+
+#include "core/geometry/surface_bounds.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int kSides = 64;  // of a full turn
+
+// A polygon about the disk's outer rim, or inside its inner one: no point of the disk lies beyond its edges.
+void add_rim(const Disk& disk, const Shape& shape, bool outer, std::vector<BoundaryEdge>* edges) {
+  const double step = 2 * std::numbers::pi / kSides;
+  const double radius = outer ? 1 / std::cos(0.5 * step) : double(disk.inner);
+  const auto corner = [&](int i) {
+    const double phi = step * (i % kSides);
+    return disk.to_world.point(Point3(radius * std::cos(phi), radius * std::sin(phi), 0));
+  };
+  const Normal3 n = shape.flip_normal ? -disk_normal(disk.to_world) : disk_normal(disk.to_world);
+  const Point3 center = disk.to_world.point(Point3(0));
+  for (int i = 0; i < kSides; ++i) {
+    BoundaryEdge edge = make_edge(corner(i), corner(i + 1), center, n, shape.surface_group);
+    if (!(edge.height > 0)) continue;
+    if (!outer) {
+      edge.outward = -edge.outward;
+      edge.height *= (1 - disk.inner) / disk.inner;
+    } else {
+      edge.height *= 1 - disk.inner;
+    }
+    edges->push_back(edge);
+  }
+}
+
+// A place on a quadric as of point_at.
+struct Place {
+  double s, phi;
+};
+
+// From one end of a rim to the other, with the surface on the side of `inward`.
+struct Rim {
+  Place begin, end, inward;
+  int sides;
+};
+
+std::vector<Rim> rims_of(const Quadric& q) {
+  std::vector<Rim> rims;
+  const double turn = double(q.phi_max);
+  const int around = std::max(1, static_cast<int>(std::ceil(kSides * turn / (2 * std::numbers::pi))));
+  const bool sphere = q.kind == QuadricKind::kSphere, disk = q.kind == QuadricKind::kDisk;
+  if (!(sphere && q.z_min <= -1) && !(disk && q.inner == 0))
+    rims.push_back({{0, 0}, {0, turn}, {1, 0}, around});
+  if (!(sphere && q.z_max >= 1)) rims.push_back({{1, 0}, {1, turn}, {-1, 0}, around});
+  if (q.full_turn()) return rims;
+  const int up = sphere ? kSides / 2 : 1;
+  rims.push_back({{0, 0}, {1, 0}, {0, 1}, up});
+  rims.push_back({{0, turn}, {1, turn}, {0, -1}, up});
+  return rims;
+}
+
+void add_rim(const Quadric& q, const Rim& rim, const Shape& shape, std::vector<BoundaryEdge>* edges) {
+  constexpr double kStep = 1e-4;  // of s, or radians: to find which way the surface goes
+  const auto place = [&](double t) {
+    return Place{rim.begin.s + t * (rim.end.s - rim.begin.s),
+                 rim.begin.phi + t * (rim.end.phi - rim.begin.phi)};
+  };
+  const auto world = [&](const glm::dvec3& p) { return q.to_world.point(Point3(p)); };
+  for (int i = 0; i < rim.sides; ++i) {
+    const Place a = place(i / double(rim.sides)), b = place((i + 1) / double(rim.sides));
+    // Away from the ends of the rim, where a sphere's parts may meet in a pole.
+    const Place m = place((i + 0.5) / rim.sides);
+    const glm::dvec3 middle = point_at(q, m.s, m.phi);
+    const glm::dvec3 in = point_at(q, m.s + kStep * rim.inward.s, m.phi + kStep * rim.inward.phi) - middle;
+    const Point3 inner =
+        world(middle + in / kStep * (rim.inward.s != 0 ? 1.0 : std::min(1.0, double(q.phi_max))));
+    const Normal3 n = glm::normalize(q.to_world.normal(Normal3(normal_at(q, middle))));
+    const BoundaryEdge edge = make_edge(world(point_at(q, a.s, a.phi)), world(point_at(q, b.s, b.phi)), inner,
+                                        shape.flip_normal ? -n : n, shape.surface_group);
+    if (edge.height > 0) edges->push_back(edge);
+  }
+}
+
+}  // namespace
+
+BoundaryEdge make_edge(const Point3& a, const Point3& b, const Point3& c, const Normal3& n, uint32_t group) {
+  const glm::dvec3 along = glm::normalize(glm::dvec3(b) - glm::dvec3(a));
+  const glm::dvec3 to_c = glm::dvec3(c) - glm::dvec3(a);
+  const glm::dvec3 inward = to_c - glm::dot(to_c, along) * along;
+  const double height = glm::length(inward);
+  return {a, b, n, Normal3(0), Vector3(-inward / height), float(height), group};
+}
+
+void add_rims(const Shape& shape, std::vector<BoundaryEdge>* edges) {
+  if (const auto* disk = std::get_if<Disk>(&shape.geometry)) {
+    add_rim(*disk, shape, true, edges);
+    if (disk->inner > 0) add_rim(*disk, shape, false, edges);
+  } else if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
+    for (const Rim& rim : rims_of(*quadric)) add_rim(*quadric, rim, shape, edges);
+  }
+}
+
+}  // namespace kaustik
