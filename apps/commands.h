@@ -27,6 +27,7 @@ Command make_merge_command(CLI::App& program);
 Command make_photons_command(CLI::App& program);
 Command make_compare_command(CLI::App& program);
 Command make_info_command(CLI::App& program);
+Command make_convert_command(CLI::App& program);
 Command make_bench_command(CLI::App& program);
 Command make_sweep_command(CLI::App& program);
 

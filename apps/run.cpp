@@ -57,6 +57,7 @@ struct Program {
     commands.push_back(make_photons_command(parser));
     commands.push_back(make_compare_command(parser));
     commands.push_back(make_info_command(parser));
+    commands.push_back(make_convert_command(parser));
     commands.push_back(make_bench_command(parser));
     commands.push_back(make_sweep_command(parser));
   }

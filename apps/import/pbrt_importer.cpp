@@ -3,7 +3,9 @@
 #include <mutex>
 #include <set>
 
+#include "apps/import/gltf/importer.h"
 #include "apps/import/light_image_file.h"
+#include "apps/import/obj_importer.h"
 #include "apps/import/ply.h"
 #include "apps/import/scene_parser.h"
 #include "core/content_hash.h"
@@ -43,6 +45,8 @@ std::string content_hash(const SourceFiles& files, const NamedContents& named) {
 }  // namespace
 
 std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics);
+  if (is_obj(path)) return import_obj(path, diagnostics);
   SceneFiles files(diagnostics.files);
   std::string error;
   const auto file = files.open(path, error);
@@ -69,6 +73,7 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
   auto scene = build_scene(*description, load_with(load_ply), diagnostics, load_with(load_light_image));
   diagnostics.sort_by_location();
   if (!scene || diagnostics.has_errors()) return std::nullopt;
+  scene->keeps = description->keeps;
   return LoadedScene{std::move(*scene), std::move(*description), content_hash(diagnostics.files, named)};
 }
 

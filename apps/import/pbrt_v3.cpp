@@ -45,7 +45,6 @@ constexpr Dropped kDropped[] = {
     {"AreaLightSource", "nsamples", "samples are set for the whole render"},
     {"AreaLightSource", "samples", "samples are set for the whole render"},
     {"Texture", "trilinear", "filtering is another"},
-    {"Texture", "maxanisotropy", "filtering is another"},
     {"Texture", "aamode", "filtering is another"},
     {"Shape", "shadowalpha", "shadows follow `alpha`"},
     {"Shape", "discarddegenerateUVs", "such coordinates do no harm"},

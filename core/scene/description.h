@@ -3,6 +3,7 @@
 // is checked or interpreted here; build_scene does that against core/scene/schema.h.
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,6 +64,15 @@ struct CameraDescription : Directive {
   glm::dmat4 camera_to_world{1};
 };
 
+// Directive::type is the class, "imagemap".
+struct TextureDescription : Directive {
+  std::string name;
+  SourceLocation name_location;
+  std::string value_type;  // "float" or "spectrum"
+  SourceLocation value_type_location;
+  glm::dmat4 texture_to_world{1};
+};
+
 struct MaterialDescription : Directive {
   std::string name;  // empty when it was set in place
   SourceLocation name_location;
@@ -107,12 +117,15 @@ struct SceneDescription {
   std::optional<CameraDescription> camera;
   std::optional<Directive> film, sampler, filter, integrator, accelerator;
   std::vector<Parameter> options;
+  std::vector<TextureDescription> textures;
   std::vector<MaterialDescription> materials;
   std::vector<Directive> area_lights;
   std::vector<ShapeDescription> shapes;
   std::vector<LightDescription> lights;
   std::vector<ObjectDescription> objects;
   std::vector<InstanceDescription> instances;
+  // Files that the description names and that go with it, such as images that lay within a scene file.
+  std::shared_ptr<const void> keeps;
 };
 
 }  // namespace kaustik

@@ -1,6 +1,7 @@
 #pragma once
 // The scene as it is rendered: plain data, built once by build_scene and const from then on.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct Scene {
   std::vector<uint32_t> infinite_lights;  // indices into lights
   Bounds3 bounds;                         // of all shapes
   SceneNeeds needs;
+  std::shared_ptr<const void> keeps;  // files that are read while it is rendered
 };
 
 // Fills what follows from shapes, materials and lights: bounds, scene spheres of distant and infinite lights,

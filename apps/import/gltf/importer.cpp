@@ -1,0 +1,162 @@
+#include "apps/import/gltf/importer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "apps/import/default_view.h"
+#include "apps/import/gltf/lights_and_cameras.h"
+#include "apps/import/gltf/materials.h"
+#include "apps/import/gltf/meshes.h"
+#include "apps/import/gltf/nodes.h"
+
+namespace kaustik::gltf {
+namespace {
+
+// Extensions that change nothing here when they are not understood, or that are understood.
+constexpr std::string_view kKnown[] = {"KHR_lights_punctual",        "KHR_materials_emissive_strength",
+                                       "KHR_materials_ior",          "KHR_materials_specular",
+                                       "KHR_materials_transmission", "KHR_materials_volume",
+                                       "KHR_materials_clearcoat",    "KHR_materials_sheen",
+                                       "KHR_materials_unlit",        "KHR_materials_anisotropy",
+                                       "KHR_materials_iridescence",  "KHR_materials_dispersion",
+                                       "KHR_mesh_quantization",      "KHR_texture_transform",
+                                       "EXT_texture_webp",           "KHR_materials_variants"};
+
+class Importer {
+ public:
+  Importer(const Document& document, const std::filesystem::path& path, Diagnostics& diagnostics)
+      : document_(document),
+        warnings_({document.file(), 0, 0}, diagnostics),
+        textures_(document, path, warnings_, diagnostics.files, scene_),
+        materials_(document, textures_, warnings_, scene_) {
+    scene_.location = warnings_.where();
+  }
+
+  SceneDescription run() {
+    check_extensions();
+    const std::vector<PlacedNode> nodes = placed_nodes(document_);
+    for (const PlacedNode& n : nodes) {
+      if (const auto mesh = document_.item("nodes", n.node)["mesh"].index(document_.size("meshes")))
+        ++uses_[*mesh];
+    }
+    for (const PlacedNode& n : nodes) add_node(n);
+    if (document_.size("animations") > 0)
+      warnings_.say("animations are left out: the scene stands as it is written");
+    return std::move(scene_);
+  }
+
+ private:
+  void check_extensions() {
+    const View required = document_.root()["extensionsRequired"];
+    for (uint64_t i = 0; i < required.size(); ++i) {
+      const std::string name = required.at(i).text();
+      if (std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown))
+        throw FormatError(fmt::format("it requires the extension {}, which is not read", name.substr(0, 60)));
+    }
+  }
+
+  void add_node(const PlacedNode& placed) {
+    const View node = document_.item("nodes", placed.node);
+    const auto& m = placed.to_world;
+    if (!(std::isfinite(glm::determinant(m)) && glm::determinant(glm::dmat3(m)) != 0)) {
+      if (node.has("mesh"))
+        warnings_.say(fmt::format("node {} has no size: its mesh is left out", placed.node));
+      return;
+    }
+    if (const auto camera = node["camera"].index(document_.size("cameras"))) {
+      if (!scene_.camera) {
+        add_camera(document_.item("cameras", *camera), m, warnings_, scene_);
+      } else {
+        warnings_.say("the file has several cameras: the first is used");
+      }
+    }
+    add_light(document_, node, m, warnings_, scene_);
+    if (node.has("skin")) warnings_.say("skins are left out: meshes stand as they are written");
+    if (const auto mesh = node["mesh"].index(document_.size("meshes"))) add_mesh(*mesh, m);
+  }
+
+  std::vector<ShapeDescription> shapes_of(uint64_t mesh) {
+    std::vector<ShapeDescription> shapes;
+    const View primitives = document_.item("meshes", mesh)["primitives"];
+    for (uint64_t i = 0; i < primitives.size(); ++i) {
+      const View primitive = primitives.at(i);
+      const Look& look = materials_.look(primitive["material"].index(document_.size("materials")));
+      auto shape = triangles_of(document_, primitive, look.uv_set, total_, warnings_);
+      if (!shape) continue;
+      shape->material = look.material;
+      shape->area_light = look.area_light;
+      if (look.alpha) shape->parameters.push_back(*look.alpha);
+      shapes.push_back(std::move(*shape));
+    }
+    return shapes;
+  }
+
+  // A mesh of several nodes is an object with instances, but for its lamps: those are shapes of their own.
+  void add_mesh(uint64_t mesh, const glm::dmat4& to_world) {
+    if (uses_[mesh] == 1) {
+      for (ShapeDescription& shape : shapes_of(mesh)) place(std::move(shape), to_world);
+      return;
+    }
+    const auto [found, is_new] = meshes_.try_emplace(mesh);
+    SharedMesh& shared = found->second;
+    if (is_new) {
+      ObjectDescription object{fmt::format("mesh {}", mesh), warnings_.where(), {}};
+      for (ShapeDescription& shape : shapes_of(mesh))
+        (shape.area_light ? shared.lamps : object.shapes).push_back(std::move(shape));
+      shared.object = object.name;
+      if (!object.shapes.empty())
+        scene_.objects.push_back(std::move(object));
+      else
+        shared.object.clear();
+    }
+    for (const ShapeDescription& lamp : shared.lamps) place(lamp, to_world);
+    if (!shared.object.empty()) scene_.instances.push_back({shared.object, warnings_.where(), to_world});
+  }
+
+  void place(ShapeDescription shape, const glm::dmat4& to_world) {
+    shape.object_to_world = to_world;
+    scene_.shapes.push_back(std::move(shape));
+  }
+
+  struct SharedMesh {
+    std::string object;  // empty when there is none
+    std::vector<ShapeDescription> lamps;
+  };
+
+  const Document& document_;
+  SceneDescription scene_;
+  FileWarnings warnings_;
+  Textures textures_;
+  Materials materials_;
+  std::map<uint64_t, uint64_t> uses_;  // of meshes by nodes
+  std::map<uint64_t, SharedMesh> meshes_;
+  uint64_t total_ = 0;  // numbers of all meshes
+};
+
+}  // namespace
+
+bool is_gltf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".gltf" || extension == ".glb";
+}
+
+std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  const auto file = static_cast<uint32_t>(diagnostics.files.size());
+  try {
+    const Document document(path, diagnostics.files);
+    SceneDescription scene = Importer(document, path, diagnostics).run();
+    add_missing_view(scene, scene.location, diagnostics);
+    return scene;
+  } catch (const FormatError& error) {
+    const bool opened = diagnostics.files.size() > file;
+    diagnostics.error(opened ? SourceLocation{file, 0, 0} : SourceLocation{}, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    diagnostics.error({}, error.what());
+  }
+  return std::nullopt;
+}
+
+}  // namespace kaustik::gltf

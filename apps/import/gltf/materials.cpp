@@ -1,0 +1,220 @@
+#include "apps/import/gltf/materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/import/make_parameter.h"
+#include "core/scene/schema.h"
+
+namespace kaustik::gltf {
+namespace {
+
+using Maker = DirectiveMaker<MaterialDescription>;
+
+glm::dvec3 colour(const std::vector<double>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+View metallic_roughness(const View& material) {
+  return material["pbrMetallicRoughness"];
+}
+View extension(const View& material, const char* name) {
+  return material["extensions"][name];
+}
+
+bool renders(std::string_view type) {
+  const auto& types = category("Material").types;
+  return std::any_of(types.begin(), types.end(), [&](const TypeSpec* t) { return t->name == type; });
+}
+
+double index_of(const View& material) {
+  return std::clamp(extension(material, "KHR_materials_ior")["ior"].number(1.5), 1.01, 4.0);
+}
+
+}  // namespace
+
+const Look& Materials::look(std::optional<uint64_t> index) {
+  const auto found = looks_.find(index);
+  if (found != looks_.end()) return found->second;
+  const View material = index ? document_.item("materials", *index) : View();
+  const std::string name =
+      index ? fmt::format("{} {}", material["name"].text("material"), *index) : "default";
+  return looks_.emplace(index, make(material, name)).first->second;
+}
+
+Look Materials::make(const View& material, const std::string& name) {
+  warn_of_extensions(material);
+  Look look;
+  look.uv_set = metallic_roughness(material)["baseColorTexture"]["texCoord"].count(0);
+  look.material = {std::nullopt, surface(material, name), warnings_.where()};
+  look.alpha = alpha_of(material);
+  look.area_light = lamp_of(material);
+  return look;
+}
+
+// What lets light through, beside what does not.
+std::string Materials::surface(const View& material, const std::string& name) {
+  const View transmission = extension(material, "KHR_materials_transmission");
+  const double share = std::clamp(transmission["transmissionFactor"].number(0), 0.0, 1.0);
+  const auto texture = share > 0 ? textures_.channel(transmission["transmissionTexture"], 0,
+                                                     [share](double v) { return share * v; })
+                                 : std::nullopt;
+  if (!(share > 0)) return opaque(material, name);
+  if (share == 1 && !texture) return clear_part(material, name);
+  const std::string solid = opaque(material, name + " opaque");
+  const std::string clear = clear_part(material, name + " clear");
+  return mixed(name, solid, clear,
+               texture ? textures_.parameter("amount", *texture)
+                       : make_parameter(ParameterType::kFloat, "amount", std::vector<double>{share},
+                                        warnings_.where()));
+}
+
+std::string Materials::opaque(const View& material, const std::string& name) {
+  const View pbr = metallic_roughness(material);
+  const double metallic = std::clamp(pbr["metallicFactor"].number(1), 0.0, 1.0);
+  const auto texture = metallic > 0 ? textures_.channel(pbr["metallicRoughnessTexture"], 2,
+                                                        [metallic](double v) { return metallic * v; })
+                                    : std::nullopt;
+  if (metallic == 0) return dielectric_part(material, name);
+  if (metallic == 1 && !texture) return metal_part(material, name);
+  const std::string dielectric = dielectric_part(material, name + " dielectric");
+  const std::string metal = metal_part(material, name + " metal");
+  return mixed(name, dielectric, metal,
+               texture ? textures_.parameter("amount", *texture)
+                       : make_parameter(ParameterType::kFloat, "amount", std::vector<double>{metallic},
+                                        warnings_.where()));
+}
+
+// pbrt's mix: `amount` is the share of the second one.
+std::string Materials::mixed(const std::string& name, const std::string& first, const std::string& second,
+                             Parameter amount) {
+  if (!renders("mix")) {
+    warnings_.say("mixtures of materials become their larger part");
+    return amount.numbers.empty() || amount.numbers[0] < 0.5 ? first : second;
+  }
+  Maker m("mix", warnings_.where());
+  Parameter parts = make_parameter(ParameterType::kString, "materials", first, warnings_.where());
+  parts.strings.push_back(second);
+  m.add(std::move(parts)).add(std::move(amount));
+  return add(std::move(*m), name, View());
+}
+
+std::string Materials::dielectric_part(const View& material, const std::string& name) {
+  const bool dull = extension(material, "KHR_materials_specular")["specularFactor"].number(1) == 0;
+  Maker m(dull ? "diffuse" : "coateddiffuse", warnings_.where());
+  add_colour(material, *m);
+  if (!dull) {
+    m.number("eta", index_of(material));
+    add_roughness(material, *m);
+  }
+  return add(std::move(*m), name, material);
+}
+
+std::string Materials::metal_part(const View& material, const std::string& name) {
+  Maker m("conductor", warnings_.where());
+  add_colour(material, *m);
+  add_roughness(material, *m);
+  return add(std::move(*m), name, material);
+}
+
+// Without a volume behind it the surface is a pane.
+std::string Materials::clear_part(const View& material, const std::string& name) {
+  const View pbr = metallic_roughness(material);
+  const bool tinted =
+      colour(pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})) != glm::dvec3(1) || pbr.has("baseColorTexture");
+  if (tinted) warnings_.say("transmission is not coloured by the base colour");
+  const View volume = extension(material, "KHR_materials_volume");
+  const bool pane = !(volume["thicknessFactor"].number(0) > 0) && renders("thindielectric");
+  if (volume.has("attenuationDistance"))
+    warnings_.say("volumes do not absorb: KHR_materials_volume's attenuation is left out");
+  Maker m(pane ? "thindielectric" : "dielectric", warnings_.where());
+  m.number("eta", index_of(material));
+  if (!pane) add_roughness(material, *m);
+  return add(std::move(*m), name, material);
+}
+
+void Materials::add_colour(const View& material, MaterialDescription& m) {
+  const View pbr = metallic_roughness(material);
+  const glm::dvec3 factor = glm::clamp(colour(pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})), 0.0, 1.0);
+  const auto texture = textures_.colour(pbr["baseColorTexture"], factor);
+  m.parameters.push_back(texture ? textures_.parameter("reflectance", *texture)
+                                 : make_parameter(ParameterType::kRgb, "reflectance",
+                                                  std::vector<double>{factor.x, factor.y, factor.z},
+                                                  warnings_.where()));
+}
+
+// glTF's roughness is the root of the width of GGX, which is what pbrt takes when it does not map it.
+void Materials::add_roughness(const View& material, MaterialDescription& m) {
+  const View pbr = metallic_roughness(material);
+  const double roughness = std::clamp(pbr["roughnessFactor"].number(1), 0.0, 1.0);
+  const auto texture = textures_.channel(pbr["metallicRoughnessTexture"], 1,
+                                         [roughness](double v) { return roughness * v * roughness * v; });
+  m.parameters.push_back(texture
+                             ? textures_.parameter("roughness", *texture)
+                             : make_parameter(ParameterType::kFloat, "roughness",
+                                              std::vector<double>{roughness * roughness}, warnings_.where()));
+  m.parameters.push_back(
+      make_parameter(ParameterType::kBool, "remaproughness", std::vector<double>{0}, warnings_.where()));
+}
+
+std::string Materials::add(MaterialDescription m, const std::string& name, const View& material) {
+  m.name = name;
+  m.name_location = warnings_.where();
+  if (const View normal = material["normalTexture"]) {
+    if (normal["scale"].number(1) != 1) warnings_.say("the `scale` of normal maps is left out");
+    if (const auto file = textures_.file(normal))
+      m.parameters.push_back(textures_.file_parameter("normalmap", *file));
+  }
+  scene_.materials.push_back(std::move(m));
+  return name;
+}
+
+std::optional<Parameter> Materials::alpha_of(const View& material) {
+  const std::string mode = material["alphaMode"].text("OPAQUE");
+  if (mode == "OPAQUE") return std::nullopt;
+  const View pbr = metallic_roughness(material);
+  const double factor = std::clamp(pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})[3], 0.0, 1.0);
+  const double cutoff = mode == "MASK" ? material["alphaCutoff"].number(0.5) : -1;
+  const auto covered = [=](double v) { return cutoff < 0 ? factor * v : factor * v >= cutoff ? 1.0 : 0.0; };
+  const auto texture = textures_.channel(pbr["baseColorTexture"], 3, covered);
+  if (texture) return textures_.parameter("alpha", *texture);
+  if (covered(1) == 1) return std::nullopt;
+  return make_parameter(ParameterType::kFloat, "alpha", std::vector<double>{covered(1)}, warnings_.where());
+}
+
+std::optional<uint32_t> Materials::lamp_of(const View& material) {
+  const View strength = extension(material, "KHR_materials_emissive_strength")["emissiveStrength"];
+  glm::dvec3 L = strength.number(1) * colour(material["emissiveFactor"].numbers(3, {0, 0, 0}));
+  if (material.has("emissiveTexture") && L != glm::dvec3(0)) {
+    if (const auto mean = textures_.mean(material["emissiveTexture"])) {
+      warnings_.say("textures of emission are rendered as their mean");
+      L *= *mean;
+    }
+  }
+  if (!(L.x > 0 || L.y > 0 || L.z > 0)) return std::nullopt;
+  DirectiveMaker<Directive> lamp("diffuse", warnings_.where());
+  lamp.rgb("L", glm::max(L, 0.0));
+  if (material["doubleSided"].flag(false)) lamp.flag("twosided", true);
+  scene_.area_lights.push_back(std::move(*lamp));
+  return static_cast<uint32_t>(scene_.area_lights.size() - 1);
+}
+
+void Materials::warn_of_extensions(const View& material) {
+  const View pbr = metallic_roughness(material);
+  const View specular = extension(material, "KHR_materials_specular");
+  if (specular && specular["specularFactor"].number(1) != 0)
+    warnings_.say(
+        "KHR_materials_specular is left out, but where its factor is 0: reflection follows from the index of "
+        "refraction");
+  if (extension(material, "KHR_materials_clearcoat")["clearcoatFactor"].number(0) > 0)
+    warnings_.say("KHR_materials_clearcoat is left out");
+  for (const char* name :
+       {"KHR_materials_sheen", "KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_unlit",
+        "KHR_materials_dispersion", "KHR_materials_pbrSpecularGlossiness"}) {
+    if (extension(material, name)) warnings_.say(fmt::format("{} is left out", name));
+  }
+  if (material.has("occlusionTexture")) warnings_.say("occlusion textures are left out: light is traced");
+}
+
+}  // namespace kaustik::gltf

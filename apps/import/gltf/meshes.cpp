@@ -1,0 +1,104 @@
+#include "apps/import/gltf/meshes.h"
+
+#include <fmt/format.h>
+
+#include "apps/import/make_parameter.h"
+
+namespace kaustik::gltf {
+namespace {
+
+// Many primitives may name the same bytes.
+constexpr uint64_t kMostNumbers = uint64_t{1} << 32;
+
+enum class Mode { kTriangles = 4, kStrip = 5, kFan = 6 };
+
+// Three corners a triangle. Strips turn over every second one.
+std::vector<double> as_triangles(const std::vector<double>& corners, Mode mode) {
+  if (mode == Mode::kTriangles) return corners;
+  std::vector<double> out;
+  for (size_t i = 2; i < corners.size(); ++i) {
+    const bool odd = mode == Mode::kStrip && i % 2 == 1;
+    const double a = mode == Mode::kFan ? corners[0] : corners[i - 2];
+    out.insert(out.end(), {odd ? corners[i - 1] : a, odd ? a : corners[i - 1], corners[i]});
+  }
+  return out;
+}
+
+std::vector<double> corners_of(const Document& document, const View& primitive, uint64_t vertices) {
+  const auto accessor = primitive["indices"].index(document.size("accessors"));
+  std::vector<double> corners;
+  if (accessor) {
+    corners = document.elements(*accessor, 1).values;
+    for (size_t i = 0; i < corners.size(); ++i) {
+      if (!(corners[i] >= 0 && corners[i] < double(vertices)))
+        primitive["indices"].fail(fmt::format("names vertex {}: there are {}", corners[i], vertices));
+    }
+  } else {
+    for (uint64_t i = 0; i < vertices; ++i) corners.push_back(double(i));
+  }
+  const auto mode = static_cast<Mode>(primitive["mode"].count(4));
+  if (mode == Mode::kTriangles && corners.size() % 3 != 0)
+    primitive.fail(fmt::format("has {} corners, which are no triangles", corners.size()));
+  return as_triangles(corners, mode);
+}
+
+void add_numbers(uint64_t n, const View& primitive, uint64_t& total) {
+  total += n;
+  if (total > kMostNumbers)
+    primitive.fail(fmt::format("makes the scene larger than {} numbers", kMostNumbers));
+}
+
+// An attribute that every vertex has.
+std::optional<std::vector<double>> attribute(const Document& document, const View& primitive,
+                                             const char* name, int components, uint64_t vertices,
+                                             uint64_t& total) {
+  const View attributes = primitive["attributes"];
+  const auto accessor = attributes[name].index(document.size("accessors"));
+  if (!accessor) return std::nullopt;
+  add_numbers(document.item("accessors", *accessor)["count"].count() * static_cast<uint64_t>(components),
+              primitive, total);
+  Elements e = document.elements(*accessor, components);
+  if (e.count != vertices)
+    attributes[name].fail(fmt::format("has {} vertices: positions have {}", e.count, vertices));
+  return std::move(e.values);
+}
+
+}  // namespace
+
+std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive, uint64_t uv_set,
+                                             uint64_t& total, FileWarnings& warnings) {
+  if (primitive["extensions"].has("KHR_draco_mesh_compression"))
+    primitive.fail("is compressed by KHR_draco_mesh_compression, which is not read");
+  const uint64_t mode = primitive["mode"].count(4);
+  if (mode > 6) primitive["mode"].fail(fmt::format("is {}, which is none of glTF's", mode));
+  if (mode < 4) {
+    warnings.say("points and lines are left out: only triangles are rendered");
+    return std::nullopt;
+  }
+  const View position = primitive["attributes"]["POSITION"];
+  const auto accessor = position.index(document.size("accessors"));
+  if (!accessor) {
+    warnings.say("primitives without positions are left out");
+    return std::nullopt;
+  }
+  const uint64_t vertices = document.item("accessors", *accessor)["count"].count();
+  auto P = attribute(document, primitive, "POSITION", 3, vertices, total);
+  std::vector<double> corners = corners_of(document, primitive, vertices);
+  add_numbers(corners.size(), primitive, total);
+  if (corners.empty()) return std::nullopt;
+  if (primitive["attributes"].has("COLOR_0")) warnings.say("colours of vertices are left out");
+  if (primitive.has("targets")) warnings.say("morph targets are left out: meshes have their basic shape");
+  DirectiveMaker<ShapeDescription> shape("trianglemesh", warnings.where());
+  shape.add(ParameterType::kPoint3, "P", std::move(*P));
+  shape.add(ParameterType::kInteger, "indices", std::move(corners));
+  if (auto N = attribute(document, primitive, "NORMAL", 3, vertices, total))
+    shape.add(ParameterType::kNormal, "N", std::move(*N));
+  const std::string uv_name = fmt::format("TEXCOORD_{}", uv_set);
+  if (auto uv = attribute(document, primitive, uv_name.c_str(), 2, vertices, total)) {
+    for (size_t i = 1; i < uv->size(); i += 2) (*uv)[i] = 1 - (*uv)[i];
+    shape.add(ParameterType::kPoint2, "uv", std::move(*uv));
+  }
+  return std::move(*shape);
+}
+
+}  // namespace kaustik::gltf

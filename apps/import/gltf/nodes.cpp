@@ -1,0 +1,76 @@
+#include "apps/import/gltf/nodes.h"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/quaternion.hpp>
+
+namespace kaustik::gltf {
+namespace {
+
+glm::dmat4 local_transform(const View& node) {
+  if (const View matrix = node["matrix"]) {
+    const std::vector<double> m = matrix.numbers(16, {});
+    glm::dmat4 out;
+    for (int i = 0; i < 16; ++i) out[i / 4][i % 4] = m[static_cast<size_t>(i)];
+    return out;
+  }
+  const std::vector<double> t = node["translation"].numbers(3, {0, 0, 0});
+  const std::vector<double> r = node["rotation"].numbers(4, {0, 0, 0, 1});
+  const std::vector<double> s = node["scale"].numbers(3, {1, 1, 1});
+  const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+  if (!(length > 0)) node["rotation"].fail("is no rotation: all of it is zero");
+  const glm::dquat q(r[3] / length, r[0] / length, r[1] / length, r[2] / length);
+  glm::dmat3 m = glm::mat3_cast(q);
+  for (int k = 0; k < 3; ++k) m[k] *= s[static_cast<size_t>(k)];
+  glm::dmat4 out(m);
+  out[3] = glm::dvec4(t[0], t[1], t[2], 1);
+  return out;
+}
+
+// Of the scene that is shown; of a file without scenes every node that is nobody's child.
+std::vector<uint64_t> roots_of(const Document& document) {
+  const uint64_t nodes = document.size("nodes");
+  std::vector<uint64_t> roots;
+  if (document.size("scenes") > 0) {
+    const uint64_t shown = document.root()["scene"].index(document.size("scenes")).value_or(0);
+    const View list = document.item("scenes", shown)["nodes"];
+    for (uint64_t i = 0; i < list.size(); ++i) roots.push_back(*list.at(i).index(nodes));
+    return roots;
+  }
+  std::vector<bool> child(nodes, false);
+  for (uint64_t n = 0; n < nodes; ++n) {
+    const View children = document.item("nodes", n)["children"];
+    for (uint64_t i = 0; i < children.size(); ++i) child[*children.at(i).index(nodes)] = true;
+  }
+  for (uint64_t n = 0; n < nodes; ++n) {
+    if (!child[n]) roots.push_back(n);
+  }
+  return roots;
+}
+
+}  // namespace
+
+std::vector<PlacedNode> placed_nodes(const Document& document) {
+  const uint64_t nodes = document.size("nodes");
+  std::vector<bool> met(nodes, false);
+  std::vector<PlacedNode> out, waiting;
+  const auto push = [&](uint64_t n, const glm::dmat4& parent) {
+    if (met[n]) document.item("nodes", n).fail("has two parents, or is its own ancestor");
+    met[n] = true;
+    waiting.push_back({n, parent});
+  };
+  const std::vector<uint64_t> roots = roots_of(document);
+  for (size_t i = roots.size(); i-- > 0;) push(roots[i], glm::dmat4(1));
+  while (!waiting.empty()) {
+    PlacedNode at = waiting.back();
+    waiting.pop_back();
+    const View node = document.item("nodes", at.node);
+    at.to_world = at.to_world * local_transform(node);
+    out.push_back(at);
+    const View children = node["children"];
+    for (uint64_t i = children.size(); i-- > 0;) push(*children.at(i).index(nodes), at.to_world);
+  }
+  return out;
+}
+
+}  // namespace kaustik::gltf
