@@ -109,7 +109,7 @@ void V3Upgrader::upgrade_material(Directive& m) {
   const std::string from = m.type;
   const std::string change = upgrade_v3_material(m);
   if (!change.empty())
-    warn_once("Material/" + from, m.type_location,
+    warn_once(fmt::format("Material/{}/{}", from, change), m.type_location,
               fmt::format("pbrt-v3's material \"{}\" becomes {}", from, change));
 }
 
