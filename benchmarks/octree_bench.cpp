@@ -6,17 +6,17 @@
 // The map's time holds everything: bounds, keys, sort, octree, the records' way into columns, and the
 // system's work for fresh memory, which the sort does not need. The column CPU is that of all threads.
 //   --reuse-memory  memory stays with the program from one repetition to the next: the system's work is left
-//                   out (glibc), and no peak is measured
+//                   out, and no peak is measured
 //   --100M          maps and sorts of 100 M photons, nothing else, in 6 GB
 
 #include <benchmark/benchmark.h>
-#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include <nanoflann.hpp>
 #include <optional>
 
 #include "apps/bench/peak_memory.h"
+#include "benchmarks/kept_memory.h"
 #include "benchmarks/rivals/kd_tree.h"
 #include "benchmarks/rivals/lsd_radix_sort.h"
 #include "benchmarks/rivals/pointer_octree.h"
@@ -85,7 +85,7 @@ void BM_LsdRadixSort(benchmark::State& state) {
 
 // nanoflann as it comes: the records as they were shot, the leaf size of its defaults. Serial.
 struct RecordCloud {
-  const std::vector<photon::PhotonRecord>& records;
+  const photon::PhotonRecords& records;
   size_t kdtree_get_point_count() const { return records.size(); }
   float kdtree_get_pt(size_t i, size_t axis) const { return (&records[i].x)[axis]; }
   template <class Box>
@@ -127,15 +127,6 @@ void BM_BuildRival(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-// Free memory is kept, whatever its size.
-void reuse_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, -1);
-  mallopt(M_TOP_PAD, 1 << 26);
-#endif
-}
-
 using Sizes = std::vector<int64_t>;
 
 template <class Fn>
@@ -162,7 +153,7 @@ void add_all(bool large, bool reuse) {
 int main(int argc, char** argv) {
   using namespace kaustik::benchmarks;
   const bool large = take_flag(argc, argv, "--100M"), reuse = take_flag(argc, argv, "--reuse-memory");
-  if (reuse) reuse_memory();
+  if (reuse) keep_large_blocks();
   add_all(large, reuse);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

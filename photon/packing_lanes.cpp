@@ -102,7 +102,7 @@ void pack_lanes(const PhotonLanes& photons, size_t count, float flux_unit, Packe
   HWY_DYNAMIC_DISPATCH(PackLanes)(photons, count, 1 / flux_unit, *packed);
 }
 
-void RecordPacker::flush(std::vector<PhotonRecord>& records) {
+void RecordPacker::flush(PhotonRecords& records) {
   if (waiting_ == 0) return;
   PackedLanes packed;
   pack_lanes({{d_[0], d_[1], d_[2]}, {flux_[0], flux_[1], flux_[2]}, {n_[0], n_[1], n_[2]}, surface_group_},

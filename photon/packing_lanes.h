@@ -32,7 +32,7 @@ class RecordPacker {
   explicit RecordPacker(float flux_unit = 1) : flux_unit_(flux_unit) {}
 
   // Appends pack(photon, flux_unit) to records, now or with a later call.
-  void add(const Photon& photon, std::vector<PhotonRecord>& records) {
+  void add(const Photon& photon, PhotonRecords& records) {
     for (int c = 0; c < 3; ++c) {
       p_[c][waiting_] = photon.p[c];
       d_[c][waiting_] = -photon.wi[c];
@@ -43,7 +43,7 @@ class RecordPacker {
     if (++waiting_ == kLanes) flush(records);
   }
   // Packs what waits.
-  void flush(std::vector<PhotonRecord>& records);
+  void flush(PhotonRecords& records);
 
  private:
   alignas(64) float p_[3][kLanes]{}, d_[3][kLanes]{}, flux_[3][kLanes]{}, n_[3][kLanes]{};

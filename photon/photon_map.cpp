@@ -68,14 +68,12 @@ RecordColumns PhotonMap::allocate(uint64_t size, bool f32_power) {
   return to;
 }
 
-RecordColumns PhotonMap::fill(std::vector<PhotonRecord>&& records, const MapSettings& settings,
-                              bool f32_power) {
+RecordColumns PhotonMap::fill(PhotonRecords&& records, const MapSettings& settings, bool f32_power) {
   const MortonCube cube = MortonCube::around(settings.bounds.value_or(bounds_of(records)));
   const RecordColumns to = allocate(records.size(), f32_power);
   sort_into_columns(records, cube, to);
   tbb::parallel_invoke([&] { octree_ = Octree(cube, positions(), size_); },
-                       [&] { boxes_ = BoxTree(columns_, size_); },
-                       [&] { std::vector<PhotonRecord>().swap(records); });
+                       [&] { boxes_ = BoxTree(columns_, size_); }, [&] { PhotonRecords().swap(records); });
   return to;
 }
 
@@ -91,7 +89,7 @@ PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
 PhotonMap PhotonMap::build_f32(std::span<const Photon> photons, float flux_unit,
                                const MapSettings& settings) {
   check_size(photons.size());
-  std::vector<PhotonRecord> records(photons.size());
+  PhotonRecords records(photons.size());
   for_each_index(photons.size(), [&](size_t i) {
     records[i] = pack(photons[i], flux_unit);
     records[i].power = uint32_t(i);  // stands for the power until the order is known

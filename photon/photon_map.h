@@ -69,7 +69,7 @@ class PhotonMap {
   // The columns to fill. Where the power is kept as f32, the first of its columns takes the records' words.
   RecordColumns allocate(uint64_t size, bool f32_power);
   // Columns, octree and boxes of the records, whose memory is freed.
-  RecordColumns fill(std::vector<PhotonRecord>&& records, const MapSettings& settings, bool f32_power);
+  RecordColumns fill(PhotonRecords&& records, const MapSettings& settings, bool f32_power);
 
   IndexedPhotons indexed() const { return {columns_, &octree_, &boxes_, size_}; }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "photon/photon.h"
+#include "photon/uninitialised_array.h"
 
 namespace kaustik::photon {
 
@@ -18,11 +19,14 @@ struct PhotonRecord {
 };
 static_assert(sizeof(PhotonRecord) == 24);
 
+// resize() leaves new records unwritten, for the threads that fill them.
+using PhotonRecords = std::vector<PhotonRecord, UninitialisedAllocator<PhotonRecord>>;
+
 // Photons of one kind before the build, as shoot() left them. flux_unit is a power of two near the mean flux
 // of one photon, so that the shared-exponent format keeps its range at any scale of scene and any photon
 // count.
 struct PhotonBuffer {
-  std::vector<PhotonRecord> records;
+  PhotonRecords records;
   float flux_unit = 1;
 };
 

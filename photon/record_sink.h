@@ -7,7 +7,7 @@
 
 namespace kaustik::photon {
 
-using RecordsByKind = std::array<std::vector<PhotonRecord>, kPhotonKinds>;
+using RecordsByKind = std::array<PhotonRecords, kPhotonKinds>;
 
 class RecordSink {
  public:

@@ -1,9 +1,10 @@
 #pragma once
-// An array of numbers whose memory is first touched by the thread that fills it.
+// Arrays whose memory is first touched by the thread that fills it.
 
 #include <cstddef>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 namespace kaustik::photon {
 
@@ -34,6 +35,21 @@ class UninitialisedArray {
  private:
   std::unique_ptr<T[]> data_;
   size_t size_ = 0;
+};
+
+// For vectors: values that are not given stay uninitialised.
+template <class T>
+struct UninitialisedAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UninitialisedAllocator<U>;
+  };
+
+  void construct(T*) noexcept {}
+  template <class... Args>
+  void construct(T* at, Args&&... args) {
+    std::construct_at(at, std::forward<Args>(args)...);
+  }
 };
 
 }  // namespace kaustik::photon

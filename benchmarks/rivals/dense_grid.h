@@ -82,7 +82,7 @@ class DenseGrid {
   }
 
   void fill(const photon::PhotonBuffer& buffer) {
-    const std::vector<photon::PhotonRecord>& records = buffer.records;
+    const photon::PhotonRecords& records = buffer.records;
     std::vector<uint32_t> cell_of(records.size());
     first_.assign(size_t(size_.x) * size_t(size_.y) * size_t(size_.z) + 1, 0);
     for (size_t i = 0; i < records.size(); ++i) {

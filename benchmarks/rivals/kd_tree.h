@@ -67,7 +67,7 @@ class KdTree {
   };
 
   static std::vector<PlainPhoton> in_morton_order(const photon::PhotonBuffer& buffer) {
-    const std::vector<photon::PhotonRecord>& records = buffer.records;
+    const photon::PhotonRecords& records = buffer.records;
     KeyIndices order(records.size()), spare(records.size());
     fill_key_indices(records, photon::MortonCube::around(bounds_of(buffer)), order);
     lsd_radix_sort<11>(order, spare);

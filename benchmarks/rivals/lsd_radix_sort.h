@@ -30,7 +30,7 @@ inline KeyIndices make_key_indices(size_t size) {
 }
 
 // Pairs of the records' Morton keys and 0, 1, 2 ...
-inline void fill_key_indices(const std::vector<photon::PhotonRecord>& records, const photon::MortonCube& cube,
+inline void fill_key_indices(const photon::PhotonRecords& records, const photon::MortonCube& cube,
                              KeyIndices& pairs) {
   tbb::parallel_for(size_t(0), records.size(), [&](size_t i) {
     const photon::PhotonRecord& r = records[i];

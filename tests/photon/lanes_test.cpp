@@ -218,7 +218,7 @@ TEST(RecordPacker, RecordsAreThoseOfPack) {
   PhotonMaker make(77);
   constexpr float kUnit = 0x1p-20f;
   RecordPacker packer(kUnit);
-  std::vector<PhotonRecord> records, expected;
+  PhotonRecords records, expected;
   for (int i = 0; i < 100003; ++i) {
     Photon photon;
     photon.p = make.direction();

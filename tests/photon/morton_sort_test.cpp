@@ -12,7 +12,7 @@
 namespace kaustik::photon {
 namespace {
 
-using Records = std::vector<PhotonRecord>;
+using Records = PhotonRecords;
 
 const MortonCube kCube = MortonCube::around({Point3(0), Point3(1)});
 

@@ -119,7 +119,7 @@ TEST_P(PhotonMapSets, WithinLimitsTheSearchToARange) {
 }
 
 TEST_P(PhotonMapSets, PhotonsAreThoseOfTheBufferInAscendingKeys) {
-  std::vector<PhotonRecord> records = make_buffer(GetParam().photons).records;
+  PhotonRecords records = make_buffer(GetParam().photons).records;
   const MortonCube cube = map_.cube();
   std::stable_sort(records.begin(), records.end(), [&](const PhotonRecord& a, const PhotonRecord& b) {
     return morton_key(cube.cell({a.x, a.y, a.z})) < morton_key(cube.cell({b.x, b.y, b.z}));
