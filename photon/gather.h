@@ -39,7 +39,7 @@ struct GatherQuery {
 // Exact counts, merged by integer sums.
 struct GatherCounters {
   uint64_t queries = 0;
-  uint64_t candidates = 0;  // photons whose distance was computed, by whole blocks
+  uint64_t candidates = 0;  // photons of the blocks that were looked through for the query
   uint64_t accepted = 0;    // photons that counted
   GatherCounters& operator+=(const GatherCounters& o) {
     queries += o.queries;
@@ -77,6 +77,12 @@ struct GatherSum {
 // Over the photons that count. The order of the sum depends on the instruction set, and on nothing else.
 GatherSum gather_photons(const IndexedPhotons& photons, const GatherQuery& query, KernelType kernel,
                          float slope);
+
+// The same for each of many queries: sums[i] is that of queries[i] with slopes[i], to the last bit.
+// Neighbours on one surface that follow one another share the work; together they may look through blocks
+// that a query alone is spared.
+void gather_photons(const IndexedPhotons& photons, std::span<const GatherQuery> queries, KernelType kernel,
+                    const float* slopes, GatherSum* sums);
 
 // The same for an index of another kind, over those in the ranges. query.within is not read, candidates are
 // not counted.

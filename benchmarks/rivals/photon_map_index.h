@@ -27,6 +27,7 @@ class PhotonMapIndex {
     return map_.nearest_radius(query, k, counters);
   }
   uint64_t memory_bytes() const { return map_.memory_bytes(); }
+  const photon::PhotonMap& map() const { return map_; }
 
  private:
   photon::PhotonMap map_;
