@@ -49,8 +49,9 @@ struct PixelSum {
   double depth = 0, photons = 0;
   glm::dvec3 bias{0};  // of the first sample alone
   uint64_t count = 0;
-  int64_t weight = 0;  // sum of the samples' weights
+  uint64_t negative = 0;  // of them, those that count -1
 
+  int64_t weight() const { return static_cast<int64_t>(count) - 2 * static_cast<int64_t>(negative); }
   void add(const PixelResult& s, int sample_weight = 1) {
     const double w = sample_weight;
     const auto add3 = [w](glm::dvec3& sum, const glm::vec3& v) { sum += w * glm::dvec3(v); };
@@ -59,7 +60,7 @@ struct PixelSum {
     depth += w * double(s.depth), photons += w * double(s.photons);
     bias += s.bias;
     ++count;
-    weight += sample_weight;
+    negative += sample_weight < 0;
   }
 };
 

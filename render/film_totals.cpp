@@ -69,13 +69,13 @@ uint64_t add_pixel(const PixelSum& pass, const PerUnit& per_unit, PixelTotals* t
   const auto channels = channels_of(pass);
   for (size_t i = 0; i < kSumChannels; ++i) clamped += !totals->sums[i].add(channels[i], per_unit.sums[i]);
   // Of a few samples a negative filter's weights may cancel; their number then stands in.
-  const double weight = pass.weight > 0 ? static_cast<double>(pass.weight) : static_cast<double>(pass.count);
+  const double weight = static_cast<double>(pass.weight() > 0 ? uint64_t(pass.weight()) : pass.count);
   const glm::dvec3 mean = (pass.emitted + pass.direct + pass.caustic + pass.indirect) / weight;
   for (int c = 0; c < 3; ++c) {
     clamped += !totals->squares[size_t(c)].add(mean[c] * mean[c], per_unit.square);
     clamped += !totals->bias_squares[size_t(c)].add(pass.bias[c] * pass.bias[c], per_unit.square);
   }
-  totals->weight += pass.weight;
+  totals->weight += pass.weight();
   ++totals->passes;
   return clamped;
 }

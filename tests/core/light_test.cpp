@@ -133,7 +133,9 @@ TEST(Light, EmittedRaysDoNotMeetTheirConvexLamp) {
     const auto* sphere = area ? std::get_if<SphereEmitter>(&area->surface) : nullptr;
     const bool mesh = area && std::holds_alternative<TriangleEmitter>(area->surface);
     // Inner sides of spheres and of bent meshes may well shine on the lamp itself.
-    if (!area || (sphere && sphere->inward) || (area->twosided && (sphere || mesh))) continue;
+    const auto* quadric = area ? std::get_if<QuadricEmitter>(&area->surface) : nullptr;
+    const bool hollow = quadric && quadric->quadric.kind != QuadricKind::kDisk;
+    if (!area || hollow || (sphere && sphere->inward) || (area->twosided && (sphere || mesh))) continue;
     IndependentRandom random(5);
     for (int i = 0; i < 20000; ++i) {
       const auto s = test::sample_Le(c.light, random, EmissionMode::kCosine);
