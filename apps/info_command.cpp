@@ -34,6 +34,9 @@ glm::dvec3 in_world(const Scene& scene, const Point3& p) {
 std::string_view type_name(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return std::decay_t<decltype(b)>::kName; }, bsdf);
 }
+std::string_view type_name(const Material& material) {
+  return material.mixed() ? "mix" : type_name(material.typical());
+}
 std::string_view type_name(const Light& light) {
   return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kName; }, light);
 }
@@ -72,7 +75,7 @@ Json materials_json(const Scene& scene) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
     out.push_back({{"name", name},
-                   {"type", type_name(scene.materials[i].typical())},
+                   {"type", type_name(scene.materials[i])},
                    {"albedo", triple(albedo(scene.materials[i].typical()))},
                    {"shapes", uses[i]}});
   }
@@ -150,8 +153,7 @@ std::string info_text(const std::string& path, const Job& job) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
     text += fmt::format("material   {}: {}, albedo {}\n", name.empty() ? fmt::format("#{}", i) : name,
-                        type_name(scene.materials[i].typical()),
-                        triple_text(albedo(scene.materials[i].typical())));
+                        type_name(scene.materials[i]), triple_text(albedo(scene.materials[i].typical())));
   }
   for (const Light& light : scene.lights) {
     text += fmt::format("light      {}, power {} W\n", type_name(light), triple_text(power(light)));

@@ -23,9 +23,15 @@ struct ReflectedRadiance {
     return bsdf.reflectance * kInvPi * map.gather_flux(query, kernel, counters);
   }
 
+  Rgb operator()(const DiffuseTransmission& bsdf) const {
+    const bool through = glm::dot(query.n, frame.z) * wo.z < 0;
+    return (through ? bsdf.transmittance : bsdf.reflectance) * kInvPi *
+           map.gather_flux(query, kernel, counters);
+  }
+
   template <class AnyBsdf>
   Rgb operator()(const AnyBsdf& bsdf) const {
-    if constexpr (AnyBsdf::kSpecular) return Rgb(0);
+    if (!bsdf.lobes().broad) return Rgb(0);
     const KernelTerms terms = kernel_terms(kernel, query.radius);
     Rgb Lr(0);
     map.for_each(
@@ -62,22 +68,31 @@ Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery
   return Lr / float(surface_share(*settings.edges, x.si, settings.kernel, disc.radius));
 }
 
-}  // namespace
-
-Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
-                      const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
-  if (map.empty()) return Rgb(0);
-  const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
+// Of the photons that arrived on the side of n.
+Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& n,
+                       const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
+  const SurfaceInteraction& si = x.si;
   GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
   if (settings.nearest > 0) query.radius = nearest_radius(map, query, settings.nearest, counters);
   if (settings.leaf) query.within = map.find_cell(si.p, settings.node_photons, query.radius).range;
-  const SeenPoint x{si, wo, bsdf};
   const Rgb Lr = radiance_of_disc(map, x, query, settings, counters);
   if (bias) {
     query.radius /= 2;
     bias->bias += (Lr - radiance_of_disc(map, x, query, settings, bias->counters)) * (4 / 3.0f);
   }
   return Lr;
+}
+
+}  // namespace
+
+Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
+                      const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
+  if (map.empty()) return Rgb(0);
+  const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
+  const SeenPoint x{si, wo, bsdf};
+  const Rgb Lr = radiance_from_side(map, x, n, settings, counters, bias);
+  if (!transmits(bsdf)) return Lr;
+  return Lr + radiance_from_side(map, x, -n, settings, counters, bias);
 }
 
 }  // namespace kaustik::photon

@@ -29,8 +29,9 @@ struct BiasEstimate {
 // Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", equations 7.3 to 7.6. No cosine: flux per
 // area already holds it. wo: unit, world, away from the surface. Bias: that of the kernel, O(radius^2) where
 // light is smooth. With settings.edges the sum is divided by the kernel's share on the surface
-// (surface_share), without it is too dark by up to half within radius of the surface's border. Zero for
-// specular BSDFs and empty maps. Thread-safe.
+// (surface_share), without it is too dark by up to half within radius of the surface's border. Of a BSDF that
+// lets light through, photons on the far side count too, with a disc of their own; a body's opposite surface
+// nearer than the radius is then taken for this one. Zero for specular BSDFs and empty maps. Thread-safe.
 //
 // bias: if not null, the bias of this estimate is added to it. Of half the radius an O(r^2) bias is a
 // quarter, so it is 4/3 of the difference between this disc and its inner half, which holds some of the same

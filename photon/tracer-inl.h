@@ -216,19 +216,17 @@ class Tracer {
     left_[k] = kNothing;
     goes_on_[k] = false;
     scatters_[k] = false;
-    const bool straight = walkers_.state[k].is_straight();
     const Arrival photon{lanes_.ray.get(k), VertexLanes::get(lanes_.flux, k)};
     const SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
     std::visit(
-        [&]<class B>(const B& bsdf) {
-          leave_photon(k, si, photon, B::kSpecular);
-          if (straight) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
-          const bool wanted = settings_.kinds.indirect || (B::kSpecular && settings_.kinds.caustic);
+        [&](const auto& bsdf) {
+          const Lobes lobes = bsdf.lobes();
+          leave_photon(k, si, photon, !(lobes.broad || scene_.materials[si.material].lobes().broad));
+          if (walkers_.state[k].is_straight()) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
+          const bool wanted = settings_.kinds.indirect || (lobes.specular && settings_.kinds.caustic);
           if (wanted && !is_last(k)) scatter_alone(k, bsdf, si, photon);
-          walkers_.state[k] =
-              B::kSpecular ? walkers_.state[k].behind_specular() : walkers_.state[k].behind_diffuse();
         },
-        *BsdfAt(scene_.materials, si));
+        *BsdfAt(scene_.materials, si, -photon.ray.d));
   }
 
   // The same for what lanes_ has computed, but for shadow photons. The flux was found valid when it was made.
@@ -325,18 +323,20 @@ class Tracer {
     lanes_.fate[k] = dropped ? VertexLanes::kInvalid : VertexLanes::kAlive;
   }
 
-  // Samples the next direction and plays Russian roulette; false when the photon is absorbed. Numbers of the
-  // vertex: direction (0, 1), then lobe and roulette. A delta lobe needs no direction, and lobes that need no
-  // choice none for it.
+  // Samples the next direction and plays Russian roulette; false when the photon is absorbed, or not wanted
+  // behind this lobe. Numbers of the vertex: direction (0, 1), then lobe where there is a choice, roulette.
   template <class B>
   bool scatter(size_t k, const B& bsdf, const SurfaceInteraction& si, const Arrival& photon) {
     const auto u = [&](int dimension) { return numbers_.u[dimension][k]; };
     const Frame frame = Frame::from_z(si.ns);
-    const Vector3 wo = -photon.ray.d;
-    const Vector3 wo_local = frame.to_local(wo);
+    const Vector3 wo = -photon.ray.d, wo_local = frame.to_local(wo);
     const auto sample =
         bsdf.sample_f(wo_local, kChoosesLobe<B> ? u(2) : 0, {u(0), u(1)}, TransportMode::kImportance);
     if (!sample) return false;
+    scatters_[k] = sample->specular || settings_.kinds.indirect;
+    if (!scatters_[k]) return false;
+    WalkState& state = walkers_.state[k];
+    state = sample->specular ? state.behind_specular() : state.behind_diffuse();
     const Vector3 wi = unit(frame.to_world(sample->wi));
     const float c_out = shading_correction(si, wi, sample->wi.z);
     if (c_out == 0) return false;

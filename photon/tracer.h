@@ -7,6 +7,8 @@
 //                            further non-specular surface, until it leaves the scene
 //   caustic   L S+ D         at the first non-specular surface after specular ones
 //   indirect  L (S|D)* D (S|D)* D
+// S is scattering by the specular part of a BSDF, delta and glossy lobes, D that by its broad part. A surface
+// is specular when it has no broad part. One that has both keeps photons, and goes on by either.
 // A path whose first surface is specular leaves no direct photon, and shadow photons only if
 // TraceSettings::shadow_behind_specular asks for them: then the straight ray behind any first surface leaves
 // them, since mirror and glass block direct light. A straight ray passes through specular surfaces.

@@ -19,9 +19,11 @@ Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
   return ray;
 }
 
-// Whether the lamp is seen from x, as far as photons foretell it. Light is reflected on the viewer's side.
-photon::VisibilityGuess foretold(const RenderContext& ctx, const ShadingPoint& x, uint32_t lamp) {
-  if (!ctx.maps.visibility) return {};
+// Whether the lamp is seen from x, as far as photons foretell it: on the viewer's side. Light that comes
+// through arrives on the other, and in a glossy lobe a wrong forecast would be too bright a sample.
+photon::VisibilityGuess foretold(const RenderContext& ctx, const ShadingPoint& x, LobePart part,
+                                 uint32_t lamp) {
+  if (!ctx.maps.visibility || part == LobePart::kGlossy || transmits(*x.bsdf)) return {};
   return ctx.maps.visibility->guess(lamp, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
 }
 
@@ -49,7 +51,7 @@ Rgb unoccluded_from(const Scene& scene, uint32_t lamp, const ShadingPoint& x, co
 }  // namespace
 
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
-                  TileCounters& counters) {
+                  TileCounters& counters, LobePart part) {
   const float u_lamp = sampler.next_1d();
   const Point2 u = sampler.next_2d();
   const Scene& scene = ctx.scene;
@@ -57,18 +59,18 @@ Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight w
   const auto lamp = scene.light_sampler.choose(x.receiver(), u_lamp);
   if (!lamp) return Rgb(0);
   // The number that chose the lamp is uniform again, whatever the lamp and the point on it.
-  const photon::VisibilityGuess guess = foretold(ctx, x, lamp->lamp);
+  const photon::VisibilityGuess guess = foretold(ctx, x, part, lamp->lamp);
   const bool traced = lamp->u_remapped < guess.p;
   if (!traced && guess.v == 0) return Rgb(0);
   const auto s = sample_lamp(scene, lamp->lamp, x.si.p, u);
   if (!s || !(s->pdf > 0)) return Rgb(0);
-  const Rgb f = f_cos(x, s->wi);
+  const Rgb f = f_cos(x, s->wi, part);
   if (is_black(f) || is_black(s->Li)) return Rgb(0);
   const float V = traced ? guess.v + (trace_visibility(ctx, x, *s, counters) - guess.v) / guess.p : guess.v;
   if (V == 0) return Rgb(0);
   const float pdf = s->pdf * lamp->probability;
   const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[lamp->lamp]);
-  const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi)) : 1;
+  const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
   return f * s->Li * (V * w / pdf);
 }
 

@@ -17,8 +17,9 @@ enum class LightWeight {
 // scene's LightSampler; anything between blocks, glass too: light through specular surfaces belongs to the
 // caustic class. Delta lamps always have weight one. With ctx.maps.visibility most shadow rays are not traced
 // and V is an unbiased estimate, of either sign (photon/visibility_tree.h). Draws three dimensions, always.
+// part: of f, the lobes that count.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
-                  TileCounters& counters);
+                  TileCounters& counters, LobePart part = LobePart::kBroad);
 
 // The same as if nothing were in the way, V = 1, and of every lamp, so that only the lamps' extent makes
 // noise; of one that is chosen where there are more than kMostLampsSummed. Draws three dimensions,

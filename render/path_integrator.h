@@ -14,7 +14,7 @@ struct PathLight {
 // Whether trace_path has anything to find under this plan.
 bool traces_paths(const EstimatorPlan& plan);
 
-// One path that starts at the non-specular point x with a BSDF sample. What it meets decides the class:
+// One path that starts at x with a sample of its broad lobes. What it meets decides the class:
 //
 //   a lamp straight from x                direct, by the weight of BSDF sampling (if samples_lamps())
 //   a lamp after specular surfaces only   caustic (--caustics paths)
@@ -22,10 +22,10 @@ bool traces_paths(const EstimatorPlan& plan);
 //
 // At each further non-specular point y: next-event estimation with MIS, and what arrives at y through
 // specular surfaces: from the caustic map if there is one (then lamps met through specular surfaces are not
-// counted again), else from lamps met. `--caustics off` therefore leaves out the class L S+ D S* E alone, and
-// the indirect light stays complete as far as paths can find it. Russian roulette from the third non-specular
-// point on. Unbiased, but for the caustic map's kernel; at most max_bounces scattering events from x to the
-// lamp, x included. Requires traces_paths(ctx.plan).
+// counted again), else from lamps met, and at glossy lobes from lamps sampled. `--caustics off` therefore
+// leaves out the class L S+ D S* E alone, and the indirect light stays complete as far as paths can find it.
+// Russian roulette from the third non-specular point on. Unbiased, but for the caustic map's kernel; at most
+// max_bounces scattering events from x to the lamp, x included. Requires traces_paths(ctx.plan).
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler,
                      TileCounters& counters);
 

@@ -2,7 +2,8 @@
 //
 //   L(ray) = Le + Lr                                          the rendering equation (Kajiya 1986)
 //   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
-//   Lr = direct + caustic + indirect at the first non-specular point x
+//   Lr = direct + caustic + indirect at points x of the chain, by their broad lobes; where all lobes of a
+//        point are broad, the chain ends
 //        direct    L D S* E                 lamp samples, photons or both                   direct_light
 //        caustic   L S+ D S* E              photons or paths                                caustic_light
 //        indirect  L S* D (S|D)* D S* E     photons or paths                                indirect_light
@@ -86,7 +87,7 @@ Rgb indirect_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters
   return from_map(ctx.maps.indirect, x, counters, bias);
 }
 
-// Light scattered at the first non-specular point, seen through a specular chain of throughput beta. The path
+// Light scattered by the broad lobes of a point, seen through a specular chain of throughput beta. The path
 // brings nothing of a class that another estimator owns, so each sum below has one owner.
 void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
                    TileCounters& counters, bool with_bias, PixelResult* result) {
@@ -96,19 +97,47 @@ void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& b
   const Rgb direct = direct_light(ctx, x, sampler, counters, bias);
   const Rgb caustic = caustic_light(ctx, x, counters, bias);
   const Rgb indirect = indirect_light(ctx, x, counters, bias);
-  result->photons = float(counters.gather.accepted - accepted);
-  result->bias = beta * measured.bias;
+  result->photons += float(counters.gather.accepted - accepted);
+  result->bias += beta * measured.bias;
   counters.gather += measured.counters;
   const PathLight path = traces_paths(ctx.plan) ? trace_path(ctx, x, sampler, counters) : PathLight{};
-  result->direct = beta * (direct + path.direct);
-  result->caustic = beta * (caustic + path.caustic);
-  result->indirect = beta * (indirect + path.indirect);
+  result->direct += beta * (direct + path.direct);
+  result->caustic += beta * (caustic + path.caustic);
+  result->indirect += beta * (indirect + path.indirect);
 }
 
 void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* result) {
   result->albedo = albedo(*hit.bsdf);
   result->normal = hit.si.ns;
   result->depth = glm::distance(hit.si.p, eye);
+}
+
+// How a camera ray left the point before: by a delta lobe, or by a glossy one with density pdf.
+struct LeftBy {
+  bool glossy = false;
+  LightReceiver ref;
+  float pdf = 0;
+};
+
+// Lamps that a glossy lobe leads to are sampled where it is, too.
+Rgb emission_seen(const Scene& scene, const LeftBy& last, const SurfaceInteraction& si, const Vector3& d) {
+  const Rgb Le = emitted(scene, si, -d);
+  if (!last.glossy || is_black(Le)) return Le;
+  return Le * emitter_hit_weight(scene, last.ref, d, last.pdf, si);
+}
+Rgb escape_seen(const Scene& scene, const LeftBy& last, const Ray& ray) {
+  return last.glossy ? escaped_weighted(scene, last.ref, ray, last.pdf) : escaped(scene, ray);
+}
+
+// Chains over coated surfaces grow dim soon, and each point of them takes a gather: Russian roulette for what
+// is less than kDim of the pixel. Draws a dimension there.
+bool is_worth_it(Rgb* beta, Sampler& sampler) {
+  constexpr float kDim = 0.05f;
+  const float q = max_component(*beta) / kDim;
+  if (q >= 1) return true;
+  if (!(sampler.next_1d() < q)) return false;
+  *beta /= q;
+  return true;
 }
 
 }  // namespace
@@ -119,24 +148,27 @@ PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, co
   Rgb beta(1);
   Ray ray = camera_ray;
   Hit hit = first;
+  LeftBy last;
   ++counters.rays.camera;
   for (int events = 0;; ++events) {
     if (!hit.valid()) {
-      result.emitted += beta * escaped(ctx.scene, ray);
+      result.emitted += beta * escape_seen(ctx.scene, last, ray);
       return result;
     }
     const SurfaceInteraction si = make_interaction(ctx.scene.shapes, ray, hit);
-    result.emitted += beta * emitted(ctx.scene, si, -ray.d);
+    result.emitted += beta * emission_seen(ctx.scene, last, si, ray.d);
     const ShadingPoint x(ctx.scene, si, -ray.d);
     if (events == 0) set_features(x, ray.o, &result);
-    if (!x.specular()) {
-      add_reflected(ctx, x, beta, sampler, counters, with_bias, &result);
-      return result;
-    }
-    if (events == ctx.settings.max_bounces) return result;
-    const auto s = scatter(x, sampler);
+    const Lobes parts = lobes(*x.bsdf);
+    if (parts.broad) add_reflected(ctx, x, beta, sampler, counters, with_bias, &result);
+    if (!parts.specular || events == ctx.settings.max_bounces) return result;
+    if (parts.glossy)
+      result.emitted += beta * sample_direct(ctx, x, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
+    const auto s = scatter(x, sampler, Scatter::kSpecular);
     if (!s) return result;
     beta *= s->weight;
+    if (parts.broad && !is_worth_it(&beta, sampler)) return result;
+    last = {s->glossy, x.receiver(), s->pdf};
     ray = si.spawn(s->wi);
     hit = ctx.bvh.intersect(ray);
     ++counters.rays.specular;

@@ -90,10 +90,11 @@ void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* note
 
 void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
   if (!needs.specular || !needs.any_light) return;
-  if (plan->caustics == Caustic::kPaths && needs.only_delta_lights)
+  if (plan->caustics == Caustic::kPaths && needs.only_delta_lights && needs.delta)
     plan->notes.push_back(
         "paths cannot hit point, spot or distant lamps: their caustics are missing; use --caustics photons");
-  if (plan->caustics == Caustic::kOff && plan->indirect == Indirect::kPaths && needs.only_delta_lights)
+  if (plan->caustics == Caustic::kOff && plan->indirect == Indirect::kPaths && needs.only_delta_lights &&
+      needs.delta)
     plan->notes.push_back(
         "caustics are off: light of point, spot or distant lamps through specular surfaces is missing "
         "from the indirect light too");

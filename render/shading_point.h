@@ -18,7 +18,7 @@ struct ShadingPoint {
   // Where wo lies on different sides of the geometric and the shading surface of a non-specular material, the
   // geometric normal is shaded: the interpolated one means nothing there.
   ShadingPoint(const Scene& scene, const SurfaceInteraction& interaction, const Vector3& to_viewer)
-      : si(interaction), wo(to_viewer), bsdf(scene.materials, interaction) {
+      : si(interaction), wo(to_viewer), bsdf(scene.materials, interaction, to_viewer) {
     if (!is_specular(*bsdf) && glm::dot(wo, si.n) * glm::dot(wo, si.ns) <= 0) si.ns = si.n;
     frame = Frame::from_z(si.ns);
     wo_local = frame.to_local(wo);
@@ -34,26 +34,61 @@ struct ShadingPoint {
   }
 };
 
+// Which lobes are asked for: those under which light is gathered, or those of finite width that are followed.
+enum class LobePart { kBroad, kGlossy };
+
+namespace detail {
+inline Rgb f(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, LobePart part) {
+  return std::visit(
+      [&](const auto& b) {
+        if (part == LobePart::kBroad) return b.f(wo, wi);
+        if constexpr (requires { b.f_glossy(wo, wi); }) return b.f_glossy(wo, wi);
+        return Rgb(0);
+      },
+      bsdf);
+}
+inline float pdf(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, LobePart part) {
+  return std::visit(
+      [&](const auto& b) {
+        if (part == LobePart::kBroad) return b.pdf(wo, wi);
+        if constexpr (requires { b.pdf_glossy(wo, wi); }) return b.pdf_glossy(wo, wi);
+        return 0.0f;
+      },
+      bsdf);
+}
+}  // namespace detail
+
 // f(wo, wi) |wi . ns| in 1/sr. Zero where wi lies on different sides of the geometric and the shading
 // surface: light does not leak through (Veach 1997, section 5.3).
-inline Rgb f_cos(const ShadingPoint& x, const Vector3& wi) {
+inline Rgb f_cos(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kBroad) {
   const Vector3 local = x.frame.to_local(wi);
   if (!(glm::dot(wi, x.si.n) * local.z > 0)) return Rgb(0);
-  return std::visit([&](const auto& b) { return b.f(x.wo_local, local); }, *x.bsdf) * std::abs(local.z);
+  return detail::f(*x.bsdf, x.wo_local, local, part) * std::abs(local.z);
 }
 
-// Density of scatter() per solid angle.
-inline float scatter_pdf(const ShadingPoint& x, const Vector3& wi) {
-  const Vector3 local = x.frame.to_local(wi);
-  return std::visit([&](const auto& b) { return b.pdf(x.wo_local, local); }, *x.bsdf);
+// Density of scatter() per solid angle, given the part.
+inline float scatter_pdf(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kBroad) {
+  return detail::pdf(*x.bsdf, x.wo_local, x.frame.to_local(wi), part);
 }
+
+// Which part of a BSDF that has both scatters: one of them by chance, or one alone.
+enum class Scatter { kEither, kBroad, kSpecular };
 
 // BsdfSample with wi in world space. Draws three dimensions, always: uc, then a pair.
-inline std::optional<BsdfSample> scatter(const ShadingPoint& x, Sampler& sampler) {
+inline std::optional<BsdfSample> scatter(const ShadingPoint& x, Sampler& sampler,
+                                         Scatter part = Scatter::kEither) {
   const float uc = sampler.next_1d();
   const Point2 u = sampler.next_2d();
-  auto s = std::visit([&](const auto& b) { return b.sample_f(x.wo_local, uc, u, TransportMode::kRadiance); },
-                      *x.bsdf);
+  constexpr TransportMode kMode = TransportMode::kRadiance;
+  auto s = std::visit(
+      [&]<class B>(const B& b) {
+        if constexpr (requires { b.sample_broad(x.wo_local, uc, u, kMode); }) {
+          if (part == Scatter::kBroad) return b.sample_broad(x.wo_local, uc, u, kMode);
+          if (part == Scatter::kSpecular) return b.sample_specular(x.wo_local, uc, u, kMode);
+        }
+        return b.sample_f(x.wo_local, uc, u, kMode);
+      },
+      *x.bsdf);
   if (!s) return {};
   const bool above = s->transmission ? glm::dot(x.wo, x.si.n) < 0 : glm::dot(x.wo, x.si.n) > 0;
   s->wi = x.frame.to_world(s->wi);

@@ -4,21 +4,38 @@
 
 #include <variant>
 
+#include "core/bsdf/coated_diffuse.h"
 #include "core/bsdf/conductor.h"
 #include "core/bsdf/dielectric.h"
+#include "core/bsdf/diffuse_transmission.h"
 #include "core/bsdf/lambertian.h"
 #include "core/bsdf/mirror.h"
 #include "core/bsdf/oren_nayar.h"
+#include "core/bsdf/thin_dielectric.h"
 
 namespace kaustik {
 
-using Bsdf = std::variant<Lambertian, OrenNayar, Dielectric, Conductor, Mirror>;
+template <class B>
+inline constexpr bool kTransmitsBroadly = requires {
+  B::kTransmits;
+};
 
+using Bsdf = std::variant<Lambertian, OrenNayar, Dielectric, Conductor, Mirror, ThinDielectric,
+                          DiffuseTransmission, CoatedDiffuse>;
+
+inline Lobes lobes(const Bsdf& bsdf) {
+  return std::visit([](const auto& b) { return b.lobes(); }, bsdf);
+}
+// Nothing to gather under.
 inline bool is_specular(const Bsdf& bsdf) {
-  return std::visit([](const auto& b) { return std::decay_t<decltype(b)>::kSpecular; }, bsdf);
+  return !lobes(bsdf).broad;
 }
 inline Rgb albedo(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return b.albedo(); }, bsdf);
+}
+// Whether light comes through the broad lobes.
+inline bool transmits(const Bsdf& bsdf) {
+  return std::visit([]<class B>(const B&) { return kTransmitsBroadly<B>; }, bsdf);
 }
 
 }  // namespace kaustik

@@ -9,10 +9,27 @@ Rgb Conductor::reflectance(float cos_theta_i) const {
           fresnel_conductor(cos_theta_i, eta.z, k.z)};
 }
 
-std::optional<BsdfSample> Conductor::sample_f(const Vector3& wo, float /*uc*/, const Point2& /*u*/,
+Rgb Conductor::f_rough(const Vector3& wo, const Vector3& wi) const {
+  if (!same_hemisphere(wo, wi)) return Rgb(0);
+  const Vector3 wm = glm::normalize(wo + wi);
+  return reflectance(glm::dot(wo, wm)) * (facets.D(wm) * facets.masking(wo, wi));
+}
+
+float Conductor::pdf_rough(const Vector3& wo, const Vector3& wi) const {
+  return same_hemisphere(wo, wi) ? facets.reflection_pdf(wo, glm::normalize(wo + wi)) : 0;
+}
+
+std::optional<BsdfSample> Conductor::sample_f(const Vector3& wo, float /*uc*/, const Point2& u,
                                               TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
-  return BsdfSample{{-wo.x, -wo.y, wo.z}, reflectance(wo.z), 1, true, false};
+  if (facets.smooth()) return BsdfSample{{-wo.x, -wo.y, wo.z}, reflectance(wo.z), 1, true, false};
+  const bool glossy = facets.is_narrow();
+  const Vector3 wm = facets.sample_visible(wo, u);
+  const float c = glm::dot(wo, wm);
+  const Vector3 wi = 2 * c * wm - wo;
+  const float pdf = facets.reflection_pdf(wo, wm);
+  if (!same_hemisphere(wo, wi) || !is_density(pdf)) return std::nullopt;
+  return BsdfSample{wi, reflectance(c) * facets.unshadowed(wo, wi), pdf, glossy, false, glossy};
 }
 
 Rgb Conductor::albedo() const {

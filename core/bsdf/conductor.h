@@ -1,23 +1,37 @@
 #pragma once
-#include "core/bsdf/bsdf_types.h"
+#include "core/bsdf/ggx.h"
 
 namespace kaustik {
 
-// Smooth metal: specular reflection with the conductor Fresnel factor, both sides (pharr 2023, 9.4).
+// Metal, both sides: reflection with the conductor Fresnel factor, off a smooth surface or off GGX
+// microfacets (pharr 2023, 9.4 and 9.7).
 struct Conductor {
-  static constexpr bool kSpecular = true;
   static constexpr std::string_view kName = "conductor";
 
   Rgb eta{1}, k{1};
+  Ggx facets{};
 
-  Rgb f(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return Rgb(0); }
-  float pdf(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return 0; }
+  Lobes lobes() const {
+    return facets.smooth() ? kDeltaLobes : facets.is_narrow() ? kGlossyLobes : kBroadLobes;
+  }
+  Rgb f(const Vector3& wo, const Vector3& wi) const { return lobes().broad ? f_rough(wo, wi) : Rgb(0); }
+  float pdf(const Vector3& wo, const Vector3& wi) const { return lobes().broad ? pdf_rough(wo, wi) : 0; }
+  Rgb f_glossy(const Vector3& wo, const Vector3& wi) const {
+    return lobes().glossy ? f_rough(wo, wi) : Rgb(0);
+  }
+  float pdf_glossy(const Vector3& wo, const Vector3& wi) const {
+    return lobes().glossy ? pdf_rough(wo, wi) : 0;
+  }
   std::optional<BsdfSample> sample_f(const Vector3& wo, float uc, const Point2& u, TransportMode mode) const;
-  // Reflectance of the whole hemisphere under uniform light, by an 8-point rule: for previews, not transport.
+  // Reflectance of the whole hemisphere under uniform light, by an 8-point rule, of the smooth surface: for
+  // previews, not transport.
   Rgb albedo() const;
 
  private:
   Rgb reflectance(float cos_theta_i) const;
+  // The lobe of the rough surface, whatever its width.
+  Rgb f_rough(const Vector3& wo, const Vector3& wi) const;
+  float pdf_rough(const Vector3& wo, const Vector3& wi) const;
 };
 
 }  // namespace kaustik

@@ -1,22 +1,33 @@
 #pragma once
-#include "core/bsdf/bsdf_types.h"
 #include "core/bsdf/fresnel.h"
+#include "core/bsdf/ggx.h"
 
 namespace kaustik {
 
-// Smooth boundary of two dielectrics: Fresnel reflection and refraction, chosen in proportion (pharr
-// 2023, 9.5).
+// Boundary of two dielectrics: Fresnel reflection and refraction, chosen in proportion, at a smooth surface
+// or at GGX microfacets (pharr 2023, 9.5 and 9.7).
 struct Dielectric {
-  static constexpr bool kSpecular = true;
   static constexpr std::string_view kName = "dielectric";
+  static constexpr bool kTransmits = true;
 
   float eta = 1.5f;  // of the inside (below the surface) over the outside
+  Ggx facets{};      // smooth where eta is one: no boundary
 
-  Rgb f(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return Rgb(0); }
-  float pdf(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return 0; }
-  std::optional<BsdfSample> sample_f(const Vector3& wo, float uc, const Point2& /*u*/,
-                                     TransportMode mode) const {
+  Lobes lobes() const {
+    if (facets.smooth()) return kDeltaLobes;
+    return facets.is_narrow() ? kGlossyLobes : kBroadLobes;
+  }
+  Rgb f(const Vector3& wo, const Vector3& wi) const { return lobes().broad ? f_rough(wo, wi) : Rgb(0); }
+  float pdf(const Vector3& wo, const Vector3& wi) const { return lobes().broad ? pdf_rough(wo, wi) : 0; }
+  Rgb f_glossy(const Vector3& wo, const Vector3& wi) const {
+    return lobes().glossy ? f_rough(wo, wi) : Rgb(0);
+  }
+  float pdf_glossy(const Vector3& wo, const Vector3& wi) const {
+    return lobes().glossy ? pdf_rough(wo, wi) : 0;
+  }
+  std::optional<BsdfSample> sample_f(const Vector3& wo, float uc, const Point2& u, TransportMode mode) const {
     if (wo.z == 0) return std::nullopt;
+    if (!facets.smooth()) return sample_rough(wo, uc, u, mode);
     if (eta == 1) return BsdfSample{-wo, Rgb(1), 1, true, true};
     const float relative = wo.z > 0 ? eta : 1 / eta;
     const float cos_i = std::min(std::abs(wo.z), 1.0f);
@@ -30,6 +41,13 @@ struct Dielectric {
     return BsdfSample{wi, Rgb(scale), 1 - reflectance, true, true};
   }
   Rgb albedo() const { return Rgb(1); }
+
+ private:
+  // The lobes of the rough surface, whatever their width.
+  Rgb f_rough(const Vector3& wo, const Vector3& wi) const;
+  float pdf_rough(const Vector3& wo, const Vector3& wi) const;
+  std::optional<BsdfSample> sample_rough(const Vector3& wo, float uc, const Point2& u,
+                                         TransportMode mode) const;
 };
 
 }  // namespace kaustik

@@ -2,6 +2,18 @@
 
 namespace kaustik {
 
+double fresnel_diffuse(double eta) {
+  // From the denser side: as much even light goes out as comes in, over eta^2.
+  if (eta < 1) return 1 - (1 - fresnel_diffuse(1 / eta)) * eta * eta;
+  // The terms cancel near one, where the reflectance is about (eta - 1) / 3.
+  if (eta < 1.0001) return (eta - 1) / 3;
+  const double n = eta, n2 = n * n, n4 = n2 * n2, plus = n2 + 1, minus = n4 - 1;
+  return 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
+         n2 * (n2 - 1) * (n2 - 1) / (plus * plus * plus) * std::log((n - 1) / (n + 1)) -
+         2 * n * n2 * (n2 + 2 * n - 1) / (plus * minus) +
+         8 * n4 * (n4 + 1) / (plus * minus * minus) * std::log(n);
+}
+
 float fresnel_conductor(float cos_theta_i, float eta, float k) {
   const float cos_i = std::min(std::abs(cos_theta_i), 1.0f);
   const float cos2 = cos_i * cos_i;

@@ -30,6 +30,11 @@ inline float fresnel_dielectric(float cos_theta_i, float eta) {
   return fresnel_from_cosines(cos_i, refracted_cosine(cos_i, relative), relative);
 }
 
+// Reflectance of a dielectric boundary for even light, int fresnel_dielectric 2 cos dcos; eta > 0 as there.
+// In closed form (Walsh 1926; in d'Eon 2021, "An Analytic BRDF for Materials with Spherical Lambertian
+// Scatterers", appendix); off by less than 1e-6.
+double fresnel_diffuse(double eta);
+
 // Unpolarised reflectance of a conductor of complex index eta + i k (relative to the outside), in real
 // arithmetic (Born and Wolf 1999, section 14.2); the sign of cos_theta_i does not matter.
 float fresnel_conductor(float cos_theta_i, float eta, float k);

@@ -14,11 +14,11 @@ inline std::optional<Vector3> sample_cosine_side_of(const Vector3& wo, const Poi
 
 // Ideal diffuse reflection, both sides: f = reflectance / pi.
 struct Lambertian {
-  static constexpr bool kSpecular = false;
   static constexpr std::string_view kName = "diffuse";
 
   Rgb reflectance{0.5f};
 
+  static constexpr Lobes lobes() { return kBroadLobes; }
   Rgb f(const Vector3& wo, const Vector3& wi) const {
     return same_hemisphere(wo, wi) ? reflectance * kInvPi : Rgb(0);
   }

@@ -5,11 +5,11 @@ namespace kaustik {
 
 // Ideal mirror of constant reflectance, both sides.
 struct Mirror {
-  static constexpr bool kSpecular = true;
   static constexpr std::string_view kName = "mirror";
 
   Rgb reflectance{1};
 
+  static constexpr Lobes lobes() { return kDeltaLobes; }
   Rgb f(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return Rgb(0); }
   float pdf(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return 0; }
   std::optional<BsdfSample> sample_f(const Vector3& wo, float /*uc*/, const Point2& /*u*/,

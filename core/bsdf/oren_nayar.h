@@ -7,7 +7,6 @@ namespace kaustik {
 // model): f = reflectance/pi (A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta)), alpha the larger and
 // beta the smaller of the two polar angles. Not modelled: interreflection between facets.
 struct OrenNayar {
-  static constexpr bool kSpecular = false;
   static constexpr std::string_view kName = "orennayar";
 
   Rgb reflectance{0.5f};
@@ -17,6 +16,7 @@ struct OrenNayar {
   // surfaces of small sigma (by 1.5 % at most). Such reflectances are lowered so that no light is made.
   static OrenNayar from_sigma_degrees(const Rgb& reflectance, float sigma_degrees);
 
+  static constexpr Lobes lobes() { return kBroadLobes; }
   Rgb f(const Vector3& wo, const Vector3& wi) const {
     return same_hemisphere(wo, wi) ? reflectance * (shape_factor(wo, wi) * kInvPi) : Rgb(0);
   }

@@ -36,9 +36,35 @@ uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& wa
   if (!spec || !check_parameters("material", *spec, material, warned, diagnostics)) return default_material();
   const auto row = std::find_if(material_rows().begin(), material_rows().end(),
                                 [&](const MaterialRow& r) { return &r.spec == spec; });
+  if (spec->name == "mix") return mix(material, *spec, diagnostics);
   if (!row->make) return kInterface;
   return add(row->make(MaterialInputs(material_inputs(ParameterReader(material, *spec)))),
              material.name.empty() ? material.type : material.name);
+}
+
+// Only what was defined before, as in pbrt: so no mixture holds itself.
+uint32_t MaterialTable::mix(const MaterialDescription& material, const TypeSpec& spec,
+                            DiagnosticList& diagnostics) {
+  const Parameter* names = material.find("materials");
+  if (!names) {
+    diagnostics.error(material.type_location, "material \"mix\" needs `materials`: the names of two");
+    return default_material();
+  }
+  uint32_t found[2];
+  for (size_t i = 0; i < 2; ++i) {
+    found[i] = resolve({std::nullopt, names->strings[i], names->value_location(i)}, diagnostics);
+    if (found[i] == kInterface) {
+      diagnostics.error(names->value_location(i), "material \"interface\" is no surface and cannot be mixed");
+      return default_material();
+    }
+  }
+  const Material &first = materials_[found[0]], &second = materials_[found[1]];
+  MixedMaterial mixed{found[0], found[1],
+                      static_cast<float>(ParameterReader(material, spec).number("amount")), first.lobes()};
+  mixed.lobes.broad |= second.lobes().broad;
+  mixed.lobes.specular |= second.lobes().specular;
+  mixed.lobes.glossy &= second.lobes().glossy;
+  return add(Material(mixed, first.typical()), material.name.empty() ? material.type : material.name);
 }
 
 uint32_t MaterialTable::default_material() {

@@ -26,6 +26,7 @@ class MaterialTable {
  private:
   uint32_t add(Material made, std::string name);
   uint32_t make(const MaterialDescription& material, WarnedOnce& warned, DiagnosticList& diagnostics);
+  uint32_t mix(const MaterialDescription& material, const TypeSpec& spec, DiagnosticList& diagnostics);
   uint32_t default_material();
 
   std::vector<Material> materials_;

@@ -6,8 +6,9 @@ namespace kaustik {
 
 // What must be modelled for this scene; everything else is left out, and the log says so.
 struct SceneNeeds {
-  bool specular = false;           // some dielectric, conductor or mirror: caustics exist
-  bool diffuse = false;            // some non-specular surface: photon maps are of use
+  bool specular = false;           // some surface has a part that is followed: caustics exist
+  bool delta = false;              // some of them by a delta lobe: lamps cannot be sampled there
+  bool diffuse = false;            // some surface has a broad part: photon maps are of use
   bool only_delta_lights = false;  // paths cannot hit a lamp: caustics need photons
   bool infinite_light = false;
   bool any_light = false;

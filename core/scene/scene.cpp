@@ -24,7 +24,10 @@ void set_scene_sphere(std::vector<Light>& lights, const Bounds3& bounds) {
 SceneNeeds needs_of(const Scene& scene) {
   SceneNeeds needs;
   for (const Shape& shape : scene.shapes) {
-    (is_specular(scene.materials[shape.material].typical()) ? needs.specular : needs.diffuse) = true;
+    const Lobes parts = scene.materials[shape.material].lobes();
+    needs.specular |= parts.specular;
+    needs.delta |= parts.specular && !parts.glossy;
+    needs.diffuse |= parts.broad;
   }
   needs.any_light = !scene.lights.empty();
   needs.infinite_light = !scene.infinite_lights.empty();

@@ -1,6 +1,7 @@
 // The rows of materials: parameters, and how each is made from them.
 
 #include "core/scene/schema.h"
+#include "core/bsdf/rough_coat.h"
 
 #include "core/scene/parameter_spec.h"
 
@@ -16,14 +17,39 @@ std::vector<ParameterSpec> material(std::vector<ParameterSpec> own) {
   return own;
 }
 
-// Rough reflection is another picture, so anything but zero is refused.
-std::vector<ParameterSpec> smooth_material(std::vector<ParameterSpec> own) {
-  for (const std::string_view name : {"roughness", "uroughness", "vroughness"}) {
-    own.push_back(not_rendered(name, {ParameterType::kFloat, ParameterType::kTexture},
-                               "only smooth surfaces are rendered: must be 0", 0));
-  }
-  own.push_back(ignored("remaproughness", {ParameterType::kBool}, "no effect on a smooth surface"));
+// pbrt's ways to say how rough a surface is.
+std::vector<ParameterSpec> rough_material(std::vector<ParameterSpec> own) {
+  own.push_back(number("roughness", 0, "", kNotNegative, "of GGX microfacets; 0: smooth"));
+  for (const std::string_view name : {"uroughness", "vroughness"})
+    own.push_back(without_default(number(name, 0, "", kNotNegative, "along one direction of the surface"),
+                                  "roughness"));
+  own.push_back(flag("remaproughness", true, "alpha of GGX is the root of roughness, else roughness itself"));
   return material(std::move(own));
+}
+
+// A coat without a medium in it.
+std::vector<ParameterSpec> coat(std::vector<ParameterSpec> own) {
+  constexpr ParameterType kNumber = ParameterType::kFloat;
+  own.push_back(not_rendered("albedo", {ParameterType::kRgb, kNumber, ParameterType::kTexture},
+                             "media are not rendered: must be 0", 0));
+  own.push_back(ignored("g", {kNumber, ParameterType::kTexture}, "of a medium", 0));
+  own.push_back(ignored("thickness", {kNumber, ParameterType::kTexture}, "no effect without a medium", 0.01));
+  own.push_back(ignored("maxdepth", {ParameterType::kInteger}, "all inner reflections are there", 10));
+  own.push_back(ignored("nsamples", {ParameterType::kInteger}, "no random walk", 1));
+  return rough_material(std::move(own));
+}
+
+ParameterSpec two_names(std::string_view name, std::string_view doc) {
+  ParameterSpec p = text(name, "none", doc);
+  p.min_items = p.max_items = 2;
+  return p;
+}
+
+Ggx facets(const MaterialInputs& p) {
+  const auto along = [&](std::string_view name) {
+    return static_cast<float>(p.number(p.has(name) ? name : "roughness"));
+  };
+  return Ggx::from_roughness(along("uroughness"), along("vroughness"), p.flag("remaproughness"));
 }
 
 ParameterSpec metal_index(std::string_view name, std::string_view doc) {
@@ -34,18 +60,33 @@ ParameterSpec metal_index(std::string_view name, std::string_view doc) {
 
 // pbrt's metal of a given colour: eta = 1 and k so that the reflectance at normal incidence is r (pharr
 // 2023, 9.4).
-Conductor conductor_of_reflectance(const Rgb& reflectance) {
+Rgb k_of_reflectance(const Rgb& reflectance) {
   const Rgb r = glm::clamp(reflectance, Rgb(0), Rgb(0.9999f));
-  return {Rgb(1), 2.0f * glm::sqrt(r) / glm::sqrt(Rgb(1) - r)};
+  return 2.0f * glm::sqrt(r) / glm::sqrt(Rgb(1) - r);
 }
 
 Bsdf make_conductor(const MaterialInputs& p) {
-  if (p.has("reflectance")) return conductor_of_reflectance(p.rgb("reflectance"));
+  if (p.has("reflectance")) return Conductor{Rgb(1), k_of_reflectance(p.rgb("reflectance")), facets(p)};
   // Copper's measured index at the wavelengths of the three primaries (Johnson and Christy 1972).
-  Conductor copper{Rgb(0.200438f, 0.924033f, 1.102212f), Rgb(3.912949f, 2.452848f, 2.142188f)};
+  Conductor copper{Rgb(0.200438f, 0.924033f, 1.102212f), Rgb(3.912949f, 2.452848f, 2.142188f), facets(p)};
   if (p.has("eta")) copper.eta = p.rgb("eta");
   if (p.has("k")) copper.k = p.rgb("k");
   return copper;
+}
+
+Bsdf make_diffuse_transmission(const MaterialInputs& p) {
+  const auto scale = static_cast<float>(p.number("scale"));
+  DiffuseTransmission sheet{glm::min(scale * p.rgb("reflectance"), Rgb(1)),
+                            glm::min(scale * p.rgb("transmittance"), Rgb(1))};
+  const Rgb both = sheet.reflectance + sheet.transmittance, too_much = glm::max(both, Rgb(1));
+  sheet.reflectance /= too_much;
+  sheet.transmittance /= too_much;
+  return sheet;
+}
+
+Bsdf make_dielectric(const MaterialInputs& p) {
+  const auto eta = static_cast<float>(p.number("eta"));
+  return Dielectric{eta, eta == 1 ? Ggx{} : facets(p)};
 }
 
 std::vector<MaterialRow> make_material_rows() {
@@ -60,11 +101,11 @@ std::vector<MaterialRow> make_material_rows() {
        [](const MaterialInputs& p) -> Bsdf {
          return OrenNayar::from_sigma_degrees(p.rgb("reflectance"), static_cast<float>(p.number("sigma")));
        }},
-      {{"dielectric", "Smooth glass or water: Fresnel reflection and refraction.",
-        smooth_material({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")})},
-       [](const MaterialInputs& p) -> Bsdf { return Dielectric{static_cast<float>(p.number("eta"))}; }},
-      {{"conductor", "Smooth metal: give `reflectance`, or `eta` and `k`.",
-        smooth_material(
+      {{"dielectric", "Glass or water, smooth or rough: Fresnel reflection and refraction.",
+        rough_material({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")})},
+       make_dielectric},
+      {{"conductor", "Metal, smooth or rough: give `reflectance`, or `eta` and `k`.",
+        rough_material(
             {without_default(rgb("reflectance", 0, "", kUnit, "reflectance at normal incidence"), "none"),
              metal_index("eta", "real part of the index of refraction"),
              metal_index("k", "imaginary part")})},
@@ -72,6 +113,36 @@ std::vector<MaterialRow> make_material_rows() {
       {{"mirror", "Ideal mirror of constant reflectance, both sides. Not in pbrt.",
         material({rgb("reflectance", 1, "", kUnit, "share of the light that is reflected")})},
        [](const MaterialInputs& p) -> Bsdf { return Mirror{p.rgb("reflectance")}; }},
+      {{"thindielectric",
+        "A pane of glass without thickness: all reflections in it, and straight transmission.",
+        material(
+            {number("eta", 1.5, "", kPositive, "index of refraction of the pane over its surroundings")})},
+       [](const MaterialInputs& p) -> Bsdf { return ThinDielectric{static_cast<float>(p.number("eta"))}; }},
+      {{"diffusetransmission",
+        "A sheet that scatters light evenly to both sides. Where both shares add up to more than one, they "
+        "are "
+        "scaled to one; pbrt lets such a sheet make light.",
+        material({rgb("reflectance", 0.25, "", kUnit, "share of the light that is reflected"),
+                  rgb("transmittance", 0.25, "", kUnit, "share that comes through"),
+                  number("scale", 1, "", kNotNegative, "multiplies both shares, up to one each")})},
+       make_diffuse_transmission},
+      {{"coateddiffuse",
+        "Diffuse under a coat of glass or varnish, both sides. All reflections between coat and base, in "
+        "closed "
+        "form; pbrt walks at random and stops after `maxdepth`, so that it is darker by a little.",
+        coat({reflectance,
+              number("eta", 1.5, "", {kLeastCoatEta, kLargestCoatEta}, "index of refraction of the coat")})},
+       [](const MaterialInputs& p) -> Bsdf {
+         return CoatedDiffuse::from_reflectance(p.rgb("reflectance"), static_cast<float>(p.number("eta")),
+                                                facets(p));
+       }},
+      {{"mix",
+        "At each hit one of two materials, the second as often as `amount` says. Both are named materials "
+        "defined "
+        "before it; mixtures may be mixed.",
+        {two_names("materials", "names of the first and the second material"),
+         number("amount", 0.5, "", kUnit, "share of the second material")}},
+       nullptr},
       {{"interface", "No surface at all: its shapes are left out.", {}}, nullptr},
   };
 }

@@ -102,13 +102,12 @@ INSTANTIATE_TEST_SUITE_P(
              R"(2:42: error: `reflectance` of material "diffuse" must be >= 0 and <= 1, not 1.5)"},
         Case{R"(Material "orennayar" "float sigma" 91)",
              R"(2:36: error: `sigma` of material "orennayar" must be >= 0 and <= 90, not 91)"},
+        Case{R"(Material "coateddiffuse" "float albedo" .5)",
+             R"(2:41: error: `albedo` of material "coateddiffuse": media are not rendered: must be 0)"},
         Case{
-            R"(Material "dielectric" "float roughness" .1)",
-            R"(2:41: error: `roughness` of material "dielectric": only smooth surfaces are rendered: must be 0)"},
-        Case{
-            R"(Material "coateddiffuse")",
-            R"(2:10: error: pbrt's material "coateddiffuse" is not rendered; there are: diffuse, orennayar, )"
-            R"(dielectric, conductor, mirror, interface)"},
+            R"(Material "hair")",
+            R"(2:10: error: pbrt's material "hair" is not rendered; there are: diffuse, orennayar, )"
+            R"(dielectric, conductor, mirror, thindielectric, diffusetransmission, coateddiffuse, mix, interface)"},
         Case{R"(Material "diffuse" "string normalmap" "n.png")",
              R"(2:20: warning: `normalmap` of material "diffuse" is ignored: normal map)"},
         Case{R"(Shape "sphere" "float radius" 1 "float radius" 2)",

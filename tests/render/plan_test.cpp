@@ -15,7 +15,7 @@ using Indirect = IndirectEstimator;
 
 SceneNeeds needs_of(bool specular, bool delta_only = false) {
   SceneNeeds needs;
-  needs.specular = specular;
+  needs.specular = needs.delta = specular;
   needs.diffuse = needs.any_light = true;
   needs.only_delta_lights = delta_only;
   return needs;
