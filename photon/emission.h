@@ -26,9 +26,10 @@ inline EmissionNumbers emission_numbers(const Scene& scene, Sampler& sampler) {
 }
 
 // Ray (world space, unit direction, origin off the lamp) and flux in watts, already divided by `total` and by
-// the probability of the lamp: the sum over i of flux tends to the lamps' power. Nothing when there is no
-// lamp, or when the lamp emits nothing in the sampled direction. only: the index of the one lamp that emits;
-// then the sum tends to its power. Thread-safe; unbiased.
+// the probability of the lamp: the sum over i of flux tends to the lamps' power (of what comes from the sky
+// through a portal, before what stands outside takes its part: EmissionSample::from_sky). Nothing when there
+// is no lamp, or when the lamp emits nothing in the sampled direction. only: the index of the one lamp that
+// emits; then the sum tends to its power. Thread-safe; unbiased.
 std::optional<EmissionSample> emit_photon(const Scene& scene, const EmissionNumbers& u, uint64_t total,
                                           EmissionMode mode, std::optional<uint32_t> only = {});
 

@@ -106,7 +106,7 @@ void set_start(EmissionLanes& lanes, size_t k, const ChosenLamp& lamp) {
 }
 
 void set_start(EmissionLanes& lanes, size_t k, const std::optional<EmissionSample>& start) {
-  lanes.emitted[k] = start.has_value();
+  lanes.emitted[k] = !start ? 0 : start->from_sky ? EmissionLanes::kFromSky : 1;
   if (!start) return;
   VertexLanes::set(lanes.ray.o, k, start->ray.o);
   VertexLanes::set(lanes.ray.d, k, start->ray.d);

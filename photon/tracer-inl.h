@@ -132,7 +132,7 @@ class Tracer {
     to_energy_lanes(starts_.flux, count, units_per_watt_, walkers_.energy);
     for (size_t k = 0; k < count; ++k) {
       const Rgb flux = VertexLanes::get(starts_.flux, k);
-      goes_on_[k] = starts_.emitted[k] && !is_black(flux) && valid(flux);
+      goes_on_[k] = starts_.emitted[k] && !is_black(flux) && valid(flux) && !sky_hidden(bvh_, starts_, k);
       if (goes_on_[k]) counters_.energy.emitted += walkers_.energy[k];
     }
     push(starts_.ray, starts_.flux, count);

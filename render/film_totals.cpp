@@ -29,6 +29,9 @@ struct LampBrightness {
   double operator()(const ImageInfiniteLight& l) const {
     return double(l.scale) * double(max_component(l.map->brightest()));
   }
+  double operator()(const PortalInfiniteLight& l) const {
+    return double(l.scale) * double(max_component(l.sky->brightest()));
+  }
   double operator()(const DistantLight& l) const { return double(max_component(l.L)); }
   double operator()(const PointLight& l) const { return near(l.I); }
   double operator()(const SpotLight& l) const { return near(l.I); }

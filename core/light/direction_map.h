@@ -32,6 +32,7 @@ class DirectionMap {
 
   Rgb mean() const { return mean_; }            // over all directions
   Rgb brightest() const { return brightest_; }  // per channel
+  int rows() const { return image_->height; }
   // Of a surface that faces +z: the integral of luminance times cosine over z > 0, if values are radiance.
   double irradiance() const;
 

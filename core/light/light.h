@@ -10,6 +10,7 @@
 #include "core/light/goniometric.h"
 #include "core/light/infinite.h"
 #include "core/light/point.h"
+#include "core/light/portal.h"
 #include "core/light/projection.h"
 #include "core/light/spot.h"
 #include "core/sampling/discrete.h"
@@ -17,7 +18,7 @@
 namespace kaustik {
 
 using Light = std::variant<PointLight, SpotLight, GoniometricLight, ProjectionLight, DistantLight,
-                           InfiniteLight, ImageInfiniteLight, DiffuseAreaLight>;
+                           InfiniteLight, ImageInfiniteLight, PortalInfiniteLight, DiffuseAreaLight>;
 
 inline Rgb power(const Light& light) {
   return std::visit([](const auto& l) { return l.power(); }, light);

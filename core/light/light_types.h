@@ -50,6 +50,9 @@ std::optional<LightSample> sample_point_lamp(const Point3& position, const Point
 struct EmissionSample {
   Ray ray;      // unit direction, origin offset off the lamp
   Rgb flux{0};  // Le |cos| / (pdf_pos pdf_dir): watts if this were the only photon of this lamp
+  // The photon comes from infinity and only passes through the origin: there is none where the ray backwards
+  // meets anything.
+  bool from_sky = false;
 };
 
 }  // namespace kaustik

@@ -32,7 +32,7 @@ bool check_pixels(const std::string& file, LightImage& image, const SourceLocati
     c = glm::max(c, Rgb(0));
   }
   if (negatives > 0) {
-    diagnostics.warning(where, fmt::format("\"{}\": {} pixel{} below zero count as zero; the first is {}",
+    diagnostics.warning(where, fmt::format("\"{}\": {} pixel{} below zero: taken as zero, the first is {}",
                                            file, negatives, negatives == 1 ? "" : "s", first));
   }
   return true;

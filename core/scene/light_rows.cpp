@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "core/scene/light_images.h"
 #include "core/scene/local_origin.h"
 #include "core/scene/parameter_spec.h"
@@ -141,6 +143,41 @@ std::optional<Light> make_distant(const LightInputs& in) {
   return light;
 }
 
+// The corners of a rectangle, in order, as pbrt has it.
+bool is_rectangle(const std::array<glm::dvec3, 4>& p) {
+  constexpr double kTolerance = 1e-3;
+  const glm::dvec3 a = p[1] - p[0], b = p[3] - p[0], beyond = p[2] - (p[0] + a + b);
+  const double la = glm::length(a), lb = glm::length(b);
+  return la > 0 && lb > 0 && std::isfinite(la * lb) && glm::length(beyond) <= kTolerance * std::min(la, lb) &&
+         std::abs(glm::dot(a, b)) <= kTolerance * la * lb;
+}
+
+// Its corners lie in the world, whatever the light's transform, as in pbrt; that turns the sky. make_sky:
+// from the map that takes directions of the portal to those of the light. irradiance: the luminance of what
+// the whole sky gives to a plane that faces the light's +z.
+template <class MakeSky>
+std::optional<Light> make_portal(const LightInputs& in, double irradiance, const MakeSky& make_sky) {
+  const ParameterReader& p = in.parameters;
+  std::array<glm::dvec3, 4> corner;
+  for (size_t i = 0; i < 4; ++i) corner[i] = p.vec3("portal", i);
+  const auto light_to_world = rotation(in);
+  if (!is_rectangle(corner)) {
+    in.diagnostics.error(p.location("portal"), "`portal` must be the four corners of a rectangle, in order");
+    return std::nullopt;
+  }
+  if (!light_to_world) return std::nullopt;
+  PortalInfiniteLight light;
+  light.corner = Point3(corner[0] - in.origin);
+  light.along_x = Vector3(corner[3] - corner[0]);
+  light.along_y = Vector3(corner[1] - corner[0]);
+  const glm::dvec3 x = glm::normalize(corner[3] - corner[0]);
+  const glm::dvec3 z = glm::normalize(glm::cross(x, corner[1] - corner[0]));
+  light.to_world = glm::mat3(glm::dmat3(x, glm::cross(z, x), z));
+  light.sky = make_sky(glm::transpose(*light_to_world) * light.to_world);
+  if (!scale_to(in, "illuminance", irradiance, light.scale)) return std::nullopt;
+  return light;
+}
+
 std::optional<Light> make_image_infinite(const LightInputs& in) {
   const ParameterReader& p = in.parameters;
   if (p.has("L")) {
@@ -151,6 +188,11 @@ std::optional<Light> make_image_infinite(const LightInputs& in) {
   ImageInfiniteLight light;
   light.map = in.images.directions(p, "filename");
   if (!light.map || !map_to_world) return std::nullopt;
+  if (p.has("portal")) {
+    return make_portal(in, light.map->irradiance(), [&](const glm::mat3& to_map) {
+      return std::make_shared<const PortalSky>(*light.map, to_map);
+    });
+  }
   light.to_world = *map_to_world;
   if (!scale_to(in, "illuminance", light.map->irradiance(), light.scale)) return std::nullopt;
   return light;
@@ -161,12 +203,25 @@ std::optional<Light> make_infinite(const LightInputs& in) {
   if (p.has("filename")) return make_image_infinite(in);
   InfiniteLight light;
   light.L = p.rgb("L");
+  if (p.has("portal")) {
+    return make_portal(in, double(kPi * luminance(light.L)),
+                       [&](const glm::mat3&) { return std::make_shared<const PortalSky>(light.L); });
+  }
   if (!scale_to(in, "illuminance", kPi * luminance(light.L), light.L)) return std::nullopt;
   return light;
 }
 
 ParameterSpec illuminance(std::string_view doc) {
   return without_default(number("illuminance", 0, "W/m^2", kPositive, doc), "none");
+}
+
+ParameterSpec portal() {
+  ParameterSpec p =
+      list(ParameterType::kPoint3, "portal", 4, "none", "m",
+           "corners of a rectangle, in the world, through which alone the light comes; the sky is "
+           "on the side of cross(p3 - p0, p1 - p0)");
+  p.max_items = 4;
+  return p;
 }
 
 std::vector<LightRow> make_light_rows() {
@@ -206,7 +261,7 @@ std::vector<LightRow> make_light_rows() {
              "it, then by `scale`"),
          image("radiance: a square equal-area map as in pbrt-v4, or a latitude-longitude map of 2:1 as in "
                "pbrt-v3, both about +z"),
-         ignored("portal", {ParameterType::kPoint3}, "a hint for sampling")}},
+         portal()}},
        make_infinite},
   };
 }

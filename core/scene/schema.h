@@ -74,7 +74,7 @@ class ParameterReader {
   double number(std::string_view name) const;
   bool flag(std::string_view name) const { return number(name) != 0; }
   Rgb rgb(std::string_view name) const { return Rgb(vec3(name)); }
-  glm::dvec3 vec3(std::string_view name) const;
+  glm::dvec3 vec3(std::string_view name, size_t item = 0) const;
   std::string text(std::string_view name) const;  // empty when absent
   const Directive& directive() const { return directive_; }
   const TypeSpec& spec() const { return spec_; }

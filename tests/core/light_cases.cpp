@@ -59,6 +59,13 @@ std::vector<LightCase> image_cases(const std::vector<Point3>& below) {
   const auto wide = std::make_shared<const DirectionMap>(random_image(12, 6), DirectionMap::Layout::kLatLong);
   add("equal-area sky", ImageInfiniteLight{square, some_axes(), 1.5f, Point3(0), 2.5f});
   add("latitude-longitude sky", ImageInfiniteLight{wide, some_axes(), 1.5f, Point3(0), 2.5f});
+  const PortalInfiniteLight portal{{-1, -1, 2.2f},
+                                   {0, 2, 0},
+                                   {1.5f, 0, 0},
+                                   glm::mat3(0, 1, 0, 1, 0, 0, 0, 0, 1),
+                                   std::make_shared<const PortalSky>(*wide, some_axes()),
+                                   1.5f};
+  add("portal", portal);
   add("goniometric", GoniometricLight{{0, 0, 2}, some_axes(), wide, Rgb(1, 2, 3)});
   const auto slide = std::make_shared<const ProjectedImage>(random_image(5, 3), 70);
   const Frame down = Frame::from_z(glm::normalize(Vector3(0.1f, 0.2f, -1)));
