@@ -7,7 +7,8 @@ namespace kaustik {
 //
 // Of at most kMostByPower lamps one is chosen in proportion to its power, wherever the light arrives. Of
 // more, lamps that have a place are chosen by a LightTree; those without (distant, infinite) beside it, each
-// as often as the whole tree (pbrt-v4's rule). Immutable; thread-safe.
+// as often as the whole tree (pbrt-v4's rule); one choice in eight is made by power
+// all the same. Immutable; thread-safe.
 class LightSampler {
  public:
   // Measured: docs/accuracy.md.

@@ -189,8 +189,10 @@ TEST(LightSampler, LampsWithoutAPlaceStandBesideTheTree) {
   all.push_back(InfiniteLight{Rgb(0), {0, 0, 0}, 2});  // gives nothing
   const LightSampler sampler(all);
   const LightReceiver x{{0, 0, 0}, {0, 0, 1}, true};
-  EXPECT_FLOAT_EQ(sampler.probability(x, 3), 1.0f / 3);
-  EXPECT_FLOAT_EQ(sampler.probability(x, 9), 1.0f / 3);
+  // One choice in eight is made by power.
+  const DiscreteDistribution by_power = light_power_distribution(all);
+  for (const uint32_t lamp : {3u, 9u})
+    EXPECT_FLOAT_EQ(sampler.probability(x, lamp), 0.875f / 3 + 0.125f * by_power.pdf(lamp));
   EXPECT_EQ(sampler.probability(x, uint32_t(all.size() - 1)), 0);
   double sum = 0;
   for (uint32_t lamp = 0; lamp < all.size(); ++lamp) sum += double(sampler.probability(x, lamp));
