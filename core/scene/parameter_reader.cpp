@@ -36,7 +36,8 @@ double ParameterReader::number(std::string_view name) const {
 
 glm::dvec3 ParameterReader::vec3(std::string_view name, size_t item) const {
   const std::vector<double>& v = numbers(name);
-  return v.size() == 1 ? glm::dvec3(v[0]) : glm::dvec3(v.at(3 * item), v.at(3 * item + 1), v.at(3 * item + 2));
+  return v.size() == 1 ? glm::dvec3(v[0])
+                       : glm::dvec3(v.at(3 * item), v.at(3 * item + 1), v.at(3 * item + 2));
 }
 
 std::string ParameterReader::text(std::string_view name) const {

@@ -147,8 +147,9 @@ INSTANTIATE_TEST_SUITE_P(
              R"(2:45: error: `filename` of area light "diffuse": images as lamps are not rendered)"},
         Case{R"(LightSource "projection")",
              R"(2:1: error: light "projection" needs an image: "string filename")"},
-        Case{R"(Scale 1 2 1 LightSource "goniometric" "string filename" "lamp.exr")",
-             R"(2:13: error: the transform of this light scales unevenly or shears: expected a rotation, with mirroring or even scaling)"},
+        Case{
+            R"(Scale 1 2 1 LightSource "goniometric" "string filename" "lamp.exr")",
+            R"(2:13: error: the transform of this light scales unevenly or shears: expected a rotation, with mirroring or even scaling)"},
         Case{R"(LightSource "infinite" "string filename" "sky.exr" "rgb L" [1 1 1])",
              R"(2:61: error: an infinite light has `L` or `filename`, not both)"},
         Case{R"(LightSource "infinite" "point3 portal" [0 0 0 1 0 0 1 1 0])",
