@@ -31,7 +31,7 @@ for i in range(count):
     z = 40 * (i // columns + 0.5) / rows
     hue = 2 * math.pi * (3 * i // columns) / rows
     rgb = [0.55 + 0.45 * math.cos(hue - 2 * math.pi * c / 3) for c in range(3)]
-    radiance = 12 / (count * side * side)
+    radiance = 60 / (count * side * side)
     L = " ".join(f"{radiance * c:.4g}" for c in rgb)
     h = side / 2
     print(f'AreaLightSource "diffuse" "rgb L" [ {L} ]')
