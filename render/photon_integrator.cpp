@@ -4,9 +4,9 @@
 //   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
 //   Lr = direct + caustic + indirect at points x of the chain, by their broad lobes; where all lobes of a
 //        point are broad, the chain ends
-//        direct    L D S* E                 lamp samples, photons or both                   direct_light
-//        caustic   L S+ D S* E              photons or paths                                caustic_light
-//        indirect  L S* D (S|D)* D S* E     photons or paths                                indirect_light
+//        direct    L D S* E                 lamp samples, photons or both                   add_direct
+//        caustic   L S+ D S* E              photons or paths                                add_reflected
+//        indirect  L S* D (S|D)* D S* E     photons or paths                                add_reflected
 //
 // Each class has one owner, so that their sum counts every path once (Heckbert 1990 for the notation).
 
@@ -18,15 +18,30 @@ namespace kaustik::render {
 
 namespace {
 
-// bias: null where it is not asked for.
-Rgb from_map(const photon::PhotonMap& map, const photon::EstimateSettings& estimate, const ShadingPoint& x,
-             TileCounters& counters, photon::BiasEstimate* bias) {
-  return photon::estimate_radiance(map, x.si, x.wo, *x.bsdf, estimate, counters.gather, bias);
-}
+// Adds what a photon map says of a point, at once or when the batch is flushed.
+struct MapReader {
+  const CameraSample& sample;
+  TileCounters& counters;
+  PixelResult* result;
 
-Rgb from_map(const ReadMap& read, const ShadingPoint& x, TileCounters& counters, photon::BiasEstimate* bias) {
-  return from_map(read.map, read.estimate, x, counters, bias);
-}
+  // Adds weight * Lr to *to, which is part of *result.
+  void add(const photon::PhotonMap& map, const photon::EstimateSettings& estimate, const ShadingPoint& x,
+           const Rgb& weight, Rgb* to) const {
+    if (!sample.with_bias &&
+        sample.batch->add(map, x.si, x.wo, *x.bsdf, estimate, weight, to, &result->photons))
+      return;
+    const uint64_t accepted = counters.gather.accepted;
+    photon::BiasEstimate bias;
+    *to += weight * photon::estimate_radiance(map, x.si, x.wo, *x.bsdf, estimate, counters.gather,
+                                              sample.with_bias ? &bias : nullptr);
+    result->photons += float(counters.gather.accepted - accepted);
+    result->bias += weight * bias.bias;
+    counters.gather += bias.counters;
+  }
+  void add(const ReadMap& read, const ShadingPoint& x, const Rgb& weight, Rgb* to) const {
+    add(read.map, read.estimate, x, weight, to);
+  }
+};
 
 // The lecture (TNCG15): photons where the octree cell of x is free of shadow photons, shadow rays elsewhere.
 bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, LectureCounters& counters) {
@@ -39,71 +54,46 @@ bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, Lec
   return answer.use_photons();
 }
 
-// Too bright an estimate of it makes the picture too dark.
-Rgb blocked_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters,
-                  photon::BiasEstimate* bias) {
-  photon::BiasEstimate of_blocked;
-  const Rgb blocked =
-      from_map(ctx.maps.shadow, ctx.maps.direct.estimate, x, counters, bias ? &of_blocked : nullptr);
-  if (bias) {
-    bias->bias -= of_blocked.bias;
-    bias->counters += of_blocked.counters;
-  }
-  return blocked;
-}
-
 // BSDF sampling finds lamps too when a path leaves x anyway: then both share the direct light.
 LightWeight light_weight(const EstimatorPlan& plan) {
   return samples_lamps(plan.direct) && traces_paths(plan) ? LightWeight::kMis : LightWeight::kAlone;
 }
 
-Rgb direct_light(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler, TileCounters& counters,
-                 photon::BiasEstimate* bias) {
+// Adds beta times the direct light at x.
+void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
+                const MapReader& maps) {
+  Rgb* const to = &maps.result->direct;
   switch (ctx.plan.direct) {
     case DirectEstimator::kPhotons:
-      return from_map(ctx.maps.direct, x, counters, bias);
+      return maps.add(ctx.maps.direct, x, beta, to);
     case DirectEstimator::kLecture:
-      if (lecture_trusts_photons(ctx, x, counters.lecture))
-        return from_map(ctx.maps.direct, x, counters, bias);
+      if (lecture_trusts_photons(ctx, x, maps.counters.lecture))
+        return maps.add(ctx.maps.direct, x, beta, to);
       break;
     case DirectEstimator::kSigned:
-      return unoccluded_direct(ctx, x, sampler) - blocked_light(ctx, x, counters, bias);
+      *to += beta * unoccluded_direct(ctx, x, sampler);
+      return maps.add(ctx.maps.shadow, ctx.maps.direct.estimate, x, -beta, to);
     case DirectEstimator::kShadowRays:
     case DirectEstimator::kPredicted:
       break;
   }
-  return sample_direct(ctx, x, light_weight(ctx.plan), sampler, counters);
-}
-
-Rgb caustic_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters,
-                  photon::BiasEstimate* bias) {
-  if (ctx.plan.caustics != CausticEstimator::kPhotons) return Rgb(0);
-  return from_map(ctx.maps.caustic, x, counters, bias);
-}
-
-Rgb indirect_light(const RenderContext& ctx, const ShadingPoint& x, TileCounters& counters,
-                   photon::BiasEstimate* bias) {
-  if (ctx.plan.indirect != IndirectEstimator::kPhotons) return Rgb(0);
-  return from_map(ctx.maps.indirect, x, counters, bias);
+  *to += beta * sample_direct(ctx, x, light_weight(ctx.plan), sampler, maps.counters);
 }
 
 // Light scattered by the broad lobes of a point, seen through a specular chain of throughput beta. The path
-// brings nothing of a class that another estimator owns, so each sum below has one owner.
+// brings nothing of a class that another estimator owns, so each sum has one owner.
 void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
-                   TileCounters& counters, bool with_bias, PixelResult* result) {
-  const uint64_t accepted = counters.gather.accepted;
-  photon::BiasEstimate measured;
-  photon::BiasEstimate* const bias = with_bias ? &measured : nullptr;
-  const Rgb direct = direct_light(ctx, x, sampler, counters, bias);
-  const Rgb caustic = caustic_light(ctx, x, counters, bias);
-  const Rgb indirect = indirect_light(ctx, x, counters, bias);
-  result->photons += float(counters.gather.accepted - accepted);
-  result->bias += beta * measured.bias;
-  counters.gather += measured.counters;
-  const PathLight path = traces_paths(ctx.plan) ? trace_path(ctx, x, sampler, counters) : PathLight{};
-  result->direct += beta * (direct + path.direct);
-  result->caustic += beta * (caustic + path.caustic);
-  result->indirect += beta * (indirect + path.indirect);
+                   const MapReader& maps) {
+  PixelResult* const result = maps.result;
+  add_direct(ctx, x, beta, sampler, maps);
+  if (ctx.plan.caustics == CausticEstimator::kPhotons) maps.add(ctx.maps.caustic, x, beta, &result->caustic);
+  if (ctx.plan.indirect == IndirectEstimator::kPhotons)
+    maps.add(ctx.maps.indirect, x, beta, &result->indirect);
+  if (!traces_paths(ctx.plan)) return;
+  const PathLight path = trace_path(ctx, x, sampler, maps.counters);
+  result->direct += beta * path.direct;
+  result->caustic += beta * path.caustic;
+  result->indirect += beta * path.indirect;
 }
 
 void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* result) {
@@ -142,32 +132,33 @@ bool is_worth_it(Rgb* beta, Sampler& sampler) {
 
 }  // namespace
 
-PixelResult trace_camera_ray(const RenderContext& ctx, const Ray& camera_ray, const Hit& first,
-                             Sampler& sampler, TileCounters& counters, bool with_bias) {
-  PixelResult result;
+void trace_camera_ray(const RenderContext& ctx, const CameraSample& sample, Sampler& sampler,
+                      TileCounters& counters, PixelResult* result) {
+  const MapReader maps{sample, counters, result};
   Rgb beta(1);
-  Ray ray = camera_ray;
-  Hit hit = first;
+  Ray ray = sample.ray;
+  Hit hit = sample.hit;
   LeftBy last;
   ++counters.rays.camera;
   for (int events = 0;; ++events) {
     if (!hit.valid()) {
-      result.emitted += beta * escape_seen(ctx.scene, last, ray);
-      return result;
+      result->emitted += beta * escape_seen(ctx.scene, last, ray);
+      return;
     }
     const SurfaceInteraction si = make_interaction(ctx.scene.shapes, ray, hit);
-    result.emitted += beta * emission_seen(ctx.scene, last, si, ray.d);
+    result->emitted += beta * emission_seen(ctx.scene, last, si, ray.d);
     const ShadingPoint x(ctx.scene, si, -ray.d);
-    if (events == 0) set_features(x, ray.o, &result);
+    if (events == 0) set_features(x, ray.o, result);
     const Lobes parts = lobes(*x.bsdf);
-    if (parts.broad) add_reflected(ctx, x, beta, sampler, counters, with_bias, &result);
-    if (!parts.specular || events == ctx.settings.max_bounces) return result;
+    if (parts.broad) add_reflected(ctx, x, beta, sampler, maps);
+    if (!parts.specular || events == ctx.settings.max_bounces) return;
     if (parts.glossy)
-      result.emitted += beta * sample_direct(ctx, x, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
+      result->emitted +=
+          beta * sample_direct(ctx, x, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
     const auto s = scatter(x, sampler, Scatter::kSpecular);
-    if (!s) return result;
+    if (!s) return;
     beta *= s->weight;
-    if (parts.broad && !is_worth_it(&beta, sampler)) return result;
+    if (parts.broad && !is_worth_it(&beta, sampler)) return;
     last = {s->glossy, x.receiver(), s->pdf};
     ray = si.spawn(s->wi);
     hit = ctx.bvh.intersect(ray);

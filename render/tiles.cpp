@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <atomic>
 #include <mutex>
 
@@ -44,45 +45,72 @@ struct PixelRange {
   }
 };
 
-// Adds samples [first, end) of pixel (x, y).
-void shade_pixel(const RenderContext& ctx, const CameraRays& rays, int x, int y, uint64_t first, uint64_t end,
-                 PixelSum* sum, TileResult* tile) {
-  const uint64_t stream = pixel_stream(ctx.settings.seed, ctx.scene.camera, x, y);
-  const uint32_t dimensions = ray_dimensions(ctx.scene.camera);
-  for (uint64_t i = first; i < end; ++i) {
-    Sampler sampler(stream, i, dimensions);
-    // Once a pass: most of its noise is that of the photons, which all samples share.
-    const bool with_bias = ctx.settings.estimate_bias.value_or(false) && i == ctx.pass.first_sample;
-    PixelResult sample =
-        trace_camera_ray(ctx, rays.ray(x, y, i), rays.hit(x, y, i), sampler, tile->counters, with_bias);
-    if (valid_radiance(sample, ctx.plan.direct)) {
-      expose(ctx.scene.sensor, &sample);
-      sum->add(sample, rays.weight(x, y, i));
-      continue;
-    }
-    ++tile->dropped;
-    add_examples({{y, x, i}}, &tile->examples);
+// Samples [first, end) of the pixels of one block of rays, pixel by pixel: neighbours in a block see much the
+// same photons.
+class BlockSamples {
+ public:
+  BlockSamples(const RenderContext& ctx, const PixelRange& pixels, uint64_t first, uint64_t end)
+      : ctx_(ctx), pixels_(pixels), first_(first), end_(end) {
+    rays_.trace(ctx.bvh, ctx.settings.seed, pixels.x0, pixels.y0, first, end - first);
   }
-}
+
+  void shade(photon::EstimateBatch* batch, TileCounters& counters) {
+    for_each([&](int x, int y, uint64_t i, PixelResult& result) {
+      const uint64_t stream = pixel_stream(ctx_.settings.seed, ctx_.scene.camera, x, y);
+      Sampler sampler(stream, i, ray_dimensions(ctx_.scene.camera));
+      // Once a pass: most of its noise is that of the photons, which all samples share.
+      const bool with_bias = ctx_.settings.estimate_bias.value_or(false) && i == ctx_.pass.first_sample;
+      const CameraSample sample{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch};
+      trace_camera_ray(ctx_, sample, sampler, counters, &result);
+    });
+    batch->flush(counters.gather);
+  }
+
+  void add_to(FilmSums* film, TileResult* tile) {
+    for_each([&](int x, int y, uint64_t i, PixelResult& result) {
+      if (valid_radiance(result, ctx_.plan.direct)) {
+        expose(ctx_.scene.sensor, &result);
+        film->at(x - film->x0(), y - film->y0()).add(result, rays_.weight(x, y, i));
+        return;
+      }
+      ++tile->dropped;
+      add_examples({{y, x, i}}, &tile->examples);
+    });
+  }
+
+ private:
+  template <class Fn>
+  void for_each(const Fn& fn) {
+    PixelResult* result = results_.data();
+    for (int y = pixels_.y0; y < pixels_.y1; ++y)
+      for (int x = pixels_.x0; x < pixels_.x1; ++x)
+        for (uint64_t i = first_; i < end_; ++i) fn(x, y, i, *result++);
+  }
+
+  const RenderContext& ctx_;
+  PixelRange pixels_;
+  uint64_t first_, end_;
+  CameraRays rays_;
+  std::array<PixelResult, accel::kRayLanes> results_;
+};
 
 // Adds the pass's samples of pixels of one block of rays.
-void render_block(const RenderContext& ctx, const PixelRange& pixels, FilmSums* film, TileResult* tile) {
-  CameraRays rays;
+void render_block(const RenderContext& ctx, const PixelRange& pixels, FilmSums* film,
+                  photon::EstimateBatch* batch, TileResult* tile) {
   const PassShare& pass = ctx.pass;
   for (uint64_t first = pass.first_sample; first < pass.end_sample; first += CameraRays::kSamples) {
-    const uint64_t end = std::min(pass.end_sample, first + CameraRays::kSamples);
-    rays.trace(ctx.bvh, ctx.settings.seed, pixels.x0, pixels.y0, first, end - first);
-    for (int y = pixels.y0; y < pixels.y1; ++y)
-      for (int x = pixels.x0; x < pixels.x1; ++x)
-        shade_pixel(ctx, rays, x, y, first, end, &film->at(x - film->x0(), y - film->y0()), tile);
+    BlockSamples samples(ctx, pixels, first, std::min(pass.end_sample, first + CameraRays::kSamples));
+    samples.shade(batch, tile->counters);
+    samples.add_to(film, tile);
   }
 }
 
 TileResult render_tile(const RenderContext& ctx, const PixelRange& pixels, FilmSums* film) {
   TileResult tile;
+  photon::EstimateBatch batch;
   for (int y = pixels.y0 - pixels.y0 % kRayBlock; y < pixels.y1; y += kRayBlock)
     for (int x = pixels.x0 - pixels.x0 % kRayBlock; x < pixels.x1; x += kRayBlock)
-      render_block(ctx, pixels.in_square(x, y, kRayBlock), film, &tile);
+      render_block(ctx, pixels.in_square(x, y, kRayBlock), film, &batch, &tile);
   return tile;
 }
 
