@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(Scale 1e30 1 1 Scale 1e30 1 1 Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0])",
              R"(2:31: error: the transform of this shape cannot be inverted)"},
         Case{R"(Scale 1 2 1 AreaLightSource "diffuse" Shape "sphere")",
-             R"(2:39: error: a sphere that is scaled unevenly cannot be a lamp)"},
+             R"(2:39: error: a sphere or cylinder that is scaled unevenly cannot be a lamp)"},
         Case{R"(Material "interface" AreaLightSource "diffuse" Shape "sphere")",
              R"(2:48: warning: the area light is ignored: material "interface" is no surface)"},
         Case{R"(LightSource "point" "rgb I" [0 0 0] "float power" 3)",
