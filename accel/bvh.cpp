@@ -20,12 +20,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <deque>
 #include <map>
 #include <new>
 #include <optional>
 
 #include "accel/embree_handles.h"
 #include "core/geometry/sphere_lanes.h"
+#include "core/scene/alpha.h"
 
 namespace kaustik::accel {
 
@@ -33,9 +35,18 @@ namespace {
 
 // The shapes behind one user geometry, one primitive each.
 struct QuadricGroup {
-  const std::vector<Shape>* shapes = nullptr;
+  const Scene* scene = nullptr;
   std::vector<uint32_t> members;
   float to_scene = 1, to_embree = 1;  // lengths
+  bool has_alpha = false;             // some of them
+
+  const Shape& shape(uint32_t primitive) const { return scene->shapes[members[primitive]]; }
+};
+
+// A mesh with alpha, for Embree's filters.
+struct AlphaMesh {
+  const Scene* scene = nullptr;
+  uint32_t shape = kNoIndex;  // none: that of the instance
 };
 
 bool count_memory(void* user, ssize_t bytes, bool /*post*/) {
@@ -90,24 +101,65 @@ Ray to_ray(RTCRayN* rays, unsigned N, unsigned i, float to_scene) {
   return {to_scene * o, d, to_scene * t_max};
 }
 
+// Of Embree's own coordinates, which are the same at every scale of scene.
+uint64_t hash_of(RTCRayN* rays, unsigned N, unsigned i) {
+  return hash_ray({RTCRayN_org_x(rays, N, i), RTCRayN_org_y(rays, N, i), RTCRayN_org_z(rays, N, i)},
+                  {RTCRayN_dir_x(rays, N, i), RTCRayN_dir_y(rays, N, i), RTCRayN_dir_z(rays, N, i)});
+}
+
+float intersect_geometry(const Sphere& sphere, const Ray& ray, Point2* /*uv*/) {
+  return intersect_sphere(sphere, ray);
+}
+float intersect_geometry(const Disk& disk, const Ray& ray, Point2* uv) {
+  return intersect_disk(disk, ray, uv);
+}
+float intersect_geometry(const Quadric& quadric, const Ray& ray, Point2* uv) {
+  return kaustik::intersect_quadric(quadric, ray, uv);
+}
+
+// The first point of the shape that is there. A ray meets a sphere or a disk twice at most.
+template <class Geometry>
+float intersect_with_alpha(const QuadricGroup& group, uint32_t primitive, Ray ray, uint64_t ray_hash,
+                           Point2* uv) {
+  const auto& geometry = std::get<Geometry>(group.shape(primitive).geometry);
+  float passed = 0;
+  for (uint32_t crossing = 0; crossing < 2; ++crossing) {
+    const float t = intersect_geometry(geometry, ray, uv);
+    if (t == kInfinity) break;
+    const Hit hit{t, group.members[primitive], 0, *uv};
+    if (stops_at(*group.scene, ray, hit, ray_hash + crossing)) return passed + t;
+    passed += t;
+    ray = make_interaction(group.scene->shapes, ray, hit).spawn(ray.d, ray.t_max - t);
+  }
+  return kInfinity;
+}
+
 // t in Embree's units.
 template <class Geometry>
 float intersect_quadric(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, unsigned i,
                         Point2* uv) {
-  const auto& geometry = std::get<Geometry>((*group.shapes)[group.members[primitive]].geometry);
   const Ray ray = to_ray(rays, N, i, group.to_scene);
-  if constexpr (std::is_same_v<Geometry, Sphere>) {
-    return group.to_embree * intersect_sphere(geometry, ray);
-  } else if constexpr (std::is_same_v<Geometry, Quadric>) {
-    return group.to_embree * kaustik::intersect_quadric(geometry, ray, uv);
-  } else {
-    return group.to_embree * intersect_disk(geometry, ray, uv);
+  if (group.has_alpha && group.shape(primitive).has_alpha()) {
+    return group.to_embree * intersect_with_alpha<Geometry>(group, primitive, ray, hash_of(rays, N, i), uv);
+  }
+  return group.to_embree * intersect_geometry(std::get<Geometry>(group.shape(primitive).geometry), ray, uv);
+}
+
+// Rejects what is not there of a triangle. What is rebuilt of it follows from its barycentrics alone.
+void filter_alpha(const RTCFilterFunctionNArguments* args) {
+  const auto& mesh = *static_cast<const AlphaMesh*>(args->geometryUserPtr);
+  const uint32_t shape = mesh.shape == kNoIndex ? args->context->instID[0] : mesh.shape;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    const Point2 uv(RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
+    const Hit hit{1, shape, RTCHitN_primID(args->hit, args->N, i), uv};
+    if (!stops_at(*mesh.scene, Ray{}, hit, hash_of(args->ray, args->N, i))) args->valid[i] = 0;
   }
 }
 
 void quadric_bounds(const RTCBoundsFunctionArguments* args) {
   const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
-  const Bounds3 b = bounds_of((*group.shapes)[group.members[args->primID]]);
+  const Bounds3 b = bounds_of(group.shape(args->primID));
   const Point3 lower = group.to_embree * b.min, upper = group.to_embree * b.max;
   *args->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
 }
@@ -127,8 +179,8 @@ void intersect_all(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays,
 template <>
 void intersect_all<Sphere>(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, float* t,
                            Point2* uv) {
-  if (N != kPacket) {
-    for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<Sphere>(group, primitive, rays, N, i, uv);
+  if (N != kPacket || group.has_alpha) {
+    for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<Sphere>(group, primitive, rays, N, i, &uv[i]);
     return;
   }
   // to_ray() of a whole packet.
@@ -140,7 +192,7 @@ void intersect_all<Sphere>(const QuadricGroup& group, uint32_t primitive, RTCRay
     z[i] = group.to_scene * packet.org_z[i];
     t_max[i] = group.to_scene * std::bit_cast<float>(std::bit_cast<uint32_t>(packet.tfar[i]) + 1);
   }
-  const auto& sphere = std::get<Sphere>((*group.shapes)[group.members[primitive]].geometry);
+  const auto& sphere = std::get<Sphere>(group.shape(primitive).geometry);
   intersect_sphere_lanes(sphere, {{x, y, z}, {packet.dir_x, packet.dir_y, packet.dir_z}, t_max}, kPacket, t);
   for (size_t i = 0; i < kPacket; ++i) t[i] *= group.to_embree;
 }
@@ -217,15 +269,18 @@ struct Bvh::Impl {
   float to_scene = 1, to_embree = 1;  // lengths: powers of two
   QuadricGroup spheres, disks, others;
   std::map<const TriangleMesh*, OwnScene> own_scenes;  // of instanced meshes
+  std::deque<AlphaMesh> alpha_meshes;                  // Embree points to them
   bool coherent = false;                               // how packets of mixed rays go through the tree
   bool instances = false;                              // hits may name one
 
   void open();
   void set_scale(const Bounds3& bounds);
-  void add_shapes(const std::vector<Shape>& all);
-  void add_mesh(const TriangleMesh& mesh, uint32_t shape);
-  void add_instance(const InstancedMesh& instance, uint32_t shape);
+  void add_shapes(const Scene& scene);
+  void add_mesh(const Scene& scene, const TriangleMesh& mesh, uint32_t shape);
+  void add_instance(const Scene& scene, const InstancedMesh& instance, uint32_t shape);
+  void add_quadric(const Shape& shape, uint32_t index, QuadricGroup& group);
   RTCGeometry make_geometry(const TriangleMesh& mesh, float scale);
+  void set_filter(RTCGeometry geometry, const AlphaMesh& mesh);
   template <class Geometry>
   void add_group(QuadricGroup& group, unsigned geometry_id);
   void attach(RTCScene scene, RTCGeometry geometry, unsigned geometry_id);
@@ -261,17 +316,28 @@ RTCGeometry Bvh::Impl::make_geometry(const TriangleMesh& mesh, float scale) {
   return geometry;
 }
 
-void Bvh::Impl::add_mesh(const TriangleMesh& mesh, uint32_t shape) {
-  if (!mesh.indices.empty()) attach(embree.scene, make_geometry(mesh, to_embree), shape);
+void Bvh::Impl::set_filter(RTCGeometry geometry, const AlphaMesh& mesh) {
+  rtcSetGeometryUserData(geometry, &alpha_meshes.emplace_back(mesh));
+  rtcSetGeometryIntersectFilterFunction(geometry, filter_alpha);
+  rtcSetGeometryOccludedFilterFunction(geometry, filter_alpha);
 }
 
-void Bvh::Impl::add_instance(const InstancedMesh& instance, uint32_t shape) {
+void Bvh::Impl::add_mesh(const Scene& scene, const TriangleMesh& mesh, uint32_t shape) {
+  if (mesh.indices.empty()) return;
+  RTCGeometry geometry = make_geometry(mesh, to_embree);
+  if (scene.shapes[shape].has_alpha()) set_filter(geometry, {&scene, shape});
+  attach(embree.scene, geometry, shape);
+}
+
+void Bvh::Impl::add_instance(const Scene& scene, const InstancedMesh& instance, uint32_t shape) {
   if (instance.mesh->indices.empty()) return;
   OwnScene& own = own_scenes[instance.mesh.get()];
   if (!own.scene) {
     own.scale = power_of_two_of(instance.local);
     own.scene = new_scene(embree.device);
-    attach(own.scene, make_geometry(*instance.mesh, 1 / own.scale), 0);
+    RTCGeometry geometry = make_geometry(*instance.mesh, 1 / own.scale);
+    if (scene.shapes[shape].has_alpha()) set_filter(geometry, {&scene});
+    attach(own.scene, geometry, 0);
     rtcCommitScene(own.scene);
     check(embree.device, "building an instance's tree");
   }
@@ -306,18 +372,24 @@ void Bvh::Impl::set_scale(const Bounds3& bounds) {
   to_embree = 1 / to_scene;
 }
 
-void Bvh::Impl::add_shapes(const std::vector<Shape>& all) {
+void Bvh::Impl::add_quadric(const Shape& shape, uint32_t index, QuadricGroup& group) {
+  group.members.push_back(index);
+  group.has_alpha |= shape.has_alpha();
+}
+
+void Bvh::Impl::add_shapes(const Scene& scene) {
+  const std::vector<Shape>& all = scene.shapes;
   const auto shapes = static_cast<uint32_t>(all.size());
-  spheres.shapes = disks.shapes = others.shapes = &all;
+  spheres.scene = disks.scene = others.scene = &scene;
   for (uint32_t i = 0; i < shapes; ++i) {
     std::visit(
         [&](const auto& geometry) {
           using Geometry = std::decay_t<decltype(geometry)>;
-          if constexpr (std::is_same_v<Geometry, TriangleMesh>) add_mesh(geometry, i);
-          if constexpr (std::is_same_v<Geometry, InstancedMesh>) add_instance(geometry, i);
-          if constexpr (std::is_same_v<Geometry, Sphere>) spheres.members.push_back(i);
-          if constexpr (std::is_same_v<Geometry, Disk>) disks.members.push_back(i);
-          if constexpr (std::is_same_v<Geometry, Quadric>) others.members.push_back(i);
+          if constexpr (std::is_same_v<Geometry, TriangleMesh>) add_mesh(scene, geometry, i);
+          if constexpr (std::is_same_v<Geometry, InstancedMesh>) add_instance(scene, geometry, i);
+          if constexpr (std::is_same_v<Geometry, Sphere>) add_quadric(all[i], i, spheres);
+          if constexpr (std::is_same_v<Geometry, Disk>) add_quadric(all[i], i, disks);
+          if constexpr (std::is_same_v<Geometry, Quadric>) add_quadric(all[i], i, others);
         },
         all[i].geometry);
   }
@@ -338,7 +410,7 @@ Bvh::Bvh(const Scene& scene, int threads) : scene_(&scene), impl_(std::make_uniq
   try {
     impl_->open();
     impl_->set_scale(scene.bounds);
-    impl_->add_shapes(scene.shapes);
+    impl_->add_shapes(scene);
     impl_->commit(threads);
   } catch (const std::bad_alloc&) {
     throw_embree(RTC_ERROR_OUT_OF_MEMORY, "building the tree");

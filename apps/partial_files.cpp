@@ -5,6 +5,8 @@
 #include <gnu/libc-version.h>
 #endif
 
+#include <OpenImageIO/imageio.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
@@ -22,7 +24,9 @@ std::string absolute(const std::string& path) {
 }
 
 std::string program_and_libraries() {
-  std::string build = fmt::format("{} ({}), Embree {}", version(), build_id(), accel::embree_version());
+  const int images = OIIO::openimageio_version();
+  std::string build = fmt::format("{} ({}), Embree {}, OpenImageIO {}.{}.{}", version(), build_id(),
+                                  accel::embree_version(), images / 10000, images / 100 % 100, images % 100);
 #ifdef __GLIBC__
   build += fmt::format(", C library {}", gnu_get_libc_version());
 #endif

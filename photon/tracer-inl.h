@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "core/scene/bsdf_at.h"
 #include "photon/shading_correction.h"
 #include "photon/tracer.h"
 #include "photon/walker_queue.h"
@@ -217,7 +218,8 @@ class Tracer {
     goes_on_[k] = false;
     scatters_[k] = false;
     const Arrival photon{lanes_.ray.get(k), VertexLanes::get(lanes_.flux, k)};
-    const SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
+    SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
+    const BsdfAt bsdf_at(scene_, si, -photon.ray.d);
     std::visit(
         [&](const auto& bsdf) {
           const Lobes lobes = bsdf.lobes();
@@ -226,7 +228,7 @@ class Tracer {
           const bool wanted = settings_.kinds.indirect || (lobes.specular && settings_.kinds.caustic);
           if (wanted && !is_last(k)) scatter_alone(k, bsdf, si, photon);
         },
-        *BsdfAt(scene_.materials, si, -photon.ray.d));
+        *bsdf_at);
   }
 
   // The same for what lanes_ has computed, but for shadow photons. The flux was found valid when it was made.

@@ -139,6 +139,7 @@ void trace_camera_ray(const RenderContext& ctx, const CameraSample& sample, Samp
   Ray ray = sample.ray;
   Hit hit = sample.hit;
   LeftBy last;
+  RayCone cone = ctx.cone;
   ++counters.rays.camera;
   for (int events = 0;; ++events) {
     if (!hit.valid()) {
@@ -147,7 +148,9 @@ void trace_camera_ray(const RenderContext& ctx, const CameraSample& sample, Samp
     }
     const SurfaceInteraction si = make_interaction(ctx.scene.shapes, ray, hit);
     result->emitted += beta * emission_seen(ctx.scene, last, si, ray.d);
-    const ShadingPoint x(ctx.scene, si, -ray.d);
+    cone = cone.after(hit.t);
+    const bool plain = ctx.scene.materials[si.material].constant();
+    const ShadingPoint x(ctx.scene, si, -ray.d, plain ? Footprint{} : cone.on_surface(ray.d, si.n));
     if (events == 0) set_features(x, ray.o, result);
     const Lobes parts = lobes(*x.bsdf);
     if (parts.broad) add_reflected(ctx, x, beta, sampler, maps);

@@ -3,6 +3,7 @@
 
 #include "render/passes.h"
 #include "render/photon_maps.h"
+#include "render/ray_cone.h"
 #include "render/renderer.h"
 
 namespace kaustik::render {
@@ -14,6 +15,7 @@ struct RenderContext {
   const EstimatorPlan& plan;
   const PhotonMaps& maps;
   PassShare pass;
+  RayCone cone{};  // of a camera ray
 };
 
 // Exact counters of one tile, merged by integer sums.

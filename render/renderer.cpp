@@ -74,7 +74,9 @@ class PassRenderer {
   // Adds to a film of zeros. False when progress cancelled.
   bool render(uint64_t pass, std::optional<GatherRadii>* radii, FilmSums* film,
               RenderStatistics* statistics) {
-    const RenderContext ctx{scene_, bvh_, settings_, plan_, maps_, share(pass)};
+    const PassShare part = share(pass);
+    const RayCone cone = camera_cone(scene_.camera, part.end_sample - part.first_sample);
+    const RenderContext ctx{scene_, bvh_, settings_, plan_, maps_, part, cone};
     if (!make_photon_maps(scene_, bvh_, settings_, plan_, ctx.pass, progress_, &maps_, radii, statistics))
       return false;
     const auto start = std::chrono::steady_clock::now();

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/sampling/sampler.h"
-#include "core/scene/scene.h"
+#include "core/scene/bsdf_at.h"
 
 namespace kaustik::render {
 
@@ -17,8 +17,9 @@ struct ShadingPoint {
 
   // Where wo lies on different sides of the geometric and the shading surface of a non-specular material, the
   // geometric normal is shaded: the interpolated one means nothing there.
-  ShadingPoint(const Scene& scene, const SurfaceInteraction& interaction, const Vector3& to_viewer)
-      : si(interaction), wo(to_viewer), bsdf(scene.materials, interaction, to_viewer) {
+  ShadingPoint(const Scene& scene, const SurfaceInteraction& interaction, const Vector3& to_viewer,
+               const Footprint& footprint = {})
+      : si(interaction), wo(to_viewer), bsdf(scene, si, to_viewer, footprint) {
     if (!is_specular(*bsdf) && glm::dot(wo, si.n) * glm::dot(wo, si.ns) <= 0) si.ns = si.n;
     frame = Frame::from_z(si.ns);
     wo_local = frame.to_local(wo);

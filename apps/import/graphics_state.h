@@ -20,7 +20,7 @@ struct GraphicsState {
   std::optional<uint32_t> area_light;
   bool reverse_orientation = false;
   const ColourSpace* colour_space = find_colour_space("srgb");  // of rgb parameters
-  std::map<std::string, Defaults, std::less<>> defaults;        // "shape", "light", "material"
+  std::map<std::string, Defaults, std::less<>> defaults;        // "shape", "light", "material", "texture"
 };
 
 }  // namespace kaustik::pbrt

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "apps/import/gltf/importer.h"
+#include "apps/import/image_textures.h"
 #include "apps/import/light_image_file.h"
 #include "apps/import/obj_importer.h"
 #include "apps/import/ply.h"
@@ -70,7 +71,16 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
       return result;
     };
   };
-  auto scene = build_scene(*description, load_with(load_ply), diagnostics, load_with(load_light_image));
+  const auto textures = std::make_shared<ImageTextures>();
+  const auto load_texture = [&](const std::string& name, const SourceLocation& where,
+                                const ImageEncoding& encoding) {
+    const auto load = [&](const std::filesystem::path& file, std::string* content) {
+      return textures->load(file.string(), encoding, content);
+    };
+    return load_with(load)(name, where);
+  };
+  auto scene = build_scene(*description, load_with(load_ply), diagnostics, load_with(load_light_image),
+                           {load_texture, textures});
   diagnostics.sort_by_location();
   if (!scene || diagnostics.has_errors()) return std::nullopt;
   scene->keeps = description->keeps;

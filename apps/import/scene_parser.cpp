@@ -61,7 +61,7 @@ const std::map<std::string_view, SceneParser::Entry>& SceneParser::directives() 
       {"Sampler", {&P::on_setting, kOptions}},
       {"Scale", {&P::on_scale, kAny}},
       {"Shape", {&P::on_shape, kWorld}},
-      {"Texture", {&P::on_not_rendered, kWorld}},
+      {"Texture", {&P::on_texture, kWorld}},
       {"Transform", {&P::on_transform, kAny}},
       // pbrt, too, lets these save the whole state.
       {"TransformBegin", {&P::on_attribute_begin, kWorld}},
@@ -186,16 +186,16 @@ void SceneParser::add_defaults(std::string_view target, std::vector<Parameter>& 
 }
 
 void SceneParser::on_attribute(const Token& word) {
-  const auto target = quoted("what it is for, \"shape\", \"light\" or \"material\",", word);
+  const auto target = quoted("what it is for, \"shape\", \"light\", \"material\" or \"texture\",", word);
   if (!target) return;
   const std::string name = unescape(target->text);
   std::vector<Parameter> parameters = parse_parameters(*tokens_, diagnostics_);
-  if (name == "texture" || name == "medium") {
+  if (name == "medium") {
     diagnostics_.error(target->location,
                        fmt::format("`Attribute \"{}\"`: there are no such things here", name));
     return;
   }
-  constexpr std::string_view kTargets[] = {"shape", "light", "material"};
+  constexpr std::string_view kTargets[] = {"shape", "light", "material", "texture"};
   if (std::find(std::begin(kTargets), std::end(kTargets), name) == std::end(kTargets)) {
     diagnostics_.error(target->location, fmt::format("unknown target \"{}\" of `Attribute`{}", name,
                                                      name_hint(name, kTargets)));

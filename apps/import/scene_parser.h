@@ -88,6 +88,7 @@ class SceneParser {
   void pop(bool object, const Token& word);
 
   // The world (scene_parser_world.cpp).
+  void on_texture(const Token& word);
   void on_material(const Token& word);
   void on_make_named_material(const Token& word);
   void on_named_material(const Token& word);

@@ -17,6 +17,22 @@ constexpr uint64_t kMostBytes = uint64_t{8} << 30;
 
 }  // namespace
 
+void SceneParser::on_texture(const Token& word) {
+  TextureDescription texture;
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  const auto value_type = quoted("its type, \"float\" or \"spectrum\",", word);
+  if (!value_type || !read_directive(word, "texture", texture)) return;
+  texture.name = unescape(name->text);
+  texture.name_location = name->location;
+  texture.value_type = unescape(value_type->text);
+  if (texture.value_type == "color") texture.value_type = "spectrum";  // pbrt-v3's word
+  texture.value_type_location = value_type->location;
+  colours_.reduce("Texture", *state_.colour_space, texture);
+  texture.texture_to_world = state_.ctm;
+  scene_.textures.push_back(std::move(texture));
+}
+
 void SceneParser::on_material(const Token& word) {
   MaterialDescription material;
   if (!read_directive(word, "material", material)) return;
@@ -153,9 +169,9 @@ void SceneParser::include(const Token& word, bool keep_state) {
 }
 
 void SceneParser::on_not_rendered(const Token& word) {
-  const std::string_view what = word.text == "Texture" ? "colours are constant, \"rgb\" parameters"
-                                                       : "there is nothing between surfaces";
-  diagnostics_.error(word.location, fmt::format("pbrt's `{}` is not rendered: {}", word.text, what));
+  diagnostics_.error(
+      word.location,
+      fmt::format("pbrt's `{}` is not rendered: there is nothing between surfaces", word.text));
   skip_arguments();
 }
 

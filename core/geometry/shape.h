@@ -54,6 +54,11 @@ struct Shape {
   uint32_t surface_group = 0;  // photons are shared within a group only
   bool flip_normal =
       false;  // ReverseOrientation xor handedness of the transform (not applied where N is given)
+  // Share of the surface that is there: a constant, or a float texture of the scene. core/scene/alpha.h.
+  float alpha = 1;
+  uint32_t alpha_texture = kNoIndex;
+
+  bool has_alpha() const { return alpha < 1 || alpha_texture != kNoIndex; }
 
   // Its triangles, in the world or in a space of their own; null where there are none.
   const TriangleMesh* mesh() const {

@@ -75,7 +75,7 @@ void append_grid(const PatchMesh& mesh, const PatchIndices& i, int n, bool with_
       if (with_normals) {
         out.N.push_back(mesh.N.empty() ? Normal3(unit(c.normal(u, v))) : bilinear(mesh.N, i, fu, fv));
       }
-      if (!mesh.uv.empty()) out.uv.push_back(bilinear(mesh.uv, i, fu, fv));
+      out.uv.push_back(mesh.uv.empty() ? Point2(fu, fv) : bilinear(mesh.uv, i, fu, fv));
     }
   }
   const auto row = static_cast<uint32_t>(n + 1);
@@ -86,6 +86,20 @@ void append_grid(const PatchMesh& mesh, const PatchIndices& i, int n, bool with_
       out.indices.push_back({a, a + row + 1, a + row});
     }
   }
+}
+
+// Each patch's own parameters, where patches have no corners in common: else none.
+std::vector<Point2> own_parameters(const PatchMesh& mesh) {
+  std::vector<Point2> uv(mesh.P.size());
+  std::vector<bool> taken(mesh.P.size());
+  for (const PatchIndices& i : mesh.patches) {
+    for (size_t corner = 0; corner < i.size(); ++corner) {
+      if (taken[i[corner]]) return {};
+      taken[i[corner]] = true;
+      uv[i[corner]] = Point2(float(corner % 2), float(corner / 2));
+    }
+  }
+  return uv;
 }
 
 }  // namespace
@@ -106,7 +120,7 @@ TriangleMesh triangulate_patches(const PatchMesh& mesh) {
   }
   out.P = mesh.P;
   out.N = mesh.N;
-  out.uv = mesh.uv;
+  out.uv = mesh.uv.empty() ? own_parameters(mesh) : mesh.uv;
   for (const PatchIndices& i : mesh.patches) {
     out.indices.push_back({i[0], i[1], i[3]});
     out.indices.push_back({i[0], i[3], i[2]});

@@ -23,7 +23,8 @@ struct PatchMesh {
 // themselves, which is exact. All others become n x n cells of two triangles with the patch's own normals (or
 // the corners' N, interpolated). Between a cell's diagonal and the patch lies at most |p00 - p10 - p01 + p11|
 // / (4 n^2); n is the smallest that keeps this below 1/1024 of the largest distance of two corners (so n <=
-// 23). Once one patch is curved, all vertices of the result have normals. The outside is the side of
+// 23). Once one patch is curved, all vertices of the result have normals. Without uv, u and v of a patch are
+// its parameters (pbrt's rule), save where flat patches have corners in common. The outside is the side of
 // cross(dp/du, dp/dv).
 TriangleMesh triangulate_patches(const PatchMesh& patches);
 

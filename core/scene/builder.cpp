@@ -25,6 +25,8 @@ constexpr uint64_t kMostPlacements = 10'000'000;
 struct Item {
   const ShapeDescription* description = nullptr;
   uint32_t material = 0;
+  float alpha = 1;
+  uint32_t alpha_texture = kNoIndex;
   std::optional<size_t> object;  // whose shape it is; nothing for shapes that stand in the world
   std::optional<ShapeSource> source;
   size_t placements = 0;
@@ -44,9 +46,10 @@ struct Placement {
 class Builder {
  public:
   Builder(const SceneDescription& description, const MeshLoader& load_mesh, Diagnostics& diagnostics,
-          const LightImageLoader& load_light_image)
+          const LightImageLoader& load_light_image, const ImageLoader& images)
       : description_(description),
         load_mesh_(load_mesh),
+        images_(images),
         diagnostics_(diagnostics),
         light_images_(load_light_image, diagnostics) {}
 
@@ -54,7 +57,8 @@ class Builder {
     Scene scene;
     scene.camera = build_camera(description_, warned_, diagnostics_);
     scene.sensor = build_sensor(description_, diagnostics_);
-    MaterialTable materials(description_, warned_, diagnostics_);
+    textures_.emplace(description_, images_, warned_, diagnostics_);
+    MaterialTable materials(description_, *textures_, warned_, diagnostics_);
     collect(materials);
     load_sources();
     choose_origin(scene);
@@ -66,6 +70,7 @@ class Builder {
     if (diagnostics_.has_errors()) return std::nullopt;
     scene.materials = std::move(materials.materials());
     scene.material_names = std::move(materials.names());
+    scene.textures = textures_->finish(scene.origin);
     finalize_scene(scene);
     return scene;
   }
@@ -75,6 +80,7 @@ class Builder {
   std::optional<size_t> add_item(const ShapeDescription& shape, std::optional<size_t> object,
                                  MaterialTable& materials);
   bool fits_memory(const std::map<std::string_view, std::vector<size_t>>& items_of);
+  void set_alpha(const ShapeDescription& shape, Item& item);
   void add_instance(size_t index, const std::map<std::string_view, std::vector<size_t>>& items_of);
   void load_sources();
   std::optional<ShapeSource> make_source(const Item& item, const glm::dvec3& mesh_origin,
@@ -94,9 +100,11 @@ class Builder {
 
   const SceneDescription& description_;
   const MeshLoader& load_mesh_;
+  const ImageLoader& images_;
   Diagnostics& diagnostics_;
   LightImages light_images_;
   WarnedOnce warned_;
+  std::optional<TextureTable> textures_;
   std::vector<Item> items_;
   std::vector<Placement> placements_;
   std::vector<const TypeSpec*> area_light_specs_;
@@ -125,7 +133,22 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
   item.description = &shape;
   item.material = material;
   item.object = object;
+  set_alpha(shape, item);
   return items_.size() - 1;
+}
+
+// pbrt's lamps shine through what is cut out; ours have no holes.
+void Builder::set_alpha(const ShapeDescription& shape, Item& item) {
+  const Parameter* alpha = shape.find("alpha");
+  if (!alpha) return;
+  if (alpha->type == ParameterType::kTexture) {
+    item.alpha_texture = textures_->find(*alpha, TextureValue::kFloat, diagnostics_);
+  } else {
+    item.alpha = static_cast<float>(alpha->numbers[0]);
+  }
+  if (shape.area_light && (item.alpha < 1 || item.alpha_texture != kNoIndex))
+    diagnostics_.error(alpha->location, "`alpha` of a lamp is not rendered",
+                       {{description_.area_lights[*shape.area_light].location, "the area light"}});
 }
 
 void Builder::collect(MaterialTable& materials) {
@@ -361,6 +384,8 @@ void Builder::place(Scene& scene) {
     Shape& shape = placed[i].shape;
     if (!keep(placements_[i], placed[i])) continue;
     shape.material = item.material;
+    shape.alpha = item.alpha;
+    shape.alpha_texture = item.alpha_texture;
     if (placements_[i].lamp && !make_lamp(item, shape, scene)) continue;
     names.push_back(group_key(placements_[i]));
     places.push_back(group_name(*item.description));
@@ -374,8 +399,9 @@ void Builder::place(Scene& scene) {
 }  // namespace
 
 std::optional<Scene> build_scene(const SceneDescription& description, const MeshLoader& load_mesh,
-                                 Diagnostics& diagnostics, const LightImageLoader& load_light_image) {
-  return Builder(description, load_mesh, diagnostics, load_light_image).build();
+                                 Diagnostics& diagnostics, const LightImageLoader& load_light_image,
+                                 const ImageLoader& images) {
+  return Builder(description, load_mesh, diagnostics, load_light_image, images).build();
 }
 
 }  // namespace kaustik

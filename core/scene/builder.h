@@ -8,6 +8,7 @@
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/description.h"
 #include "core/scene/scene.h"
+#include "core/texture/image_lookup.h"
 
 namespace kaustik {
 
@@ -28,11 +29,13 @@ struct LightImageResult {
 using LightImageLoader =
     std::function<LightImageResult(const std::string& filename, const SourceLocation& where)>;
 
-// Resolves names, checks every parameter against the schema, loads meshes in parallel, bakes object instances
-// and transforms into world space and joins shapes to surface groups. Nothing after any error; all errors and
-// warnings are added to diagnostics, in an order that does not depend on the threads. Shapes are in file
-// order, those of instances after the others; lights: LightSource lines in file order, then emitting shapes.
+// Resolves names, checks every parameter against the schema, loads meshes and images in parallel, bakes
+// object instances and transforms into world space and joins shapes to surface groups. Nothing after any
+// error; all errors and warnings are added to diagnostics, in an order that does not depend on the threads.
+// Shapes are in file order, those of instances after the others; lights: LightSource lines in file order,
+// then emitting shapes.
 std::optional<Scene> build_scene(const SceneDescription& description, const MeshLoader& load_mesh,
-                                 Diagnostics& diagnostics, const LightImageLoader& load_light_image = {});
+                                 Diagnostics& diagnostics, const LightImageLoader& load_light_image = {},
+                                 const ImageLoader& images = {});
 
 }  // namespace kaustik

@@ -1,16 +1,35 @@
 #include "core/scene/material.h"
 
+#include <algorithm>
+
 namespace kaustik {
 
-void BsdfAt::make(const std::vector<Material>& materials, const SurfaceInteraction& si, const Vector3& wo) {
-  const Material* material = &materials[si.material];
-  // Mixtures hold materials defined before them only: this ends.
-  while (const MixedMaterial* mixed = material->mixed()) material = &materials[mixed->choose(si.p, wo)];
-  bsdf_ = &material->typical();
-  if (material->constant()) return;
-  const TexturedMaterial& textured = *material->textured();
-  made_ = textured.make(MaterialInputs(textured.inputs));
-  bsdf_ = &*made_;
+namespace {
+
+bool is_textured(const MaterialInput& input) {
+  return input.texture != kNoIndex;
+}
+
+Bsdf bsdf_of_one_point(const TexturedMaterial& material, const TextureSet& textures) {
+  TexturePoint middle;
+  middle.uv = {0.5f, 0.5f};
+  return material.make(MaterialInputs(material.inputs, &textures, &middle));
+}
+
+}  // namespace
+
+bool TexturedMaterial::makes_bsdf() const {
+  return std::any_of(inputs.begin(), inputs.end(), is_textured);
+}
+
+Material::Material(TexturedMaterial textured, const TextureSet& textures)
+    : bsdf_(bsdf_of_one_point(textured, textures)) {
+  // Smooth surfaces are specular, rough ones are not.
+  const auto is_roughness = [](const MaterialInput& i) {
+    return is_textured(i) && i.name.ends_with("roughness");
+  };
+  varies_ = std::any_of(textured.inputs.begin(), textured.inputs.end(), is_roughness);
+  textured_ = std::make_shared<const TexturedMaterial>(std::move(textured));
 }
 
 }  // namespace kaustik

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "core/bsdf/bsdf.h"
-#include "core/geometry/interaction.h"
 #include "core/scene/material_inputs.h"
 #include "core/scene/mixed_material.h"
 
@@ -15,63 +14,46 @@ namespace kaustik {
 // How the BSDF of a point is made from a material's parameters there.
 using BsdfMaker = Bsdf (*)(const MaterialInputs&);
 
-// Whose BSDF depends on the point.
+// What differs from point to point.
 struct TexturedMaterial {
   BsdfMaker make = nullptr;
   std::vector<MaterialInput> inputs;
+  uint32_t displacement = kNoIndex;  // float texture of a bump map
+  uint32_t normal_map = kNoIndex;    // image
+
+  // Whether the BSDF itself does, not only its normal.
+  bool makes_bsdf() const;
 };
 
 // A value; copies of a textured one share its recipe.
 class Material {
  public:
+  // The same everywhere. Implicit: constant materials are BSDFs.
   template <class B>
-  requires std::constructible_from<Bsdf, const B&> Material(const B& bsdf)
-      : bsdf_(bsdf) {}  // NOLINT: constant materials are BSDFs
-  explicit Material(TexturedMaterial textured)
-      : bsdf_(textured.make(MaterialInputs(textured.inputs))),
-        textured_(std::make_shared<const TexturedMaterial>(std::move(textured))) {}
+  requires std::constructible_from<Bsdf, const B&> Material(const B& bsdf) : bsdf_(bsdf) {}  // NOLINT
+  // textures: those that its inputs name.
+  Material(TexturedMaterial textured, const TextureSet& textures);
   // typical: of one of the two.
   Material(const MixedMaterial& mixed, const Bsdf& typical) : bsdf_(typical), mixed_(mixed) {}
 
-  // The same everywhere.
   bool constant() const { return !textured_ && !mixed_; }
-  // Of a constant material; of a textured one that of its typical point, for tables and summaries.
+  // Of a constant material; of others that of one point, for summaries.
   const Bsdf& typical() const { return bsdf_; }
-  // Null for constant ones.
+  // Null for all that are not textured.
   const TexturedMaterial* textured() const { return textured_.get(); }
   // Null for all that are no mixtures.
   const MixedMaterial* mixed() const { return mixed_ ? &*mixed_ : nullptr; }
-  // The parts that its BSDFs can have; of a textured one those of its typical point.
-  Lobes lobes() const { return mixed_ ? mixed_->lobes : kaustik::lobes(bsdf_); }
+  // The parts that its BSDFs can have.
+  Lobes lobes() const {
+    if (varies_) return {true, true, false};
+    return mixed_ ? mixed_->lobes : kaustik::lobes(bsdf_);
+  }
 
  private:
   Bsdf bsdf_;
   std::shared_ptr<const TexturedMaterial> textured_;
   std::optional<MixedMaterial> mixed_;
-};
-
-// The BSDF at a point of a surface that is seen, or lit by a photon, from wo (unit, world): a constant
-// material's own, without a copy, or one made for the point and kept here.
-class BsdfAt {
- public:
-  BsdfAt(const std::vector<Material>& materials, const SurfaceInteraction& si, const Vector3& wo) {
-    const Material& material = materials[si.material];
-    if (material.constant()) {
-      bsdf_ = &material.typical();
-    } else {
-      make(materials, si, wo);
-    }
-  }
-  BsdfAt(const BsdfAt&) = delete;
-  BsdfAt& operator=(const BsdfAt&) = delete;
-
-  const Bsdf& operator*() const { return *bsdf_; }
-
- private:
-  void make(const std::vector<Material>& materials, const SurfaceInteraction& si, const Vector3& wo);
-
-  std::optional<Bsdf> made_;
-  const Bsdf* bsdf_ = nullptr;
+  bool varies_ = false;  // between specular and not
 };
 
 }  // namespace kaustik

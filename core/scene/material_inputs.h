@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/geometry/shape.h"
-#include "core/math/vec.h"
+#include "core/texture/texture.h"
 
 namespace kaustik {
 
@@ -19,26 +18,41 @@ struct MaterialInput {
   std::vector<double> numbers;
   Rgb rgb{0};  // of colours
   std::string text;
+  // What gives the value instead, clamped to the parameter's range [low, high]; where it is none (NaN, or at
+  // an end that does not belong to the range) the value is the default.
+  uint32_t texture = kNoIndex;
+  float low = -kInfinity, high = kInfinity;
+  bool low_open = false, high_open = false;
+
+  // Of one component, whose default is `otherwise`.
+  float in_range(float value, float otherwise) const;
 };
 
 // The inputs of a material, by name. Names must be of the schema's row.
 class MaterialInputs {
  public:
-  explicit MaterialInputs(const std::vector<MaterialInput>& inputs) : inputs_(inputs) {}
+  // x: where textures are looked up; without them inputs with textures have their default.
+  explicit MaterialInputs(const std::vector<MaterialInput>& inputs, const TextureSet* textures = nullptr,
+                          const TexturePoint* x = nullptr)
+      : inputs_(inputs), textures_(textures), x_(x) {}
 
   bool has(std::string_view name) const { return find(name).given; }
-  double number(std::string_view name) const { return find(name).numbers.at(0); }
+  double number(std::string_view name) const;
   bool flag(std::string_view name) const { return number(name) != 0; }
-  Rgb rgb(std::string_view name) const { return find(name).rgb; }
+  Rgb rgb(std::string_view name) const;
   const std::string& text(std::string_view name) const { return find(name).text; }  // empty when absent
 
  private:
   const MaterialInput& find(std::string_view name) const;
+  bool from_texture(const MaterialInput& input) const { return input.texture != kNoIndex && x_; }
 
   const std::vector<MaterialInput>& inputs_;
+  const TextureSet* textures_;
+  const TexturePoint* x_;
 };
 
-// Every parameter of the row that has an effect. The directive must have passed check_parameters.
+// Every parameter of the row that has an effect, without their textures. The directive must have passed
+// check_parameters.
 std::vector<MaterialInput> material_inputs(const ParameterReader& parameters);
 
 }  // namespace kaustik

@@ -8,8 +8,17 @@
 
 namespace kaustik {
 
-MaterialTable::MaterialTable(const SceneDescription& description, WarnedOnce& warned,
-                             DiagnosticList& diagnostics) {
+namespace {
+
+TextureValue value_of(const ParameterSpec& spec) {
+  return spec.types.front() == ParameterType::kRgb ? TextureValue::kSpectrum : TextureValue::kFloat;
+}
+
+}  // namespace
+
+MaterialTable::MaterialTable(const SceneDescription& description, const TextureTable& textures,
+                             WarnedOnce& warned, DiagnosticList& diagnostics)
+    : textures_(textures) {
   std::map<std::string_view, SourceLocation> first_place;
   for (const MaterialDescription& material : description.materials) {
     const uint32_t index = make(material, warned, diagnostics);
@@ -38,8 +47,33 @@ uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& wa
                                 [&](const MaterialRow& r) { return &r.spec == spec; });
   if (spec->name == "mix") return mix(material, *spec, diagnostics);
   if (!row->make) return kInterface;
-  return add(row->make(MaterialInputs(material_inputs(ParameterReader(material, *spec)))),
-             material.name.empty() ? material.type : material.name);
+  return add(make(*row, material, diagnostics), material.name.empty() ? material.type : material.name);
+}
+
+// A bump map of one height everywhere is none. After an error: without the texture.
+Material MaterialTable::make(const MaterialRow& row, const MaterialDescription& material,
+                             DiagnosticList& diagnostics) {
+  TexturedMaterial made;
+  made.make = row.make;
+  made.inputs = material_inputs(ParameterReader(material, row.spec));
+  for (MaterialInput& input : made.inputs) {
+    const Parameter* given = material.find(input.name);
+    if (!given) continue;
+    const bool named = given->type == ParameterType::kTexture;
+    const uint32_t texture =
+        named ? textures_.find(*given, value_of(*row.spec.find(input.name)), diagnostics) : kNoIndex;
+    if (input.name == "displacement") {
+      made.displacement = texture;
+    } else if (input.name == "normalmap") {
+      made.normal_map =
+          textures_.load_linear_image(input.text, given->value_location(0), diagnostics).value_or(kNoIndex);
+    } else {
+      input.texture = texture;
+    }
+  }
+  const bool has_map = made.displacement != kNoIndex || made.normal_map != kNoIndex;
+  if (!has_map && !made.makes_bsdf()) return made.make(MaterialInputs(made.inputs));
+  return Material(std::move(made), textures_.set());
 }
 
 // Only what was defined before, as in pbrt: so no mixture holds itself.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/schema.h"
+#include "core/scene/texture_table.h"
 
 namespace kaustik {
 
@@ -14,7 +14,8 @@ class MaterialTable {
   static constexpr uint32_t kInterface = 0xfffffffeu;  // no surface: the shape is left out
 
   // Makes every material; reports bad ones, and names that are given twice.
-  MaterialTable(const SceneDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
+  MaterialTable(const SceneDescription& description, const TextureTable& textures, WarnedOnce& warned,
+                DiagnosticList& diagnostics);
 
   // Index into materials(), or kInterface. A name that nobody defined is an error, once per place; then, and
   // where no material was set, pbrt's default: diffuse of reflectance 0.5.
@@ -24,9 +25,11 @@ class MaterialTable {
   std::vector<std::string>& names() { return names_; }
 
  private:
+  const TextureTable& textures_;
   uint32_t add(Material made, std::string name);
   uint32_t make(const MaterialDescription& material, WarnedOnce& warned, DiagnosticList& diagnostics);
   uint32_t mix(const MaterialDescription& material, const TypeSpec& spec, DiagnosticList& diagnostics);
+  Material make(const MaterialRow& row, const MaterialDescription& material, DiagnosticList& diagnostics);
   uint32_t default_material();
 
   std::vector<Material> materials_;

@@ -53,6 +53,11 @@ inline ParameterSpec list(ParameterType type, std::string_view name, size_t min_
   p.default_text = default_text;
   return p;
 }
+// Takes "texture name" "of a texture", too; float textures for floats, spectrum textures for colours.
+inline ParameterSpec textured(ParameterSpec p) {
+  p.types.push_back(ParameterType::kTexture);
+  return p;
+}
 // Replaces the shown default and leaves none: the maker asks whether the parameter is there.
 inline ParameterSpec without_default(ParameterSpec p, std::string_view default_text) {
   p.defaults.clear();

@@ -22,7 +22,8 @@ struct Scene {
   Sensor sensor;
   std::vector<Shape> shapes;
   std::vector<Material> materials;
-  std::vector<std::string> material_names;  // for `kaustik info`
+  std::shared_ptr<const TextureSet> textures;  // that materials and shapes name by index; may be null
+  std::vector<std::string> material_names;     // for `kaustik info`
   std::vector<std::string> surface_group_names;
   std::vector<Light> lights;
   DiscreteDistribution light_power;       // probabilities of emission

@@ -10,10 +10,17 @@ namespace {
 
 using namespace spec;
 
-// What pbrt gives to every material and we leave out.
+// What pbrt gives to every material, and textures for all that is a number or a colour.
 std::vector<ParameterSpec> material(std::vector<ParameterSpec> own) {
-  own.push_back(ignored("displacement", {ParameterType::kTexture, ParameterType::kFloat}, "bump map", 0));
-  own.push_back(ignored("normalmap", {ParameterType::kString}, "normal map"));
+  for (ParameterSpec& p : own) {
+    const ParameterType type = p.types.front();
+    const bool value = type == ParameterType::kFloat || type == ParameterType::kRgb;
+    if (value && p.state == ParameterState::kUsed) p = textured(std::move(p));
+  }
+  own.push_back(without_default(textured(number("displacement", 0, "m", kAnyNumber,
+                                                "bump map: height above the surface, along its normal")),
+                                "none"));
+  own.push_back(text("normalmap", "none", "image of normals in the frame of u, v and the shading normal"));
   return own;
 }
 

@@ -115,6 +115,7 @@ struct LightRow {
 const std::vector<MaterialRow>& material_rows();
 const std::vector<LightRow>& light_rows();
 const std::vector<TypeSpec>& area_light_types();
+const std::vector<TypeSpec>& texture_types();
 const std::vector<TypeSpec>& shape_types();
 const std::vector<TypeSpec>& camera_types();
 const std::vector<TypeSpec>& film_types();

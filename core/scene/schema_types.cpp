@@ -16,7 +16,8 @@ std::vector<ParameterSpec> shape(std::vector<ParameterSpec> own) {
       text("surfacegroup", "found from shared edges",
            "name of the surface that the shape is a part of: photons count across all shapes of one "
            "name, and of no other. Not in pbrt"));
-  own.push_back(ignored("alpha", {Type::kFloat, Type::kTexture}, "cut-outs", 1));
+  own.push_back(textured(number("alpha", 1, "", kUnit,
+                                "share of the surface that is there: rays meet it with this probability")));
   return own;
 }
 
@@ -163,6 +164,7 @@ std::vector<Category> make_categories() {
        "material",
        specs_of(material_rows()),
        {"coatedconductor", "hair", "measured", "subsurface"}},
+      {"Texture", "texture", specs_of(texture_types()), {"fbm", "marble", "ptex", "windy", "wrinkled"}},
       {"Shape", "shape", specs_of(shape_types()), {"curve"}},
       {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
       {"LightSource", "light", specs_of(light_rows()), {}},

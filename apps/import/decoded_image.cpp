@@ -1,0 +1,104 @@
+#include "apps/import/decoded_image.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace kaustik::pbrt {
+
+namespace {
+
+double decode(double encoded, const ImageEncoding& encoding) {
+  switch (encoding.kind) {
+    case ImageEncoding::Kind::kLinear:
+      return encoded;
+    case ImageEncoding::Kind::kGamma:
+      return std::pow(encoded, static_cast<double>(encoding.gamma));
+    case ImageEncoding::Kind::kDefault:
+    case ImageEncoding::Kind::kSrgb:
+      break;
+  }
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+// Decodes integers of `steps` + 1 values, read as floats of 0 to 1.
+void decode_integers(std::vector<float>& values, int steps, const ImageEncoding& encoding) {
+  std::vector<float> table(static_cast<size_t>(steps) + 1);
+  for (size_t i = 0; i < table.size(); ++i)
+    table[i] = static_cast<float>(decode(static_cast<double>(i) / steps, encoding));
+  const auto scale = static_cast<float>(steps);
+  for (float& v : values) v = table[static_cast<size_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * scale))];
+}
+
+// Where R, G and B are among the channels: all the first one where they are not.
+std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
+  const std::array<int, 3> named{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  if (named[0] >= 0 && named[1] >= 0 && named[2] >= 0) return named;
+  return spec.nchannels >= 3 ? std::array{0, 1, 2} : std::array{0, 0, 0};
+}
+
+std::string refusal(const OIIO::ImageSpec& spec) {
+  if (spec.deep) return "deep images are no textures";
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) return "it has no pixels";
+  const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
+  if (pixels > kMostImagePixels || spec.nchannels > 64)
+    return fmt::format("{} x {} pixels of {} channels are too large: at most {} pixels of 64 channels",
+                       spec.width, spec.height, spec.nchannels, kMostImagePixels);
+  return {};
+}
+
+// The channels that count, of all pixels.
+bool read_values(OIIO::ImageInput& in, const std::array<int, 3>& channels, bool grey,
+                 std::vector<float>& values) {
+  const OIIO::ImageSpec& spec = in.spec();
+  const int first = *std::min_element(channels.begin(), channels.end());
+  const int end = 1 + *std::max_element(channels.begin(), channels.end());
+  const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
+  const size_t read = static_cast<size_t>(end - first), kept = grey ? 1 : 3;
+  values.resize(pixels * read);
+  if (!in.read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, values.data())) return false;
+  for (size_t i = 0; i < pixels; ++i) {
+    std::array<float, 3> pixel{};
+    for (size_t c = 0; c < kept; ++c) {
+      const float v = values[i * read + static_cast<size_t>(channels[c] - first)];
+      pixel[c] = std::isfinite(v) ? v : 0.0f;
+    }
+    std::copy_n(pixel.begin(), kept, values.begin() + static_cast<std::ptrdiff_t>(i * kept));
+  }
+  values.resize(pixels * kept);
+  return true;
+}
+
+}  // namespace
+
+std::optional<DecodedImage> decode_image(const std::string& path, const ImageEncoding& encoding,
+                                         std::string& error) {
+  const auto fail = [&](std::string_view why) {
+    error = fmt::format("cannot read the image \"{}\": {}", path, why);
+    return std::nullopt;
+  };
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // colours as they are stored
+  const auto in = OIIO::ImageInput::open(path, &config);
+  if (!in) return fail(OIIO::geterror());
+  in->threads(1);  // otherwise the library makes a pool of threads of its own
+  const OIIO::ImageSpec spec = in->spec();
+  if (const std::string why = refusal(spec); !why.empty()) return fail(why);
+  const std::array<int, 3> channels = colour_channels(spec);
+  const bool grey = channels[0] == channels[1];
+  std::vector<float> values;
+  if (!read_values(*in, channels, grey, values)) return fail(in->geterror());
+  const bool bytes = spec.format == OIIO::TypeDesc::UINT8;
+  if (bytes || spec.format == OIIO::TypeDesc::UINT16) decode_integers(values, bytes ? 255 : 65535, encoding);
+
+  DecodedImage image;
+  const OIIO::TypeDesc type = bytes ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+  image.spec = OIIO::ImageSpec(spec.width, spec.height, grey ? 1 : 3, type);
+  image.pixels.resize(values.size() * type.size());
+  OIIO::convert_pixel_values(OIIO::TypeDesc::FLOAT, values.data(), type, image.pixels.data(),
+                             static_cast<int>(values.size()));
+  return image;
+}
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,191 @@
+#include "apps/import/image_textures.h"
+
+#include <OpenImageIO/imagecache.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "apps/import/scene_files.h"
+#include "core/content_hash.h"
+
+namespace kaustik::pbrt {
+
+namespace {
+
+using Options = OIIO::TextureOpt;
+
+constexpr const char* kPixels = "kaustik:pixels";  // attribute that carries a DecodedImage
+constexpr int kTile = 64;
+constexpr uint64_t kLargestFile = uint64_t{1} << 32;
+
+// Hands decoded pixels to the cache.
+class DecodedInput final : public OIIO::ImageInput {
+ public:
+  const char* format_name() const override { return "decoded"; }
+  bool open(const std::string& /*name*/, OIIO::ImageSpec& /*spec*/) override { return false; }
+  bool open(const std::string& /*name*/, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) override {
+    const auto* attribute = config.find_attribute(kPixels);
+    if (!attribute) return false;
+    std::memcpy(&image_, attribute->data(), sizeof image_);
+    spec = m_spec = image_->spec;
+    return true;
+  }
+  bool read_native_scanline(int /*subimage*/, int /*level*/, int y, int /*z*/, void* row) override {
+    if (image_->pixels.empty()) return false;
+    std::memcpy(row, image_->pixels.data() + static_cast<size_t>(y) * image_->row_bytes(),
+                image_->row_bytes());
+    return true;
+  }
+  bool close() override { return true; }
+
+  static OIIO::ImageInput* create() { return new DecodedInput; }
+
+ private:
+  const DecodedImage* image_ = nullptr;
+};
+
+// The library's classes come as shared pointers from version 3 on.
+template <class T>
+auto owned(T* library) {
+  return std::unique_ptr<T, void (*)(T*)>(library, [](T* l) { T::destroy(l); });
+}
+template <class T>
+auto owned(std::shared_ptr<T> library) {
+  return library;
+}
+template <class T, class Destroy>
+T* lent(const std::unique_ptr<T, Destroy>& library) {
+  return library.get();
+}
+template <class T>
+std::shared_ptr<T> lent(const std::shared_ptr<T>& library) {
+  return library;
+}
+
+Options options_of(const ImageSampling& sampling, bool point) {
+  Options o;
+  switch (sampling.wrap) {
+    case ImageWrap::kRepeat:
+      o.swrap = o.twrap = Options::WrapPeriodic;
+      break;
+    case ImageWrap::kBlack:
+      o.swrap = o.twrap = Options::WrapBlack;
+      break;
+    case ImageWrap::kClamp:
+      o.swrap = o.twrap = Options::WrapClamp;
+      break;
+  }
+  const bool nearest = sampling.filter == ImageFilter::kPoint;
+  o.interpmode = nearest ? Options::InterpClosest : Options::InterpBilinear;
+  o.mipmode = sampling.filter == ImageFilter::kEwa         ? Options::MipModeAniso
+              : sampling.filter == ImageFilter::kTrilinear ? Options::MipModeTrilinear
+                                                           : Options::MipModeOneLevel;
+  if (point) o.mipmode = Options::MipModeNoMIP;
+  o.anisotropic = static_cast<int>(sampling.max_anisotropy);
+  return o;
+}
+
+// Into the range that the library computes in, with the same texels.
+float reduced(float x, ImageWrap wrap) {
+  if (wrap == ImageWrap::kRepeat) return x - std::floor(x);
+  return std::clamp(x, -2.0f, 3.0f);
+}
+
+// A footprint beyond the image is as good as all of it.
+Vector2 reduced(const Vector2& v) {
+  return {std::clamp(v.x, -1.0f, 1.0f), std::clamp(v.y, -1.0f, 1.0f)};
+}
+
+bool is_finite(const Point2& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+}  // namespace
+
+struct ImageTextures::System {
+  using Cache = decltype(owned(OIIO::ImageCache::create(false)));
+  using Textures = decltype(owned(OIIO::TextureSystem::create(false)));
+
+  Cache cache = owned(OIIO::ImageCache::create(false));
+  Textures textures = owned(OIIO::TextureSystem::create(false, lent(cache)));
+};
+
+ImageTextures::ImageTextures() : system_(std::make_unique<System>()) {
+  system_->cache->attribute("autotile", kTile);
+  system_->cache->attribute("automip", 1);
+  system_->cache->attribute("deduplicate", 0);
+}
+ImageTextures::~ImageTextures() = default;
+
+ImageResult ImageTextures::load(const std::string& path, const ImageEncoding& encoding,
+                                std::string* content) {
+  ImageResult result;
+  const auto bytes = read_bytes(path, kLargestFile, result.error);
+  if (!bytes) return result;
+  ContentHash hash;
+  hash.add(*bytes);
+  *content = hash.text();
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = loaded_.find({path, encoding});
+    if (found != loaded_.end()) return found->second;
+  }
+  const auto image = decode_image(path, encoding, result.error);
+  const std::lock_guard lock(mutex_);
+  const auto found = loaded_.find({path, encoding});  // another thread may have been faster
+  if (found != loaded_.end()) return found->second;
+  if (image) add(*image, path, &result);
+  loaded_.emplace(Key{path, encoding}, result);
+  return result;
+}
+
+void ImageTextures::add(const DecodedImage& image, const std::string& path, ImageResult* result) {
+  if (bytes_ + image.pixels.size() > kMostImageBytes) {
+    result->error =
+        fmt::format("cannot read the image \"{}\": the scene's images are more than {} bytes in all", path,
+                    kMostImageBytes);
+    return;
+  }
+  bytes_ += image.pixels.size();
+  // MIP levels are a third of an image; tiles at the edges are whole.
+  constexpr float kMegabyte = 1 << 20, kSpare = 256;
+  system_->cache->attribute("max_memory_MB", 2 * static_cast<float>(bytes_) / kMegabyte + kSpare);
+  const OIIO::ustring name(fmt::format("image {}", entries_.size()));
+  const DecodedImage* pointer = &image;
+  OIIO::ImageSpec config;
+  config.attribute(kPixels, OIIO::TypeDesc::PTR, &pointer);
+  bool ok = system_->cache->add_file(name, DecodedInput::create, &config);
+  // All tiles, now: the pixels are not kept. A row of them at a time.
+  std::vector<unsigned char> strip(image.row_bytes() * kTile);
+  for (int y = 0; ok && y < image.spec.height; y += kTile) {
+    const int end = std::min(y + kTile, image.spec.height);
+    ok = system_->cache->get_pixels(name, 0, 0, 0, image.spec.width, y, end, 0, 1, image.spec.format,
+                                    strip.data());
+  }
+  system_->cache->close(name);
+  auto* handle = system_->textures->get_texture_handle(name);
+  if (!ok || !system_->textures->good(handle)) {
+    result->error = fmt::format("cannot read the image \"{}\": {}", path, system_->cache->geterror());
+    return;
+  }
+  result->image = static_cast<uint32_t>(entries_.size());
+  entries_.push_back({handle, image.spec.nchannels});
+}
+
+Rgb ImageTextures::lookup(uint32_t image, const ImageSampling& sampling, const Point2& st,
+                          const Vector2& dstdx, const Vector2& dstdy) const {
+  if (!pbrt::is_finite(st)) return Rgb(0);
+  const bool has_footprint = pbrt::is_finite(dstdx) && pbrt::is_finite(dstdy);
+  const Vector2 dx = has_footprint ? reduced(dstdx) : Vector2(0);
+  const Vector2 dy = has_footprint ? reduced(dstdy) : Vector2(0);
+  const bool point = dx == Vector2(0) && dy == Vector2(0);
+  Options options = options_of(sampling, point);
+  const Entry& entry = entries_[image];
+  float value[3] = {};
+  system_->textures->texture(entry.handle, nullptr, options, reduced(st.x, sampling.wrap),
+                             reduced(st.y, sampling.wrap), dx.x, dx.y, dy.x, dy.y, entry.channels, value);
+  return entry.channels == 1 ? Rgb(value[0]) : Rgb(value[0], value[1], value[2]);
+}
+
+}  // namespace kaustik::pbrt

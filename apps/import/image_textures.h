@@ -1,0 +1,55 @@
+#pragma once
+// The images of a scene in a cache of OpenImageIO that belongs to it.
+
+#include <OpenImageIO/texture.h>
+
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "apps/import/decoded_image.h"
+
+namespace kaustik::pbrt {
+
+// All images of a scene together are decoded to so many bytes at most, MIP levels apart; more are refused by
+// their headers.
+inline constexpr uint64_t kMostImageBytes = uint64_t{8} << 30;
+
+// Images live in the cache as tiles of linear half or float pixels; MIP levels are made there when they are
+// first read. It has room for all of them, and makes no threads.
+class ImageTextures final : public ImageLibrary {
+ public:
+  ImageTextures();
+  ~ImageTextures() override;
+  ImageTextures(const ImageTextures&) = delete;
+  ImageTextures& operator=(const ImageTextures&) = delete;
+
+  // Decodes a file and keeps its tiles. content: takes the ContentHash of the file, if it could be read. May
+  // be called from several threads at once, not beside lookup().
+  ImageResult load(const std::string& path, const ImageEncoding& encoding, std::string* content);
+
+  Rgb lookup(uint32_t image, const ImageSampling& sampling, const Point2& st, const Vector2& dstdx,
+             const Vector2& dstdy) const override;
+
+ private:
+  struct Key {
+    std::string path;
+    ImageEncoding encoding;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Entry {
+    OIIO::TextureSystem::TextureHandle* handle = nullptr;
+    int channels = 3;
+  };
+  struct System;
+
+  void add(const DecodedImage& image, const std::string& path, ImageResult* result);
+
+  std::unique_ptr<System> system_;
+  std::mutex mutex_;  // of what follows
+  std::map<Key, ImageResult> loaded_;
+  std::vector<Entry> entries_;
+  uint64_t bytes_ = 0;
+};
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,129 @@
+#pragma once
+// Textures of pbrt-v4 (pharr 2023, chapter 10) as value types; float textures are grey. Textures refer to
+// others by index; those come first.
+
+#include <memory>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/geometry/shape.h"
+#include "core/texture/image_lookup.h"
+#include "core/texture/mapping.h"
+
+namespace kaustik {
+
+class TextureSet;
+
+// A constant, or another texture.
+struct TextureOperand {
+  Rgb value{0};
+  uint32_t texture = kNoIndex;
+};
+
+// What evaluate() of a texture reads.
+struct TextureContext {
+  const TextureSet& set;
+  const Transform& to_world;  // from texture space
+  const TexturePoint& x;
+
+  Rgb operator()(const TextureOperand& operand) const;
+  TextureCoordinates coordinates(const TextureMapping& mapping) const {
+    return map_to_texture(mapping, to_world, x);
+  }
+};
+
+struct ConstantTexture {
+  static constexpr std::string_view kName = "constant";
+  TextureOperand value{Rgb(1)};
+  Rgb evaluate(const TextureContext& c) const { return c(value); }
+};
+
+struct ScaleTexture {
+  static constexpr std::string_view kName = "scale";
+  TextureOperand tex{Rgb(1)}, scale{Rgb(1)};
+  Rgb evaluate(const TextureContext& c) const { return c(tex) * c(scale); }
+};
+
+// (1 - amount) tex1 + amount tex2.
+struct MixTexture {
+  static constexpr std::string_view kName = "mix";
+  TextureOperand tex1{Rgb(0)}, tex2{Rgb(1)}, amount{Rgb(0.5f)};
+  Rgb evaluate(const TextureContext& c) const;
+};
+
+// tex1 where the normal lies along dir, tex2 where it is perpendicular.
+struct DirectionMixTexture {
+  static constexpr std::string_view kName = "directionmix";
+  TextureOperand tex1{Rgb(0)}, tex2{Rgb(1)};
+  Vector3 dir{0, 1, 0};  // world, unit
+  Rgb evaluate(const TextureContext& c) const;
+};
+
+// Fields of side one, of tex1 where the floors of the coordinates add up to an even number; the average over
+// the footprint is exact for a triangle filter (pharr 2023, section 10.4.3).
+struct CheckerboardTexture {
+  static constexpr std::string_view kName = "checkerboard";
+  TextureMapping mapping;
+  bool solid = false;  // cubes of texture space
+  TextureOperand tex1{Rgb(1)}, tex2{Rgb(0)};
+  Rgb evaluate(const TextureContext& c) const;
+};
+
+// Discs of radius 0.35, at most one in each field of side one, at random places.
+struct DotsTexture {
+  static constexpr std::string_view kName = "dots";
+  TextureMapping mapping;
+  TextureOperand in_dots{Rgb(0)}, between_dots{Rgb(1)};
+  Rgb evaluate(const TextureContext& c) const;
+};
+
+// Bilinear between the values at st = (0, 0), (0, 1), (1, 0), (1, 1).
+struct BilerpTexture {
+  static constexpr std::string_view kName = "bilerp";
+  TextureMapping mapping;
+  Rgb v00{0}, v01{1}, v10{0}, v11{1};
+  Rgb evaluate(const TextureContext& c) const;
+};
+
+// t points up in the image.
+struct ImageTexture {
+  static constexpr std::string_view kName = "imagemap";
+  TextureMapping mapping;
+  uint32_t image = 0;
+  ImageSampling sampling;
+  float scale = 1;
+  bool invert = false;
+  bool grey = false;  // a float texture: the first channel
+  Rgb evaluate(const TextureContext& c) const;
+};
+
+using Texture = std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture,
+                             CheckerboardTexture, DotsTexture, BilerpTexture, ImageTexture>;
+
+// All textures of a scene. Immutable once built; thread-safe then.
+class TextureSet {
+ public:
+  // Operands must name textures that are there already.
+  uint32_t add(Texture texture, const Transform& to_world);
+  // For scenes that get an origin of their own after their textures were made.
+  void set_transform(uint32_t texture, const Transform& to_world) { nodes_[texture].to_world = to_world; }
+  void set_images(std::shared_ptr<const ImageLibrary> images) { images_ = std::move(images); }
+  Texture& texture(uint32_t index) { return nodes_[index].texture; }
+
+  Rgb evaluate(uint32_t texture, const TexturePoint& x) const;
+  float evaluate_float(uint32_t texture, const TexturePoint& x) const { return evaluate(texture, x).x; }
+
+  const ImageLibrary& images() const { return *images_; }
+  size_t size() const { return nodes_.size(); }
+
+ private:
+  struct Node {
+    Texture texture;
+    Transform to_world;
+  };
+  std::vector<Node> nodes_;
+  std::shared_ptr<const ImageLibrary> images_;
+};
+
+}  // namespace kaustik

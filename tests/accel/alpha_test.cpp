@@ -1,0 +1,94 @@
+// Surfaces that are there in part: the same answers for single rays, packets and shadow rays.
+
+#include <gtest/gtest.h>
+
+#include "accel/bvh.h"
+#include "core/sampling/sampler.h"
+
+namespace kaustik::accel {
+namespace {
+
+// A triangle, a sphere and a disk behind each other along z, facing rays from below.
+Scene three_layers(float alpha) {
+  Scene scene;
+  scene.materials = {Lambertian{}};
+  Shape triangle, sphere, disk;
+  TriangleMesh mesh;
+  mesh.P = {{-4, -4, 1}, {4, -4, 1}, {0, 8, 1}};
+  mesh.indices = {{0, 1, 2}};
+  triangle.geometry = mesh;
+  glm::dmat4 at(1);
+  at[3] = {0, 0, 3, 1};
+  sphere.geometry = Sphere{Transform::from_matrix(at)};
+  at[3] = {0, 0, 5, 1};
+  disk.geometry = Disk{Transform::from_matrix(at), 0};
+  for (Shape* shape : {&triangle, &sphere, &disk}) {
+    shape->alpha = alpha;
+    scene.shapes.push_back(*shape);
+  }
+  finalize_scene(scene);
+  return scene;
+}
+
+Ray ray_of(uint64_t k) {
+  Sampler sampler(11, k);
+  const Point2 u = sampler.next_2d(), v = sampler.next_2d();
+  return {{0.8f * u.x - 0.4f, 0.8f * u.y - 0.4f, -1}, {0.1f * v.x - 0.05f, 0.1f * v.y - 0.05f, 1}};
+}
+
+// Each of the four surfaces stops a ray with probability 1/4: shares 1/4, 3/16, 9/64 (the sphere's second
+// wall) and so on. 4096 rays: standard deviations are below 28, five of them 140.
+TEST(Alpha, EachLayerStopsItsShare) {
+  const Scene scene = three_layers(0.25f);
+  const Bvh bvh(scene);
+  constexpr int kRays = 4096;
+  int front = 0, far_wall = 0, by[3] = {}, missed = 0;
+  for (uint64_t k = 0; k < kRays; ++k) {
+    const Hit hit = bvh.intersect(ray_of(k));
+    if (!hit.valid()) {
+      ++missed;
+      continue;
+    }
+    ++by[hit.shape];
+    if (hit.shape == 1) ++(hit.t < 4 ? front : far_wall);
+  }
+  EXPECT_NEAR(by[0], kRays * 0.25, 140);
+  EXPECT_NEAR(front, kRays * 0.75 * 0.25, 140);
+  EXPECT_NEAR(far_wall, kRays * 0.75 * 0.75 * 0.25, 140);
+  EXPECT_NEAR(by[2], kRays * 0.421875 * 0.25, 140);
+  EXPECT_NEAR(missed, kRays * 0.31640625, 140);
+}
+
+TEST(Alpha, PacketsAndShadowRaysAgreeWithSingleRays) {
+  const Scene scene = three_layers(0.5f);
+  const Bvh bvh(scene);
+  for (uint64_t group = 0; group < 20; ++group) {
+    RayLanes rays{};
+    HitLanes hits{};
+    for (size_t k = 0; k < kRayLanes; ++k) {
+      const Ray ray = ray_of(group * kRayLanes + k);
+      for (int c = 0; c < 3; ++c) {
+        rays.o[c][k] = ray.o[c];
+        rays.d[c][k] = ray.d[c];
+      }
+    }
+    bvh.intersect(rays, kRayLanes, &hits);
+    for (size_t k = 0; k < kRayLanes; ++k) {
+      const Ray ray = ray_of(group * kRayLanes + k);
+      const Hit one = bvh.intersect(ray), many = hits.get(k);
+      ASSERT_EQ(one.shape, many.shape);
+      ASSERT_EQ(one.valid(), bvh.occluded(ray));
+      if (!one.valid()) continue;
+      ASSERT_EQ(one.t, many.t);
+    }
+  }
+}
+
+TEST(Alpha, ZeroIsNothing) {
+  const Scene scene = three_layers(0);
+  const Bvh bvh(scene);
+  for (uint64_t k = 0; k < 100; ++k) EXPECT_FALSE(bvh.occluded(ray_of(k)));
+}
+
+}  // namespace
+}  // namespace kaustik::accel

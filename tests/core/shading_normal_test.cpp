@@ -1,0 +1,109 @@
+// Bump and normal maps against normals worked out by hand.
+
+#include "core/scene/shading_normal.h"
+
+#include <gtest/gtest.h>
+
+namespace kaustik {
+namespace {
+
+// A plane of 2 x 3 metres, uv from 0 to 1 along x and y.
+SurfaceParameters plane() {
+  SurfaceParameters s;
+  s.uv = {0.25f, 0.5f};
+  s.dpdu = {2, 0, 0};
+  s.dpdv = {0, 3, 0};
+  return s;
+}
+
+struct BumpedPlane {
+  TextureSet textures;
+  TexturedMaterial material;
+
+  // Height 0.5 u + 0.75 v metres.
+  BumpedPlane() {
+    material.displacement =
+        textures.add(BilerpTexture{UvMapping{}, Rgb(0), Rgb(0.75f), Rgb(0.5f), Rgb(1.25f)}, Transform());
+  }
+  Normal3 normal(const SurfaceInteraction& si, const SurfaceParameters& s,
+                 const Vector2& duvdx = Vector2(0)) const {
+    TexturePoint x;
+    x.uv = s.uv;
+    x.duvdx = duvdx;
+    return shading_normal(textures, material, x, s, si);
+  }
+};
+
+// Slopes 0.5 / 2 and 0.75 / 3: the normal is (-1/4, -1/4, 1) normalised, whatever the step, since the height
+// is linear. Differences of heights of order one over a step of 5e-4: rounding of 6e-8 / 5e-4 = 1.2e-4, by
+// three.
+TEST(BumpMap, OfAPlane) {
+  const BumpedPlane bumped;
+  const SurfaceInteraction si;
+  const Normal3 expected = glm::normalize(Vector3(-0.25f, -0.25f, 1));
+  for (const Vector2& step : {Vector2(0), Vector2(0.1f, 0.2f)}) {
+    const Normal3 n = bumped.normal(si, plane(), step);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(n[c], expected[c], 4e-4f);
+  }
+}
+
+// Seen from below, heights rise to the other side: (-1/4, -1/4, -1) normalised, about n = -z.
+TEST(BumpMap, RisesAlongTheNormal) {
+  const BumpedPlane bumped;
+  SurfaceInteraction si;
+  si.n = si.ns = {0, 0, -1};
+  const Normal3 n = bumped.normal(si, plane());
+  const Normal3 expected = glm::normalize(Vector3(-0.25f, -0.25f, -1));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(n[c], expected[c], 4e-4f);
+}
+
+// However steep, the normal stays on n's side.
+TEST(BumpMap, StaysInTheHemisphere) {
+  BumpedPlane bumped;
+  SurfaceInteraction si;
+  si.ns = glm::normalize(Vector3(1, 0, 0.05f));
+  for (float u = 0; u < 1; u += 0.1f) {
+    SurfaceParameters s = plane();
+    s.uv.x = u;
+    const Normal3 n = bumped.normal(si, s);
+    EXPECT_GE(glm::dot(n, si.n), 0);
+    EXPECT_NEAR(glm::length(n), 1, 1e-6f);
+  }
+}
+
+class OneColour final : public ImageLibrary {
+ public:
+  explicit OneColour(const Rgb& colour) : colour_(colour) {}
+  Rgb lookup(uint32_t, const ImageSampling&, const Point2&, const Vector2&, const Vector2&) const override {
+    return colour_;
+  }
+
+ private:
+  Rgb colour_;
+};
+
+Normal3 mapped(const Rgb& colour, const SurfaceInteraction& si) {
+  TextureSet textures;
+  textures.set_images(std::make_shared<OneColour>(colour));
+  TexturedMaterial material;
+  material.normal_map = 0;
+  return shading_normal(textures, material, {}, plane(), si);
+}
+
+// 2 c - 1 in the frame of u, ns x u, ns: (0.6, 0, 0.8) from (0.8, 0.5, 0.9).
+TEST(NormalMap, OfAPlane) {
+  const Normal3 n = mapped({0.8f, 0.5f, 0.9f}, {});
+  EXPECT_NEAR(n.x, 0.6f, 1e-6f);
+  EXPECT_NEAR(n.y, 0, 1e-6f);
+  EXPECT_NEAR(n.z, 0.8f, 1e-6f);
+  EXPECT_NEAR(mapped({0.5f, 0.8f, 0.9f}, {}).y, 0.6f, 1e-6f);
+}
+
+TEST(NormalMap, WithoutANormalChangesNothing) {
+  SurfaceInteraction si;
+  si.ns = glm::normalize(Vector3(0.1f, 0.2f, 1));
+  EXPECT_EQ(mapped(Rgb(0.5f), si), si.ns);
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,206 @@
+// Textures against values worked out by hand.
+
+#include "core/texture/texture.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/texture/noise.h"
+
+namespace kaustik {
+namespace {
+
+TexturePoint at_uv(float u, float v) {
+  TexturePoint x;
+  x.uv = {u, v};
+  return x;
+}
+TexturePoint at(const Point3& p) {
+  TexturePoint x;
+  x.p = p;
+  return x;
+}
+
+Point2 mapped(const TextureMapping& mapping, const Point3& p, const glm::dmat4& to_world = glm::dmat4(1)) {
+  return map_to_texture(mapping, Transform::from_matrix(to_world), at(p)).st;
+}
+
+void expect_near(const Point2& a, const Point2& b) {
+  EXPECT_NEAR(a.x, b.x, 1e-6f);
+  EXPECT_NEAR(a.y, b.y, 1e-6f);
+}
+
+TEST(TextureMapping, Uv) {
+  const UvMapping mapping{{2, 3}, {0.5f, -1}};
+  TexturePoint x = at_uv(0.25f, 0.5f);
+  x.duvdx = {1, 0};
+  x.duvdy = {0.5f, 0.25f};
+  const TextureCoordinates c = map_to_texture(mapping, Transform(), x);
+  EXPECT_EQ(c.st, Point2(1, 0.5f));
+  EXPECT_EQ(c.dstdx, Vector2(2, 0));
+  EXPECT_EQ(c.dstdy, Vector2(1, 0.75f));
+}
+
+// s = theta / pi, t = phi / (2 pi) of pbrt-v4.
+TEST(TextureMapping, Spherical) {
+  expect_near(mapped(SphereMapping{}, {0, 0, 5}), {0, 0});
+  expect_near(mapped(SphereMapping{}, {2, 0, 0}), {0.5f, 0});
+  expect_near(mapped(SphereMapping{}, {0, 3, 0}), {0.5f, 0.25f});
+  expect_near(mapped(SphereMapping{}, {0, -1, 1}), {0.25f, 0.75f});
+}
+
+// s = (pi + phi) / (2 pi) with phi in (-pi, pi], t = z.
+TEST(TextureMapping, Cylindrical) {
+  expect_near(mapped(CylinderMapping{}, {1, 0, 7}), {0.5f, 7});
+  expect_near(mapped(CylinderMapping{}, {0, 2, -1}), {0.75f, -1});
+  expect_near(mapped(CylinderMapping{}, {0, -2, 0}), {0.25f, 0});
+}
+
+// In texture space: what the transform leads from.
+TEST(TextureMapping, PlanarInTextureSpace) {
+  const PlanarMapping mapping{{2, 0, 0}, {0, 0, 1}, {0.5f, 0.25f}};
+  expect_near(mapped(mapping, {1, 9, 3}), {2.5f, 3.25f});
+  const glm::dmat4 to_world = glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(1, 0, 0)), glm::dvec3(2));
+  expect_near(mapped(mapping, {3, 0, 4}, to_world), {2.5f, 2.25f});  // texture space (1, 0, 2)
+}
+
+// Derivatives against differences over a step of 1e-3: second derivatives are of order one here.
+TEST(TextureMapping, DerivativesAreDifferences) {
+  const glm::dmat4 m = glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(1, 1, 0));
+  const TextureMapping mappings[] = {SphereMapping{}, CylinderMapping{}, PlanarMapping{{1, 2, 0}, {0, 1, 3}}};
+  for (const TextureMapping& mapping : mappings) {
+    constexpr float kStep = 1e-3f;
+    TexturePoint x = at({0.3f, 0.5f, 0.6f});
+    x.dpdx = {1, 0.5f, 0};
+    x.dpdy = {0, -0.5f, 1};
+    const TextureCoordinates c = map_to_texture(mapping, Transform::from_matrix(m), x);
+    const Vector2 dx = (mapped(mapping, x.p + kStep * x.dpdx, m) - c.st) / kStep;
+    const Vector2 dy = (mapped(mapping, x.p + kStep * x.dpdy, m) - c.st) / kStep;
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_NEAR(c.dstdx[k], dx[k], 5e-3f);
+      EXPECT_NEAR(c.dstdy[k], dy[k], 5e-3f);
+    }
+  }
+}
+
+Rgb value(Texture texture, const TexturePoint& x) {
+  TextureSet set;
+  return set.evaluate(set.add(std::move(texture), Transform()), x);
+}
+
+TEST(Texture, MixScaleAndBilerp) {
+  TextureSet set;
+  const uint32_t half = set.add(ConstantTexture{{Rgb(0.5f)}}, Transform());
+  const uint32_t mix = set.add(MixTexture{{Rgb(1, 2, 3)}, {Rgb(5)}, {Rgb(0), half}}, Transform());
+  EXPECT_EQ(set.evaluate(mix, {}), Rgb(3, 3.5f, 4));
+  const uint32_t scale = set.add(ScaleTexture{{Rgb(0), mix}, {Rgb(0), half}}, Transform());
+  EXPECT_EQ(set.evaluate(scale, {}), Rgb(1.5f, 1.75f, 2));
+  const BilerpTexture corners{UvMapping{}, Rgb(0), Rgb(1), Rgb(2), Rgb(3)};
+  EXPECT_EQ(value(corners, at_uv(1, 0)), Rgb(2));
+  EXPECT_EQ(value(corners, at_uv(0, 1)), Rgb(1));
+  EXPECT_EQ(value(corners, at_uv(0.5f, 0.25f)), Rgb(1.25f));
+}
+
+TEST(Texture, DirectionMixFollowsTheNormal) {
+  const DirectionMixTexture mix{{Rgb(1)}, {Rgb(3)}, {0, 1, 0}};
+  TexturePoint x;
+  x.n = {0, -1, 0};
+  EXPECT_EQ(value(mix, x), Rgb(1));
+  x.n = {1, 0, 0};
+  EXPECT_EQ(value(mix, x), Rgb(3));
+  x.n = {0.6f, 0.8f, 0};
+  EXPECT_NEAR(value(mix, x).x, 0.8f + 3 * 0.2f, 1e-6f);
+}
+
+CheckerboardTexture board() {
+  return {UvMapping{{1, 1}}, false, {Rgb(1)}, {Rgb(0)}};
+}
+
+TEST(Texture, CheckerboardFields) {
+  for (int i = -3; i < 4; ++i)
+    for (int j = -3; j < 4; ++j)
+      EXPECT_EQ(value(board(), at_uv(float(i) + 0.3f, float(j) + 0.6f)), Rgb((i + j) % 2 == 0 ? 1 : 0));
+  CheckerboardTexture cubes = board();
+  cubes.solid = true;
+  EXPECT_EQ(value(cubes, at({0.5f, 0.5f, 0.5f})), Rgb(1));
+  EXPECT_EQ(value(cubes, at({0.5f, 0.5f, -0.5f})), Rgb(0));
+}
+
+// A triangle filter of half width r = 1.5 w about the border of two fields: by symmetry 1/2. At distance d <
+// r inside: 1 - (1 - d / r)^2 / 2, the triangle's part beyond.
+TEST(Texture, CheckerboardIsFilteredByATriangle) {
+  constexpr float kWidth = 0.2f, kRadius = 1.5f * kWidth;
+  TexturePoint x = at_uv(1, 0.5f);
+  x.duvdx = {kWidth, 0};
+  EXPECT_NEAR(value(board(), x).x, 0.5f, 1e-5f);
+  x.uv.x = 0.9f;
+  const float beyond = 0.5f * (1 - 0.1f / kRadius) * (1 - 0.1f / kRadius);
+  EXPECT_NEAR(value(board(), x).x, 1 - beyond, 1e-5f);
+}
+
+// Filtering moves values, it adds none: the mean over a period is that of the two textures, for any width.
+// Midpoints of 64 columns: exact up to rounding for a function that is symmetric about both borders.
+TEST(Texture, CheckerboardKeepsItsMean) {
+  for (const float width : {0.0f, 0.1f, 0.4f, 3.0f}) {
+    double sum = 0;
+    for (int i = 0; i < 128; ++i) {
+      TexturePoint x = at_uv((float(i) + 0.5f) / 64, 0.5f);
+      x.duvdx = {width, 0};
+      sum += double(value(board(), x).x);
+    }
+    EXPECT_NEAR(sum / 128, 0.5, 1e-4) << width;
+  }
+}
+
+// Perlin's noise is zero on the lattice in all three dimensions; with z fixed at 1/2 it is not, but it keeps
+// its period and its bounds.
+TEST(Texture, NoiseRepeatsAndIsBounded) {
+  for (int i = 0; i < 1000; ++i) {
+    const float x = 0.37f * float(i) - 100, y = 0.73f * float(i) - 200;
+    EXPECT_LE(std::abs(noise(x, y)), 1.0f);
+    EXPECT_NEAR(noise(x, y), noise(x + 256, y - 256), 1e-3f);  // rounding of x + 256 to 2^-15
+  }
+  EXPECT_EQ(noise(kInfinity, 0), 0);
+}
+
+// At most one disc of radius 0.35 in each field: so much of the plane at most; some fields have none.
+TEST(Texture, DotsCoverAPart) {
+  const DotsTexture dots{UvMapping{}, {Rgb(1)}, {Rgb(0)}};
+  double covered = 0;
+  constexpr int kSide = 400;
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) covered += double(value(dots, at_uv(float(i) * 0.1f, float(j) * 0.1f)).x);
+  covered /= kSide * kSide;
+  EXPECT_GT(covered, 0.05);
+  EXPECT_LT(covered, std::numbers::pi * 0.35 * 0.35);
+}
+
+// An image that says where it was asked.
+class Probe final : public ImageLibrary {
+ public:
+  Rgb lookup(uint32_t image, const ImageSampling&, const Point2& st, const Vector2& dstdx,
+             const Vector2& dstdy) const override {
+    return {st.x, st.y + float(image), dstdx.x + 10 * dstdy.y};
+  }
+};
+
+// t points up in the image, rows go down; scale comes before invert; nothing is negative; float textures take
+// the first channel.
+TEST(Texture, ImagesAreTurnedScaledAndInverted) {
+  TextureSet set;
+  set.set_images(std::make_shared<Probe>());
+  TexturePoint x = at_uv(0.25f, 0.125f);
+  x.duvdx = {0.5f, 0};
+  x.duvdy = {0, 0.125f};
+  ImageTexture image;
+  EXPECT_EQ(set.evaluate(set.add(image, Transform()), x), Rgb(0.25f, 0.875f, 0));
+  image.scale = 2;
+  image.invert = true;
+  EXPECT_EQ(set.evaluate(set.add(image, Transform()), x), Rgb(0.5f, 0, 2.5f));
+  image.grey = true;
+  EXPECT_EQ(set.evaluate(set.add(image, Transform()), x), Rgb(0.5f));
+}
+
+}  // namespace
+}  // namespace kaustik
