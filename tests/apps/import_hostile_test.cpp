@@ -72,7 +72,8 @@ TEST_F(ImportHostile, ManyParametersEndWithOneError) {
   for (int i = 0; i < 200'000; ++i) text += "\"float a" + std::to_string(i) + "\" 1\n";
   messages("WorldBegin\n" + text);
   EXPECT_LE(diagnostics_.error_count(), 1002u);
-  EXPECT_EQ(diagnostics_.entries()[0].message, "more than 1000 parameters");
+  EXPECT_TRUE(std::ranges::any_of(diagnostics_.entries(),
+                                  [](const auto& e) { return e.message == "more than 1000 parameters"; }));
 }
 
 // An object that is instanced many times is small in the file and large in memory.
