@@ -96,10 +96,11 @@ TEST_F(GltfTextures, Channels) {
     ASSERT_EQ(images.back().size(), 2u);
   }
   ASSERT_FALSE(images.empty());
-  EXPECT_NEAR(images.at(0)[0], 0, 1e-5);  // metallic
-  EXPECT_NEAR(images.at(0)[1], 0.5, 1e-5);
-  EXPECT_NEAR(images.at(1)[0], 1, 1e-5);  // roughness of the dielectric
-  EXPECT_NEAR(images.at(1)[1], 0.04, 1e-5);
+  EXPECT_NEAR(images.at(0)[0], 1, 1e-5);  // roughness of the dielectric
+  EXPECT_NEAR(images.at(0)[1], 0.04, 1e-5);
+  const auto mix = std::ranges::find_if(s.materials, [](const auto& m) { return m.type == "mix"; });
+  ASSERT_NE(mix, s.materials.end());
+  EXPECT_NEAR(mix->find("amount")->numbers.at(0), 0.25, 1e-6);  // half of the mean of 0 and 1
 }
 
 TEST_F(GltfTextures, Alpha) {

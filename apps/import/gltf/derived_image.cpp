@@ -90,12 +90,12 @@ std::optional<std::string> write_channel(const std::filesystem::path& from, cons
   return write(to, out, OIIO::TypeDesc::UINT16);
 }
 
-std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, std::string& error) {
+std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error) {
   const auto image = read(from, error);
   if (!image) return std::nullopt;
   glm::dvec3 sum(0);
   for (size_t i = 0; i < image->count(); ++i) {
-    for (int c = 0; c < 3; ++c) sum[c] += linear(image->at(i, c));
+    for (int c = 0; c < 3; ++c) sum[c] += srgb ? linear(image->at(i, c)) : image->at(i, c);
   }
   return sum / double(image->count());
 }

@@ -16,7 +16,7 @@ std::optional<std::string> write_tinted(const std::filesystem::path& from, const
 // differs from another the image is still written.
 std::optional<std::string> write_channel(const std::filesystem::path& from, const std::filesystem::path& to,
                                          int channel, const std::function<double(double)>& map);
-// Of the linear colours of an sRGB image.
-std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, std::string& error);
+// Of the numbers, decoded first where they are sRGB.
+std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error);
 
 }  // namespace kaustik::gltf

@@ -57,46 +57,41 @@ Look Materials::make(const View& material, const std::string& name) {
 std::string Materials::surface(const View& material, const std::string& name) {
   const View transmission = extension(material, "KHR_materials_transmission");
   const double share = std::clamp(transmission["transmissionFactor"].number(0), 0.0, 1.0);
-  const auto texture = share > 0 ? textures_.channel(transmission["transmissionTexture"], 0,
-                                                     [share](double v) { return share * v; })
-                                 : std::nullopt;
   if (!(share > 0)) return opaque(material, name);
-  if (share == 1 && !texture) return clear_part(material, name);
+  const double amount = share * mean_of(transmission["transmissionTexture"], 0);
+  if (amount == 1) return clear_part(material, name);
   const std::string solid = opaque(material, name + " opaque");
   const std::string clear = clear_part(material, name + " clear");
-  return mixed(name, solid, clear,
-               texture ? textures_.parameter("amount", *texture)
-                       : make_parameter(ParameterType::kFloat, "amount", std::vector<double>{share},
-                                        warnings_.where()));
+  return mixed(name, solid, clear, amount);
 }
 
 std::string Materials::opaque(const View& material, const std::string& name) {
   const View pbr = metallic_roughness(material);
   const double metallic = std::clamp(pbr["metallicFactor"].number(1), 0.0, 1.0);
-  const auto texture = metallic > 0 ? textures_.channel(pbr["metallicRoughnessTexture"], 2,
-                                                        [metallic](double v) { return metallic * v; })
-                                    : std::nullopt;
   if (metallic == 0) return dielectric_part(material, name);
-  if (metallic == 1 && !texture) return metal_part(material, name);
+  const double amount = metallic * mean_of(pbr["metallicRoughnessTexture"], 2);
+  if (amount == 0) return dielectric_part(material, name);
+  if (amount == 1) return metal_part(material, name);
   const std::string dielectric = dielectric_part(material, name + " dielectric");
   const std::string metal = metal_part(material, name + " metal");
-  return mixed(name, dielectric, metal,
-               texture ? textures_.parameter("amount", *texture)
-                       : make_parameter(ParameterType::kFloat, "amount", std::vector<double>{metallic},
-                                        warnings_.where()));
+  return mixed(name, dielectric, metal, amount);
+}
+
+// A mixture has one share everywhere. 1 without a texture.
+double Materials::mean_of(const View& texture, int channel) {
+  const auto mean = textures_.mean(texture, false);
+  if (!mean) return 1;
+  warnings_.say("textures that mix materials are rendered as their mean");
+  return std::clamp((*mean)[channel], 0.0, 1.0);
 }
 
 // pbrt's mix: `amount` is the share of the second one.
 std::string Materials::mixed(const std::string& name, const std::string& first, const std::string& second,
-                             Parameter amount) {
-  if (!renders("mix")) {
-    warnings_.say("mixtures of materials become their larger part");
-    return amount.numbers.empty() || amount.numbers[0] < 0.5 ? first : second;
-  }
+                             double amount) {
   Maker m("mix", warnings_.where());
   Parameter parts = make_parameter(ParameterType::kString, "materials", first, warnings_.where());
   parts.strings.push_back(second);
-  m.add(std::move(parts)).add(std::move(amount));
+  m.add(std::move(parts)).number("amount", amount);
   return add(std::move(*m), name, View());
 }
 

@@ -35,7 +35,8 @@ class Materials {
   std::string metal_part(const View& material, const std::string& name);
   std::string clear_part(const View& material, const std::string& name);
   std::string mixed(const std::string& name, const std::string& first, const std::string& second,
-                    Parameter amount);
+                    double amount);
+  double mean_of(const View& texture, int channel);
   std::string add(MaterialDescription m, const std::string& name, const View& material);
   void add_colour(const View& material, MaterialDescription& m);
   void add_roughness(const View& material, MaterialDescription& m);

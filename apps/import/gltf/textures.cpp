@@ -132,11 +132,11 @@ std::optional<std::string> Textures::channel(const View& info, int channel,
   return add("float", grey, "linear", info);
 }
 
-std::optional<glm::dvec3> Textures::mean(const View& info) {
+std::optional<glm::dvec3> Textures::mean(const View& info, bool srgb) {
   const auto image = file(info);
   if (!image) return std::nullopt;
   std::string error;
-  const auto mean = mean_colour(path_of(*image), error);
+  const auto mean = mean_colour(path_of(*image), srgb, error);
   if (!mean) warnings_.say(error);
   return mean;
 }

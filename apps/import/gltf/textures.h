@@ -31,8 +31,8 @@ class Textures {
   std::optional<std::string> channel(const View& info, int channel, const std::function<double(double)>& map);
   // The image itself.
   std::optional<ImageFile> file(const View& info);
-  // Its mean colour, linear.
-  std::optional<glm::dvec3> mean(const View& info);
+  // Its mean colour: linear, or the mean of the numbers where they are not sRGB.
+  std::optional<glm::dvec3> mean(const View& info, bool srgb = true);
 
   // "texture name" [ texture ]
   Parameter parameter(const std::string& name, const std::string& texture) const;
