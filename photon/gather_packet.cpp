@@ -213,8 +213,8 @@ HWY_EXPORT(GatherPacket);
 
 namespace {
 
-// Fewer are answered one by one.
-constexpr size_t kFewest = 3;
+// Fewer are answered one by one: the work they would share is less than what they would read in vain.
+constexpr size_t kFewest = 6;
 
 // The lanes of queries that share a surface and read the whole map.
 QueryPacket make_packet(std::span<const GatherQuery> queries, const float* slopes, uint32_t surface) {
