@@ -236,8 +236,11 @@ QueryPacket make_packet(std::span<const GatherQuery> queries, const float* slope
   return packet;
 }
 
-// How many of the queries from the first on go together: on one surface, reading the whole map, no farther
-// apart than their radius. Wider packets read too much that few of them reach.
+// How far apart queries of a packet are at most, in radii: wider ones read too much that few of them reach.
+constexpr float kWidest = 2.5f;
+
+// How many of the queries from the first on go together: on one surface, reading the whole map, near each
+// other.
 size_t packet_size(std::span<const GatherQuery> queries, uint64_t size, uint32_t surface) {
   const auto joins = [&](const GatherQuery& q) {
     return q.within.begin == 0 && q.within.end >= size && pack_surface(q.n, q.surface_group) == surface;
@@ -246,7 +249,7 @@ size_t packet_size(std::span<const GatherQuery> queries, uint64_t size, uint32_t
   size_t count = 0;
   while (count < std::min(queries.size(), QueryPacket::kMost) && joins(queries[count])) {
     bounds.add(queries[count].p);
-    if (!(max_component(bounds.diagonal()) <= 2.5f * queries[0].radius)) break;
+    if (!(max_component(bounds.diagonal()) <= kWidest * queries[0].radius)) break;
     ++count;
   }
   return count;

@@ -73,23 +73,15 @@ TEST(OneOwner, TheSumDoesNotDependOnTheEstimators) {
   double bias = kPackedFlux * reference.mean;
   for (const Layer layer : kClasses)
     bias += 2 * std::abs(block_estimate(wide, layer, -1).mean - block_estimate(narrow, layer, -1).mean);
-  for (const auto direct : {DirectEstimator::kShadowRays, DirectEstimator::kPhotons,
-                            DirectEstimator::kLecture, DirectEstimator::kPredicted, DirectEstimator::kSigned})
-    for (const auto caustics : {CausticEstimator::kPhotons, CausticEstimator::kPaths})
-      for (const auto indirect : {IndirectEstimator::kPaths, IndirectEstimator::kPhotons}) {
-        RenderSettings settings = settings_of(Method::kAuto, 32, 0.1f, 10);
-        settings.photons = 100'000;
-        settings.direct = direct;
-        settings.caustics = caustics;
-        settings.indirect = indirect;
-        const Estimate found = total(films(scene, settings, 4));
-        // Four and six seeds, 8 degrees of freedom: 6 standard errors are 1 in 3000.
-        const double noise = std::hypot(reference.standard_error, found.standard_error);
-        EXPECT_NEAR(found.mean, reference.mean, 6 * noise + bias)
-            << int(direct) << int(caustics) << int(indirect) << " noise " << noise << " bias " << bias;
-        // The smallest class is a tenth of the sum: counting it twice, or not at all, shows.
-        EXPECT_LT(6 * noise + bias, 0.1 * reference.mean);
-      }
+  for (const RenderSettings& settings : with_all_estimators(settings_of(Method::kAuto, 32, 0.1f, 10))) {
+    const Estimate found = total(films(scene, settings, 4));
+    // Four and six seeds, 8 degrees of freedom: 6 standard errors are 1 in 3000.
+    const double noise = std::hypot(reference.standard_error, found.standard_error);
+    EXPECT_NEAR(found.mean, reference.mean, 6 * noise + bias)
+        << names_of_estimators(settings) << " noise " << noise << " bias " << bias;
+    // The smallest class is a tenth of the sum: counting it twice, or not at all, shows.
+    EXPECT_LT(6 * noise + bias, 0.1 * reference.mean);
+  }
 }
 
 // Switching a class off removes that class and nothing else.

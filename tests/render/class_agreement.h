@@ -95,4 +95,23 @@ struct Comparison {
   }
 };
 
+// The settings with every way to estimate direct, caustic and indirect light.
+inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) {
+  settings.photons = 100'000;
+  std::vector<RenderSettings> all;
+  for (const auto direct : {DirectEstimator::kShadowRays, DirectEstimator::kPhotons,
+                            DirectEstimator::kLecture, DirectEstimator::kPredicted, DirectEstimator::kSigned})
+    for (const auto caustics : {CausticEstimator::kPhotons, CausticEstimator::kPaths})
+      for (const auto indirect : {IndirectEstimator::kPaths, IndirectEstimator::kPhotons}) {
+        settings.direct = direct;
+        settings.caustics = caustics;
+        settings.indirect = indirect;
+        all.push_back(settings);
+      }
+  return all;
+}
+inline std::string names_of_estimators(const RenderSettings& s) {
+  return std::to_string(int(*s.direct)) + std::to_string(int(*s.caustics)) + std::to_string(int(*s.indirect));
+}
+
 }  // namespace kaustik::render::test

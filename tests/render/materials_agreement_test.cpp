@@ -94,20 +94,12 @@ TEST_P(Materials, TheSumDoesNotDependOnTheEstimators) {
   const auto narrow = total(films(scene, settings_of(Method::kPhoton, 16, 0.04f, 30)));
   const double bias = kPackedFlux * reference.mean + 2 * std::abs(wide.mean - narrow.mean) +
                       kErrors * std::hypot(wide.standard_error, narrow.standard_error);
-  for (const auto direct : {DirectEstimator::kShadowRays, DirectEstimator::kPhotons,
-                            DirectEstimator::kLecture, DirectEstimator::kPredicted, DirectEstimator::kSigned})
-    for (const auto caustics : {CausticEstimator::kPhotons, CausticEstimator::kPaths})
-      for (const auto indirect : {IndirectEstimator::kPaths, IndirectEstimator::kPhotons}) {
-        RenderSettings settings = settings_of(Method::kAuto, 16, 0.08f, 10);
-        settings.photons = 100'000;
-        settings.direct = direct;
-        settings.caustics = caustics;
-        settings.indirect = indirect;
-        const Estimate found = total(films(scene, settings, 4));
-        const double noise = std::hypot(reference.standard_error, found.standard_error);
-        EXPECT_NEAR(found.mean, reference.mean, 6 * noise + bias)
-            << int(direct) << int(caustics) << int(indirect) << " noise " << noise << " bias " << bias;
-      }
+  for (const RenderSettings& settings : with_all_estimators(settings_of(Method::kAuto, 16, 0.08f, 10))) {
+    const Estimate found = total(films(scene, settings, 4));
+    const double noise = std::hypot(reference.standard_error, found.standard_error);
+    EXPECT_NEAR(found.mean, reference.mean, 6 * noise + bias)
+        << names_of_estimators(settings) << " noise " << noise << " bias " << bias;
+  }
 }
 INSTANTIATE_TEST_SUITE_P(All, Materials, ::testing::ValuesIn(kCases),
                          [](const auto& tested) { return tested.param.name; });

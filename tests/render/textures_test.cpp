@@ -65,23 +65,22 @@ constexpr const char* kPlain = "Material \"diffuse\" \"rgb reflectance\" [0.6 0.
 constexpr const char* kBumped =
     "Material \"diffuse\" \"rgb reflectance\" [0.6 0.6 0.6] \"texture displacement\" \"hills\"\n";
 
-TEST(TextureAgreement, PhotonsCarryTheColourOfImages) {
+void expect_photons_agree_with_paths(const char* first, const char* second, const char* pictures) {
   write_images();
-  const Scene scene = scene_of(tiled_box(1, kTiled, kPlain));
+  const Scene scene = scene_of(tiled_box(1, first, second));
   const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
   const Comparison c(scene, by_paths, Method::kPhoton, 0.1f);
   for (const Layer layer : kClasses) c.expect_agreement(layer, -1, 0.5);
-  c.write_pictures("tiled_box");
+  c.write_pictures(pictures);
+}
+
+TEST(TextureAgreement, PhotonsCarryTheColourOfImages) {
+  expect_photons_agree_with_paths(kTiled, kPlain, "tiled_box");
 }
 
 // The bumps turn normals by up to 30 degrees: photons are weighted for them, as for interpolated normals.
 TEST(TextureAgreement, PhotonsSeeBumps) {
-  write_images();
-  const Scene scene = scene_of(tiled_box(1, kBumped, kTiled));
-  const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
-  const Comparison c(scene, by_paths, Method::kPhoton, 0.1f);
-  for (const Layer layer : kClasses) c.expect_agreement(layer, -1, 0.5);
-  c.write_pictures("bumped_box");
+  expect_photons_agree_with_paths(kBumped, kTiled, "bumped_box");
 }
 
 bool same_pixels(const Film& a, const Film& b) {

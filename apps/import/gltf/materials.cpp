@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "apps/import/make_parameter.h"
-#include "core/scene/schema.h"
 
 namespace kaustik::gltf {
 namespace {
@@ -21,11 +20,6 @@ View metallic_roughness(const View& material) {
 }
 View extension(const View& material, const char* name) {
   return material["extensions"][name];
-}
-
-bool renders(std::string_view type) {
-  const auto& types = category("Material").types;
-  return std::any_of(types.begin(), types.end(), [&](const TypeSpec* t) { return t->name == type; });
 }
 
 double index_of(const View& material) {
@@ -120,7 +114,7 @@ std::string Materials::clear_part(const View& material, const std::string& name)
       colour(pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})) != glm::dvec3(1) || pbr.has("baseColorTexture");
   if (tinted) warnings_.say("transmission is not coloured by the base colour");
   const View volume = extension(material, "KHR_materials_volume");
-  const bool pane = !(volume["thicknessFactor"].number(0) > 0) && renders("thindielectric");
+  const bool pane = !(volume["thicknessFactor"].number(0) > 0);
   if (volume.has("attenuationDistance"))
     warnings_.say("volumes do not absorb: KHR_materials_volume's attenuation is left out");
   Maker m(pane ? "thindielectric" : "dielectric", warnings_.where());
