@@ -103,20 +103,49 @@ bool is_finite(const Point2& p) {
 
 }  // namespace
 
+// One cache for the process, never destroyed: the library keeps a record for each thread and cache, which
+// outlives the cache and is taken for that of a later one at the same address.
 struct ImageTextures::System {
   using Cache = decltype(owned(OIIO::ImageCache::create(false)));
   using Textures = decltype(owned(OIIO::TextureSystem::create(false)));
 
   Cache cache = owned(OIIO::ImageCache::create(false));
   Textures textures = owned(OIIO::TextureSystem::create(false, lent(cache)));
+  std::mutex mutex;  // of what follows
+  uint64_t bytes = 0;
+  uint64_t files = 0;  // ever added: names are not used again
+
+  static System& get() {
+    static System* const system = new System;
+    return *system;
+  }
+
+  System() {
+    cache->attribute("autotile", kTile);
+    cache->attribute("automip", 1);
+    cache->attribute("deduplicate", 0);
+  }
+
+  OIIO::ustring add(uint64_t image_bytes) {
+    const std::lock_guard lock(mutex);
+    bytes += image_bytes;
+    // MIP levels are a third of an image; tiles at the edges are whole.
+    constexpr float kMegabyte = 1 << 20, kSpare = 256;
+    cache->attribute("max_memory_MB", 2 * static_cast<float>(bytes) / kMegabyte + kSpare);
+    return OIIO::ustring(fmt::format("image {}", files++));
+  }
+
+  void remove(const std::vector<OIIO::ustring>& names, uint64_t image_bytes) {
+    for (const OIIO::ustring& name : names) cache->invalidate(name);
+    const std::lock_guard lock(mutex);
+    bytes -= image_bytes;
+  }
 };
 
-ImageTextures::ImageTextures() : system_(std::make_unique<System>()) {
-  system_->cache->attribute("autotile", kTile);
-  system_->cache->attribute("automip", 1);
-  system_->cache->attribute("deduplicate", 0);
+ImageTextures::ImageTextures() : system_(System::get()) {}
+ImageTextures::~ImageTextures() {
+  system_.remove(names_, bytes_);
 }
-ImageTextures::~ImageTextures() = default;
 
 ImageResult ImageTextures::load(const std::string& path, const ImageEncoding& encoding,
                                 std::string* content) {
@@ -148,25 +177,22 @@ void ImageTextures::add(const DecodedImage& image, const std::string& path, Imag
     return;
   }
   bytes_ += image.pixels.size();
-  // MIP levels are a third of an image; tiles at the edges are whole.
-  constexpr float kMegabyte = 1 << 20, kSpare = 256;
-  system_->cache->attribute("max_memory_MB", 2 * static_cast<float>(bytes_) / kMegabyte + kSpare);
-  const OIIO::ustring name(fmt::format("image {}", entries_.size()));
+  const OIIO::ustring name = names_.emplace_back(system_.add(image.pixels.size()));
   const DecodedImage* pointer = &image;
   OIIO::ImageSpec config;
   config.attribute(kPixels, OIIO::TypeDesc::PTR, &pointer);
-  bool ok = system_->cache->add_file(name, DecodedInput::create, &config);
+  bool ok = system_.cache->add_file(name, DecodedInput::create, &config);
   // All tiles, now: the pixels are not kept. A row of them at a time.
   std::vector<unsigned char> strip(image.row_bytes() * kTile);
   for (int y = 0; ok && y < image.spec.height; y += kTile) {
     const int end = std::min(y + kTile, image.spec.height);
-    ok = system_->cache->get_pixels(name, 0, 0, 0, image.spec.width, y, end, 0, 1, image.spec.format,
-                                    strip.data());
+    ok = system_.cache->get_pixels(name, 0, 0, 0, image.spec.width, y, end, 0, 1, image.spec.format,
+                                   strip.data());
   }
-  system_->cache->close(name);
-  auto* handle = system_->textures->get_texture_handle(name);
-  if (!ok || !system_->textures->good(handle)) {
-    result->error = fmt::format("cannot read the image \"{}\": {}", path, system_->cache->geterror());
+  system_.cache->close(name);
+  auto* handle = system_.textures->get_texture_handle(name);
+  if (!ok || !system_.textures->good(handle)) {
+    result->error = fmt::format("cannot read the image \"{}\": {}", path, system_.cache->geterror());
     return;
   }
   result->image = static_cast<uint32_t>(entries_.size());
@@ -183,8 +209,8 @@ Rgb ImageTextures::lookup(uint32_t image, const ImageSampling& sampling, const P
   Options options = options_of(sampling, point);
   const Entry& entry = entries_[image];
   float value[3] = {};
-  system_->textures->texture(entry.handle, nullptr, options, reduced(st.x, sampling.wrap),
-                             reduced(st.y, sampling.wrap), dx.x, dx.y, dy.x, dy.y, entry.channels, value);
+  system_.textures->texture(entry.handle, nullptr, options, reduced(st.x, sampling.wrap),
+                            reduced(st.y, sampling.wrap), dx.x, dx.y, dy.x, dy.y, entry.channels, value);
   return entry.channels == 1 ? Rgb(value[0]) : Rgb(value[0], value[1], value[2]);
 }
 

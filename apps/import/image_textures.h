@@ -1,5 +1,5 @@
 #pragma once
-// The images of a scene in a cache of OpenImageIO that belongs to it.
+// The images of a scene in a cache of OpenImageIO.
 
 #include <OpenImageIO/texture.h>
 
@@ -45,10 +45,11 @@ class ImageTextures final : public ImageLibrary {
 
   void add(const DecodedImage& image, const std::string& path, ImageResult* result);
 
-  std::unique_ptr<System> system_;
+  System& system_;
   std::mutex mutex_;  // of what follows
   std::map<Key, ImageResult> loaded_;
   std::vector<Entry> entries_;
+  std::vector<OIIO::ustring> names_;  // in the cache
   uint64_t bytes_ = 0;
 };
 

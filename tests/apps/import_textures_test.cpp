@@ -1,6 +1,9 @@
 // Texture directives and image files: what they mean, and what is said about bad ones.
 
 #include <OpenImageIO/imageio.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
 
 #include "core/scene/bsdf_at.h"
 #include "tests/apps/import_support.h"
@@ -201,6 +204,26 @@ TEST_F(ImportTextures, ImagesAreAPartOfTheContent) {
   EXPECT_EQ(load(text).content_hash, first);
   write_image<uint8_t>("a.png", 1, 1, {11});
   EXPECT_NE(load(text).content_hash, first);
+}
+
+// Threads outlive scenes: what one looked up of a scene's images says nothing of the next scene's.
+TEST_F(ImportTextures, ScenesComeAndGo) {
+  for (int scene = 0; scene < 40; ++scene) {
+    const int value = 6 * scene;
+    std::string more;
+    for (int i = 0; i < 8; ++i) {
+      const std::string name = std::to_string(i) + ".png";
+      write_image<uint8_t>(name, 100, 1, std::vector<uint8_t>(10'000, static_cast<uint8_t>(value)));
+      more += "Texture \"" + name + "\" \"spectrum\" \"imagemap\" \"string filename\" \"" + name + "\"" +
+              kLinear + "\n";
+    }
+    const Scene s = with_texture(std::string("\"string filename\" \"0.png\"") + kLinear + "\n" + more);
+    std::atomic<int> wrong = 0;
+    tbb::parallel_for(0, 256, [&](int /*i*/) {
+      if (std::abs(colour_at(s, 0.5f, 0.25f).x - static_cast<float>(value) / 255) > 5e-4f) ++wrong;
+    });
+    EXPECT_EQ(wrong, 0) << scene;
+  }
 }
 
 TEST_F(ImportTextures, LampsHaveNoHoles) {
