@@ -118,7 +118,7 @@ def markdown(results):
 def make_reference(args, spp):
     """spp: samples per pixel of the reference."""
     options = ["--direct", "shadow-rays", "--caustics", "photons", "--indirect", "photons", "--passes", "64", "--alpha", "0.667",
-               "--seed", REFERENCE_SEED]
+               "--radius", "auto", "--seed", REFERENCE_SEED]
 
     def render(image, more):
         timed([args.kaustik, "render", args.scene, "-o", image, "--quiet", "--threads", args.threads, *more])
@@ -129,7 +129,7 @@ def make_reference(args, spp):
     render(by_photons, [*small, *options, "--spp", str(16 * spp), "--photons", str(125000 * spp)])
     render(other, [*small, "--method", "mc", "--spp", str(16 * spp)])
     against = {"mc": compare(args, by_photons, other)}
-    timed([args.sppm_rival, args.scene, "-o", other, "--threads", args.threads, *small, "--iterations", str(4 * spp),
+    timed([args.sppm_rival, args.scene, "-o", other, "--threads", args.threads, *small, "--iterations", str(max(16, spp // 2)),
            "--photons-per-iteration", args.sppm_photons, "--radius", args.sppm_radius])
     against["the rival"] = compare(args, by_photons, other)
     for name, result in against.items():
