@@ -12,6 +12,8 @@
 
 #include "render/photon_integrator.h"
 
+#include <array>
+
 #include "render/path_integrator.h"
 
 namespace kaustik::render {
@@ -109,6 +111,16 @@ struct LeftBy {
   float pdf = 0;
 };
 
+// One branch of the tree of specular chains that a camera sample grows.
+struct Branch {
+  Ray ray;
+  RayCone cone;
+  Rgb beta{1};
+  float share = 1;  // of the sample: the product of the Fresnel factors where it divided
+  int events = 0;
+  LeftBy last{};
+};
+
 // Lamps that a glossy lobe leads to are sampled where it is, too.
 Rgb emission_seen(const Scene& scene, const LeftBy& last, const SurfaceInteraction& si, const Vector3& d) {
   const Rgb Le = emitted(scene, si, -d);
@@ -130,43 +142,100 @@ bool is_worth_it(Rgb* beta, Sampler& sampler) {
   return true;
 }
 
+// What a dim branch arrives at takes as long as what a bright one does: Russian roulette. Weight of the
+// point, 0 where it is left out.
+float worth(float share, Sampler& sampler) {
+  constexpr float kBright = 0.25f;
+  if (share >= kBright) return 1;
+  const float q = share / kBright;
+  return sampler.next_1d() < q ? 1 / q : 0;
+}
+
+// Grows one camera sample.
+class CameraPath {
+ public:
+  CameraPath(const RenderContext& ctx, const CameraSample& sample, Sampler& sampler, TileCounters& counters,
+             PixelResult* result)
+      : ctx_(ctx), sampler_(sampler), counters_(counters), result_(result), maps_{sample, counters, result} {}
+
+  void trace(const CameraSample& sample) {
+    ++counters_.rays.camera;
+    visit(Branch{sample.ray, ctx_.cone}, sample.hit);
+    while (waiting_ > 0) {
+      const Branch branch = branches_[--waiting_];
+      ++counters_.rays.specular;
+      visit(branch, ctx_.bvh.intersect(branch.ray));
+    }
+  }
+
+ private:
+  // Branches that wait at once, at most. Each division leaves one waiting.
+  static constexpr int kMostWaiting = 16;
+
+  // What is seen at the end of a branch, which goes on from there or not.
+  void visit(const Branch& branch, const Hit& hit) {
+    if (!hit.valid()) {
+      result_->emitted += branch.beta * escape_seen(ctx_.scene, branch.last, branch.ray);
+      return;
+    }
+    const Vector3 wo = -branch.ray.d;
+    const SurfaceInteraction si = make_interaction(ctx_.scene.shapes, branch.ray, hit);
+    result_->emitted += branch.beta * emission_seen(ctx_.scene, branch.last, si, branch.ray.d);
+    const RayCone cone = branch.cone.after(hit.t);
+    const bool plain = ctx_.scene.materials[si.material].constant();
+    const ShadingPoint x(ctx_.scene, si, wo, plain ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
+    if (branch.events == 0) set_features(x, branch.ray.o, result_);
+    const Lobes parts = lobes(*x.bsdf);
+    if (parts.broad)
+      if (const float weight = worth(branch.share, sampler_); weight > 0)
+        add_reflected(ctx_, x, weight * branch.beta, sampler_, maps_);
+    if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
+    if (parts.glossy)
+      result_->emitted +=
+          branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
+    if (parts.glossy || parts.broad || !divide(branch, cone, x)) go_on(branch, cone, x);
+  }
+
+  void go_on(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
+    const auto s = scatter(x, sampler_, Scatter::kSpecular);
+    if (!s) return;
+    Rgb beta = from.beta * s->weight;
+    if (lobes(*x.bsdf).broad && !is_worth_it(&beta, sampler_)) return;
+    push({x.si.spawn(s->wi), cone, beta, from.share, from.events + 1,
+          LeftBy{s->glossy, x.receiver(), s->pdf}});
+  }
+
+  // Follows both the reflected and the refracted ray, by their factors instead of by chance, while neither
+  // is too dim: what little a surface of glass reflects of a lamp is noise otherwise. False, and nothing is
+  // done, where there are not two, or one is dim.
+  bool divide(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
+    constexpr float kDim = 1.0f / 256;
+    if (waiting_ + 2 > kMostWaiting) return false;
+    const auto reflected = scatter_delta(x, 0), refracted = scatter_delta(x, kOneMinusEpsilon);
+    if (!reflected || !refracted || reflected->transmission == refracted->transmission) return false;
+    if (from.share * std::min(reflected->pdf, refracted->pdf) < kDim) return false;
+    for (const BsdfSample* s : {&*reflected, &*refracted})
+      push({x.si.spawn(s->wi), cone, from.beta * s->weight * s->pdf, from.share * s->pdf, from.events + 1,
+            LeftBy{false, x.receiver(), s->pdf}});
+    return true;
+  }
+
+  void push(const Branch& branch) { branches_[waiting_++] = branch; }
+
+  const RenderContext& ctx_;
+  Sampler& sampler_;
+  TileCounters& counters_;
+  PixelResult* result_;
+  MapReader maps_;
+  std::array<Branch, kMostWaiting> branches_;
+  int waiting_ = 0;
+};
+
 }  // namespace
 
 void trace_camera_ray(const RenderContext& ctx, const CameraSample& sample, Sampler& sampler,
                       TileCounters& counters, PixelResult* result) {
-  const MapReader maps{sample, counters, result};
-  Rgb beta(1);
-  Ray ray = sample.ray;
-  Hit hit = sample.hit;
-  LeftBy last;
-  RayCone cone = ctx.cone;
-  ++counters.rays.camera;
-  for (int events = 0;; ++events) {
-    if (!hit.valid()) {
-      result->emitted += beta * escape_seen(ctx.scene, last, ray);
-      return;
-    }
-    const SurfaceInteraction si = make_interaction(ctx.scene.shapes, ray, hit);
-    result->emitted += beta * emission_seen(ctx.scene, last, si, ray.d);
-    cone = cone.after(hit.t);
-    const bool plain = ctx.scene.materials[si.material].constant();
-    const ShadingPoint x(ctx.scene, si, -ray.d, plain ? Footprint{} : cone.on_surface(ray.d, si.n));
-    if (events == 0) set_features(x, ray.o, result);
-    const Lobes parts = lobes(*x.bsdf);
-    if (parts.broad) add_reflected(ctx, x, beta, sampler, maps);
-    if (!parts.specular || events == ctx.settings.max_bounces) return;
-    if (parts.glossy)
-      result->emitted +=
-          beta * sample_direct(ctx, x, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
-    const auto s = scatter(x, sampler, Scatter::kSpecular);
-    if (!s) return;
-    beta *= s->weight;
-    if (parts.broad && !is_worth_it(&beta, sampler)) return;
-    last = {s->glossy, x.receiver(), s->pdf};
-    ray = si.spawn(s->wi);
-    hit = ctx.bvh.intersect(ray);
-    ++counters.rays.specular;
-  }
+  CameraPath(ctx, sample, sampler, counters, result).trace(sample);
 }
 
 }  // namespace kaustik::render

@@ -75,26 +75,43 @@ inline float scatter_pdf(const ShadingPoint& x, const Vector3& wi, LobePart part
 // Which part of a BSDF that has both scatters: one of them by chance, or one alone.
 enum class Scatter { kEither, kBroad, kSpecular };
 
+namespace detail {
+// With wi in world space, on the side where the geometric surface has it too.
+inline std::optional<BsdfSample> in_world(const ShadingPoint& x, std::optional<BsdfSample> s) {
+  if (!s) return {};
+  const bool above = s->transmission ? glm::dot(x.wo, x.si.n) < 0 : glm::dot(x.wo, x.si.n) > 0;
+  s->wi = x.frame.to_world(s->wi);
+  if ((glm::dot(s->wi, x.si.n) > 0) != above) return {};
+  return s;
+}
+}  // namespace detail
+
 // BsdfSample with wi in world space. Draws three dimensions, always: uc, then a pair.
 inline std::optional<BsdfSample> scatter(const ShadingPoint& x, Sampler& sampler,
                                          Scatter part = Scatter::kEither) {
   const float uc = sampler.next_1d();
   const Point2 u = sampler.next_2d();
   constexpr TransportMode kMode = TransportMode::kRadiance;
-  auto s = std::visit(
-      [&]<class B>(const B& b) {
-        if constexpr (requires { b.sample_broad(x.wo_local, uc, u, kMode); }) {
-          if (part == Scatter::kBroad) return b.sample_broad(x.wo_local, uc, u, kMode);
-          if (part == Scatter::kSpecular) return b.sample_specular(x.wo_local, uc, u, kMode);
-        }
-        return b.sample_f(x.wo_local, uc, u, kMode);
-      },
-      *x.bsdf);
-  if (!s) return {};
-  const bool above = s->transmission ? glm::dot(x.wo, x.si.n) < 0 : glm::dot(x.wo, x.si.n) > 0;
-  s->wi = x.frame.to_world(s->wi);
-  if ((glm::dot(s->wi, x.si.n) > 0) != above) return {};
-  return s;
+  return detail::in_world(x, std::visit(
+                                 [&]<class B>(const B& b) {
+                                   if constexpr (requires { b.sample_broad(x.wo_local, uc, u, kMode); }) {
+                                     if (part == Scatter::kBroad)
+                                       return b.sample_broad(x.wo_local, uc, u, kMode);
+                                     if (part == Scatter::kSpecular)
+                                       return b.sample_specular(x.wo_local, uc, u, kMode);
+                                   }
+                                   return b.sample_f(x.wo_local, uc, u, kMode);
+                                 },
+                                 *x.bsdf));
+}
+
+// Of a BSDF of delta lobes alone, the lobe that uc chooses, with its probability as pdf.
+inline std::optional<BsdfSample> scatter_delta(const ShadingPoint& x, float uc) {
+  return detail::in_world(x, std::visit(
+                                 [&](const auto& b) {
+                                   return b.sample_f(x.wo_local, uc, {0, 0}, TransportMode::kRadiance);
+                                 },
+                                 *x.bsdf));
 }
 
 }  // namespace kaustik::render

@@ -110,8 +110,8 @@ TEST(Lecture, CountsEveryShadingPointOnce) {
   const LectureCounters& l = result.statistics.lecture;
   const uint64_t answers = l.from_photons + l.fallback_few + l.fallback_shadow + l.fallback_face;
   // The box is closed and no chain is longer than the limit but by total internal reflection: nearly every
-  // camera ray ends at a diffuse point.
-  EXPECT_LE(answers, result.statistics.rays.camera);
+  // camera ray ends at a diffuse point; at glass each goes on by two.
+  EXPECT_LE(answers, result.statistics.rays.camera + result.statistics.rays.specular / 2);
   EXPECT_GT(answers, result.statistics.rays.camera * 99 / 100);
   EXPECT_GT(l.from_photons, 0u);
   EXPECT_GT(l.fallback_shadow, 0u);

@@ -169,6 +169,29 @@ TEST(Emitted, LampShowsItsRadianceOnItsOutside) {
   }
 }
 
+// A sample that meets glass goes on by both rays: what it reflects of a lamp is Fresnel's share, 4 % at right
+// angles for eta = 1.5, in every sample, and what shines through the rest. The cosine of a 0.1 degree view
+// and float rounding leave 1e-5.
+TEST(Emitted, GlassReflectsAndTransmitsInEverySample) {
+  Scene scene;
+  const uint32_t black = add_material(scene, Lambertian{Rgb(0)}),
+                 glass = add_material(scene, Dielectric{1.5f});
+  make_lamp(scene, add_shape(scene, horizontal({0, 3, 0}, 1, 1, false, black)), {100, 0, 0});
+  make_lamp(scene, add_shape(scene, horizontal({0, -1, 0}, 1, 1, true, black)), {0, 225, 0});
+  add_shape(scene, horizontal({0, 0, 0}, 1, 1, true, glass));
+  look_at(scene, {0, 2, 0}, {0, 0, 0}, {0, 0, 1}, 0.1f, 4, 4);
+  finalize_scene(scene);
+  for (const Method method : {Method::kRaytrace, Method::kMc}) {
+    const auto result = render_with_threads(scene, settings_of(method, 1));
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x) {
+        const Rgb seen = result.film.at(x, y).emitted;
+        EXPECT_NEAR(seen.x, 4, 4e-5);
+        EXPECT_NEAR(seen.y, 96, 96e-5);  // 225 in glass is 225 / eta^2 outside
+      }
+  }
+}
+
 // Lambertian floor under a constant sky: L = rho E / pi = rho L_sky, without noise in the mean; seen past the
 // floor is the sky itself.
 TEST(InfiniteLamp, ConvexReceiverReflectsTheSky) {
