@@ -44,6 +44,18 @@ Options parse(CLI::App& parser, int argc, char** argv) {
   return o;
 }
 
+// One side given: the other in proportion.
+void resize(const app::SceneSettings& file, const Options& o, Camera* camera) {
+  const auto proportional = [](int side, int of, int to) {
+    return std::max(1, int(std::lround(double(side) * to / of)));
+  };
+  camera->width = o.width > 0    ? o.width
+                  : o.height > 0 ? proportional(o.height, file.height, file.width)
+                                 : file.width;
+  camera->height = o.height > 0 ? o.height : proportional(camera->width, file.width, file.height);
+  if (!file.fixed_screen_window) camera->set_default_screen_window();
+}
+
 // The scene with its size, and max_bounces settled.
 Scene load(Options& o) {
   Diagnostics diagnostics;
@@ -52,10 +64,7 @@ Scene load(Options& o) {
   DiagnosticList ignored;
   const app::SceneSettings file = app::settings_from_scene(loaded->description, ignored);
   o.settings.max_bounces = o.max_bounces.value_or(file.settings.render.max_bounces);
-  Camera& camera = loaded->scene.camera;
-  camera.width = o.width > 0 ? o.width : file.width;
-  camera.height = o.height > 0 ? o.height : file.height;
-  if (!file.fixed_screen_window) camera.set_default_screen_window();
+  resize(file, o, &loaded->scene.camera);
   return std::move(loaded->scene);
 }
 
