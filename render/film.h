@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 #include "core/math/vec.h"
+#include "photon/memory_pages.h"
+#include "photon/uninitialised_array.h"
+#include "render/for_each_pixel.h"
 #include "render/image.h"
 
 namespace kaustik::render {
@@ -78,7 +80,10 @@ class PixelWindow {
         y0_(y0),
         full_width_(full_width),
         full_height_(full_height),
-        pixels_(size_t(width) * size_t(height)) {}
+        pixels_(size_t(width) * size_t(height)) {
+    photon::prefer_large_pages(pixels_.data(), pixels_.size() * sizeof(Pixel));
+    clear();
+  }
   int width() const { return width_; }
   int height() const { return height_; }
   int x0() const { return x0_; }
@@ -87,12 +92,15 @@ class PixelWindow {
   int full_height() const { return full_height_; }
   Pixel& at(int x, int y) { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
   const Pixel& at(int x, int y) const { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
-  void clear() { std::fill(pixels_.begin(), pixels_.end(), Pixel{}); }
+  // By all threads: a large film is many pages to touch.
+  void clear() {
+    for_each_pixel(width_, height_, [&](int x, int y) { at(x, y) = Pixel{}; });
+  }
 
  private:
   int width_ = 0, height_ = 0;
   int x0_ = 0, y0_ = 0, full_width_ = 0, full_height_ = 0;
-  std::vector<Pixel> pixels_;
+  photon::UninitialisedArray<Pixel> pixels_;
 };
 // The same window, of other pixels.
 template <class Pixel, class Other>

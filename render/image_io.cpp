@@ -92,7 +92,9 @@ void write_exr(const std::string& path, const Film& film, const WriteOptions& op
   spec.y = film.y0();
   spec.full_width = film.full_width();
   spec.full_height = film.full_height();
-  spec.attribute("compression", "zip");
+  // Radiance has noise to its last bits: zip takes 75 ms to save 6 % of 512 x 512 pixels, run lengths 3 ms to
+  // save 1 %, and all of an empty background. Other layers are smooth.
+  spec.attribute("compression", options.layers.empty() ? "rle" : "zip");
   std::vector<float> pixels;
   pixels.reserve(size_t(film.width()) * size_t(film.height()) * names.size());
   for (int y = 0; y < film.height(); ++y)

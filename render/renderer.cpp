@@ -119,14 +119,14 @@ PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, uint64_
 }
 
 // Passes of `missing`, one after the other, into result->sums. False when progress cancelled; then tiles and
-// result->statistics are those of the pass at work.
+// result->statistics are those of the pass at work. The tiles are zero at first.
 bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderTask& task, FilmSums* tiles,
                    RenderResult* result) {
   PassSums& sums = result->sums;
   if (missing.first() > 0 && !renderer.settle_radii(&sums.radii)) return false;
   for (const PassSet::Range& range : missing.ranges()) {
     for (uint64_t pass = range.begin; pass < range.end; ++pass) {
-      tiles->clear();
+      if (pass != missing.first()) tiles->clear();
       result->statistics = {};
       if (!renderer.render(pass, &sums.radii, tiles, &result->statistics)) return false;
       if (task.keep_sums) result->statistics.clamped_sums = sums.totals.add(*tiles);
