@@ -25,29 +25,13 @@
 #include <new>
 #include <optional>
 
+#include "accel/alpha_filter.h"
 #include "accel/embree_handles.h"
-#include "core/geometry/sphere_lanes.h"
-#include "core/scene/alpha.h"
+#include "accel/quadric_group.h"
 
 namespace kaustik::accel {
 
 namespace {
-
-// The shapes behind one user geometry, one primitive each.
-struct QuadricGroup {
-  const Scene* scene = nullptr;
-  std::vector<uint32_t> members;
-  float to_scene = 1, to_embree = 1;  // lengths
-  bool has_alpha = false;             // some of them
-
-  const Shape& shape(uint32_t primitive) const { return scene->shapes[members[primitive]]; }
-};
-
-// A mesh with alpha, for Embree's filters.
-struct AlphaMesh {
-  const Scene* scene = nullptr;
-  uint32_t shape = kNoIndex;  // none: that of the instance
-};
 
 bool count_memory(void* user, ssize_t bytes, bool /*post*/) {
   static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
@@ -66,7 +50,6 @@ uint64_t primitive_count(const std::vector<Shape>& shapes) {
   return count;
 }
 
-constexpr size_t kPacket = 16;
 static_assert(kRayLanes % kPacket == 0 && kNoIndex == RTC_INVALID_GEOMETRY_ID);
 
 // Embree accepts tnear <= t <= tfar where we want 0 < t < t_max: the next floats inside. An empty range stays
@@ -91,144 +74,6 @@ void fill(RTCRay& r, const Ray& ray, float to_embree) {
   r.mask = 0xffffffffu;
   r.id = 0;
   r.flags = 0;
-}
-
-// The inverse of fill() for ray i of N: scene units and a half-open range again.
-Ray to_ray(RTCRayN* rays, unsigned N, unsigned i, float to_scene) {
-  const float t_max = std::bit_cast<float>(std::bit_cast<uint32_t>(RTCRayN_tfar(rays, N, i)) + 1);
-  const Point3 o(RTCRayN_org_x(rays, N, i), RTCRayN_org_y(rays, N, i), RTCRayN_org_z(rays, N, i));
-  const Vector3 d(RTCRayN_dir_x(rays, N, i), RTCRayN_dir_y(rays, N, i), RTCRayN_dir_z(rays, N, i));
-  return {to_scene * o, d, to_scene * t_max};
-}
-
-// Of Embree's own coordinates, which are the same at every scale of scene.
-uint64_t hash_of(RTCRayN* rays, unsigned N, unsigned i) {
-  return hash_ray({RTCRayN_org_x(rays, N, i), RTCRayN_org_y(rays, N, i), RTCRayN_org_z(rays, N, i)},
-                  {RTCRayN_dir_x(rays, N, i), RTCRayN_dir_y(rays, N, i), RTCRayN_dir_z(rays, N, i)});
-}
-
-float intersect_geometry(const Sphere& sphere, const Ray& ray, Point2* /*uv*/) {
-  return intersect_sphere(sphere, ray);
-}
-float intersect_geometry(const Disk& disk, const Ray& ray, Point2* uv) {
-  return intersect_disk(disk, ray, uv);
-}
-float intersect_geometry(const Quadric& quadric, const Ray& ray, Point2* uv) {
-  return kaustik::intersect_quadric(quadric, ray, uv);
-}
-
-// The first point of the shape that is there. A ray meets a sphere or a disk twice at most.
-template <class Geometry>
-float intersect_with_alpha(const QuadricGroup& group, uint32_t primitive, Ray ray, uint64_t ray_hash,
-                           Point2* uv) {
-  const auto& geometry = std::get<Geometry>(group.shape(primitive).geometry);
-  float passed = 0;
-  for (uint32_t crossing = 0; crossing < 2; ++crossing) {
-    const float t = intersect_geometry(geometry, ray, uv);
-    if (t == kInfinity) break;
-    const Hit hit{t, group.members[primitive], 0, *uv};
-    if (stops_at(*group.scene, ray, hit, ray_hash + crossing)) return passed + t;
-    passed += t;
-    ray = make_interaction(group.scene->shapes, ray, hit).spawn(ray.d, ray.t_max - t);
-  }
-  return kInfinity;
-}
-
-// t in Embree's units.
-template <class Geometry>
-float intersect_quadric(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, unsigned i,
-                        Point2* uv) {
-  const Ray ray = to_ray(rays, N, i, group.to_scene);
-  if (group.has_alpha && group.shape(primitive).has_alpha()) {
-    return group.to_embree * intersect_with_alpha<Geometry>(group, primitive, ray, hash_of(rays, N, i), uv);
-  }
-  return group.to_embree * intersect_geometry(std::get<Geometry>(group.shape(primitive).geometry), ray, uv);
-}
-
-// Rejects what is not there of a triangle. What is rebuilt of it follows from its barycentrics alone.
-void filter_alpha(const RTCFilterFunctionNArguments* args) {
-  const auto& mesh = *static_cast<const AlphaMesh*>(args->geometryUserPtr);
-  const uint32_t shape = mesh.shape == kNoIndex ? args->context->instID[0] : mesh.shape;
-  for (unsigned i = 0; i < args->N; ++i) {
-    if (!args->valid[i]) continue;
-    const Point2 uv(RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
-    const Hit hit{1, shape, RTCHitN_primID(args->hit, args->N, i), uv};
-    if (!stops_at(*mesh.scene, Ray{}, hit, hash_of(args->ray, args->N, i))) args->valid[i] = 0;
-  }
-}
-
-void quadric_bounds(const RTCBoundsFunctionArguments* args) {
-  const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
-  const Bounds3 b = bounds_of(group.shape(args->primID));
-  const Point3 lower = group.to_embree * b.min, upper = group.to_embree * b.max;
-  *args->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
-}
-
-// Whether a hit replaces what the ray holds: when it is nearer, or as near and earlier in the scene.
-bool replaces(float held_t, unsigned held_shape, float t, unsigned shape) {
-  return t < held_t || (t == held_t && held_shape > shape);
-}
-
-// Of all N rays, valid or not: t in Embree's units, and uv of disks.
-template <class Geometry>
-void intersect_all(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, float* t,
-                   Point2* uv) {
-  for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<Geometry>(group, primitive, rays, N, i, &uv[i]);
-}
-
-template <>
-void intersect_all<Sphere>(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, float* t,
-                           Point2* uv) {
-  if (N != kPacket || group.has_alpha) {
-    for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<Sphere>(group, primitive, rays, N, i, &uv[i]);
-    return;
-  }
-  // to_ray() of a whole packet.
-  const auto& packet = *reinterpret_cast<const RTCRay16*>(rays);
-  alignas(64) float x[kPacket], y[kPacket], z[kPacket], t_max[kPacket];
-  for (size_t i = 0; i < kPacket; ++i) {
-    x[i] = group.to_scene * packet.org_x[i];
-    y[i] = group.to_scene * packet.org_y[i];
-    z[i] = group.to_scene * packet.org_z[i];
-    t_max[i] = group.to_scene * std::bit_cast<float>(std::bit_cast<uint32_t>(packet.tfar[i]) + 1);
-  }
-  const auto& sphere = std::get<Sphere>(group.shape(primitive).geometry);
-  intersect_sphere_lanes(sphere, {{x, y, z}, {packet.dir_x, packet.dir_y, packet.dir_z}, t_max}, kPacket, t);
-  for (size_t i = 0; i < kPacket; ++i) t[i] *= group.to_embree;
-}
-
-template <class Geometry>
-void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
-  const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
-  const unsigned N = args->N, primitive = args->primID, shape = group.members[primitive];
-  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, N);
-  RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, N);
-  alignas(64) float t[kPacket];
-  Point2 uv[kPacket] = {};
-  intersect_all<Geometry>(group, primitive, rays, N, t, uv);
-  for (unsigned i = 0; i < N; ++i) {
-    const unsigned instance = RTCHitN_instID(hits, N, i, 0);
-    const unsigned held = instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(hits, N, i) : instance;
-    if (!args->valid[i] || !replaces(RTCRayN_tfar(rays, N, i), held, t[i], shape)) continue;
-    RTCRayN_tfar(rays, N, i) = t[i];
-    RTCHitN_u(hits, N, i) = uv[i].x;
-    RTCHitN_v(hits, N, i) = uv[i].y;
-    RTCHitN_primID(hits, N, i) = 0;
-    RTCHitN_geomID(hits, N, i) = shape;
-    RTCHitN_instID(hits, N, i, 0) = args->context->instID[0];
-  }
-}
-
-template <class Geometry>
-void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
-  const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
-  for (unsigned i = 0; i < args->N; ++i) {
-    if (!args->valid[i]) continue;
-    Point2 uv(0);
-    float& t_far = RTCRayN_tfar(args->ray, args->N, i);
-    if (intersect_quadric<Geometry>(group, args->primID, args->ray, args->N, i, &uv) <= t_far)
-      t_far = kEmbreeOccluded;
-  }
 }
 
 RTCScene new_scene(RTCDevice device) {
@@ -278,9 +123,7 @@ struct Bvh::Impl {
   void add_shapes(const Scene& scene);
   void add_mesh(const Scene& scene, const TriangleMesh& mesh, uint32_t shape);
   void add_instance(const Scene& scene, const InstancedMesh& instance, uint32_t shape);
-  void add_quadric(const Shape& shape, uint32_t index, QuadricGroup& group);
   RTCGeometry make_geometry(const TriangleMesh& mesh, float scale);
-  void set_filter(RTCGeometry geometry, const AlphaMesh& mesh);
   template <class Geometry>
   void add_group(QuadricGroup& group, unsigned geometry_id);
   void attach(RTCScene scene, RTCGeometry geometry, unsigned geometry_id);
@@ -316,16 +159,11 @@ RTCGeometry Bvh::Impl::make_geometry(const TriangleMesh& mesh, float scale) {
   return geometry;
 }
 
-void Bvh::Impl::set_filter(RTCGeometry geometry, const AlphaMesh& mesh) {
-  rtcSetGeometryUserData(geometry, &alpha_meshes.emplace_back(mesh));
-  rtcSetGeometryIntersectFilterFunction(geometry, filter_alpha);
-  rtcSetGeometryOccludedFilterFunction(geometry, filter_alpha);
-}
-
 void Bvh::Impl::add_mesh(const Scene& scene, const TriangleMesh& mesh, uint32_t shape) {
   if (mesh.indices.empty()) return;
   RTCGeometry geometry = make_geometry(mesh, to_embree);
-  if (scene.shapes[shape].has_alpha()) set_filter(geometry, {&scene, shape});
+  if (scene.shapes[shape].has_alpha())
+    set_alpha_filter(geometry, &alpha_meshes.emplace_back(AlphaMesh{&scene, shape}));
   attach(embree.scene, geometry, shape);
 }
 
@@ -336,7 +174,8 @@ void Bvh::Impl::add_instance(const Scene& scene, const InstancedMesh& instance, 
     own.scale = power_of_two_of(instance.local);
     own.scene = new_scene(embree.device);
     RTCGeometry geometry = make_geometry(*instance.mesh, 1 / own.scale);
-    if (scene.shapes[shape].has_alpha()) set_filter(geometry, {&scene});
+    if (scene.shapes[shape].has_alpha())
+      set_alpha_filter(geometry, &alpha_meshes.emplace_back(AlphaMesh{&scene}));
     attach(own.scene, geometry, 0);
     rtcCommitScene(own.scene);
     check(embree.device, "building an instance's tree");
@@ -358,23 +197,12 @@ void Bvh::Impl::add_group(QuadricGroup& group, unsigned geometry_id) {
   if (group.members.empty()) return;
   group.to_scene = to_scene;
   group.to_embree = to_embree;
-  RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(group.members.size()));
-  rtcSetGeometryUserData(geometry, &group);
-  rtcSetGeometryBoundsFunction(geometry, quadric_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, quadric_intersect<Geometry>);
-  rtcSetGeometryOccludedFunction(geometry, quadric_occluded<Geometry>);
-  attach(embree.scene, geometry, geometry_id);
+  attach(embree.scene, accel::make_geometry<Geometry>(embree.device, group), geometry_id);
 }
 
 void Bvh::Impl::set_scale(const Bounds3& bounds) {
   to_scene = power_of_two_of(bounds);
   to_embree = 1 / to_scene;
-}
-
-void Bvh::Impl::add_quadric(const Shape& shape, uint32_t index, QuadricGroup& group) {
-  group.members.push_back(index);
-  group.has_alpha |= shape.has_alpha();
 }
 
 void Bvh::Impl::add_shapes(const Scene& scene) {
@@ -387,9 +215,9 @@ void Bvh::Impl::add_shapes(const Scene& scene) {
           using Geometry = std::decay_t<decltype(geometry)>;
           if constexpr (std::is_same_v<Geometry, TriangleMesh>) add_mesh(scene, geometry, i);
           if constexpr (std::is_same_v<Geometry, InstancedMesh>) add_instance(scene, geometry, i);
-          if constexpr (std::is_same_v<Geometry, Sphere>) add_quadric(all[i], i, spheres);
-          if constexpr (std::is_same_v<Geometry, Disk>) add_quadric(all[i], i, disks);
-          if constexpr (std::is_same_v<Geometry, Quadric>) add_quadric(all[i], i, others);
+          if constexpr (std::is_same_v<Geometry, Sphere>) spheres.add(all[i], i);
+          if constexpr (std::is_same_v<Geometry, Disk>) disks.add(all[i], i);
+          if constexpr (std::is_same_v<Geometry, Quadric>) others.add(all[i], i);
         },
         all[i].geometry);
   }

@@ -2,6 +2,7 @@
 // The only place that knows which Embree it is: 3.13 and 4 differ in the include path and in how a query's
 // options travel (a context filled per call, or optional arguments).
 
+#include <cstddef>
 #include <limits>
 
 #if __has_include(<embree4/rtcore.h>)
@@ -11,6 +12,9 @@
 #endif
 
 namespace kaustik::accel {
+
+// Rays that embree_intersect() takes at once.
+inline constexpr size_t kPacket = 16;
 
 #if RTC_VERSION_MAJOR >= 4
 inline void embree_intersect(RTCScene scene, RTCRayHit* query) {

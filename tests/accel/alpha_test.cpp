@@ -36,6 +36,28 @@ Ray ray_of(uint64_t k) {
   return {{0.8f * u.x - 0.4f, 0.8f * u.y - 0.4f, -1}, {0.1f * v.x - 0.05f, 0.1f * v.y - 0.05f, 1}};
 }
 
+// Two instances of one mesh along z; a third, of a mesh of its own, is there whole.
+Scene three_instances(float alpha) {
+  Scene scene;
+  scene.materials = {Lambertian{}};
+  TriangleMesh mesh;
+  mesh.P = {{-4, -4, 0}, {4, -4, 0}, {0, 8, 0}};
+  mesh.indices = {{0, 1, 2}};
+  const auto shared = std::make_shared<const TriangleMesh>(mesh),
+             own = std::make_shared<const TriangleMesh>(mesh);
+  for (int i = 0; i < 3; ++i) {
+    glm::dmat4 at(1);
+    at[3] = {0, 0, 1 + i, 1};
+    Shape shape;
+    shape.geometry =
+        InstancedMesh{i < 2 ? shared : own, {{-4, -4, 0}, {4, 8, 0}}, Transform::from_matrix(at)};
+    shape.alpha = i < 2 ? alpha : 1;
+    scene.shapes.push_back(std::move(shape));
+  }
+  finalize_scene(scene);
+  return scene;
+}
+
 // Each of the four surfaces stops a ray with probability 1/4: shares 1/4, 3/16, 9/64 (the sphere's second
 // wall) and so on. 4096 rays: standard deviations are below 28, five of them 140.
 TEST(Alpha, EachLayerStopsItsShare) {
@@ -59,8 +81,7 @@ TEST(Alpha, EachLayerStopsItsShare) {
   EXPECT_NEAR(missed, kRays * 0.31640625, 140);
 }
 
-TEST(Alpha, PacketsAndShadowRaysAgreeWithSingleRays) {
-  const Scene scene = three_layers(0.5f);
+void expect_the_same_answers(const Scene& scene) {
   const Bvh bvh(scene);
   for (uint64_t group = 0; group < 20; ++group) {
     RayLanes rays{};
@@ -82,6 +103,28 @@ TEST(Alpha, PacketsAndShadowRaysAgreeWithSingleRays) {
       ASSERT_EQ(one.t, many.t);
     }
   }
+}
+
+TEST(Alpha, PacketsAndShadowRaysAgreeWithSingleRays) {
+  expect_the_same_answers(three_layers(0.5f));
+  expect_the_same_answers(three_instances(0.5f));
+}
+
+// The instances of one mesh decide for themselves: shares 1/4, 3/16 and, of the whole one, 9/16. 4096 rays:
+// five standard deviations are below 160.
+TEST(Alpha, EachInstanceStopsItsShare) {
+  const Scene scene = three_instances(0.25f);
+  const Bvh bvh(scene);
+  constexpr int kRays = 4096;
+  int by[3] = {};
+  for (uint64_t k = 0; k < kRays; ++k) {
+    const Hit hit = bvh.intersect(ray_of(k));
+    ASSERT_TRUE(hit.valid());
+    ++by[hit.shape];
+  }
+  EXPECT_NEAR(by[0], kRays * 0.25, 160);
+  EXPECT_NEAR(by[1], kRays * 0.1875, 160);
+  EXPECT_NEAR(by[2], kRays * 0.5625, 160);
 }
 
 TEST(Alpha, ZeroIsNothing) {
