@@ -10,9 +10,8 @@ namespace kaustik::photon {
 
 namespace {
 
-// Upper limit of both coordinates: even, so that zero is a value.
-template <int kBits>
-inline constexpr int kMiddle = (1 << (kBits - 1)) - 1;
+using detail::kMiddle;
+using detail::unpack_octahedral;
 
 template <int kBits>
 uint32_t pack_octahedral(const Vector3& w) {
@@ -29,30 +28,14 @@ uint32_t pack_octahedral(const Vector3& w) {
   return quantise(below ? folded_x : x) | quantise(below ? folded_y : y) << kBits;
 }
 
-// Not normalised: the L1 norm is kMiddle.
-template <int kBits>
-Vector3 unpack_octahedral(uint32_t bits) {
-  const float a = float(int(bits & ((1u << kBits) - 1)) - kMiddle<kBits>);
-  const float b = float(int((bits >> kBits) & ((1u << kBits) - 1)) - kMiddle<kBits>);
-  const float c = float(kMiddle<kBits>) - std::abs(a) - std::abs(b);
-  const float fold = std::max(-c, 0.0f);
-  return {a - std::copysign(fold, a), b - std::copysign(fold, b), c};
-}
-
 }  // namespace
 
 uint32_t pack_direction(const Vector3& w) {
   return pack_octahedral<16>(w);
 }
-Vector3 unpack_direction(uint32_t bits) {
-  return glm::normalize(unpack_octahedral<16>(bits));
-}
 
 uint32_t pack_surface(const Normal3& n, uint32_t surface_group) {
   return pack_octahedral<8>(n) | surface_group << 16;
-}
-Normal3 unpack_surface_normal(uint32_t surface) {
-  return glm::normalize(unpack_octahedral<8>(surface));
 }
 
 uint32_t pack_rgb9e5(const Rgb& c) {
@@ -69,10 +52,6 @@ uint32_t pack_rgb9e5(const Rgb& c) {
   if (round(largest * power_of_two(24 - exponent)) == 512) ++exponent;
   const float scale = power_of_two(24 - exponent);
   return round(v.x * scale) | round(v.y * scale) << 9 | round(v.z * scale) << 18 | uint32_t(exponent) << 27;
-}
-Rgb unpack_rgb9e5(uint32_t bits) {
-  const float scale = std::bit_cast<float>(((bits >> 27) + (127 - 24)) << 23);
-  return {float(bits & 511) * scale, float(bits >> 9 & 511) * scale, float(bits >> 18 & 511) * scale};
 }
 
 bool normal_counts(uint32_t surface, const Normal3& n) {

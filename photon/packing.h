@@ -1,27 +1,56 @@
 #pragma once
 // The number formats of the photon record.
 
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "core/math/vec.h"
 
 namespace kaustik::photon {
 
+namespace detail {
+
+// Upper limit of both coordinates: even, so that zero is a value.
+template <int kBits>
+inline constexpr int kMiddle = (1 << (kBits - 1)) - 1;
+
+// Not normalised: the L1 norm is kMiddle.
+template <int kBits>
+Vector3 unpack_octahedral(uint32_t bits) {
+  const float a = float(int(bits & ((1u << kBits) - 1)) - kMiddle<kBits>);
+  const float b = float(int((bits >> kBits) & ((1u << kBits) - 1)) - kMiddle<kBits>);
+  const float c = float(kMiddle<kBits>) - std::abs(a) - std::abs(b);
+  const float fold = std::max(-c, 0.0f);
+  return {a - std::copysign(fold, a), b - std::copysign(fold, b), c};
+}
+
+}  // namespace detail
+
 // Octahedral map of unit vectors to two integers of `kBits` bits (Cigolle et al. 2014, "A Survey of Efficient
 // Representations for Independent Unit Vectors"). Axis directions are exact.
 uint32_t pack_direction(const Vector3& w);  // 2 x 16 bits
-Vector3 unpack_direction(uint32_t bits);    // unit; off by less than 7e-5 rad
+// Unit; off by less than 7e-5 rad.
+inline Vector3 unpack_direction(uint32_t bits) {
+  return glm::normalize(detail::unpack_octahedral<16>(bits));
+}
 
 // Octahedral 2 x 8 bits of n in the low half, the group modulo 2^16 in the high half.
 uint32_t pack_surface(const Normal3& n, uint32_t surface_group);
-Normal3 unpack_surface_normal(uint32_t surface);  // unit; off by less than 0.0175 rad
+// Unit; off by less than 0.0175 rad.
+inline Normal3 unpack_surface_normal(uint32_t surface) {
+  return glm::normalize(detail::unpack_octahedral<8>(surface));
+}
 
 // Three 9-bit mantissas and a shared 5-bit exponent (the format of GL_EXT_texture_shared_exponent). Each
 // component is off by at most 1/511 of the largest one, for largest ones from 2^-16 to kRgb9e5Max; larger
 // values are clamped to kRgb9e5Max, negative values and NaN to zero.
 inline constexpr float kRgb9e5Max = 65408;  // 511/512 2^16
 uint32_t pack_rgb9e5(const Rgb& c);
-Rgb unpack_rgb9e5(uint32_t bits);
+inline Rgb unpack_rgb9e5(uint32_t bits) {
+  const float scale = std::bit_cast<float>(((bits >> 27) + (127 - 24)) << 23);
+  return {float(bits & 511) * scale, float(bits >> 9 & 511) * scale, float(bits >> 18 & 511) * scale};
+}
 
 // Does the stored normal count for a query normal, see kNormalCosine? Defines what the SIMD loops compute: in
 // exact small integers up to the dot product.

@@ -110,14 +110,6 @@ uint64_t PhotonMap::memory_bytes() const {
   return storage_.size() * sizeof(Line) + octree_.memory_bytes() + boxes_.memory_bytes();
 }
 
-Photon PhotonMap::photon(uint64_t i) const {
-  const PhotonColumns& c = columns_;
-  const uint32_t power = c.power ? c.power[i] : 0;
-  Photon photon = unpack({c.x[i], c.y[i], c.z[i], c.direction[i], power, c.surface[i]}, flux_unit_);
-  if (!c.power) photon.flux = Rgb(c.power_f32[0][i], c.power_f32[1][i], c.power_f32[2][i]) * flux_unit_;
-  return photon;
-}
-
 Rgb PhotonMap::gather_flux(const GatherQuery& query, const KernelSpec& kernel,
                            GatherCounters& counters) const {
   const KernelTerms terms = kernel_terms(kernel, query.radius);

@@ -92,6 +92,14 @@ class PhotonMap {
   float flux_unit_ = 1;
 };
 
+inline Photon PhotonMap::photon(uint64_t i) const {
+  const PhotonColumns& c = columns_;
+  const uint32_t power = c.power ? c.power[i] : 0;
+  Photon photon = unpack({c.x[i], c.y[i], c.z[i], c.direction[i], power, c.surface[i]}, flux_unit_);
+  if (!c.power) photon.flux = Rgb(c.power_f32[0][i], c.power_f32[1][i], c.power_f32[2][i]) * flux_unit_;
+  return photon;
+}
+
 template <class Fn>
 void PhotonMap::for_each(const GatherQuery& query, Fn&& fn, GatherCounters& counters) const {
   ++counters.queries;

@@ -15,14 +15,4 @@ PhotonRecord pack(const Photon& photon, float flux_unit) {
           pack_surface(photon.n, photon.surface_group)};
 }
 
-Photon unpack(const PhotonRecord& record, float flux_unit) {
-  Photon photon;
-  photon.p = {record.x, record.y, record.z};
-  photon.wi = unpack_direction(record.direction);
-  photon.flux = unpack_rgb9e5(record.power) * flux_unit;
-  photon.n = unpack_surface_normal(record.surface);
-  photon.surface_group = record.surface >> 16;
-  return photon;
-}
-
 }  // namespace kaustik::photon

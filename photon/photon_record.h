@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "photon/packing.h"
 #include "photon/photon.h"
 #include "photon/uninitialised_array.h"
 
@@ -31,6 +32,14 @@ struct PhotonBuffer {
 };
 
 PhotonRecord pack(const Photon& photon, float flux_unit);
-Photon unpack(const PhotonRecord& record, float flux_unit);
+inline Photon unpack(const PhotonRecord& record, float flux_unit) {
+  Photon photon;
+  photon.p = {record.x, record.y, record.z};
+  photon.wi = unpack_direction(record.direction);
+  photon.flux = unpack_rgb9e5(record.power) * flux_unit;
+  photon.n = unpack_surface_normal(record.surface);
+  photon.surface_group = record.surface >> 16;
+  return photon;
+}
 
 }  // namespace kaustik::photon

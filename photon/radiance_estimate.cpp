@@ -10,6 +10,21 @@ namespace kaustik::photon {
 
 namespace {
 
+// What depends on wo alone is computed once, by BSDFs that offer it.
+template <class AnyBsdf>
+auto seen_from(const AnyBsdf& bsdf, const Vector3& wo) {
+  if constexpr (requires { bsdf.seen_from(wo); }) {
+    return bsdf.seen_from(wo);
+  } else {
+    struct Seen {
+      const AnyBsdf& bsdf;
+      const Vector3& wo;
+      Rgb f(const Vector3& wi) const { return bsdf.f(wo, wi); }
+    };
+    return Seen{bsdf, wo};
+  }
+}
+
 // Lr = sum of f_r(x, wo, wi_p) flux_p K(|x - x_p|), with f_r taken out of the sum where it is constant.
 struct ReflectedRadiance {
   const PhotonMap& map;
@@ -33,12 +48,13 @@ struct ReflectedRadiance {
   Rgb operator()(const AnyBsdf& bsdf) const {
     if (!bsdf.lobes().broad) return Rgb(0);
     const KernelTerms terms = kernel_terms(kernel, query.radius);
+    const auto seen = seen_from(bsdf, wo);
     Rgb Lr(0);
     map.for_each(
         query,
         [&](const Photon& photon, float distance_squared) {
           const Vector3 wi = frame.to_local(photon.wi);
-          Lr += bsdf.f(wo, wi) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
+          Lr += seen.f(wi) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
         },
         counters);
     return Lr;

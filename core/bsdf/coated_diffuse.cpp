@@ -1,7 +1,6 @@
 #include "core/bsdf/coated_diffuse.h"
 
 #include "core/bsdf/lambertian.h"
-#include "core/bsdf/rough_coat.h"
 
 namespace kaustik {
 
@@ -20,11 +19,12 @@ CoatedDiffuse CoatedDiffuse::from_reflectance(const Rgb& rho, float eta, const G
   double inside = fresnel_diffuse(1 / double(eta)), enters = 1 - fresnel_diffuse(double(eta));
   if (!facets.smooth() && eta != 1) {
     bsdf.facets = facets;
+    const RoughTransmittance through(mean_alpha(facets), eta);
     inside = double(rough_inner_reflectance(mean_alpha(facets), eta));
     enters = 0;  // by the 8-point rule
     for (int i = 0; i < 8; ++i) {
       const float z = (float(i) + 0.5f) / 8;
-      enters += double(z / 4 * bsdf.transmittance({std::sqrt(1 - z * z), 0, z}));
+      enters += double(z / 4 * through(z));
     }
   }
   bsdf.enters = static_cast<float>(enters);
@@ -42,6 +42,11 @@ Rgb CoatedDiffuse::f(const Vector3& wo, const Vector3& wi) const {
   if (!same_hemisphere(wo, wi)) return Rgb(0);
   const Rgb from_base = base * (kInvPi * (transmittance(wo) * transmittance(wi)));
   return coat_is_broad() ? from_base + f_coat(wo, wi) : from_base;
+}
+
+CoatedDiffuse::Seen::Seen(const CoatedDiffuse& bsdf, const Vector3& wo)
+    : bsdf_(&bsdf), wo_(wo), from_base_(bsdf.base * (kInvPi * bsdf.transmittance(wo))) {
+  if (!bsdf.facets.smooth()) through_ = RoughTransmittance(mean_alpha(bsdf.facets), bsdf.eta);
 }
 
 float CoatedDiffuse::pdf(const Vector3& wo, const Vector3& wi) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/bsdf/fresnel.h"
 #include "core/bsdf/ggx.h"
+#include "core/bsdf/rough_coat.h"
 
 namespace kaustik {
 
@@ -25,6 +26,24 @@ struct CoatedDiffuse {
 
   Lobes lobes() const { return {true, !coat_is_broad(), !facets.smooth() && !coat_is_broad()}; }
   Rgb f(const Vector3& wo, const Vector3& wi) const;
+  // f of one wo, for many wi.
+  class Seen {
+   public:
+    Seen(const CoatedDiffuse& bsdf, const Vector3& wo);
+    Rgb f(const Vector3& wi) const {
+      if (!same_hemisphere(wo_, wi)) return Rgb(0);
+      const float z = abs_cos_theta(wi);
+      const float T = bsdf_->facets.smooth() ? 1 - fresnel_dielectric(z, bsdf_->eta) : through_(z);
+      return bsdf_->coat_is_broad() ? from_base_ * T + bsdf_->f_coat(wo_, wi) : from_base_ * T;
+    }
+
+   private:
+    const CoatedDiffuse* bsdf_;
+    Vector3 wo_;
+    Rgb from_base_;  // but for T(wi)
+    RoughTransmittance through_;
+  };
+  Seen seen_from(const Vector3& wo) const { return {*this, wo}; }
   float pdf(const Vector3& wo, const Vector3& wi) const;
   Rgb f_glossy(const Vector3& wo, const Vector3& wi) const;
   float pdf_glossy(const Vector3& wo, const Vector3& wi) const;

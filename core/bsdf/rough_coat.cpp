@@ -8,7 +8,7 @@ namespace kaustik {
 
 namespace {
 
-constexpr int kNodes = 16;    // of each axis
+constexpr int kNodes = RoughTransmittance::kNodes;  // of each axis
 constexpr int kFacets = 233;  // seen from each direction: points of a Fibonacci lattice, even to the edges
 
 // Of light from wo.
@@ -104,6 +104,14 @@ float rough_transmittance(float cos_theta, float alpha, float eta) {
   const auto& T = table().through;
   const auto at = [&](int i, int j) { return c.mix(T[i][j][c.i], T[i][j][c.i + 1]); };
   return e.mix(a.mix(at(e.i, a.i), at(e.i, a.i + 1)), a.mix(at(e.i + 1, a.i), at(e.i + 1, a.i + 1)));
+}
+
+RoughTransmittance::RoughTransmittance(float alpha, float eta) {
+  const Between e = between_etas(eta), a(alpha);
+  const auto& T = table().through;
+  const auto *const low = T[e.i], *const high = T[e.i + 1];
+  for (int c = 0; c < kNodes; ++c)
+    through_[c] = e.mix(a.mix(low[a.i][c], low[a.i + 1][c]), a.mix(high[a.i][c], high[a.i + 1][c]));
 }
 
 float rough_inner_reflectance(float alpha, float eta) {
