@@ -173,9 +173,12 @@ std::optional<Spectrum> ColourReducer::from_name(const Parameter& p) {
     return std::nullopt;
   }
   if (auto s = named_spectrum(name)) return s;
-  if (is_missing_spectrum(name)) {
+  if (const auto nearest = nearest_to_missing_spectrum(name)) {
+    const std::string instead = nearest->empty() ? "" : fmt::format("; \"{}\" is the nearest", *nearest);
     diagnostics_.error(p.value_location(0),
-                       fmt::format("there are no numbers here for pbrt's spectrum \"{}\"", name));
+                       fmt::format("there are no numbers here for pbrt's spectrum \"{}\": give a file of "
+                                   "wavelengths and values{}",
+                                   name, instead));
     return std::nullopt;
   }
   std::string error;

@@ -38,7 +38,9 @@ std::vector<ParameterSpec> rough_material(std::vector<ParameterSpec> own) {
 std::vector<ParameterSpec> coat(std::vector<ParameterSpec> own) {
   constexpr ParameterType kNumber = ParameterType::kFloat;
   own.push_back(not_rendered("albedo", {ParameterType::kRgb, kNumber, ParameterType::kTexture},
-                             "media are not rendered: must be 0", 0));
+                             "a coat's medium is not rendered: set it to 0, and let `reflectance` be what "
+                             "base and medium reflect together",
+                             0));
   own.push_back(ignored("g", {kNumber, ParameterType::kTexture}, "of a medium", 0));
   own.push_back(ignored("thickness", {kNumber, ParameterType::kTexture}, "no effect without a medium", 0.01));
   own.push_back(ignored("maxdepth", {ParameterType::kInteger}, "all inner reflections are there", 10));

@@ -247,8 +247,13 @@ void TextureTable::load_images(DiagnosticList& diagnostics) {
                                   : ImageResult{0, "images are not read here"};
   });
   for (const ImageRequest& request : requests_) {
-    if (!request.result.error.empty()) diagnostics.error(request.where, request.result.error);
-    std::get<ImageTexture>(set_->texture(request.texture)).image = request.result.image;
+    Texture& texture = set_->texture(request.texture);
+    if (request.result.error.empty()) {
+      std::get<ImageTexture>(texture).image = request.result.image;
+    } else {
+      diagnostics.error(request.where, request.result.error);
+      texture = ConstantTexture{};  // materials that are checked next may ask for it
+    }
   }
 }
 

@@ -89,11 +89,13 @@ std::vector<std::string_view> spectrum_names() {
   return names;
 }
 
-bool is_missing_spectrum(std::string_view name) {
-  if (name == "metal-CuZn-eta" || name == "metal-CuZn-k") return true;
+std::optional<std::string_view> nearest_to_missing_spectrum(std::string_view name) {
+  if (name == "metal-CuZn-eta") return "metal-Cu-eta";
+  if (name == "metal-CuZn-k") return "metal-Cu-k";
   const bool camera = name.starts_with("canon_eos_") || name.starts_with("hasselblad_") ||
                       name.starts_with("nikon_d") || name.starts_with("sony_ilce_");
-  return camera && (name.ends_with("_r") || name.ends_with("_g") || name.ends_with("_b"));
+  if (camera && (name.ends_with("_r") || name.ends_with("_g") || name.ends_with("_b"))) return "";
+  return std::nullopt;
 }
 
 }  // namespace kaustik

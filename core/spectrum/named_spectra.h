@@ -13,7 +13,8 @@ namespace kaustik {
 std::optional<Spectrum> named_spectrum(std::string_view name);
 // All that named_spectrum knows.
 std::vector<std::string_view> spectrum_names();
-// Of pbrt, without numbers here: brass, and the sensitivities of cameras.
-bool is_missing_spectrum(std::string_view name);
+// Of pbrt's spectra that have no numbers here, the name that comes nearest: copper for brass, none (empty)
+// for the sensitivities of cameras. Nothing for other names.
+std::optional<std::string_view> nearest_to_missing_spectrum(std::string_view name);
 
 }  // namespace kaustik

@@ -65,8 +65,9 @@ TEST_P(ImportErrorTable, SaysWhatIsWrong) {
 INSTANTIATE_TEST_SUITE_P(
     Parameters, ImportErrorTable,
     testing::Values(
-        Case{R"(Material "diffuse" "spectrum reflectance" "metal-CuZn-eta")",
-             R"(2:43: error: there are no numbers here for pbrt's spectrum "metal-CuZn-eta")"},
+        Case{
+            R"(Material "diffuse" "spectrum reflectance" "metal-CuZn-eta")",
+            R"(2:43: error: there are no numbers here for pbrt's spectrum "metal-CuZn-eta": give a file of wavelengths and values; "metal-Cu-eta" is the nearest)"},
         Case{R"(Material "diffuse" "spectrum reflectance" "metal-Cu-et")",
              R"(2:43: error: no spectrum is named "metal-Cu-et"; did you mean `metal-Cu-eta`? As a file: )"
              R"(cannot open "metal-Cu-et": no such file)"},
@@ -100,8 +101,9 @@ INSTANTIATE_TEST_SUITE_P(
              R"(2:42: error: `reflectance` of material "diffuse" must be >= 0 and <= 1, not 1.5)"},
         Case{R"(Material "orennayar" "float sigma" 91)",
              R"(2:36: error: `sigma` of material "orennayar" must be >= 0 and <= 90, not 91)"},
-        Case{R"(Material "coateddiffuse" "float albedo" .5)",
-             R"(2:41: error: `albedo` of material "coateddiffuse": media are not rendered: must be 0)"},
+        Case{
+            R"(Material "coateddiffuse" "float albedo" .5)",
+            R"(2:41: error: `albedo` of material "coateddiffuse": a coat's medium is not rendered: set it to 0, and let `reflectance` be what base and medium reflect together)"},
         Case{
             R"(Material "hair")",
             R"(2:10: error: pbrt's material "hair" is not rendered; there are: diffuse, orennayar, )"

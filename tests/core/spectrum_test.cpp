@@ -154,10 +154,10 @@ TEST(Spectrum, SamplesAreJoinedByLines) {
 }
 
 TEST(Spectrum, MissingOnesAreKnown) {
-  EXPECT_TRUE(is_missing_spectrum("metal-CuZn-eta"));
-  EXPECT_TRUE(is_missing_spectrum("canon_eos_5d_mkii_r"));
-  EXPECT_FALSE(is_missing_spectrum("metal-Xy-eta"));
-  for (const std::string_view name : spectrum_names()) EXPECT_FALSE(is_missing_spectrum(name));
+  EXPECT_EQ(nearest_to_missing_spectrum("metal-CuZn-eta"), "metal-Cu-eta");
+  EXPECT_EQ(nearest_to_missing_spectrum("canon_eos_5d_mkii_r"), "");
+  EXPECT_FALSE(nearest_to_missing_spectrum("metal-Xy-eta"));
+  for (const std::string_view name : spectrum_names()) EXPECT_FALSE(nearest_to_missing_spectrum(name));
 }
 
 }  // namespace
