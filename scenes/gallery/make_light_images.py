@@ -31,7 +31,7 @@ def mix(a, b, t):
 def sky(u, v):
     x, y, z = direction(u, v)
     ground = mix([0.10, 0.085, 0.07], [0.03, 0.025, 0.02], -4 * z)
-    if z < -0.02:
+    if z < -0.06:
         return ground
     sun = [math.cos(0.6) * math.cos(0.42), math.sin(0.6) * math.cos(0.42), math.sin(0.42)]
     cosine = x * sun[0] + y * sun[1] + z * sun[2]
@@ -41,7 +41,7 @@ def sky(u, v):
     colour = [c + 0.7 * streaks + g * glow for c, g in zip(colour, [2.2, 1.2, 0.5])]
     if cosine > math.cos(math.radians(3)):
         return [220, 150, 80]
-    return mix(ground, colour, 0.5 + z / 0.04)  # a hazy horizon
+    return mix(ground, colour, 0.5 + z / 0.12)  # a hazy horizon, wider than pixels
 
 
 def lamp(u, v):
@@ -75,6 +75,6 @@ def write(folder, name, width, height, colour):
 if __name__ == "__main__":
     here = Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
     folder = here if here.is_dir() else here.parent
-    write(folder, "sky.exr", 256, 256, sky)
+    write(folder, "sky.exr", 512, 512, sky)
     write(folder, "lamp.exr", 256, 128, lamp)
     write(folder, "slide.exr", 256, 256, slide)
