@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "core/math/vec.h"
 #include "photon/memory_pages.h"
@@ -100,7 +101,7 @@ class PixelWindow {
  private:
   int width_ = 0, height_ = 0;
   int x0_ = 0, y0_ = 0, full_width_ = 0, full_height_ = 0;
-  photon::UninitialisedArray<Pixel> pixels_;
+  std::vector<Pixel, photon::UninitialisedAllocator<Pixel>> pixels_;
 };
 // The same window, of other pixels.
 template <class Pixel, class Other>
