@@ -70,7 +70,7 @@ class ChosenLamp {
     lamp_ = lamp;
     triangles_ = nullptr;
     area_ = std::get_if<DiffuseAreaLight>(&scene_.lights[lamp]);
-    if (!area_ || mode_ != EmissionMode::kCosine) return;
+    if (!area_ || area_->image || mode_ != EmissionMode::kCosine) return;
     triangles_ = std::get_if<TriangleEmitter>(&area_->surface);
     flux_ = area_->power() * static_cast<float>(1 / (double{p_lamp} * static_cast<double>(total_)));
   }

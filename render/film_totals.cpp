@@ -24,7 +24,9 @@ double size_of(const Scene& scene) {
 // Radiance to expect of what a lamp lights, W/(m^2 sr): generous.
 struct LampBrightness {
   double scene_size;
-  double operator()(const DiffuseAreaLight& l) const { return double(max_component(l.L)); }
+  double operator()(const DiffuseAreaLight& l) const {
+    return double(max_component(l.image ? l.L * l.image->brightest() : l.L));
+  }
   double operator()(const InfiniteLight& l) const { return double(max_component(l.L)); }
   double operator()(const ImageInfiniteLight& l) const {
     return double(l.scale) * double(max_component(l.map->brightest()));

@@ -91,7 +91,7 @@ Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& 
 Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w) {
   if (si.light == kNoIndex) return Rgb(0);
   const auto* area = std::get_if<DiffuseAreaLight>(&scene.lights[si.light]);
-  return area ? area->Le(si.n, w) : Rgb(0);
+  return area ? area->Le(si, w) : Rgb(0);
 }
 
 Rgb escaped(const Scene& scene, const Ray& ray) {

@@ -16,12 +16,15 @@ struct SurfaceSample {
   Normal3 n;  // outside
 };
 
-SurfaceSample sample_surface(const TriangleEmitter& e, const Point2& u) {
-  const DiscreteDistribution::Sample choice = e.by_area.sample(u.x);
-  const TriangleEmitter::Triangle& t = e.triangles[choice.index];
-  const Point2 b = sample_uniform_triangle({choice.u_remapped, u.y});
+SurfaceSample point_on_triangle(const TriangleEmitter::Triangle& t, const Point2& u) {
+  const Point2 b = sample_uniform_triangle(u);
   const Point3 p = t.p0 + (b.x * t.e1 + b.y * t.e2);
   return {p, triangle_error(p, t.e1, t.e2), t.n};
+}
+
+SurfaceSample sample_surface(const TriangleEmitter& e, const Point2& u) {
+  const DiscreteDistribution::Sample choice = e.by_area.sample(u.x);
+  return point_on_triangle(e.triangles[choice.index], {choice.u_remapped, u.y});
 }
 
 SurfaceSample sample_surface(const SphereEmitter& e, const Point2& u) {
@@ -41,6 +44,34 @@ SurfaceSample sample_surface(const QuadricEmitter& e, const Point2& u) {
   const Point3 p = sample_uniform(e.quadric, u);
   const Normal3 n = glm::normalize(t.normal(Normal3(normal_at(e.quadric, glm::dvec3(p)))));
   return {t.point(p), quadric_error(e.quadric), e.inward ? -n : n};
+}
+
+// A point of a lamp, what leaves it, and one over the density per area: of all lamps but spheres seen from
+// outside.
+struct EmittingSample {
+  SurfaceSample at;
+  Rgb L;
+  float area;
+};
+
+// Lamps with an image are triangles or quadrics.
+SurfaceSample surface_at(const DiffuseAreaLight& light, const EmissionImage::Place& place) {
+  if (const auto* mesh = std::get_if<TriangleEmitter>(&light.surface))
+    return point_on_triangle(mesh->triangles[place.part], place.u);
+  return sample_surface(std::get<QuadricEmitter>(light.surface), place.u);
+}
+
+EmittingSample sample_emitting(const DiffuseAreaLight& light, const Point2& u) {
+  if (!light.image) {
+    return {std::visit([&](const auto& e) { return sample_surface(e, u); }, light.surface), light.L,
+            light.area};
+  }
+  const EmissionImage::Sample s = light.image->sample(u);
+  const Point2 uv = light.image->uv(s.place);
+  const EmittingSample out{surface_at(light, s.place), light.L * light.image->value(uv), s.area};
+  if (!light.alpha) return out;
+  const TexturePoint x{out.at.p, out.at.n, uv};
+  return {out.at, out.L * light.alpha->at(x), out.area};
 }
 
 // Clearly outside: points of the sphere itself, known up to their rounding, count as inside, where sampling
@@ -84,17 +115,18 @@ float area_to_solid_angle(float distance2, float abs_cos, float area) {
   return distance2 / (abs_cos * area);
 }
 
-std::optional<LightSample> sample_by_area(const SurfaceSample& s, const Point3& ref,
-                                          const DiffuseAreaLight& light) {
+std::optional<LightSample> sample_by_area(const DiffuseAreaLight& light, const Point3& ref, const Point2& u) {
+  const EmittingSample emitting = sample_emitting(light, u);
+  const SurfaceSample& s = emitting.at;
   const Vector3 to_light = s.p - ref;
   const float distance2 = length_squared(to_light);
   if (!(distance2 > 0)) return std::nullopt;
   const Vector3 wi = to_light / std::sqrt(distance2);
   const float cos_out = -glm::dot(wi, s.n);
   if (cos_out == 0 || (cos_out < 0 && !light.twosided)) return std::nullopt;
-  const float pdf = area_to_solid_angle(distance2, std::abs(cos_out), light.area);
+  const float pdf = area_to_solid_angle(distance2, std::abs(cos_out), emitting.area);
   if (!std::isfinite(pdf)) return std::nullopt;
-  return LightSample{wi, light.L, pdf, offset_origin(s.p, s.p_error, s.n, -wi), false};
+  return LightSample{wi, emitting.L, pdf, offset_origin(s.p, s.p_error, s.n, -wi), false};
 }
 
 }  // namespace
@@ -104,7 +136,7 @@ std::optional<LightSample> DiffuseAreaLight::sample_Li(const Point3& ref, const 
     if (sphere->inward && !twosided) return std::nullopt;
     return sample_sphere_cone(*sphere, ref, u, L);
   }
-  return std::visit([&](const auto& e) { return sample_by_area(sample_surface(e, u), ref, *this); }, surface);
+  return sample_by_area(*this, ref, u);
 }
 
 float DiffuseAreaLight::pdf_Li(const Point3& ref, const Vector3& wi,
@@ -115,7 +147,8 @@ float DiffuseAreaLight::pdf_Li(const Point3& ref, const Vector3& wi,
     const float sin2_max = sphere->radius * sphere->radius / length_squared(ref - sphere->center);
     return uniform_cone_pdf(subtended_one_minus_cos(sin2_max));
   }
-  const float pdf = area_to_solid_angle(length_squared(on_light.p - ref), std::abs(cos_out), area);
+  const float per_density = image ? image->area(image->place_of(on_light)) : area;
+  const float pdf = area_to_solid_angle(length_squared(on_light.p - ref), std::abs(cos_out), per_density);
   return std::isfinite(pdf) ? pdf : 0;
 }
 
@@ -141,11 +174,12 @@ std::optional<EmissionSample> DiffuseAreaLight::sample_Le(const Point2& u_pos, c
     factor = kPi * theta.x * theta.y;
   }
   if (!(local.z > 0) || factor == 0) return start;
-  const SurfaceSample s = std::visit([&](const auto& e) { return sample_surface(e, u_pos); }, surface);
+  const EmittingSample emitting = sample_emitting(*this, u_pos);
+  const SurfaceSample& s = emitting.at;
   start.emplace();
   start->ray.o = s.p + (side * s.p_error) * s.n;
   start->ray.d = Frame::from_z(side * s.n).to_world(local);
-  start->flux = power() * factor;
+  start->flux = flux_of(emitting.area, emitting.L) * factor;
   return start;
 }
 

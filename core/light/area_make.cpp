@@ -48,9 +48,47 @@ bool keeps_areas_even(const Quadric& q) {
   return is_similarity(m);
 }
 
+// pbrt's uv where the mesh has none.
+constexpr std::array<Point2, 3> kUvOfBareTriangle{Point2(0, 0), Point2(1, 0), Point2(1, 1)};
+
+std::vector<EmissionImage::Triangle> triangles_of(const TriangleMesh& mesh, const TriangleEmitter& emitter) {
+  std::vector<EmissionImage::Triangle> out;
+  for (size_t i = 0; i < mesh.indices.size(); ++i) {
+    const auto& t = emitter.triangles[i];
+    const double area = 0.5 * glm::length(glm::cross(glm::dvec3(t.e1), glm::dvec3(t.e2)));
+    const auto [i0, i1, i2] = mesh.indices[i];
+    out.push_back({area, mesh.uv.empty() ? kUvOfBareTriangle
+                                         : std::array<Point2, 3>{mesh.uv[i0], mesh.uv[i1], mesh.uv[i2]}});
+  }
+  return out;
+}
+
+// Spheres and disks as the quadrics that they are.
+Quadric quadric_of(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return Quadric{sphere->to_world};
+  if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) return *quadric;
+  const auto& disk = std::get<Disk>(shape.geometry);
+  return Quadric{disk.to_world, QuadricKind::kDisk, 0, 0, disk.inner};
+}
+
+// False where the mesh has triangles that are none.
+bool set_image(const Shape& shape, std::shared_ptr<const LightImage> image, DiffuseAreaLight& light) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
+    const auto& emitter = std::get<TriangleEmitter>(light.surface);
+    if (emitter.triangles.size() != mesh->indices.size()) return false;
+    light.image = std::make_shared<const EmissionImage>(std::move(image), triangles_of(*mesh, emitter));
+    return true;
+  }
+  const Quadric quadric = quadric_of(shape);
+  light.surface = QuadricEmitter{quadric, shape.flip_normal};
+  light.image = std::make_shared<const EmissionImage>(std::move(image), quadric, double(light.area));
+  return true;
+}
+
 }  // namespace
 
-std::optional<DiffuseAreaLight> DiffuseAreaLight::make(const Shape& shape, const Rgb& L, bool twosided) {
+std::optional<DiffuseAreaLight> DiffuseAreaLight::make(const Shape& shape, const Rgb& L, bool twosided,
+                                                       std::shared_ptr<const LightImage> image) {
   DiffuseAreaLight light;
   light.L = L;
   light.twosided = twosided;
@@ -72,6 +110,7 @@ std::optional<DiffuseAreaLight> DiffuseAreaLight::make(const Shape& shape, const
     const Normal3 n = disk_normal(disk.to_world);
     light.surface = DiskEmitter{disk.to_world, disk.inner, shape.flip_normal ? -n : n};
   }
+  if (image && !set_image(shape, std::move(image), light)) return std::nullopt;
   return light;
 }
 

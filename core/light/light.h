@@ -23,7 +23,10 @@ using Light = std::variant<PointLight, SpotLight, GoniometricLight, ProjectionLi
 inline Rgb power(const Light& light) {
   return std::visit([](const auto& l) { return l.power(); }, light);
 }
+// Cannot be met by a ray.
 inline bool is_delta(const Light& light) {
+  const auto* area = std::get_if<DiffuseAreaLight>(&light);
+  if (area && area->invisible) return true;
   return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kDelta; }, light);
 }
 // Lights that rays meet when they leave the scene.

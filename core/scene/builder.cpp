@@ -8,6 +8,7 @@
 
 #include "core/diagnostics/nearest_name.h"
 #include "core/scene/camera_builder.h"
+#include "core/scene/lamp_table.h"
 #include "core/scene/light_images.h"
 #include "core/scene/local_origin.h"
 #include "core/scene/material_table.h"
@@ -62,7 +63,7 @@ class Builder {
     collect(materials);
     load_sources();
     choose_origin(scene);
-    check_area_lights();
+    lamps_.emplace(description_, light_images_, *textures_, warned_, diagnostics_);
     build_lights(scene);
     if (diagnostics_.has_errors()) return std::nullopt;
     share_meshes();
@@ -88,13 +89,10 @@ class Builder {
   std::vector<ExactBounds> item_bounds() const;
   void choose_origin(Scene& scene);
   void move_inline_meshes(const std::vector<ExactBounds>& of_item, const glm::dvec3& origin);
-  void check_area_lights();
   void build_lights(Scene& scene);
-  bool check_power(const Rgb& power, const SourceLocation& location);
   void share_meshes();
   void place(Scene& scene);
   bool keep(const Placement& placement, PlacedShape& placed);
-  bool make_lamp(const Item& item, Shape& shape, Scene& scene);
   std::string group_name(const ShapeDescription& shape) const;
   std::string group_key(const Placement& placement) const;
 
@@ -105,9 +103,9 @@ class Builder {
   LightImages light_images_;
   WarnedOnce warned_;
   std::optional<TextureTable> textures_;
+  std::optional<LampTable> lamps_;
   std::vector<Item> items_;
   std::vector<Placement> placements_;
-  std::vector<const TypeSpec*> area_light_specs_;
   std::set<size_t> warned_without_area_;
 };
 
@@ -137,7 +135,6 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
   return items_.size() - 1;
 }
 
-// pbrt's lamps shine through what is cut out; ours have no holes.
 void Builder::set_alpha(const ShapeDescription& shape, Item& item) {
   const Parameter* alpha = shape.find("alpha");
   if (!alpha) return;
@@ -146,9 +143,6 @@ void Builder::set_alpha(const ShapeDescription& shape, Item& item) {
   } else {
     item.alpha = static_cast<float>(alpha->numbers[0]);
   }
-  if (shape.area_light && (item.alpha < 1 || item.alpha_texture != kNoIndex))
-    diagnostics_.error(alpha->location, "`alpha` of a lamp is not rendered",
-                       {{description_.area_lights[*shape.area_light].location, "the area light"}});
 }
 
 void Builder::collect(MaterialTable& materials) {
@@ -263,14 +257,6 @@ void Builder::move_inline_meshes(const std::vector<ExactBounds>& of_item, const 
   });
 }
 
-void Builder::check_area_lights() {
-  for (const Directive& light : description_.area_lights) {
-    const TypeSpec* spec = find_type(category("AreaLightSource"), light, diagnostics_);
-    if (spec && !check_parameters("area light", *spec, light, warned_, diagnostics_)) spec = nullptr;
-    area_light_specs_.push_back(spec);
-  }
-}
-
 void Builder::build_lights(Scene& scene) {
   for (const LightDescription& light : description_.lights) {
     const TypeSpec* spec = find_type(category("LightSource"), light, diagnostics_);
@@ -283,15 +269,9 @@ void Builder::build_lights(Scene& scene) {
                                   [&](const LightRow& r) { return &r.spec == spec; });
     auto made = row->make(
         {ParameterReader(light, *spec), light.light_to_world, scene.origin, light_images_, diagnostics_});
-    if (made && check_power(power(*made), light.location)) scene.lights.push_back(std::move(*made));
+    if (made && is_power(power(*made), light.location, diagnostics_))
+      scene.lights.push_back(std::move(*made));
   }
-}
-
-// A lamp of infinite power would emit nothing, since no photon can carry its share.
-bool Builder::check_power(const Rgb& power, const SourceLocation& location) {
-  if (is_finite(power)) return true;
-  diagnostics_.error(location, "the power of this lamp is beyond the range of floats");
-  return false;
 }
 
 void Builder::share_meshes() {
@@ -317,35 +297,6 @@ bool Builder::keep(const Placement& placement, PlacedShape& placed) {
                                      mesh.indices.size() + placed.without_area));
   }
   return primitive_count(placed.shape) > 0;
-}
-
-bool Builder::make_lamp(const Item& item, Shape& shape, Scene& scene) {
-  const uint32_t index = *item.description->area_light;
-  const Directive& directive = description_.area_lights[index];
-  const ParameterReader reader(directive, *area_light_specs_[index]);
-  auto light = DiffuseAreaLight::make(shape, reader.rgb("L"), reader.flag("twosided"));
-  if (!light) {
-    const bool sphere =
-        std::holds_alternative<Sphere>(shape.geometry) || std::holds_alternative<Quadric>(shape.geometry);
-    diagnostics_.error(item.description->location,
-                       sphere ? "a sphere or cylinder that is scaled unevenly cannot be a lamp"
-                              : "the area of this lamp is zero or not finite",
-                       {{directive.location, "the area light"}});
-    return false;
-  }
-  if (reader.has("power")) {
-    const float emitted = luminance(light->power());
-    if (!(emitted > 0)) {
-      diagnostics_.error(reader.location("power"), "`power` of a light that emits nothing");
-      return false;
-    }
-    light->L *= static_cast<float>(reader.number("power")) / emitted;
-  }
-  light->L *= static_cast<float>(reader.number("scale"));
-  if (!check_power(light->power(), directive.location)) return false;
-  shape.light = static_cast<uint32_t>(scene.lights.size());
-  scene.lights.push_back(std::move(*light));
-  return true;
 }
 
 std::string Builder::group_name(const ShapeDescription& shape) const {
@@ -386,7 +337,7 @@ void Builder::place(Scene& scene) {
     shape.material = item.material;
     shape.alpha = item.alpha;
     shape.alpha_texture = item.alpha_texture;
-    if (placements_[i].lamp && !make_lamp(item, shape, scene)) continue;
+    if (placements_[i].lamp && !lamps_->make(*item.description, shape, scene.lights)) continue;
     names.push_back(group_key(placements_[i]));
     places.push_back(group_name(*item.description));
     scene.shapes.push_back(std::move(shape));

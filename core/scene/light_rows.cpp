@@ -18,28 +18,43 @@ ParameterSpec scale() {
 }
 ParameterSpec power_spec() {
   return without_default(number("power", 0, "W", kPositive,
-                                "total power: the colour is scaled until the luminance of its power is this, "
-                                "then by `scale`"),
+                                "total power of a white lamp: the luminance of that of a coloured one is as "
+                                "many times as much as its colour's, as in pbrt. `scale` multiplies it"),
                          "none");
 }
 ParameterSpec image(std::string_view doc) {
   return text("filename", "none", doc);
 }
 
-// Scales `emission` so that `measure` (luminance of what it gives) becomes the parameter's value, where that
-// is given, and by `scale`. False, with an error, when there is nothing to scale.
+bool is_dark(const Rgb& emission) {
+  return is_black(emission);
+}
+bool is_dark(float scale) {
+  return scale == 0;
+}
+
+// Scales `emission` by the parameter's value over `of_white` (luminance of what it gives where it is one),
+// where that is given, and by `scale`. So do pbrt's lamps: of colours it divides by the luminance of the
+// white alone. False, with an error, when there is nothing to scale.
 template <class Emission>
-bool scale_to(const LightInputs& in, std::string_view name, double measure, Emission& emission) {
+bool scale_to(const LightInputs& in, std::string_view name, double of_white, Emission& emission) {
   const ParameterReader& p = in.parameters;
   if (p.has(name)) {
-    if (!(measure > 0)) {
+    if (!(of_white > 0) || is_dark(emission)) {
       in.diagnostics.error(p.location(name), fmt::format("`{}` of a light that emits nothing", name));
       return false;
     }
-    emission *= static_cast<float>(p.number(name)) / static_cast<float>(measure);
+    emission *= static_cast<float>(p.number(name)) / static_cast<float>(of_white);
   }
   emission *= static_cast<float>(p.number("scale"));
   return true;
+}
+
+// Of a lamp of intensity I.
+template <class L>
+double white_power(L light) {
+  light.I = Rgb(1);
+  return double(luminance(light.power()));
 }
 
 bool has_image(const LightInputs& in) {
@@ -83,7 +98,7 @@ std::optional<glm::mat3> rotation(const LightInputs& in) {
 std::optional<Light> make_point(const LightInputs& in) {
   const ParameterReader& p = in.parameters;
   PointLight light{Point3(to_scene(in) * glm::dvec4(p.vec3("from"), 1)), p.rgb("I")};
-  if (!scale_to(in, "power", luminance(light.power()), light.I)) return std::nullopt;
+  if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
   return light;
 }
 
@@ -99,7 +114,7 @@ std::optional<Light> make_spot(const LightInputs& in) {
   light.I = p.rgb("I");
   light.cos_falloff_start = static_cast<float>(std::cos(start));
   light.cos_total_width = static_cast<float>(std::cos(cone));
-  if (!scale_to(in, "power", luminance(light.power()), light.I)) return std::nullopt;
+  if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
   return light;
 }
 
@@ -114,7 +129,7 @@ std::optional<Light> make_goniometric(const LightInputs& in) {
   // The map's +z is the lamp's +y, as in pbrt.
   light.to_world = *map_to_world * glm::mat3(1, 0, 0, 0, 0, 1, 0, 1, 0);
   light.I = p.rgb("I");
-  if (!scale_to(in, "power", luminance(light.power()), light.I)) return std::nullopt;
+  if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
   return light;
 }
 
@@ -139,7 +154,7 @@ std::optional<Light> make_distant(const LightInputs& in) {
   DistantLight light;
   light.to_light = Vector3(*to_light);
   light.L = p.rgb("L");
-  if (!scale_to(in, "illuminance", luminance(light.L), light.L)) return std::nullopt;
+  if (!scale_to(in, "illuminance", 1, light.L)) return std::nullopt;
   return light;
 }
 
@@ -207,7 +222,7 @@ std::optional<Light> make_infinite(const LightInputs& in) {
     return make_portal(in, double(kPi * luminance(light.L)),
                        [&](const glm::mat3&) { return std::make_shared<const PortalSky>(light.L); });
   }
-  if (!scale_to(in, "illuminance", kPi * luminance(light.L), light.L)) return std::nullopt;
+  if (!scale_to(in, "illuminance", double(kPi), light.L)) return std::nullopt;
   return light;
 }
 
@@ -251,14 +266,14 @@ std::vector<LightRow> make_light_rows() {
       {{"distant",
         "Parallel light from `from` towards `to`.",
         {rgb("L", 1, "W/m^2", kNotNegative, "irradiance on a plane that faces it"), scale(),
-         illuminance("luminance of that irradiance: `L` is scaled to it, then by `scale`"), from, to}},
+         illuminance("irradiance of white light, which `L` and `scale` multiply"), from, to}},
        make_distant},
       {{"infinite",
         "Radiance from every direction: the same, or by an image.",
         {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(),
-         illuminance(
-             "luminance of the irradiance of a plane that faces the light's +z: the radiance is scaled to "
-             "it, then by `scale`"),
+         illuminance("irradiance of a plane that faces the light's +z, of white light, which `L` and `scale` "
+                     "multiply; "
+                     "of images and portals the luminance of that irradiance, which `scale` multiplies"),
          image("radiance: a square equal-area map as in pbrt-v4, or a latitude-longitude map of 2:1 as in "
                "pbrt-v3, both about +z"),
          portal()}},
@@ -268,10 +283,13 @@ std::vector<LightRow> make_light_rows() {
 
 std::vector<TypeSpec> make_area_light_types() {
   return {{"diffuse",
-           "Makes the shapes that follow emit the same radiance in all directions, on their outside.",
+           "Makes the shapes that follow emit the same radiance in all directions, on their outside. Where a "
+           "shape's `alpha` is 0 everywhere it shines, but no ray meets it.",
            {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(), power_spec(),
             flag("twosided", false, "emits on both sides"),
-            not_rendered("filename", {ParameterType::kString}, "images as lamps are not rendered")}}};
+            text("filename", "none",
+                 "radiance instead of `L`: an image over the uv of the shape, (0, 0) its lower left corner; "
+                 "bilinear, clamped at the edges")}}};
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ class TextureTable {
                                             DiagnosticList& diagnostics) const;
 
   const TextureSet& set() const { return *set_; }
+  // For what looks textures up when the scene is complete.
+  std::shared_ptr<const TextureSet> shared_set() const { return set_; }
   // Hands the textures over, for a scene around this origin.
   std::shared_ptr<const TextureSet> finish(const glm::dvec3& origin);
 

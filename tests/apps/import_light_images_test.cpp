@@ -31,7 +31,7 @@ TEST_F(ImportLightImages, MapsBecomeLights) {
   EXPECT_EQ(std::get<ImageInfiniteLight>(s.lights[0]).Le({{0, 0, 0}, {0, 0, 1}}), Rgb(2, 4, 6));
   const Rgb scaled = std::get<ImageInfiniteLight>(s.lights[1]).Le({{0, 0, 0}, {0, 0, 1}});
   EXPECT_NEAR(luminance(scaled) * kPi, 7, 0.02);  // the map's integral: direction_map_test.cpp
-  EXPECT_NEAR(luminance(power(s.lights[2])), 3, 3e-6);
+  EXPECT_NEAR(luminance(power(s.lights[2])), 3 * luminance({1, 1, 2}), 4e-6);
   EXPECT_EQ(std::get<GoniometricLight>(s.lights[2]).map->mean(), Rgb(2));  // of the three channels
   // From below the rectangle the sky lies towards cross(p3 - p0, p1 - p0) = +z.
   const auto& portal = std::get<PortalInfiniteLight>(s.lights[3]);
@@ -39,6 +39,41 @@ TEST_F(ImportLightImages, MapsBecomeLights) {
   EXPECT_EQ(portal.Le({{0.5f, 0.5f, 1}, {0, 0, -1}}), Rgb(0));
   EXPECT_NEAR(luminance(power(s.lights[4])), 5, 5e-6);
   EXPECT_EQ(diagnostics_.warning_count(), 1u);  // of the latitude-longitude map
+}
+
+// `power` takes the mean of all pixels for what is emitted, as pbrt does, and `scale` multiplies it.
+TEST_F(ImportLightImages, AreaLampsShowImages) {
+  write_exr("oblong.exr", 3, 1, {1, 2, 3}, {4, 5, 12});
+  const Scene s = world(R"(AreaLightSource "diffuse" "string filename" "oblong.exr" "float scale" 2
+    Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0]
+    AreaLightSource "diffuse" "string filename" "oblong.exr" "float power" 5 "bool twosided" true
+    Shape "disk"
+    AreaLightSource "diffuse" "rgb L" [1 2 3] Shape "sphere" "float alpha" 0
+    Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0] "float alpha" 0.5)");
+  ASSERT_EQ(s.lights.size(), 4u);
+  const auto lamp = [&](size_t i) { return std::get<DiffuseAreaLight>(s.lights[i]); };
+  EXPECT_EQ(lamp(0).image->value({0.1f, 0.5f}), Rgb(1, 2, 3));
+  EXPECT_EQ(lamp(0).image->mean_of_pixels(), Rgb(2, 3, 6));
+  EXPECT_EQ(lamp(0).L, Rgb(2));
+  EXPECT_NEAR(luminance(lamp(1).flux_of(lamp(1).area, lamp(1).L * Rgb(2, 3, 6))), 5, 1e-5);
+  EXPECT_TRUE(lamp(2).invisible && is_delta(s.lights[2]) && !lamp(2).image && !lamp(2).alpha);
+  EXPECT_TRUE(!lamp(3).invisible && lamp(3).alpha->constant == 0.5f);
+  EXPECT_EQ(diagnostics_.warning_count(), 0u);
+}
+
+TEST_F(ImportLightImages, AreaLampsWithBadImages) {
+  write_exr("dark.exr", 2, 2, Rgb(0));
+  const auto said = [&](const std::string& parameters) {
+    const std::string all = first_lines("AreaLightSource \"diffuse\" " + parameters + " Shape \"sphere\"");
+    EXPECT_FALSE(loaded_) << parameters;
+    return all;
+  };
+  EXPECT_EQ(said("\"string filename\" \"dark.exr\" \"rgb L\" [1 1 1]"),
+            "2:62: error: an area light has `L` or `filename`, not both\n");
+  EXPECT_NE(said("\"string filename\" \"missing.exr\"").find("no such file"), std::string::npos);
+  EXPECT_NE(said("\"string filename\" \"dark.exr\" \"float power\" 3").find("a light that emits nothing"),
+            std::string::npos);
+  EXPECT_NE(said("\"string filename\" \"dark.exr\" \"float scale\" -3").find("`scale`"), std::string::npos);
 }
 
 TEST_F(ImportLightImages, BadImagesAreRefusedWithTheirPlace) {

@@ -179,7 +179,8 @@ TEST_F(ImportScene, Lights) {
   EXPECT_EQ(s.infinite_lights, std::vector<uint32_t>{3});
 }
 
-TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatIsEmitted) {
+// Of a white lamp; colours multiply it, as in pbrt-v4.
+TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatAWhiteLampEmits) {
   const Scene s = world(R"(
     LightSource "point" "rgb I" [1 2 3] "float power" 7
     LightSource "spot" "rgb I" [3 2 1] "float power" 7 "float scale" 2
@@ -192,11 +193,12 @@ TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatIsEmitted) {
   const auto emitted = [&](size_t i) { return luminance(power(s.lights[i])); };
   // Each passes fewer than 32 roundings of relative size 2^-24.
   constexpr float kRelative = 32 * 0x1p-24f;
-  EXPECT_NEAR(emitted(0), 7, 7 * kRelative);
-  EXPECT_NEAR(emitted(1), 14, 14 * kRelative);
-  EXPECT_NEAR(luminance(std::get<DistantLight>(s.lights[2]).L), 7, 7 * kRelative);
-  EXPECT_NEAR(kPi * luminance(std::get<InfiniteLight>(s.lights[3]).L), 7, 7 * kRelative);
-  for (size_t i = 4; i < 7; ++i) EXPECT_NEAR(emitted(i), 7, 7 * kRelative) << i;
+  const float up = 7 * luminance({1, 2, 3}), down = 7 * luminance({3, 2, 1}), lamp = 7 * luminance({5, 4, 3});
+  EXPECT_NEAR(emitted(0), up, up * kRelative);
+  EXPECT_NEAR(emitted(1), 2 * down, 2 * down * kRelative);
+  EXPECT_NEAR(luminance(std::get<DistantLight>(s.lights[2]).L), down, down * kRelative);
+  EXPECT_NEAR(kPi * luminance(std::get<InfiniteLight>(s.lights[3]).L), down, down * kRelative);
+  for (size_t i = 4; i < 7; ++i) EXPECT_NEAR(emitted(i), lamp, lamp * kRelative) << i;
   EXPECT_TRUE(std::get<DiffuseAreaLight>(s.lights[4]).twosided);
 }
 

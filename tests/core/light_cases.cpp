@@ -43,6 +43,23 @@ std::shared_ptr<const LightImage> random_image(int width, int height) {
   return std::make_shared<const LightImage>(std::move(image));
 }
 
+// Shows an image, of which `shape` has the uv.
+LightCase image_case(const std::string& name, const Shape& shape, bool twosided, std::vector<Point3> refs,
+                     const EmitterAlpha& alpha = {}) {
+  LightCase c = area_case(name, shape, twosided, std::move(refs));
+  auto light = *DiffuseAreaLight::make(shape, Rgb(1, 2, 3), twosided, random_image(4, 3));
+  if (alpha.constant < 1) light.alpha = std::make_shared<const EmitterAlpha>(alpha);
+  c.light = light;
+  return c;
+}
+
+// The two triangles show parts of the image that are not the same, and one is turned over in it.
+Shape mapped_mesh() {
+  Shape shape = bent_mesh();
+  std::get<TriangleMesh>(shape.geometry).uv = {{0, 0}, {0, 1}, {1, 0.8f}, {0.7f, -0.2f}};
+  return shape;
+}
+
 // A rotation with mirroring.
 glm::mat3 some_axes() {
   const Frame f = Frame::from_z(glm::normalize(Vector3(0.3f, -0.8f, 0.5f)));
@@ -128,6 +145,14 @@ std::vector<LightCase> make_cases() {
     }
   }
   cases.push_back(area_case("part of a disk", quadric_shape(QuadricKind::kDisk, true), true, below));
+  cases.push_back(image_case("image on a mesh", mapped_mesh(), false, below));
+  cases.push_back(image_case("image on a mesh", mapped_mesh(), true, {{0, 0, 0}, {1, 0.5f, 6}}));
+  cases.push_back(image_case("image on bare triangles", bent_mesh(), false, below));
+  cases.push_back(image_case("image on a disk", disk_shape(0.2f, true), false, below));
+  cases.push_back(image_case("image in a sphere", sphere_shape(center, 4, true), false, {{0.1f, 0, 2}}));
+  const Shape drum = quadric_shape(QuadricKind::kCylinder, true);
+  cases.push_back(image_case("image in a cylinder", drum, true, {{0.3f, 0.05f, 2.45f}}));
+  cases.back().receiver_radius = 0.2f;
   return cases;
 }
 

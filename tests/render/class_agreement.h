@@ -95,6 +95,13 @@ struct Comparison {
   }
 };
 
+// Of whole pictures.
+inline Estimate total(const std::vector<Film>& of) {
+  std::vector<double> means;
+  for (const Film& film : of) means.push_back(total_mean(film));
+  return estimate_of(means);
+}
+
 // The settings with every way to estimate direct, caustic and indirect light.
 inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) {
   settings.photons = 100'000;
@@ -112,6 +119,23 @@ inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) 
 }
 inline std::string names_of_estimators(const RenderSettings& s) {
   return std::to_string(int(*s.direct)) + std::to_string(int(*s.caustics)) + std::to_string(int(*s.indirect));
+}
+
+// Whichever estimators are chosen, every path is counted once: the pictures' means are those of paths, but
+// for noise and the kernels' bias.
+inline void expect_the_same_sum_by_all_estimators(const Scene& scene, float radius) {
+  const Estimate reference = total(films(scene, settings_of(Method::kMc, 128, radius, 1)));
+  const auto wide = total(films(scene, settings_of(Method::kPhoton, 16, radius, 20)));
+  const auto narrow = total(films(scene, settings_of(Method::kPhoton, 16, radius / 2, 30)));
+  const double bias = kPackedFlux * reference.mean + 2 * std::abs(wide.mean - narrow.mean) +
+                      kErrors * std::hypot(wide.standard_error, narrow.standard_error);
+  for (const RenderSettings& settings : with_all_estimators(settings_of(Method::kAuto, 16, radius, 10))) {
+    const Estimate found = total(films(scene, settings, 4));
+    const double noise = std::hypot(reference.standard_error, found.standard_error);
+    EXPECT_NEAR(found.mean, reference.mean, 6 * noise + bias)
+        << names_of_estimators(settings) << " noise " << noise << " bias " << bias;
+    EXPECT_LT(6 * noise + bias, 0.5 * reference.mean);
+  }
 }
 
 }  // namespace kaustik::render::test
