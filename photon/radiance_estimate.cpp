@@ -77,7 +77,7 @@ struct SeenPoint {
 
 Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery& disc,
                      const EstimateSettings& settings, GatherCounters& counters) {
-  const Frame frame = Frame::from_z(x.si.ns);
+  const Frame frame = x.si.shading_frame();
   const Vector3 wo = frame.to_local(x.wo);
   const Rgb Lr = std::visit(ReflectedRadiance{map, disc, settings.kernel, frame, wo, counters}, x.bsdf);
   if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;

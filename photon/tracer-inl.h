@@ -330,7 +330,7 @@ class Tracer {
   template <class B>
   bool scatter(size_t k, const B& bsdf, const SurfaceInteraction& si, const Arrival& photon) {
     const auto u = [&](int dimension) { return numbers_.u[dimension][k]; };
-    const Frame frame = Frame::from_z(si.ns);
+    const Frame frame = si.shading_frame();
     const Vector3 wo = -photon.ray.d, wo_local = frame.to_local(wo);
     const auto sample =
         bsdf.sample_f(wo_local, kChoosesLobe<B> ? u(2) : 0, {u(0), u(1)}, TransportMode::kImportance);

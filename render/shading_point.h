@@ -11,7 +11,7 @@ namespace kaustik::render {
 struct ShadingPoint {
   SurfaceInteraction si;
   Vector3 wo{0};  // unit, world, to the viewer (or to the previous vertex of the camera path)
-  Frame frame;    // about si.ns
+  Frame frame;    // si.shading_frame()
   Vector3 wo_local{0};
   BsdfAt bsdf;
 
@@ -21,7 +21,7 @@ struct ShadingPoint {
                const Footprint& footprint = {})
       : si(interaction), wo(to_viewer), bsdf(scene, si, to_viewer, footprint) {
     if (!is_specular(*bsdf) && glm::dot(wo, si.n) * glm::dot(wo, si.ns) <= 0) si.ns = si.n;
-    frame = Frame::from_z(si.ns);
+    frame = si.shading_frame();
     wo_local = frame.to_local(wo);
   }
 

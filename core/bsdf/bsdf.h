@@ -33,6 +33,15 @@ inline bool is_specular(const Bsdf& bsdf) {
 inline Rgb albedo(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return b.albedo(); }, bsdf);
 }
+// Whether turning the surface about its normal changes anything.
+inline bool is_anisotropic(const Bsdf& bsdf) {
+  return std::visit(
+      [](const auto& b) {
+        if constexpr (requires { b.facets; }) return b.facets.alpha_x != b.facets.alpha_y;
+        return false;
+      },
+      bsdf);
+}
 // Whether light comes through the broad lobes.
 inline bool transmits(const Bsdf& bsdf) {
   return std::visit([]<class B>(const B&) { return kTransmitsBroadly<B>; }, bsdf);

@@ -25,6 +25,12 @@ struct SurfaceInteraction {
   uint32_t shape = kNoIndex, primitive = 0;
   uint32_t material = 0, light = kNoIndex, surface_group = 0;
   Point2 hit_uv{0};  // of the Hit: from it surface_parameters() makes uv and its derivatives where asked for
+  Vector3 tangent{0};  // dpdu where the BSDF is not the same all around; BsdfAt sets it
+
+  // In which BSDFs are defined: z = ns, x along the tangent where there is one.
+  Frame shading_frame() const {
+    return tangent == Vector3(0) ? Frame::from_z(ns) : Frame::from_z(ns, tangent);
+  }
 
   // Ray leaving in direction w (need not be unit).
   Ray spawn(const Vector3& w, float t_max = kInfinity) const {

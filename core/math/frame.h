@@ -17,6 +17,14 @@ struct Frame {
     const float b = z.x * z.y * a;
     return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
   }
+  // x as near to `along` as it goes; any where that has no part across z.
+  static Frame from_z(const Vector3& z, const Vector3& along) {
+    const Vector3 across = along - glm::dot(along, z) * z;
+    const float length = glm::length(across);
+    if (!(length > 0 && length <= std::numeric_limits<float>::max())) return from_z(z);
+    const Vector3 x = across / length;
+    return {x, glm::cross(z, x), z};
+  }
   Vector3 to_local(const Vector3& v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
   Vector3 to_world(const Vector3& v) const { return v.x * x + v.y * y + v.z * z; }
 };

@@ -24,6 +24,28 @@ TexturePoint point_of(const SurfaceInteraction& si, const SurfaceParameters& s, 
   return x;
 }
 
+// What is no number says nothing: then `otherwise`.
+float share_of(float value, float otherwise) {
+  if (value >= 0) return std::min(value, 1.0f);
+  return value < 0 ? 0 : otherwise;
+}
+
+float amount_at(const Scene& scene, const MixedMaterial& mixed, const SurfaceInteraction& si,
+                const Footprint& footprint) {
+  if (mixed.amount_texture == kNoIndex) return mixed.amount;
+  const TexturePoint x = texture_point(scene, si, footprint);
+  return share_of(scene.textures->evaluate_float(mixed.amount_texture, x), mixed.amount);
+}
+
+// The material itself, or what its mixtures choose. They hold materials defined before them only: this ends.
+const Material& chosen(const Scene& scene, const SurfaceInteraction& si, const Vector3& wo,
+                       const Footprint& footprint) {
+  const Material* material = &scene.materials[si.material];
+  while (const MixedMaterial* mixed = material->mixed())
+    material = &scene.materials[mixed->choose(si.p, wo, amount_at(scene, *mixed, si, footprint))];
+  return *material;
+}
+
 }  // namespace
 
 TexturePoint texture_point(const Scene& scene, const SurfaceInteraction& si, const Footprint& footprint) {
@@ -31,19 +53,20 @@ TexturePoint texture_point(const Scene& scene, const SurfaceInteraction& si, con
 }
 
 void BsdfAt::make(const Scene& scene, const Vector3& wo, const Footprint& footprint, SurfaceInteraction& si) {
-  const Material* chosen = &scene.materials[si.material];
-  // Mixtures hold materials defined before them only: this ends.
-  while (const MixedMaterial* mixed = chosen->mixed()) chosen = &scene.materials[mixed->choose(si.p, wo)];
-  bsdf_ = &chosen->typical();
-  if (chosen->constant()) return;
-  const TexturedMaterial& material = *chosen->textured();
+  const Material& material = chosen(scene, si, wo, footprint);
+  bsdf_ = &material.typical();
+  if (material.plain()) return;
   const SurfaceParameters s = surface_parameters(scene.shapes[si.shape], si);
-  const TexturePoint x = point_of(si, s, footprint);
-  if (material.displacement != kNoIndex || material.normal_map != kNoIndex)
-    si.ns = shading_normal(*scene.textures, material, x, s, si);
-  if (!material.makes_bsdf()) return;
-  made_ = material.make(MaterialInputs(material.inputs, scene.textures.get(), &x));
-  bsdf_ = &*made_;
+  if (const TexturedMaterial* textured = material.textured()) {
+    const TexturePoint x = point_of(si, s, footprint);
+    if (textured->displacement != kNoIndex || textured->normal_map != kNoIndex)
+      si.ns = shading_normal(*scene.textures, *textured, x, s, si);
+    if (textured->makes_bsdf()) {
+      made_ = textured->make(MaterialInputs(textured->inputs, scene.textures.get(), &x));
+      bsdf_ = &*made_;
+    }
+  }
+  if (is_anisotropic(*bsdf_)) si.tangent = s.dpdu;
 }
 
 }  // namespace kaustik

@@ -16,11 +16,12 @@ TexturePoint texture_point(const Scene& scene, const SurfaceInteraction& si, con
 // material's own, without a copy, or one made for the point and kept here.
 class BsdfAt {
  public:
-  // si.ns becomes that of the bump or normal map, where the material has one.
+  // si.ns becomes that of the bump or normal map, where the material has one; si.tangent is set where the
+  // BSDF is anisotropic.
   BsdfAt(const Scene& scene, SurfaceInteraction& si, const Vector3& wo, const Footprint& footprint = {}) {
     const Material& material = scene.materials[si.material];
     bsdf_ = &material.typical();
-    if (!material.constant()) make(scene, wo, footprint, si);
+    if (!material.plain()) make(scene, wo, footprint, si);
   }
   BsdfAt(const BsdfAt&) = delete;
   BsdfAt& operator=(const BsdfAt&) = delete;

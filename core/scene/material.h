@@ -30,13 +30,16 @@ class Material {
  public:
   // The same everywhere. Implicit: constant materials are BSDFs.
   template <class B>
-  requires std::constructible_from<Bsdf, const B&> Material(const B& bsdf) : bsdf_(bsdf) {}  // NOLINT
+  requires std::constructible_from<Bsdf, const B&> Material(const B& bsdf)  // NOLINT
+      : bsdf_(bsdf), anisotropic_(is_anisotropic(bsdf_)) {}
   // textures: those that its inputs name.
   Material(TexturedMaterial textured, const TextureSet& textures);
   // typical: of one of the two.
   Material(const MixedMaterial& mixed, const Bsdf& typical) : bsdf_(typical), mixed_(mixed) {}
 
   bool constant() const { return !textured_ && !mixed_; }
+  // Constant, and no part of the surface needs to be known where it is met.
+  bool plain() const { return constant() && !anisotropic_; }
   // Of a constant material; of others that of one point, for summaries.
   const Bsdf& typical() const { return bsdf_; }
   // Null for all that are not textured.
@@ -53,7 +56,8 @@ class Material {
   Bsdf bsdf_;
   std::shared_ptr<const TexturedMaterial> textured_;
   std::optional<MixedMaterial> mixed_;
-  bool varies_ = false;  // between specular and not
+  bool varies_ = false;       // between specular and not
+  bool anisotropic_ = false;  // of a constant one
 };
 
 }  // namespace kaustik

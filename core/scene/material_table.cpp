@@ -93,8 +93,13 @@ uint32_t MaterialTable::mix(const MaterialDescription& material, const TypeSpec&
     }
   }
   const Material &first = materials_[found[0]], &second = materials_[found[1]];
-  MixedMaterial mixed{found[0], found[1],
-                      static_cast<float>(ParameterReader(material, spec).number("amount")), first.lobes()};
+  MixedMaterial mixed{found[0], found[1], 0.5f, first.lobes()};
+  const Parameter* amount = material.find("amount");
+  if (amount && amount->type == ParameterType::kTexture) {
+    mixed.amount_texture = textures_.find(*amount, TextureValue::kFloat, diagnostics);
+  } else {
+    mixed.amount = static_cast<float>(ParameterReader(material, spec).number("amount"));
+  }
   mixed.lobes.broad |= second.lobes().broad;
   mixed.lobes.specular |= second.lobes().specular;
   mixed.lobes.glossy &= second.lobes().glossy;

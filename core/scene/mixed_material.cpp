@@ -15,12 +15,12 @@ uint64_t with_bits_of(uint64_t hash, const glm::vec3& v, uint32_t mask) {
 
 }  // namespace
 
-uint32_t MixedMaterial::choose(const Point3& p, const Vector3& wo) const {
+uint32_t MixedMaterial::choose(const Point3& p, const Vector3& wo, float share) const {
   constexpr uint32_t kSignAndMantissa = 0x807fffff, kAll = 0xffffffff;
   const uint64_t of_materials = hash_combine(first, second);
   const uint64_t hash = with_bits_of(with_bits_of(of_materials, p, kSignAndMantissa), wo, kAll);
   const float u = static_cast<float>(hash >> 40) * 0x1p-24f;  // in [0, 1)
-  return u < amount ? second : first;
+  return u < share ? second : first;
 }
 
 }  // namespace kaustik

@@ -28,8 +28,8 @@ std::vector<ParameterSpec> material(std::vector<ParameterSpec> own) {
 std::vector<ParameterSpec> rough_material(std::vector<ParameterSpec> own) {
   own.push_back(number("roughness", 0, "", kNotNegative, "of GGX microfacets; 0: smooth"));
   for (const std::string_view name : {"uroughness", "vroughness"})
-    own.push_back(without_default(number(name, 0, "", kNotNegative, "along one direction of the surface"),
-                                  "roughness"));
+    own.push_back(
+        without_default(number(name, 0, "", kNotNegative, "along u (v) of the surface"), "roughness"));
   own.push_back(flag("remaproughness", true, "alpha of GGX is the root of roughness, else roughness itself"));
   return material(std::move(own));
 }
@@ -150,7 +150,7 @@ std::vector<MaterialRow> make_material_rows() {
         "defined "
         "before it; mixtures may be mixed.",
         {two_names("materials", "names of the first and the second material"),
-         number("amount", 0.5, "", kUnit, "share of the second material")}},
+         textured(number("amount", 0.5, "", kUnit, "share of the second material"))}},
        nullptr},
       {{"interface", "No surface at all: its shapes are left out.", {}}, nullptr},
   };

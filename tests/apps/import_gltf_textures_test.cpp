@@ -100,7 +100,36 @@ TEST_F(GltfTextures, Channels) {
   EXPECT_NEAR(images.at(0)[1], 0.04, 1e-5);
   const auto mix = std::ranges::find_if(s.materials, [](const auto& m) { return m.type == "mix"; });
   ASSERT_NE(mix, s.materials.end());
-  EXPECT_NEAR(mix->find("amount")->numbers.at(0), 0.25, 1e-6);  // half of the mean of 0 and 1
+  const std::string amount = mix->find("amount")->strings.at(0);
+  const auto texture = std::ranges::find_if(s.textures, [&](const auto& t) { return t.name == amount; });
+  ASSERT_NE(texture, s.textures.end());
+  const std::vector<float> shares = pixels_of(file_of(*texture, "filename"));
+  EXPECT_EQ(shares.at(0), 0);
+  EXPECT_NEAR(shares.at(1), 0.5, 1e-5);
+  EXPECT_EQ(diagnostics_.format_all().find("mean"), std::string::npos);
+}
+
+// A texture that is 0 or 1 everywhere mixes nothing.
+TEST_F(GltfTextures, MetalEverywhereOrNowhere) {
+  for (const auto& [blue, type] : {std::pair{0, "coateddiffuse"}, std::pair{255, "conductor"}}) {
+    const auto b = static_cast<uint8_t>(blue);
+    const auto s = textured(R"({ "pbrMetallicRoughness": { "metallicRoughnessTexture": { "index": 0 } } })",
+                            png({0, 255, b, 255, 0, 51, b, 255}));
+    ASSERT_EQ(s.materials.size(), 1u);
+    EXPECT_EQ(s.materials[0].type, type);
+  }
+}
+
+TEST_F(GltfTextures, TransmissionIsMixedByItsTexture) {
+  const auto s = textured(R"({ "pbrMetallicRoughness": { "metallicFactor": 0 }, "extensions":
+      { "KHR_materials_transmission": { "transmissionFactor": 0.8, "transmissionTexture": { "index": 0 } } } })",
+                          png(kTwo));
+  const MaterialDescription& mix = s.materials.back();
+  ASSERT_EQ(mix.type, "mix");
+  const std::vector<float> shares = pixels_of(file_of(s.textures.back(), "filename"));
+  EXPECT_EQ(mix.find("amount")->strings.at(0), s.textures.back().name);
+  EXPECT_NEAR(shares.at(0), 0.8, 1e-5);
+  EXPECT_NEAR(shares.at(1), 0.8 * 128 / 255, 1e-4);
 }
 
 TEST_F(GltfTextures, Alpha) {
@@ -121,12 +150,34 @@ TEST_F(GltfTextures, Alpha) {
   }
 }
 
-TEST_F(GltfTextures, EmissionIsItsMean) {
-  const auto s = textured(R"({ "emissiveFactor": [ 1, 1, 1 ], "emissiveTexture": { "index": 0 } })",
+// The factor's largest component is the scale, the rest is in the image.
+TEST_F(GltfTextures, EmissionIsTheImage) {
+  const auto s = textured(R"({ "emissiveFactor": [ 1, 0.25, 1 ], "emissiveTexture": { "index": 0 },
+      "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 6 } } })",
+                          png({255, 0, 0, 255, 0, 255, 0, 255}));
+  const Directive& lamp = s.area_lights.at(0);
+  EXPECT_EQ(lamp.find("scale")->numbers, (std::vector<double>{6}));
+  EXPECT_FALSE(lamp.find("L"));
+  const std::vector<float> pixels = pixels_of(file_of(lamp, "filename"));
+  ASSERT_EQ(pixels.size(), 6u);
+  EXPECT_EQ(pixels[0], 1);
+  EXPECT_NEAR(pixels[4], 0.5371, 0.5 / 255);  // sRGB of a quarter
+  EXPECT_EQ(diagnostics_.warning_count(), 0u) << diagnostics_.format_all();
+}
+
+TEST_F(GltfTextures, EmissionThatPbrtHasNoWordsForIsItsMean) {
+  const auto s = textured(R"({ "emissiveFactor": [ 1, 1, 1 ], "emissiveTexture": { "index": 0,
+      "extensions": { "KHR_texture_transform": { "scale": [ 2, 2 ] } } } })",
                           png({255, 0, 0, 255, 0, 255, 0, 255}));
   const Parameter* L = s.area_lights.at(0).find("L");
   EXPECT_EQ(L->numbers, (std::vector<double>{0.5, 0.5, 0}));
-  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("textures of emission are rendered as their mean"));
+  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("are rendered as their mean"));
+}
+
+TEST_F(GltfTextures, BlackEmissionIsNoLamp) {
+  const auto s = textured(R"({ "emissiveFactor": [ 1, 1, 1 ], "emissiveTexture": { "index": 0 } })",
+                          png({0, 0, 0, 255, 0, 0, 0, 255}));
+  EXPECT_TRUE(s.area_lights.empty());
 }
 
 TEST_F(GltfTextures, DamagedImages) {

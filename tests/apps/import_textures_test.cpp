@@ -226,9 +226,14 @@ TEST_F(ImportTextures, ScenesComeAndGo) {
   }
 }
 
-TEST_F(ImportTextures, LampsHaveNoHoles) {
-  EXPECT_EQ(first_lines("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0.5"),
-            "2:42: error: `alpha` of a lamp is not rendered\n");
+TEST_F(ImportTextures, AmountsOfMixturesAreFloatTextures) {
+  const std::string mix = R"(MakeNamedMaterial "a" "string type" "mirror"
+    Texture "grey" "spectrum" "constant" Texture "half" "float" "constant" "float value" 0.5
+    Material "mix" "string materials" ["a" "a"] "texture amount" )";
+  EXPECT_EQ(first_lines(mix + "\"grey\" Shape \"sphere\""),
+            "4:66: error: `amount` takes a float texture: `grey` is none\n");
+  const Scene s = world(mix + "\"half\" Shape \"sphere\"");
+  EXPECT_EQ(s.materials[s.shapes[0].material].mixed()->amount_texture, 1u);
 }
 
 }  // namespace

@@ -88,9 +88,16 @@ class Importer {
       shape->material = look.material;
       shape->area_light = look.area_light;
       if (look.alpha) shape->parameters.push_back(*look.alpha);
+      if (look.emits_image && leaves_image(*shape))
+        warnings_.say("textures of emission are not repeated beyond their edges");
       shapes.push_back(std::move(*shape));
     }
     return shapes;
+  }
+
+  static bool leaves_image(const ShapeDescription& shape) {
+    const Parameter* uv = shape.find("uv");
+    return uv && std::any_of(uv->numbers.begin(), uv->numbers.end(), [](double x) { return x < 0 || x > 1; });
   }
 
   // A mesh of several nodes is an object with instances, but for its lamps: those are shapes of their own.

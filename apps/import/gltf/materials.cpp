@@ -43,49 +43,53 @@ Look Materials::make(const View& material, const std::string& name) {
   look.uv_set = metallic_roughness(material)["baseColorTexture"]["texCoord"].count(0);
   look.material = {std::nullopt, surface(material, name), warnings_.where()};
   look.alpha = alpha_of(material);
-  look.area_light = lamp_of(material);
+  add_lamp(material, look);
   return look;
 }
 
 // What lets light through, beside what does not.
 std::string Materials::surface(const View& material, const std::string& name) {
   const View transmission = extension(material, "KHR_materials_transmission");
-  const double share = std::clamp(transmission["transmissionFactor"].number(0), 0.0, 1.0);
-  if (!(share > 0)) return opaque(material, name);
-  const double amount = share * mean_of(transmission["transmissionTexture"], 0);
-  if (amount == 1) return clear_part(material, name);
+  const double factor = std::clamp(transmission["transmissionFactor"].number(0), 0.0, 1.0);
+  const Share share = share_of(factor, transmission["transmissionTexture"], 0);
+  if (share.is(0)) return opaque(material, name);
+  if (share.is(1)) return clear_part(material, name);
   const std::string solid = opaque(material, name + " opaque");
   const std::string clear = clear_part(material, name + " clear");
-  return mixed(name, solid, clear, amount);
+  return mixed(name, solid, clear, share);
 }
 
 std::string Materials::opaque(const View& material, const std::string& name) {
   const View pbr = metallic_roughness(material);
   const double metallic = std::clamp(pbr["metallicFactor"].number(1), 0.0, 1.0);
-  if (metallic == 0) return dielectric_part(material, name);
-  const double amount = metallic * mean_of(pbr["metallicRoughnessTexture"], 2);
-  if (amount == 0) return dielectric_part(material, name);
-  if (amount == 1) return metal_part(material, name);
+  const Share share = share_of(metallic, pbr["metallicRoughnessTexture"], 2);
+  if (share.is(0)) return dielectric_part(material, name);
+  if (share.is(1)) return metal_part(material, name);
   const std::string dielectric = dielectric_part(material, name + " dielectric");
   const std::string metal = metal_part(material, name + " metal");
-  return mixed(name, dielectric, metal, amount);
+  return mixed(name, dielectric, metal, share);
 }
 
-// A mixture has one share everywhere. 1 without a texture.
-double Materials::mean_of(const View& texture, int channel) {
-  const auto mean = textures_.mean(texture, false);
-  if (!mean) return 1;
-  warnings_.say("textures that mix materials are rendered as their mean");
-  return std::clamp((*mean)[channel], 0.0, 1.0);
+// Textures that are 0, or 1, everywhere are common, and mix nothing: their mean tells.
+Materials::Share Materials::share_of(double factor, const View& texture, int channel) {
+  const auto mean = factor > 0 ? textures_.mean(texture, false) : std::nullopt;
+  if (!mean) return {factor, std::nullopt};
+  const double share = factor * std::clamp((*mean)[channel], 0.0, 1.0);
+  if (share == 0 || share == 1) return {share, std::nullopt};
+  return {share, textures_.channel(texture, channel, [factor](double v) { return factor * v; })};
 }
 
 // pbrt's mix: `amount` is the share of the second one.
 std::string Materials::mixed(const std::string& name, const std::string& first, const std::string& second,
-                             double amount) {
+                             const Share& share) {
   Maker m("mix", warnings_.where());
   Parameter parts = make_parameter(ParameterType::kString, "materials", first, warnings_.where());
   parts.strings.push_back(second);
-  m.add(std::move(parts)).number("amount", amount);
+  m.add(std::move(parts));
+  if (share.texture)
+    m.add(textures_.parameter("amount", *share.texture));
+  else
+    m.number("amount", share.constant);
   return add(std::move(*m), name, View());
 }
 
@@ -172,21 +176,40 @@ std::optional<Parameter> Materials::alpha_of(const View& material) {
   return make_parameter(ParameterType::kFloat, "alpha", std::vector<double>{covered(1)}, warnings_.where());
 }
 
-std::optional<uint32_t> Materials::lamp_of(const View& material) {
+void Materials::add_lamp(const View& material, Look& look) {
   const View strength = extension(material, "KHR_materials_emissive_strength")["emissiveStrength"];
-  glm::dvec3 L = strength.number(1) * colour(material["emissiveFactor"].numbers(3, {0, 0, 0}));
-  if (material.has("emissiveTexture") && L != glm::dvec3(0)) {
-    if (const auto mean = textures_.mean(material["emissiveTexture"])) {
-      warnings_.say("textures of emission are rendered as their mean");
-      L *= *mean;
-    }
-  }
-  if (!(L.x > 0 || L.y > 0 || L.z > 0)) return std::nullopt;
+  const glm::dvec3 L =
+      glm::max(strength.number(1) * colour(material["emissiveFactor"].numbers(3, {0, 0, 0})), 0.0);
+  if (L == glm::dvec3(0)) return;
   DirectiveMaker<Directive> lamp("diffuse", warnings_.where());
-  lamp.rgb("L", glm::max(L, 0.0));
+  look.emits_image = add_emitted_image(material, L, look.uv_set, *lamp);
+  if (!look.emits_image) {
+    const glm::dvec3 mean = textures_.mean(material["emissiveTexture"]).value_or(glm::dvec3(1));
+    if (L * mean == glm::dvec3(0)) return;
+    lamp.rgb("L", L * mean);
+  }
   if (material["doubleSided"].flag(false)) lamp.flag("twosided", true);
   scene_.area_lights.push_back(std::move(*lamp));
-  return static_cast<uint32_t>(scene_.area_lights.size() - 1);
+  look.area_light = static_cast<uint32_t>(scene_.area_lights.size() - 1);
+}
+
+// pbrt's lamps show their image once, by the shape's own uv. False where there is none to show.
+bool Materials::add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set,
+                                  Directive& lamp) {
+  const View texture = material["emissiveTexture"];
+  if (!texture || textures_.mean(texture).value_or(glm::dvec3(0)) == glm::dvec3(0)) return false;
+  if (texture["extensions"].has("KHR_texture_transform") || texture["texCoord"].count(0) != uv_set) {
+    warnings_.say(
+        "textures of emission that are moved, or have coordinates of their own, are rendered as their mean");
+    return false;
+  }
+  const double brightest = std::max(L.x, std::max(L.y, L.z));
+  const auto file = textures_.tinted_file(texture, L / brightest);
+  if (!file) return false;
+  lamp.parameters.push_back(Textures::file_parameter("filename", *file));
+  lamp.parameters.push_back(
+      make_parameter(ParameterType::kFloat, "scale", std::vector<double>{brightest}, warnings_.where()));
+  return true;
 }
 
 void Materials::warn_of_extensions(const View& material) {

@@ -16,6 +16,7 @@ struct Look {
   std::optional<uint32_t> area_light;
   std::optional<Parameter> alpha;
   uint64_t uv_set = 0;
+  bool emits_image = false;  // over 0 to 1 of that set
 };
 
 class Materials {
@@ -34,14 +35,22 @@ class Materials {
   std::string dielectric_part(const View& material, const std::string& name);
   std::string metal_part(const View& material, const std::string& name);
   std::string clear_part(const View& material, const std::string& name);
+  // The share of a mixture's second part: a texture's, where one is named.
+  struct Share {
+    double constant = 0;
+    std::optional<std::string> texture;
+
+    bool is(double s) const { return !texture && constant == s; }
+  };
+  Share share_of(double factor, const View& texture, int channel);
   std::string mixed(const std::string& name, const std::string& first, const std::string& second,
-                    double amount);
-  double mean_of(const View& texture, int channel);
+                    const Share& share);
   std::string add(MaterialDescription m, const std::string& name, const View& material);
   void add_colour(const View& material, MaterialDescription& m);
   void add_roughness(const View& material, MaterialDescription& m);
   std::optional<Parameter> alpha_of(const View& material);
-  std::optional<uint32_t> lamp_of(const View& material);
+  void add_lamp(const View& material, Look& look);
+  bool add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set, Directive& lamp);
   void warn_of_extensions(const View& material);
 
   const Document& document_;

@@ -109,15 +109,20 @@ std::string Textures::add(const std::string& value_type, const ImageFile& file, 
 }
 
 std::optional<std::string> Textures::colour(const View& info, const glm::dvec3& factor) {
-  const auto image = file(info);
+  const auto image = tinted_file(info, factor);
   if (!image) return std::nullopt;
-  if (factor == glm::dvec3(1)) return add("spectrum", *image, "", info);
+  return add("spectrum", *image, factor == glm::dvec3(1) ? "" : "sRGB", info);
+}
+
+std::optional<ImageFile> Textures::tinted_file(const View& info, const glm::dvec3& factor) {
+  const auto image = file(info);
+  if (!image || factor == glm::dvec3(1)) return image;
   const ImageFile tinted = in_folder(fmt::format("derived{}.png", derived_++));
   if (const auto error = write_tinted(path_of(*image), path_of(tinted), factor)) {
     warnings_.say(*error);
     return std::nullopt;
   }
-  return add("spectrum", tinted, "sRGB", info);
+  return tinted;
 }
 
 std::optional<std::string> Textures::channel(const View& info, int channel,

@@ -29,8 +29,9 @@ class Textures {
   std::optional<std::string> colour(const View& info, const glm::dvec3& factor);
   // A channel (0 to 3) as numbers; map is applied to each, and gives 0 to 1.
   std::optional<std::string> channel(const View& info, int channel, const std::function<double(double)>& map);
-  // The image itself.
+  // The image itself, and that of its colours times a factor.
   std::optional<ImageFile> file(const View& info);
+  std::optional<ImageFile> tinted_file(const View& info, const glm::dvec3& factor);
   // Its mean colour: linear, or the mean of the numbers where they are not sRGB.
   std::optional<glm::dvec3> mean(const View& info, bool srgb = true);
 
