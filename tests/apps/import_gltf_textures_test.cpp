@@ -95,9 +95,9 @@ TEST_F(GltfTextures, Channels) {
     images.push_back(pixels_of(file_of(t, "filename")));
     ASSERT_EQ(images.back().size(), 2u);
   }
-  ASSERT_FALSE(images.empty());
-  EXPECT_NEAR(images.at(0)[0], 1, 1e-5);  // roughness of the dielectric
-  EXPECT_NEAR(images.at(0)[1], 0.04, 1e-5);
+  ASSERT_EQ(images.size(), 3u);
+  EXPECT_NEAR(images[1][0], 1, 1e-5);  // roughness of the dielectric
+  EXPECT_NEAR(images[1][1], 0.04, 1e-5);
   const auto mix = std::ranges::find_if(s.materials, [](const auto& m) { return m.type == "mix"; });
   ASSERT_NE(mix, s.materials.end());
   const std::string amount = mix->find("amount")->strings.at(0);
@@ -161,8 +161,8 @@ TEST_F(GltfTextures, EmissionIsTheImage) {
   const std::vector<float> pixels = pixels_of(file_of(lamp, "filename"));
   ASSERT_EQ(pixels.size(), 6u);
   EXPECT_EQ(pixels[0], 1);
-  EXPECT_NEAR(pixels[4], 0.5371, 0.5 / 255);  // sRGB of a quarter
-  EXPECT_EQ(diagnostics_.warning_count(), 0u) << diagnostics_.format_all();
+  EXPECT_NEAR(pixels[4], 0.5371, 0.5 / 255);                                 // sRGB of a quarter
+  EXPECT_EQ(diagnostics_.warning_count(), 1u) << diagnostics_.format_all();  // of the camera
 }
 
 TEST_F(GltfTextures, EmissionThatPbrtHasNoWordsForIsItsMean) {

@@ -69,7 +69,7 @@ TEST_F(ImportLightImages, AreaLampsWithBadImages) {
     return all;
   };
   EXPECT_EQ(said("\"string filename\" \"dark.exr\" \"rgb L\" [1 1 1]"),
-            "2:62: error: an area light has `L` or `filename`, not both\n");
+            "2:65: error: an area light has `L` or `filename`, not both\n");
   EXPECT_NE(said("\"string filename\" \"missing.exr\"").find("no such file"), std::string::npos);
   EXPECT_NE(said("\"string filename\" \"dark.exr\" \"float power\" 3").find("a light that emits nothing"),
             std::string::npos);
