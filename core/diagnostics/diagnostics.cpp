@@ -54,7 +54,7 @@ std::string source_excerpt(std::string_view line, uint32_t column) {
 std::string format_one(const SourceFiles& files, const SourceLocation& where, std::string_view severity,
                        std::string_view message) {
   if (!where.valid()) return fmt::format("{}: {}\n", severity, message);
-  const std::string& name = files.name(where.file);
+  const std::string_view name = files.name(where.file);
   if (where.line == 0) return fmt::format("{}: {}: {}\n", name, severity, message);
   return fmt::format("{}:{}:{}: {}: {}\n{}", name, where.line, where.column, severity, message,
                      source_excerpt(files.line(where.file, where.line), where.column));
@@ -98,6 +98,7 @@ uint32_t SourceFiles::add(std::string name, std::string text) {
 }
 
 std::string_view SourceFiles::line(uint32_t file, uint32_t line) const {
+  if (file >= files_.size()) return {};
   const File& f = files_[file];
   if (line == 0 || line > f.line_starts.size()) return {};
   std::string_view rest = std::string_view(f.text).substr(f.line_starts[line - 1]);

@@ -51,7 +51,10 @@ class SourceFiles {
  public:
   // name: as the user gave it (printed as it is); text may be empty when the file is not a text.
   uint32_t add(std::string name, std::string text);
-  const std::string& name(uint32_t file) const { return files_[file].name; }
+  // Empty for a file that is not one of these, as where a description outlives what it was read with.
+  std::string_view name(uint32_t file) const {
+    return file < files_.size() ? std::string_view(files_[file].name) : std::string_view();
+  }
   std::string_view text(uint32_t file) const { return files_[file].text; }
   size_t size() const { return files_.size(); }
   // The text of a line (from one) without its line end; empty when there is none.
