@@ -2,55 +2,99 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 #include "photon/boundary_correction.h"
 #include "photon/packing.h"
 
 namespace kaustik::photon {
 
+void EstimateBatch::begin_block() {
+  latest_.fill(kNone);
+  readings_.clear();
+  complete_ = 0;
+}
+
 bool EstimateBatch::add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
                         const Bsdf& bsdf, const EstimateSettings& settings, const Rgb& weight, Rgb* radiance,
                         float* photons) {
   if (map.empty()) return true;
   const auto* const lambertian = std::get_if<Lambertian>(&bsdf);
-  if (!lambertian || settings.nearest > 0 || settings.leaf) return false;
+  if (!lambertian || settings.leaf) return false;
   const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
-  waiting_.push_back({&map, &settings, si, n, pack_surface(n, si.surface_group),
-                      weight * lambertian->reflectance * kInvPi, radiance, photons});
+  uint32_t reading = reading_near(map, si, n);
+  if (reading == kNone) reading = new_reading(map, settings, si, n);
+  waiting_.push_back({reading, weight * lambertian->reflectance * kInvPi, radiance, photons});
   return true;
 }
 
+uint32_t EstimateBatch::reading_near(const PhotonMap& map, const SurfaceInteraction& si,
+                                     const Normal3& n) const {
+  constexpr float kSameSide = 0.99f;  // cosine between normals
+  uint32_t i = latest_[pixel_];
+  for (int looked_at = 0; i != kNone && looked_at < kLookedAt; ++looked_at, i = readings_[i].previous) {
+    const Reading& r = readings_[i];
+    const float shared = kShared * r.query.radius;
+    if (r.map == &map && r.query.surface_group == si.surface_group &&
+        length_squared(r.query.p - si.p) <= shared * shared && glm::dot(r.query.n, n) > kSameSide)
+      return i;
+  }
+  return kNone;
+}
+
+// The disc of a nearest search is found at once: it says how far the reading serves.
+uint32_t EstimateBatch::new_reading(const PhotonMap& map, const EstimateSettings& settings,
+                                    const SurfaceInteraction& si, const Normal3& n) {
+  GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
+  if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, nearest_);
+  readings_.push_back({&map, &settings, si, query, pack_surface(n, si.surface_group), latest_[pixel_]});
+  return latest_[pixel_] = static_cast<uint32_t>(readings_.size() - 1);
+}
+
 void EstimateBatch::flush(GatherCounters& counters) {
-  // By map and surface; of one surface in the order in which they came, neighbour after neighbour.
-  std::ranges::stable_sort(waiting_, [](const Waiting& a, const Waiting& b) {
-    if (a.map != b.map) return std::less<>()(a.map, b.map);
-    return a.surface < b.surface;
-  });
-  for (const Waiting *first = waiting_.data(), *const end = first + waiting_.size(); first != end;) {
-    const Waiting* const next =
-        std::find_if(first, end, [&](const Waiting& w) { return w.map != first->map; });
-    gather(first, next, counters);
-    first = next;
+  read_new(counters);
+  counters += nearest_;
+  nearest_ = {};
+  for (const Waiting& w : waiting_) {
+    const Reading& reading = readings_[w.reading];
+    *w.photons += reading.accepted;
+    *w.radiance += w.weight * reading.flux;
   }
   waiting_.clear();
 }
 
-// Of one map.
-void EstimateBatch::gather(const Waiting* first, const Waiting* end, GatherCounters& counters) {
-  const EstimateSettings& settings = *first->settings;
+// By map and surface; of one surface in the order in which they came, neighbour after neighbour.
+void EstimateBatch::read_new(GatherCounters& counters) {
+  order_.resize(readings_.size() - complete_);
+  std::iota(order_.begin(), order_.end(), static_cast<uint32_t>(complete_));
+  complete_ = readings_.size();
+  std::ranges::stable_sort(order_, [&](uint32_t i, uint32_t j) {
+    const Reading &a = readings_[i], &b = readings_[j];
+    if (a.map != b.map) return std::less<>()(a.map, b.map);
+    return a.surface < b.surface;
+  });
+  for (auto first = order_.begin(); first != order_.end();) {
+    const PhotonMap* const map = readings_[*first].map;
+    const auto end = std::find_if(first, order_.end(), [&](uint32_t i) { return readings_[i].map != map; });
+    read({first, end}, counters);
+    first = end;
+  }
+}
+
+void EstimateBatch::read(std::span<const uint32_t> of_one_map, GatherCounters& counters) {
+  const PhotonMap& map = *readings_[of_one_map.front()].map;
+  const EstimateSettings& settings = *readings_[of_one_map.front()].settings;
   queries_.clear();
-  for (const Waiting* w = first; w != end; ++w)
-    queries_.push_back({w->si.p, w->n, w->si.surface_group, settings.radius, kAllPhotons});
+  for (const uint32_t i : of_one_map) queries_.push_back(readings_[i].query);
   results_.resize(queries_.size());
-  first->map->gather_flux(queries_, settings.kernel, results_.data());
-  for (const PhotonMap::Gathered* result = results_.data(); first != end; ++first, ++result) {
-    counters += result->counters;
-    *first->photons += float(result->counters.accepted);
-    if (is_black(result->flux)) continue;
-    const float share =
-        settings.edges ? float(surface_share(*settings.edges, first->si, settings.kernel, settings.radius))
-                       : 1;
-    *first->radiance += first->weight * result->flux / share;
+  map.gather_flux(queries_, settings.kernel, results_.data());
+  for (size_t k = 0; k < of_one_map.size(); ++k) {
+    Reading& reading = readings_[of_one_map[k]];
+    counters += results_[k].counters;
+    reading.accepted = float(results_[k].counters.accepted);
+    reading.flux = results_[k].flux;
+    if (!settings.edges || is_black(reading.flux)) continue;
+    reading.flux /= float(surface_share(*settings.edges, reading.si, settings.kernel, reading.query.radius));
   }
 }
 

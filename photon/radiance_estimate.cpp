@@ -61,13 +61,6 @@ struct ReflectedRadiance {
   }
 };
 
-// The K-th nearest photon sets the disc but does not count: K - 1 photons in the disc that reaches the K-th
-// are an unbiased estimate of density, K photons are not (Silverman 1986, section 5.2).
-float nearest_radius(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
-  const float radius = map.nearest_radius(query, k, counters);
-  return radius < query.radius ? std::nextafter(radius, 0.0f) : radius;
-}
-
 // A point of the surface, how it scatters, and who looks at it.
 struct SeenPoint {
   const SurfaceInteraction& si;
@@ -89,7 +82,7 @@ Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& 
                        const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
   const SurfaceInteraction& si = x.si;
   GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
-  if (settings.nearest > 0) query.radius = nearest_radius(map, query, settings.nearest, counters);
+  if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters);
   if (settings.leaf) query.within = map.find_cell(si.p, settings.node_photons, query.radius).range;
   const Rgb Lr = radiance_of_disc(map, x, query, settings, counters);
   if (bias) {
@@ -100,6 +93,11 @@ Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& 
 }
 
 }  // namespace
+
+float disc_of_nearest(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
+  const float radius = map.nearest_radius(query, k, counters);
+  return radius < query.radius ? std::nextafter(radius, 0.0f) : radius;
+}
 
 Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
                       const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {

@@ -41,4 +41,9 @@ Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const 
                       const EstimateSettings& settings, GatherCounters& counters,
                       BiasEstimate* bias = nullptr);
 
+// Radius of the disc whose photons count where the K-th nearest sets it, at most query.radius. It does not
+// count itself: K - 1 photons in the disc that reaches the K-th are an unbiased estimate of density, K
+// photons are not (Silverman 1986, section 5.2).
+float disc_of_nearest(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters);
+
 }  // namespace kaustik::photon

@@ -56,6 +56,7 @@ class BlockSamples {
 
   void shade(photon::EstimateBatch* batch, TileCounters& counters) {
     for_each([&](int x, int y, uint64_t i, PixelResult& result) {
+      batch->begin_pixel(pixel_of_block(x, y));
       const uint64_t stream = pixel_stream(ctx_.settings.seed, ctx_.scene.camera, x, y);
       Sampler sampler(stream, i, ray_dimensions(ctx_.scene.camera));
       // Once a pass: most of its noise is that of the photons, which all samples share.
@@ -87,6 +88,11 @@ class BlockSamples {
         for (uint64_t i = first_; i < end_; ++i) fn(x, y, i, *result++);
   }
 
+  static uint32_t pixel_of_block(int x, int y) {
+    static_assert(kRayBlock * kRayBlock <= photon::EstimateBatch::kPixels);
+    return uint32_t(y % kRayBlock * kRayBlock + x % kRayBlock);
+  }
+
   const RenderContext& ctx_;
   PixelRange pixels_;
   uint64_t first_, end_;
@@ -98,6 +104,7 @@ class BlockSamples {
 void render_block(const RenderContext& ctx, const PixelRange& pixels, FilmSums* film,
                   photon::EstimateBatch* batch, TileResult* tile) {
   const PassShare& pass = ctx.pass;
+  batch->begin_block();
   for (uint64_t first = pass.first_sample; first < pass.end_sample; first += CameraRays::kSamples) {
     BlockSamples samples(ctx, pixels, first, std::min(pass.end_sample, first + CameraRays::kSamples));
     samples.shade(batch, tile->counters);
