@@ -46,9 +46,14 @@ inline double total_mean(const Film& film) {
 }
 
 // Where a failing test leaves its picture.
+// In a folder of the test's own: tests run side by side.
 inline std::string output_file(const std::string& name) {
-  std::filesystem::create_directories(KAUSTIK_TEST_OUTPUT_DIR);
-  return std::string(KAUSTIK_TEST_OUTPUT_DIR) + "/" + name;
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  std::string folder = std::string(test->test_suite_name()) + "." + test->name();
+  std::replace(folder.begin(), folder.end(), '/', '_');
+  const auto path = std::filesystem::path(KAUSTIK_TEST_OUTPUT_DIR) / folder;
+  std::filesystem::create_directories(path);
+  return (path / name).string();
 }
 
 inline void write_if_failed(const Film& film, const std::string& name) {

@@ -23,10 +23,7 @@ inline void write_png(const std::string& name, int width, int channels, const st
 }
 
 inline Scene scene_of(const std::string& text) {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string(test->test_suite_name()) + "." + test->name() + ".pbrt";
-  std::replace(name.begin(), name.end(), '/', '_');
-  const std::string path = output_file(name);
+  const std::string path = output_file("scene.pbrt");
   std::ofstream(path) << text;
   Diagnostics diagnostics;
   auto loaded = pbrt::load_scene(path, diagnostics);
