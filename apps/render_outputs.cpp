@@ -33,13 +33,19 @@ void report_energy(const render::RenderStatistics& s, const Console& console) {
 
 void report_photons(const render::RenderResult& result, const Console& console) {
   const render::RenderStatistics& s = result.statistics;
-  if (s.photons.emitted == 0) return;
+  if (!s.any_photons()) return;
   std::string stored;
   for (size_t k = 0; k < s.photons.stored.size(); ++k) {
     stored +=
         fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(s.photons.stored[k]));
   }
-  console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted), stored));
+  if (s.photons.emitted > 0)
+    console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted), stored));
+  if (s.guided.emitted > 0)
+    console.note(
+        fmt::format("guided photons: {} emitted; stored: caustic {}; learned from {}, of which {} left one",
+                    grouped(s.guided.emitted), grouped(s.guided.stored), grouped(s.guide_photons),
+                    grouped(s.guide_hits)));
   report_energy(s, console);
   if (s.radius > 0) console.note(fmt::format("gather radius: {:.4g} m", s.radius));
   if (result.plan.direct == render::DirectEstimator::kLecture) {
@@ -56,7 +62,7 @@ std::vector<render::Layer> layers_of(const Outcome& outcome, const Console& cons
   const std::vector<std::string>& names = outcome.settings.render.aov;
   std::vector<render::Layer> layers = render::layers_from_names(names);
   const bool bias_known =
-      outcome.result.statistics.photons.emitted == 0 || outcome.settings.render.estimate_bias.value_or(false);
+      !outcome.result.statistics.any_photons() || outcome.settings.render.estimate_bias.value_or(false);
   if (!bias_known && std::erase(layers, render::Layer::kBias) > 0 && names_error_layer(names))
     console.warning("the layer bias is left out: these passes have not measured it");
   if (std::isfinite(outcome.result.error)) return layers;

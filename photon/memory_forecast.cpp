@@ -22,6 +22,15 @@ double most_stored(const TraceSettings& settings) {
   return (settings.kinds.indirect ? settings.max_bounces : 1) + (settings.kinds.shadow ? 64 : 0);
 }
 
+// With those of guided emission: one each, but for few that a coat reflects.
+std::array<double, kPhotonKinds> forecast_all(const Scene& scene, const accel::Bvh& bvh,
+                                              const TraceSettings& settings, uint64_t guided) {
+  auto stored = forecast_stored(scene, bvh, settings);
+  double& caustic = stored[static_cast<size_t>(PhotonKind::kCaustic)];
+  caustic = std::max(caustic, static_cast<double>(guided));
+  return stored;
+}
+
 // "3.4M", rounded down to two digits: a count as --photons takes it.
 std::string rounded_count(double count) {
   if (count < 1000) return fmt::format("{:.0f}", std::floor(count));
@@ -62,12 +71,12 @@ double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use)
 }
 
 void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,
-                  uint64_t limit) {
+                  uint64_t limit, uint64_t guided) {
   const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
-  const double most = photons * most_stored(settings);
+  const double most = photons * most_stored(settings) + static_cast<double>(guided);
   if (most <= kMostInMap && peak_bytes({most}, use) <= bytes_limit) return;
 
-  const auto stored = forecast_stored(scene, bvh, settings);
+  const auto stored = forecast_all(scene, bvh, settings, guided);
   const double bytes = peak_bytes(stored, use), largest = *std::max_element(stored.begin(), stored.end());
   if (bytes > bytes_limit) {
     throw std::runtime_error(fmt::format(
@@ -85,13 +94,13 @@ void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
 }
 
 uint64_t shoots_that_fit(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
-                         uint64_t limit) {
+                         uint64_t limit, uint64_t guided) {
   const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
-  const double most = photons * most_stored(settings);
+  const double most = photons * most_stored(settings) + static_cast<double>(guided);
   if (most <= kMostInMap && peak_bytes({most}, PhotonUse::kMaps) <= bytes_limit) return 1;
   // A pass may store somewhat more than its share of the forecast.
   constexpr double kMargin = 1.05;
-  const auto stored = forecast_stored(scene, bvh, settings);
+  const auto stored = forecast_all(scene, bvh, settings, guided);
   const double largest = *std::max_element(stored.begin(), stored.end());
   const double shoots =
       std::ceil(kMargin * std::max(peak_bytes(stored, PhotonUse::kMaps) / bytes_limit, largest / kMostInMap));

@@ -116,7 +116,8 @@ float flux_unit_of(const Scene& scene, uint64_t photons) {
 ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
                   const ShootProgress& progress) {
   ShootResult result;
-  const float flux_unit = flux_unit_of(scene, settings.photons);
+  const float flux_unit = std::ldexp(flux_unit_of(scene, settings.photons),
+                                     settings.guide ? settings.guide->middle_exponent() : 0);
   for (PhotonBuffer& buffer : result.buffers) buffer.flux_unit = flux_unit;
   if (!settings.kinds.any()) return result;
 

@@ -128,7 +128,9 @@ class Tracer {
       std::copy_n(numbers_.u[0], count, starts_.u_lamp);
     }
     draw_from(0, count, 4, starts_.position_direction);
+    if (settings_.guide) settings_.guide->warp(starts_, count, weights_);
     emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_, settings_.lamp);
+    if (settings_.guide) weigh_starts(count);
     std::fill_n(walkers_.state, count, WalkState());
     to_energy_lanes(starts_.flux, count, units_per_watt_, walkers_.energy);
     for (size_t k = 0; k < count; ++k) {
@@ -137,6 +139,11 @@ class Tracer {
       if (goes_on_[k]) counters_.energy.emitted += walkers_.energy[k];
     }
     push(starts_.ray, starts_.flux, count);
+  }
+
+  void weigh_starts(size_t count) {
+    for (auto& channel : starts_.flux)
+      for (size_t k = 0; k < count; ++k) channel[k] *= weights_[k];
   }
 
   // Those that go on join the queues.
@@ -280,11 +287,19 @@ class Tracer {
     } else {
       for (size_t k = 0; k < count; ++k) {
         if (left_[k] == kNothing) continue;
-        sink_(static_cast<PhotonKind>(left_[k]),
-              Photon{VertexLanes::get(lanes_.p, k), -VertexLanes::get(lanes_.ray.d, k),
-                     VertexLanes::get(lanes_.flux, k), VertexLanes::get(lanes_.facing, k),
-                     lanes_.surface_group[k]});
+        hand_over(k, static_cast<PhotonKind>(left_[k]),
+                  Photon{VertexLanes::get(lanes_.p, k), -VertexLanes::get(lanes_.ray.d, k),
+                         VertexLanes::get(lanes_.flux, k), VertexLanes::get(lanes_.facing, k),
+                         lanes_.surface_group[k]});
       }
+    }
+  }
+
+  void hand_over(size_t k, PhotonKind kind, const Photon& photon) {
+    if constexpr (requires { sink_(kind, photon, uint64_t{0}); }) {
+      sink_(kind, photon, keys_.upper_half() << 32 | reverse_bits(walkers_.reversed_index[k]));
+    } else {
+      sink_(kind, photon);
     }
   }
 
@@ -297,7 +312,7 @@ class Tracer {
 
   void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon, bool specular) {
     const PhotonKind kind = walkers_.state[k].kind();
-    if (!specular && settings_.kinds[kind]) record(kind, si, photon);
+    if (!specular && settings_.kinds[kind]) record(k, kind, si, photon);
     if (settings_.kinds.shadow && casts_shadow(kind, specular))
       start_straight(k, si.spawn(photon.ray.d), photon.flux);
   }
@@ -307,12 +322,12 @@ class Tracer {
     return kind == PhotonKind::kDirect && (!specular || settings_.shadow_behind_specular);
   }
 
-  void record(PhotonKind kind, const SurfaceInteraction& si, const Arrival& photon) {
+  void record(size_t k, PhotonKind kind, const SurfaceInteraction& si, const Arrival& photon) {
     const Vector3 wi = -photon.ray.d;
     const Rgb deposit = shading_correction(si, wi, glm::dot(wi, si.ns)) * photon.flux;
     if (is_black(deposit) || !valid(deposit)) return;
     ++counters_.stored[static_cast<size_t>(kind)];
-    sink_(kind, Photon{si.p, wi, deposit, glm::dot(wi, si.n) < 0 ? -si.n : si.n, si.surface_group});
+    hand_over(k, kind, Photon{si.p, wi, deposit, glm::dot(wi, si.n) < 0 ? -si.n : si.n, si.surface_group});
   }
 
   template <class B>
@@ -375,6 +390,7 @@ class Tracer {
   VertexLanes lanes_{};
   SobolLanes numbers_{};
   EmissionLanes starts_{};
+  EmissionLanes::Column weights_{};  // of guided starts
   WalkerLanes walkers_{};
   WalkerRows rows_{};
   std::array<uint32_t, kGroupSize> sets_{};  // Sobol sets to draw from

@@ -20,7 +20,7 @@
 #include <optional>
 
 #include "accel/bvh.h"
-#include "photon/emission_lanes.h"
+#include "photon/emission_guide.h"
 #include "photon/energy_lanes.h"
 #include "photon/photon.h"
 #include "photon/vertex_lanes.h"
@@ -45,7 +45,8 @@ struct TraceSettings {
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
   bool shadow_behind_specular = false;
-  std::optional<uint32_t> lamp{};  // the only one that emits, with all photons; else each by its power
+  std::optional<uint32_t> lamp{};        // the only one that emits, with all photons; else each by its power
+  const EmissionGuide* guide = nullptr;  // not empty: draws the starts, of all lamps; else uniform
   KindMask kinds;  // only what is asked for is traced: without `indirect` a photon ends at its first diffuse
                    // surface
 };
@@ -75,9 +76,9 @@ inline constexpr uint32_t kMaxStraightSurfaces = 1 << 16;
 inline constexpr uint64_t kGroupSize = VertexLanes::kLanes;
 
 // Traces photons first ... end - 1 of settings.photons and calls sink(PhotonKind, const Photon&) for each
-// photon of a kind in settings.kinds. A sink may also be called with whole lanes: see RecordSink. The order
-// of the calls is a pure function of (scene, settings, first, end). What a photon leaves is one of (scene,
-// settings, index), save that
+// photon of a kind in settings.kinds. A sink may also take the photon's index as a third argument, or be
+// called with whole lanes: see RecordSink. The order of the calls is a pure function of (scene, settings,
+// first, end). What a photon leaves is one of (scene, settings, index), save that
 //   - a kind that is not asked for may shorten its path: the photons of the other kinds do not change;
 //   - of two surfaces met at exactly the same distance, as by a ray through an edge, the photons that are
 //     traced beside it may decide which one is named.

@@ -20,6 +20,7 @@ inline constexpr std::array<std::string_view, 3> kIndirectNames = {"paths", "pho
 inline constexpr std::array<std::string_view, 3> kKernelNames = {"constant", "cone", "epanechnikov"};
 inline constexpr std::array<std::string_view, 2> kLookupNames = {"exact", "leaf"};
 inline constexpr std::array<std::string_view, 2> kEmissionNames = {"cosine", "uniform-angle"};
+inline constexpr std::array<std::string_view, 2> kGuideNames = {"off", "on"};
 
 inline std::string_view name_of(Method m) {
   return kMethodNames[size_t(m)];
@@ -41,6 +42,9 @@ inline std::string_view name_of(Lookup l) {
 }
 inline std::string_view name_of(EmissionMode m) {
   return kEmissionNames[size_t(m)];
+}
+inline std::string_view name_of(Guide g) {
+  return kGuideNames[size_t(g)];
 }
 
 // The enumerator of this name, or nothing.

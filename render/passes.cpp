@@ -52,13 +52,14 @@ uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSe
       throw std::invalid_argument("there must be at least as many photons as passes");
     const PassShare each = pass_share(0, settings.passes, settings.photons, settings.spp);
     photon::check_memory(scene, bvh, trace_settings(settings, *plan, each), photon::PhotonUse::kMaps,
-                         settings.photon_memory);
+                         settings.photon_memory, guided_photons(settings, *plan, each.photons));
     return settings.passes;
   }
   if (!kinds_needed(*plan).any()) return 1;
   const PassShare whole = pass_share(0, 1, settings.photons, settings.spp);
   const uint64_t passes =
-      photon::shoots_that_fit(scene, bvh, trace_settings(settings, *plan, whole), settings.photon_memory);
+      photon::shoots_that_fit(scene, bvh, trace_settings(settings, *plan, whole), settings.photon_memory,
+                              guided_photons(settings, *plan, whole.photons));
   if (passes > kMostPasses) {  // a sample of each pixel in each
     throw std::runtime_error(
         fmt::format("{} photons would need {} passes to fit into memory", settings.photons, passes));

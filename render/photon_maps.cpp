@@ -127,6 +127,61 @@ void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const Render
   statistics->photon_trace_s += seconds_since(start);
 }
 
+// Likewise.
+void learn_guide(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                 const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
+  if (guided_photons(settings, plan, settings.photons) == 0) return;
+  if (!maps->guide) {
+    const auto start = std::chrono::steady_clock::now();
+    maps->guide = std::make_unique<const photon::LearnedGuide>(photon::learn_guide(
+        scene, bvh, {settings.seed, settings.photons, settings.max_bounces, settings.emission}));
+    statistics->photon_trace_s += seconds_since(start);
+  }
+  statistics->guide_photons = maps->guide->emitted;
+  statistics->guide_hits = maps->guide->hits;
+  statistics->guide_boxes = maps->guide->guide.boxes();
+}
+
+// Caustic photons in place of those of `shot`.
+void shoot_guided(const Scene& scene, const accel::Bvh& bvh, photon::TraceSettings trace,
+                  const photon::ShootProgress& progress, photon::ShootResult* shot,
+                  RenderStatistics* statistics) {
+  constexpr auto kCaustic = size_t(PhotonKind::kCaustic);
+  trace.kinds = {};
+  trace.kinds.caustic = true;
+  photon::ShootResult guided = photon::shoot(scene, bvh, trace, progress);
+  shot->buffers[kCaustic] = std::move(guided.buffers[kCaustic]);
+  const photon::TraceCounters& c = guided.counters;
+  statistics->guided += {c.emitted, c.stored[kCaustic], c.rays, c.dropped_invalid};
+}
+
+// Shoots what the plan reads, caustic photons apart where they are guided. False when progress cancelled.
+bool shoot_kinds(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                 const EstimatorPlan& plan, const PassShare& pass, const ProgressCallback& progress,
+                 const PhotonMaps& maps, photon::ShootResult* shot, RenderStatistics* statistics) {
+  photon::TraceSettings trace = trace_settings(settings, plan, pass);
+  photon::TraceSettings guided = trace;
+  if (maps.guide && !maps.guide->guide.empty()) {
+    trace.kinds.caustic = false;
+    guided.guide = &maps.guide->guide;
+    guided.photons = guided_photons(settings, plan, pass.photons);
+  }
+  const uint64_t first = trace.kinds.any() ? trace.photons : 0;
+  const uint64_t total = first + (guided.guide ? guided.photons : 0);
+  std::atomic<bool> cancelled{false};
+  const auto told = [&](uint64_t before) {
+    return [&, before](uint64_t done, uint64_t) {
+      const bool go_on = !progress || progress({"photons", before + done, total, pass.pass, pass.shares});
+      if (!go_on) cancelled = true;
+      return go_on;
+    };
+  };
+  *shot = photon::shoot(scene, bvh, trace, told(0));
+  statistics->photons += shot->counters;
+  if (guided.guide && !cancelled) shoot_guided(scene, bvh, guided, told(first), shot, statistics);
+  return !cancelled;
+}
+
 }  // namespace
 
 photon::KindMask kinds_needed(const EstimatorPlan& plan) {
@@ -138,23 +193,25 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
   return kinds;
 }
 
+uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons) {
+  photon::KindMask kinds = kinds_needed(plan);
+  if (!kinds.caustic || settings.guide == Guide::kOff) return 0;
+  kinds.caustic = false;
+  return kinds.any() ? (photons + 1) / 2 : photons;
+}
+
 bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                       const EstimatorPlan& plan, const PassShare& pass, const ProgressCallback& progress,
                       PhotonMaps* maps, std::optional<GatherRadii>* radii, RenderStatistics* statistics) {
   foretell_visibility(scene, bvh, settings, plan, maps, statistics);
   if (!kinds_needed(plan).any()) return true;
+  learn_guide(scene, bvh, settings, plan, maps, statistics);
   free_maps(maps);
   const auto start = std::chrono::steady_clock::now();
-  std::atomic<bool> cancelled{false};
-  auto shot =
-      photon::shoot(scene, bvh, trace_settings(settings, plan, pass), [&](uint64_t done, uint64_t total) {
-        const bool go_on = !progress || progress({"photons", done, total, pass.pass, pass.shares});
-        if (!go_on) cancelled = true;
-        return go_on;
-      });
-  statistics->photons += shot.counters;
+  photon::ShootResult shot;
+  const bool finished = shoot_kinds(scene, bvh, settings, plan, pass, progress, *maps, &shot, statistics);
   statistics->photon_trace_s += seconds_since(start);
-  if (cancelled) return false;
+  if (!finished) return false;
 
   const auto build_start = std::chrono::steady_clock::now();
   build_maps(scene, std::move(shot), maps);

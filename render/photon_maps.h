@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "accel/edge_index.h"
+#include "photon/guide_shoot.h"
 #include "photon/photon_map.h"
 #include "photon/radiance_estimate.h"
 #include "photon/shadow_classifier.h"
@@ -28,10 +29,16 @@ struct PhotonMaps {
   RadiusShrink shrink;
   std::unique_ptr<const accel::EdgeIndex> edges;             // where surfaces end; the estimates point to it
   std::unique_ptr<const photon::VisibilityTree> visibility;  // only for `predicted`; of all passes
+  std::unique_ptr<const photon::LearnedGuide> guide;         // only for caustics by photons; of all passes
 };
 
 // The kinds that the plan's estimators read; only these are traced and stored.
 photon::KindMask kinds_needed(const EstimatorPlan& plan);
+
+// Of so many photons of a pass: emitted for caustics alone where that is guided. As many where the plan reads
+// no other kind, else half, beside the others: they cost a few rays each, and lower the picture's error about
+// as much for their time as more samples would. 0 where nothing may be guided.
+uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons);
 
 // Shoots and builds what the plan reads in one pass, in place of the maps of the pass before. radii: r0 of
 // all passes, settled from these maps where it is empty, so by the first pass. Adds to the photon fields of

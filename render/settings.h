@@ -19,6 +19,7 @@ enum class CausticEstimator { kPhotons, kPaths, kOff };
 enum class IndirectEstimator { kPaths, kPhotons, kOff };
 using Kernel = photon::KernelType;
 enum class Lookup { kExact, kLeaf };
+enum class Guide { kOff, kOn };  // of the photons that make caustics
 
 struct CropWindow {
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // pixels, half open; empty = whole image
@@ -44,6 +45,7 @@ struct RenderSettings {
   uint32_t node_photons = 64;  // N0: octree nodes with at most so many photons are leaves
   Lookup lookup = Lookup::kExact;
   EmissionMode emission = EmissionMode::kCosine;
+  Guide guide = Guide::kOn;
   int max_bounces = 16;
   int spp = 16;
   uint64_t seed = 0;

@@ -23,6 +23,14 @@ LectureCounters& LectureCounters::operator+=(const LectureCounters& o) {
   return *this;
 }
 
+GuidedCounters& GuidedCounters::operator+=(const GuidedCounters& o) {
+  emitted += o.emitted;
+  stored += o.stored;
+  rays += o.rays;
+  dropped_invalid += o.dropped_invalid;
+  return *this;
+}
+
 std::string DroppedSample::text() const {
   return fmt::format("pixel {} {} sample {}", x, y, sample);
 }
@@ -35,6 +43,10 @@ void add_examples(const std::vector<DroppedSample>& more, std::vector<DroppedSam
 
 RenderStatistics& RenderStatistics::operator+=(const RenderStatistics& o) {
   photons += o.photons;
+  guided += o.guided;
+  guide_photons = std::max(guide_photons, o.guide_photons);
+  guide_hits = std::max(guide_hits, o.guide_hits);
+  guide_boxes = std::max(guide_boxes, o.guide_boxes);
   rays += o.rays;
   lecture += o.lecture;
   gather_queries += o.gather_queries;

@@ -37,8 +37,18 @@ inline constexpr size_t kDropExamples = 10;
 // Adds to a sorted list of at most kDropExamples, the first of all.
 void add_examples(const std::vector<DroppedSample>& more, std::vector<DroppedSample>* examples);
 
+// Of photons emitted for caustics alone, where that is guided. Their flux adds up to the lamps' power on the
+// mean only, so it is not in the energy ledger.
+struct GuidedCounters {
+  uint64_t emitted = 0, stored = 0, rays = 0, dropped_invalid = 0;
+  GuidedCounters& operator+=(const GuidedCounters& o);
+};
+
 struct RenderStatistics {
-  photon::TraceCounters photons;
+  photon::TraceCounters photons;  // all that are not guided
+  GuidedCounters guided;
+  // Emitted to learn from, once in a process, and what came of them; not among the above.
+  uint64_t guide_photons = 0, guide_hits = 0, guide_boxes = 0;
   RayCounters rays;
   LectureCounters lecture;
   uint64_t gather_queries = 0, gather_candidates = 0, gather_accepted = 0;
@@ -53,6 +63,7 @@ struct RenderStatistics {
   uint64_t octree_nodes = 0;  // of all maps
   uint64_t passes = 0;        // finished
 
+  bool any_photons() const { return photons.emitted + guided.emitted > 0; }
   // Of other passes of the same render.
   RenderStatistics& operator+=(const RenderStatistics& o);
 };

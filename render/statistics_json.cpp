@@ -14,13 +14,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+uint64_t stored(const RenderStatistics& s, int kind) {
+  const bool caustic = kind == int(photon::PhotonKind::kCaustic);
+  return s.photons.stored[size_t(kind)] + (caustic ? s.guided.stored : 0);
+}
+
+// Photons emitted for caustics alone, and the photons, hits and boxes that they were learned from.
+Json guided_json(const RenderStatistics& s) {
+  return {{"emitted", s.guided.emitted},
+          {"learned_from", s.guide_photons},
+          {"hits", s.guide_hits},
+          {"boxes", s.guide_boxes}};
+}
+
 Json photons_json(const RenderStatistics& s) {
-  Json stored;
+  Json of_kind;
   for (int k = 0; k < photon::kPhotonKinds; ++k)
-    stored[std::string(photon::kPhotonKindNames[size_t(k)])] = s.photons.stored[size_t(k)];
+    of_kind[std::string(photon::kPhotonKindNames[size_t(k)])] = stored(s, k);
   return {{"emitted", s.photons.emitted},
-          {"stored", stored},
-          {"dropped_invalid", s.photons.dropped_invalid},
+          {"guided", guided_json(s)},
+          {"stored", of_kind},
+          {"dropped_invalid", s.photons.dropped_invalid + s.guided.dropped_invalid},
           {"bytes", s.photon_bytes},
           {"octree_nodes", s.octree_nodes},
           {"passes", s.passes}};
@@ -38,8 +52,12 @@ Json energy_json(const RenderStatistics& s) {
 }
 
 Json rays_json(const RenderStatistics& s) {
-  return {{"camera", s.rays.camera}, {"specular", s.rays.specular}, {"shadow", s.rays.shadow},
-          {"bounce", s.rays.bounce}, {"photon", s.photons.rays},    {"photon_shadow", s.photons.shadow_rays}};
+  return {{"camera", s.rays.camera},
+          {"specular", s.rays.specular},
+          {"shadow", s.rays.shadow},
+          {"bounce", s.rays.bounce},
+          {"photon", s.photons.rays + s.guided.rays},
+          {"photon_shadow", s.photons.shadow_rays}};
 }
 
 Json lecture_json(const LectureCounters& l) {
@@ -96,6 +114,7 @@ Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
   out["node_photons"] = s.node_photons;
   out["lookup"] = name_of(s.lookup);
   out["emission"] = name_of(s.emission);
+  out["guide"] = name_of(s.guide);
   out["max_bounces"] = s.max_bounces;
   out["spp"] = s.spp;
   out["seed"] = s.seed;
@@ -158,9 +177,10 @@ Metadata metadata_of(const RenderResult& result, const RenderSettings& settings)
   out.emplace_back("kaustik:passes_of_settings", fmt::format("{}", result.sums.shares));
   out.emplace_back("kaustik:radius_used", fmt::format("{}", s.radius));
   out.emplace_back("kaustik:photons_emitted", fmt::format("{}", s.photons.emitted));
+  out.emplace_back("kaustik:photons_guided", fmt::format("{}", s.guided.emitted));
   for (int k = 0; k < photon::kPhotonKinds; ++k)
     out.emplace_back(fmt::format("kaustik:photons_stored_{}", photon::kPhotonKindNames[size_t(k)]),
-                     fmt::format("{}", s.photons.stored[size_t(k)]));
+                     fmt::format("{}", stored(s, k)));
   if (std::isfinite(result.error)) {
     out.emplace_back("kaustik:error", fmt::format("{:.6g}", result.error));
     out.emplace_back("kaustik:error_holds",

@@ -34,9 +34,15 @@ std::array<double, kRates> rates_of(const render::RenderStatistics& s) {
   };
   const auto traced = [&](uint64_t n) { return rate(n, s.photon_trace_s); };
   const auto rendered = [&](uint64_t n) { return rate(n, s.render_s); };
-  return {traced(s.photons.emitted), traced(s.photons.rays),     traced(s.photons.shadow_rays),
-          rendered(s.rays.camera),   rendered(s.rays.specular),  rendered(s.rays.shadow),
-          rendered(s.rays.bounce),   rendered(s.gather_queries), rendered(s.gather_candidates)};
+  return {traced(s.photons.emitted + s.guided.emitted),
+          traced(s.photons.rays + s.guided.rays),
+          traced(s.photons.shadow_rays),
+          rendered(s.rays.camera),
+          rendered(s.rays.specular),
+          rendered(s.rays.shadow),
+          rendered(s.rays.bounce),
+          rendered(s.gather_queries),
+          rendered(s.gather_candidates)};
 }
 
 // Of all threads of the process.

@@ -228,6 +228,10 @@ void add_photons(std::vector<Setting>& table) {
       choice("emission", &RenderSettings::emission, render::kEmissionNames,
              "Photon directions of area lamps. cosine: equal flux each. uniform-angle: the lecture's, "
              "uniform in angle and weighted."));
+  table.push_back(choice(
+      "guide", &RenderSettings::guide, render::kGuideNames,
+      "Caustics from photons of their own, emitted where photons were found to reach mirrors and glass "
+      "and a diffuse surface behind. off: all kinds from the same photons."));
   table.push_back(count("max-bounces", "bounces", &RenderSettings::max_bounces, 1, 65535, {},
                         "Longest chain of reflections and refractions of photons and paths."));
 }
