@@ -35,7 +35,7 @@ inline std::vector<Ray> shadow_rays(const Scene& scene, const accel::Bvh& bvh,
     Sampler sampler(2, i);
     const Light& light = scene.lights[scene.light_power.sample(sampler.next_1d()).index];
     const Point2 u = sampler.next_2d();
-    const auto s = std::visit([&](const auto& l) { return l.sample_Li(si.p, u); }, light);
+    const auto s = sample_Li(light, {si.p, si.n, true}, u);
     if (!s) continue;
     Ray ray = si.spawn(s->wi, s->infinite ? kInfinity : 1);
     if (!s->infinite) ray.d = s->p_light - ray.o;

@@ -33,19 +33,74 @@ float trace_visibility(const RenderContext& ctx, const ShadingPoint& x, const Li
   return ctx.bvh.occluded(shadow_ray(x.si, s)) ? 0 : 1;
 }
 
-std::optional<LightSample> sample_lamp(const Scene& scene, uint32_t lamp, const Point3& ref,
-                                       const Point2& u) {
-  return std::visit([&](const auto& l) { return l.sample_Li(ref, u); }, scene.lights[lamp]);
-}
-
 bool dark(const Scene& scene) {
   return scene.light_power.empty() || !(scene.light_power.total() > 0);
 }
 
+// Few lamps are all sampled, each once; of more, one.
+constexpr size_t kMostLampsSampled = 4;
+bool samples_each(const Scene& scene) {
+  return scene.lights.size() <= kMostLampsSampled;
+}
+// How many samples of a lamp are expected.
+float samples_of(const Scene& scene, const LightReceiver& x, uint32_t lamp) {
+  return samples_each(scene) ? 1 : scene.light_sampler.probability(x, lamp);
+}
+
+// What a sample of a lamp brings where it is seen: f Li / pdf, times its share against BSDF sampling.
+struct LampSample {
+  LightSample at;
+  Rgb brings{0};
+};
+// expected: number of samples of the lamp. Nothing where it brings nothing.
+std::optional<LampSample> sample_lamp(const Scene& scene, uint32_t lamp, float expected,
+                                      const ShadingPoint& x, LightWeight weight, LobePart part,
+                                      const Point2& u) {
+  const auto s = sample_Li(scene.lights[lamp], x.receiver(), u);
+  if (!s || !(s->pdf > 0)) return std::nullopt;
+  const Rgb f = f_cos(x, s->wi, part);
+  if (is_black(f) || is_black(s->Li)) return std::nullopt;
+  const float pdf = s->pdf * expected;
+  const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[lamp]);
+  const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
+  return LampSample{*s, f * s->Li * (w / pdf)};
+}
+
+// The sum over all lamps of what each brings times V, as foretold, put right for one of them: chosen by what
+// it brings where it is not known whether it is seen.
+Rgb sample_each_lamp(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, float u_ray,
+                     const Point2& u, TileCounters& counters, LobePart part) {
+  struct Candidate {
+    LampSample sample;
+    float v, size;
+  };
+  std::array<Candidate, kMostLampsSampled> candidates;
+  size_t count = 0;
+  float all = 0;  // of what they bring
+  Rgb sum(0);
+  for (uint32_t lamp = 0; lamp < ctx.scene.lights.size(); ++lamp) {
+    const auto s = sample_lamp(ctx.scene, lamp, 1, x, weight, part, u);
+    if (!s) continue;
+    const photon::VisibilityGuess guess = foretold(ctx, x, part, lamp);
+    const float size = s->brings.x + s->brings.y + s->brings.z;
+    sum += s->brings * guess.v;
+    all += size;
+    candidates[count++] = {*s, guess.v, size * guess.p};
+  }
+  float at = u_ray * all;
+  for (size_t i = 0; i < count; ++i) {
+    const Candidate& c = candidates[i];
+    if (at < c.size)
+      return sum + c.sample.brings * ((trace_visibility(ctx, x, c.sample.at, counters) - c.v) * all / c.size);
+    at -= c.size;
+  }
+  return sum;
+}
+
 // f Li / pdf of a sample of one lamp.
 Rgb unoccluded_from(const Scene& scene, uint32_t lamp, const ShadingPoint& x, const Point2& u) {
-  const auto s = sample_lamp(scene, lamp, x.si.p, u);
-  return s && s->pdf > 0 ? f_cos(x, s->wi) * s->Li / s->pdf : Rgb(0);
+  const auto s = sample_lamp(scene, lamp, 1, x, LightWeight::kAlone, LobePart::kBroad, u);
+  return s ? s->brings : Rgb(0);
 }
 
 }  // namespace
@@ -56,22 +111,18 @@ Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight w
   const Point2 u = sampler.next_2d();
   const Scene& scene = ctx.scene;
   if (dark(scene)) return Rgb(0);
+  if (scene.lights.size() > 1 && samples_each(scene))
+    return sample_each_lamp(ctx, x, weight, u_lamp, u, counters, part);
   const auto lamp = scene.light_sampler.choose(x.receiver(), u_lamp);
   if (!lamp) return Rgb(0);
   // The number that chose the lamp is uniform again, whatever the lamp and the point on it.
   const photon::VisibilityGuess guess = foretold(ctx, x, part, lamp->lamp);
   const bool traced = lamp->u_remapped < guess.p;
   if (!traced && guess.v == 0) return Rgb(0);
-  const auto s = sample_lamp(scene, lamp->lamp, x.si.p, u);
-  if (!s || !(s->pdf > 0)) return Rgb(0);
-  const Rgb f = f_cos(x, s->wi, part);
-  if (is_black(f) || is_black(s->Li)) return Rgb(0);
-  const float V = traced ? guess.v + (trace_visibility(ctx, x, *s, counters) - guess.v) / guess.p : guess.v;
-  if (V == 0) return Rgb(0);
-  const float pdf = s->pdf * lamp->probability;
-  const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[lamp->lamp]);
-  const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
-  return f * s->Li * (V * w / pdf);
+  const auto s = sample_lamp(scene, lamp->lamp, lamp->probability, x, weight, part, u);
+  if (!s) return Rgb(0);
+  return s->brings *
+         (traced ? guess.v + (trace_visibility(ctx, x, s->at, counters) - guess.v) / guess.p : guess.v);
 }
 
 Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler) {
@@ -104,15 +155,14 @@ float emitter_hit_weight(const Scene& scene, const LightReceiver& x, const Vecto
                          const SurfaceInteraction& si) {
   const auto* area = std::get_if<DiffuseAreaLight>(&scene.lights[si.light]);
   if (!area) return 0;
-  const float lamp = scene.light_sampler.probability(x, si.light);
-  return power_heuristic(bsdf_pdf, lamp * area->pdf_Li(x.p, wi, si));
+  return power_heuristic(bsdf_pdf, samples_of(scene, x, si.light) * area->pdf_Li(x.p, wi, si));
 }
 
 Rgb escaped_weighted(const Scene& scene, const LightReceiver& x, const Ray& ray, float bsdf_pdf) {
   Rgb sum(0);
   for (const uint32_t i : scene.infinite_lights) {
     const Light& light = scene.lights[i];
-    const float light_pdf = scene.light_sampler.probability(x, i) * escaped_pdf(light, x.p, ray.d);
+    const float light_pdf = samples_of(scene, x, i) * escaped_pdf(light, x, ray.d);
     sum += escaped_radiance(light, ray) * power_heuristic(bsdf_pdf, light_pdf);
   }
   return sum;

@@ -13,11 +13,12 @@ enum class LightWeight {
   kMis     // its share against BSDF sampling (power heuristic, Veach 1997, section 9.2.4)
 };
 
-// One-sample estimate of  int f(wo, wi) Le V |cos| dwi  over all lamps, W/(m^2 sr). One lamp is chosen by the
-// scene's LightSampler; anything between blocks, glass too: light through specular surfaces belongs to the
-// caustic class. Delta lamps always have weight one. With ctx.maps.visibility most shadow rays are not traced
-// and V is an unbiased estimate, of either sign (photon/visibility_tree.h). Draws three dimensions, always.
-// part: of f, the lobes that count.
+// Estimate of  int f(wo, wi) Le V |cos| dwi  over all lamps, W/(m^2 sr), by one shadow ray at most. Few lamps
+// are all sampled, and one of them looked for by what it brings (resampling, Talbot et al. 2005); of many,
+// one is chosen by the scene's LightSampler. Anything between blocks, glass too: light through specular
+// surfaces belongs to the caustic class. Delta lamps always have weight one. With ctx.maps.visibility most
+// shadow rays are not traced and V is an unbiased estimate, of either sign (photon/visibility_tree.h). Draws
+// three dimensions, always. part: of f, the lobes that count.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
                   TileCounters& counters, LobePart part = LobePart::kBroad);
 

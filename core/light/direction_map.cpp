@@ -19,7 +19,7 @@ int cell_of(float position, int cells) {
 
 }  // namespace
 
-DirectionMap::DirectionMap(std::shared_ptr<const LightImage> image, Layout layout)
+DirectionMap::DirectionMap(std::shared_ptr<const LightImage> image, Layout layout, Excess excess)
     : image_(std::move(image)), layout_(layout) {
   glm::dvec3 sum(0);
   pixels_ = PiecewiseConstant2D(image_->width, image_->height, [&](int x, int y) {
@@ -29,6 +29,22 @@ DirectionMap::DirectionMap(std::shared_ptr<const LightImage> image, Layout layou
     return solid_angle(y) * static_cast<double>(luminance(c));
   });
   mean_ = Rgb(sum / kFourPi);
+  if (excess == Excess::kSampled) make_excess();
+}
+
+void DirectionMap::make_excess() {
+  const auto mean = static_cast<double>(luminance(mean_));
+  double sum = 0;
+  const auto above_mean = [&](int x, int y) {
+    return solid_angle(y) * std::max(0.0, static_cast<double>(luminance(image_->at(x, y))) - mean);
+  };
+  for (int y = 0; y < image_->height; ++y)
+    for (int x = 0; x < image_->width; ++x) sum += above_mean(x, y);
+  constexpr double kRounding = 1e-5;  // of luminances and their mean
+  const double share = mean > 0 ? sum / (kFourPi * mean) : 0;
+  if (share < kRounding) return;
+  even_share_ = static_cast<float>(1 - share);
+  excess_ = PiecewiseConstant2D(image_->width, image_->height, above_mean);
 }
 
 double DirectionMap::solid_angle(int y) const {
@@ -74,6 +90,16 @@ DirectionMap::Sample DirectionMap::sample(const Point2& u) const {
 float DirectionMap::pdf(const Vector3& w) const {
   const Pixel p = pixel_of(w);
   return pixels_.probability(p.x, p.y) / static_cast<float>(solid_angle(p.y));
+}
+
+Vector3 DirectionMap::sample_excess(const Point2& u) const {
+  const PiecewiseConstant2D::Sample s = excess_.sample(u);
+  return direction({s.x, s.y}, s.in_cell);
+}
+
+float DirectionMap::excess_pdf(const Vector3& w) const {
+  const Pixel p = pixel_of(w);
+  return excess_.probability(p.x, p.y) / static_cast<float>(solid_angle(p.y));
 }
 
 double DirectionMap::irradiance() const {

@@ -1,5 +1,6 @@
 #include "core/light/infinite.h"
 
+#include "core/light/even_light.h"
 #include "core/math/frame.h"
 #include "core/sampling/warp.h"
 
@@ -15,12 +16,13 @@ Ray ray_into_scene(const Point3& scene_center, float scene_radius, const Vector3
 
 }  // namespace
 
-std::optional<LightSample> InfiniteLight::sample_Li(const Point3& /*ref*/, const Point2& u) const {
-  return LightSample{sample_uniform_sphere(u), L, kUniformSpherePdf, Point3(0), true};
+std::optional<LightSample> InfiniteLight::sample_Li(const LightReceiver& x, const Point2& u) const {
+  const Vector3 wi = sample_even_light(x, u);
+  return LightSample{wi, L, even_light_pdf(x, wi), Point3(0), true};
 }
 
-float InfiniteLight::pdf_Li(const Point3& /*ref*/, const Vector3& /*wi*/) const {
-  return kUniformSpherePdf;
+float InfiniteLight::pdf_Li(const LightReceiver& x, const Vector3& wi) const {
+  return even_light_pdf(x, wi);
 }
 
 std::optional<EmissionSample> InfiniteLight::sample_Le(const Point2& u_pos, const Point2& u_dir,
@@ -30,14 +32,18 @@ std::optional<EmissionSample> InfiniteLight::sample_Le(const Point2& u_pos, cons
                         power()};
 }
 
-std::optional<LightSample> ImageInfiniteLight::sample_Li(const Point3& /*ref*/, const Point2& u) const {
-  const DirectionMap::Sample s = map->sample(u);
-  if (is_black(s.value)) return std::nullopt;
-  return LightSample{to_world * s.w, scale * s.value, s.pdf, Point3(0), true};
+std::optional<LightSample> ImageInfiniteLight::sample_Li(const LightReceiver& x, const Point2& u) const {
+  const float even = map->even_share();
+  const Vector3 wi =
+      u.x < even
+          ? sample_even_light(x, {std::min(u.x / even, kOneMinusEpsilon), u.y})
+          : to_world * map->sample_excess({std::min((u.x - even) / (1 - even), kOneMinusEpsilon), u.y});
+  return LightSample{wi, Le({x.p, wi}), pdf_Li(x, wi), Point3(0), true};
 }
 
-float ImageInfiniteLight::pdf_Li(const Point3& /*ref*/, const Vector3& wi) const {
-  return map->pdf(to_map(wi));
+float ImageInfiniteLight::pdf_Li(const LightReceiver& x, const Vector3& wi) const {
+  const float even = map->even_share();
+  return even * even_light_pdf(x, wi) + (even < 1 ? (1 - even) * map->excess_pdf(to_map(wi)) : 0);
 }
 
 std::optional<EmissionSample> ImageInfiniteLight::sample_Le(const Point2& u_pos, const Point2& u_dir,

@@ -16,8 +16,9 @@ struct InfiniteLight {
   float scene_radius = 0;
 
   Rgb Le(const Ray& /*escaping*/) const { return L; }
-  std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
-  float pdf_Li(const Point3& ref, const Vector3& wi) const;  // uniform over the sphere of directions
+  // As even light matters at the receiver.
+  std::optional<LightSample> sample_Li(const LightReceiver& x, const Point2& u) const;
+  float pdf_Li(const LightReceiver& x, const Vector3& wi) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
   // Flux that enters the scene's bounding sphere.
   Rgb power() const { return 4 * kPi * kPi * scene_radius * scene_radius * L; }
@@ -35,9 +36,9 @@ struct ImageInfiniteLight {
   float scene_radius = 0;
 
   Rgb Le(const Ray& escaping) const { return scale * map->value(to_map(escaping.d)); }
-  // In proportion to the luminance of the image.
-  std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
-  float pdf_Li(const Point3& ref, const Vector3& wi) const;
+  // What is even of the sky as even light matters at the receiver, what exceeds that by its luminance.
+  std::optional<LightSample> sample_Li(const LightReceiver& x, const Point2& u) const;
+  float pdf_Li(const LightReceiver& x, const Vector3& wi) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
   // Flux that enters the scene's bounding sphere.
   Rgb power() const { return 4 * kPi * kPi * scene_radius * scene_radius * scale * map->mean(); }

@@ -46,12 +46,27 @@ inline Rgb escaped_radiance(const Light& light, const Ray& ray) {
       },
       light);
 }
-// Density of sample_Li from ref for a direction in which nothing is met; zero unless is_infinite().
-inline float escaped_pdf(const Light& light, const Point3& ref, const Vector3& wi) {
+// Light of a lamp that arrives at x, before visibility. Most lamps ask only for the place.
+inline std::optional<LightSample> sample_Li(const Light& light, const LightReceiver& x, const Point2& u) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (requires { l.sample_Li(x, u); })
+          return l.sample_Li(x, u);
+        else
+          return l.sample_Li(x.p, u);
+      },
+      light);
+}
+// Density of sample_Li at x for a direction in which nothing is met; zero unless is_infinite().
+inline float escaped_pdf(const Light& light, const LightReceiver& x, const Vector3& wi) {
   return std::visit(
       [&]<class L>(const L& l) {
-        if constexpr (InfinitelyFar<L>) return l.pdf_Li(ref, wi);
-        return 0.0f;
+        if constexpr (requires { l.pdf_Li(x, wi); })
+          return l.pdf_Li(x, wi);
+        else if constexpr (InfinitelyFar<L>)
+          return l.pdf_Li(x.p, wi);
+        else
+          return 0.0f;
       },
       light);
 }

@@ -4,14 +4,6 @@
 
 namespace kaustik {
 
-// Where light arrives: the surface point, and the normal of its lit side. two_sided: light from behind counts
-// too.
-struct LightReceiver {
-  Point3 p{0};
-  Normal3 n{0, 0, 1};
-  bool two_sided = true;
-};
-
 // What is known of a set of lamps (Conty Estevez and Kulla 2018; Pharr et al. 2023, section 12.6.3): a box
 // that holds them, a cone that holds the normals of what emits, and how far about a normal it emits.
 struct LightBounds {

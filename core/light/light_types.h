@@ -1,7 +1,7 @@
 #pragma once
 // What every light has in common. A light is a value type with these members:
-//   std::optional<LightSample> sample_Li(ref, u) const           incident light at a point; nothing when it
-//                                                                cannot arrive
+//   std::optional<LightSample> sample_Li(ref, u) const           incident light at a point, or at a
+//                                                                LightReceiver; nothing when it cannot arrive
 //   std::optional<EmissionSample> sample_Le(u_pos, u_dir, emission) const   a photon's start
 //   Rgb power() const                                            watts per channel
 //   static constexpr bool kDelta                                 cannot be met by a ray (point, spot,
@@ -16,6 +16,14 @@
 #include "core/math/ray.h"
 
 namespace kaustik {
+
+// Where light arrives: the surface point, and the normal of its lit side. two_sided: light from behind counts
+// too.
+struct LightReceiver {
+  Point3 p{0};
+  Normal3 n{0, 0, 1};
+  bool two_sided = true;
+};
 
 // How area lamps choose photon directions.
 enum class EmissionMode {

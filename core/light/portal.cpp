@@ -18,12 +18,13 @@ Point2 PortalSky::square_of(const Vector3& w) {
 }
 
 // With x = tan alpha, y = tan beta on the plane z = 1: dw = dx dy / (1 + x^2 + y^2)^(3/2), and dx = (1 + x^2)
-// dalpha. With w = (x, y, 1) / length that is (1 - w.x^2) (1 - w.y^2) / w.z dalpha dbeta.
+// dalpha.
 Vector3 PortalSky::direction_of(const Point2& p, float* solid_angle) {
   const auto tangent = [](float s) { return std::tan(kPi * (std::clamp(s, 1e-6f, 1 - 1e-6f) - 0.5f)); };
-  const Vector3 w = glm::normalize(Vector3(tangent(p.x), tangent(p.y), 1));
-  *solid_angle = kPi * kPi * (1 - w.x * w.x) * (1 - w.y * w.y) / w.z;
-  return w;
+  const Vector3 w(tangent(p.x), tangent(p.y), 1);
+  const float length = glm::length(w);
+  *solid_angle = kPi * kPi * ((1 + w.x * w.x) / length) * ((1 + w.y * w.y) / length) / length;
+  return w / length;
 }
 
 PortalSky::PortalSky(const DirectionMap& map, const glm::mat3& to_map)

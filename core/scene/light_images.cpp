@@ -67,7 +67,7 @@ std::shared_ptr<const LightImage> LightImages::get(const ParameterReader& parame
 }
 
 std::shared_ptr<const DirectionMap> LightImages::directions(const ParameterReader& parameters,
-                                                            std::string_view name, bool grey) {
+                                                            std::string_view name, Around around) {
   auto image = get(parameters, name);
   if (!image) return nullptr;
   const std::string file = parameters.text(name);
@@ -85,9 +85,9 @@ std::shared_ptr<const DirectionMap> LightImages::directions(const ParameterReade
                                      "square equal-area maps only",
                                      file));
   }
-  if (grey) image = grey_image(*image);
-  return std::make_shared<const DirectionMap>(
-      std::move(image), square ? DirectionMap::Layout::kEqualArea : DirectionMap::Layout::kLatLong);
+  const auto layout = square ? DirectionMap::Layout::kEqualArea : DirectionMap::Layout::kLatLong;
+  if (around == Around::kLamp) return std::make_shared<const DirectionMap>(grey_image(*image), layout);
+  return std::make_shared<const DirectionMap>(std::move(image), layout, DirectionMap::Excess::kSampled);
 }
 
 }  // namespace kaustik

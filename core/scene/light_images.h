@@ -19,10 +19,11 @@ class LightImages {
   std::shared_ptr<const LightImage> get(const ParameterReader& parameters, std::string_view name);
 
   // The same as a map of all directions: square images are equal-area, those twice as wide as high
-  // latitude-longitude, with a warning: pbrt-v4 refuses these. Others are errors. grey: of the mean of the
-  // three channels.
+  // latitude-longitude, with a warning: pbrt-v4 refuses these. Others are errors. Of a lamp: by the mean of
+  // the three channels. Of a sky: with its excess.
+  enum class Around { kLamp, kSky };
   std::shared_ptr<const DirectionMap> directions(const ParameterReader& parameters, std::string_view name,
-                                                 bool grey = false);
+                                                 Around around);
 
  private:
   std::shared_ptr<const LightImage> load(const std::string& file, const SourceLocation& where);

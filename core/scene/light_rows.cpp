@@ -123,7 +123,7 @@ std::optional<Light> make_goniometric(const LightInputs& in) {
   const auto map_to_world = rotation(in);
   if (!has_image(in) || !map_to_world) return std::nullopt;
   GoniometricLight light;
-  light.map = in.images.directions(p, "filename", true);
+  light.map = in.images.directions(p, "filename", LightImages::Around::kLamp);
   if (!light.map) return std::nullopt;
   light.position = Point3(to_scene(in)[3]);
   // The map's +z is the lamp's +y, as in pbrt.
@@ -201,7 +201,7 @@ std::optional<Light> make_image_infinite(const LightInputs& in) {
   }
   const auto map_to_world = rotation(in);
   ImageInfiniteLight light;
-  light.map = in.images.directions(p, "filename");
+  light.map = in.images.directions(p, "filename", LightImages::Around::kSky);
   if (!light.map || !map_to_world) return std::nullopt;
   if (p.has("portal")) {
     return make_portal(in, light.map->irradiance(), [&](const glm::mat3& to_map) {

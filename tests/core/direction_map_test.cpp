@@ -28,9 +28,11 @@ Rgb coloured(int x, int y) {
   return {1.0f + static_cast<float>(x), 0.5f * static_cast<float>(y * y), x == y ? 9.0f : 0.25f};
 }
 
-DirectionMap map_of(DirectionMap::Layout layout, const std::function<Rgb(int, int)>& colour) {
+DirectionMap map_of(DirectionMap::Layout layout, const std::function<Rgb(int, int)>& colour,
+                    DirectionMap::Excess excess = DirectionMap::Excess::kLeftOut) {
   const int height = 6;
-  return {image_of(layout == DirectionMap::Layout::kEqualArea ? height : 2 * height, height, colour), layout};
+  return {image_of(layout == DirectionMap::Layout::kEqualArea ? height : 2 * height, height, colour), layout,
+          excess};
 }
 
 TEST(EqualArea, RoundTrips) {
@@ -126,6 +128,28 @@ TEST(DirectionMap, SamplesAreItsValuesAndDensities) {
   }
 }
 
+// What is even and the excess over it are all of the light where that exceeds the mean, and bound it
+// elsewhere.
+TEST(DirectionMap, EvenLightAndExcessAreTheLight) {
+  for (const auto layout : {DirectionMap::Layout::kEqualArea, DirectionMap::Layout::kLatLong}) {
+    const DirectionMap map = map_of(layout, coloured, DirectionMap::Excess::kSampled);
+    const auto mean = luminance(map.mean());
+    IndependentRandom random(6);
+    test::Mean even, excess;
+    for (int i = 0; i < 200000; ++i) {
+      const Vector3 w = random.direction();
+      const float Y = luminance(map.value(w)), per_pdf = 4 * kPi * mean * (1 - map.even_share());
+      even.add(double(std::min(Y, mean) / mean));
+      excess.add(double(4 * kPi * map.excess_pdf(w)));
+      ASSERT_NEAR(map.excess_pdf(w) * per_pdf, std::max(Y - mean, 0.0f), 1e-4f * (Y + mean));
+      const Vector3 found = map.sample_excess(random.next_2d());
+      ASSERT_GT(luminance(map.value(found)), mean);
+    }
+    EXPECT_NEAR(map.even_share(), even.mean, 4.5 * even.standard_error());
+    EXPECT_NEAR(excess.mean, 1, 4.5 * excess.standard_error());
+  }
+}
+
 // Against the mean over uniform directions.
 TEST(DirectionMap, MeanAndIrradianceAreTheIntegrals) {
   for (const auto layout : {DirectionMap::Layout::kEqualArea, DirectionMap::Layout::kLatLong}) {
@@ -160,8 +184,9 @@ TEST(DirectionMap, LatitudeAndLongitudeAreThoseOfPbrtV3) {
 TEST(DirectionMap, ConstantMapIsTheConstantLight) {
   const InfiniteLight constant{{1, 2, 3}, {1, 0, 0}, 2};
   for (const auto layout : {DirectionMap::Layout::kEqualArea, DirectionMap::Layout::kLatLong}) {
-    const auto map =
-        std::make_shared<const DirectionMap>(map_of(layout, [](int, int) { return Rgb(1, 2, 3); }));
+    const auto map = std::make_shared<const DirectionMap>(map_of(
+        layout, [](int, int) { return Rgb(1, 2, 3); }, DirectionMap::Excess::kSampled));
+    EXPECT_EQ(map->even_share(), 1);
     const ImageInfiniteLight light{map, glm::mat3(1), 1, {1, 0, 0}, 2};
     // Parts of 1/66 of the map's height lie on either side of the horizon: cosines of 1/33 count as 1/66.
     const double E = std::numbers::pi * luminance({1, 2, 3});
@@ -171,7 +196,8 @@ TEST(DirectionMap, ConstantMapIsTheConstantLight) {
     for (int i = 0; i < 1000; ++i) {
       const Vector3 w = random.direction();
       EXPECT_EQ(light.Le({{0, 0, 0}, w}), Rgb(1, 2, 3));
-      EXPECT_NEAR(light.pdf_Li({0, 0, 0}, w), constant.pdf_Li({0, 0, 0}, w), 1e-6);
+      const LightReceiver x{{0, 0, 0}, random.direction(), i % 2 == 0};
+      EXPECT_EQ(light.pdf_Li(x, w), constant.pdf_Li(x, w));
       const auto photon = light.sample_Le(random.next_2d(), random.next_2d(), EmissionMode::kCosine);
       EXPECT_NEAR(glm::distance(photon->flux, constant.power()), 0, 1e-5f * constant.power().z);
     }
@@ -188,7 +214,7 @@ TEST(DirectionMap, BlackMapsEmitNothing) {
       map_of(DirectionMap::Layout::kEqualArea, [](int, int) { return Rgb(0); }));
   const ImageInfiniteLight sky{map, glm::mat3(1), 1, {0, 0, 0}, 1};
   EXPECT_EQ(sky.power(), Rgb(0));
-  EXPECT_FALSE(sky.sample_Li({0, 0, 0}, {0.5f, 0.5f}));
+  EXPECT_EQ(sky.sample_Li({{0, 0, 0}}, {0.5f, 0.5f})->Li, Rgb(0));
   EXPECT_FALSE(sky.sample_Le({0.5f, 0.5f}, {0.5f, 0.5f}, EmissionMode::kCosine));
 }
 

@@ -12,15 +12,17 @@ namespace {
 
 using test::IndependentRandom;
 
-template <typename L>
-test::Mean irradiance(const L& light, const Point3& ref, const Normal3& n, int samples = 100000) {
+test::Mean irradiance(const Light& light, const LightReceiver& x, int samples) {
   IndependentRandom random(9);
   test::Mean mean;
   for (int i = 0; i < samples; ++i) {
-    const auto s = light.sample_Li(ref, random.next_2d());
-    mean.add(s ? s->Li.x * std::max(0.0f, glm::dot(s->wi, n)) / s->pdf : 0);
+    const auto s = sample_Li(light, x, random.next_2d());
+    mean.add(s ? s->Li.x * std::max(0.0f, glm::dot(s->wi, x.n)) / s->pdf : 0);
   }
   return mean;
+}
+test::Mean irradiance(const Light& light, const Point3& ref, const Normal3& n, int samples = 100000) {
+  return irradiance(light, {ref, n, true}, samples);
 }
 
 // 4.5 standard errors, and float rounding for estimators without variance.
@@ -114,6 +116,8 @@ TEST(Irradiance, PointSpotDistantInfinite) {
   expect_mean(irradiance(distant, Point3(0), {0, 0, 1}, 2), 8);
   const InfiniteLight infinite{Rgb(2), Point3(0), 1};
   expect_mean(irradiance(infinite, Point3(0), {0, 0, 1}), 2 * std::numbers::pi);
+  // A matte receiver is told all of it by a single sample.
+  expect_mean(irradiance(infinite, {Point3(0), {0, 0.6f, 0.8f}, false}, 2), 2 * std::numbers::pi);
 }
 
 }  // namespace

@@ -71,9 +71,11 @@ std::vector<LightCase> image_cases(const std::vector<Point3>& below) {
   const auto add = [&](const std::string& name, const Light& light) {
     cases.push_back({name, light, {}, below});
   };
+  constexpr auto kSampled = DirectionMap::Excess::kSampled;
   const auto square =
-      std::make_shared<const DirectionMap>(random_image(8, 8), DirectionMap::Layout::kEqualArea);
-  const auto wide = std::make_shared<const DirectionMap>(random_image(12, 6), DirectionMap::Layout::kLatLong);
+      std::make_shared<const DirectionMap>(random_image(8, 8), DirectionMap::Layout::kEqualArea, kSampled);
+  const auto wide =
+      std::make_shared<const DirectionMap>(random_image(12, 6), DirectionMap::Layout::kLatLong, kSampled);
   add("equal-area sky", ImageInfiniteLight{square, some_axes(), 1.5f, Point3(0), 2.5f});
   add("latitude-longitude sky", ImageInfiniteLight{wide, some_axes(), 1.5f, Point3(0), 2.5f});
   const PortalInfiniteLight portal{{-1, -1, 2.2f},
@@ -83,6 +85,7 @@ std::vector<LightCase> image_cases(const std::vector<Point3>& below) {
                                    std::make_shared<const PortalSky>(*wide, some_axes()),
                                    1.5f};
   add("portal", portal);
+  cases.back().subdivisions = 160;
   add("goniometric", GoniometricLight{{0, 0, 2}, some_axes(), wide, Rgb(1, 2, 3)});
   const auto slide = std::make_shared<const ProjectedImage>(random_image(5, 3), 70);
   const Frame down = Frame::from_z(glm::normalize(Vector3(0.1f, 0.2f, -1)));
@@ -145,6 +148,7 @@ std::vector<LightCase> make_cases() {
     }
   }
   cases.push_back(area_case("part of a disk", quadric_shape(QuadricKind::kDisk, true), true, below));
+  cases.back().subdivisions = 160;
   cases.push_back(image_case("image on a mesh", mapped_mesh(), false, below));
   cases.push_back(image_case("image on a mesh", mapped_mesh(), true, {{0, 0, 0}, {1, 0.5f, 6}}));
   cases.push_back(image_case("image on bare triangles", bent_mesh(), false, below));
@@ -171,17 +175,17 @@ Cone cone_of(const LightCase& c, const Point3& ref) {
   return {Frame::from_z(glm::normalize(to_center)), std::sqrt(1 - sin_max * sin_max)};
 }
 
-double density(const LightCase& c, const Point3& ref, const Vector3& wi) {
-  if (is_infinite(c.light)) return escaped_pdf(c.light, ref, wi);
+double density(const LightCase& c, const LightReceiver& x, const Vector3& wi) {
+  if (is_infinite(c.light)) return escaped_pdf(c.light, x, wi);
   // Every part of the lamp along the ray counts: sample_Li knows no visibility.
   const auto& area = std::get<DiffuseAreaLight>(c.light);
   double sum = 0;
-  Ray ray{ref, wi};
+  Ray ray{x.p, wi};
   for (int i = 0; i < 4; ++i) {
     const Hit hit = brute_force(c.shapes, ray);
     if (!hit.valid()) break;
     const SurfaceInteraction on_light = make_interaction(c.shapes, ray, hit);
-    sum += area.pdf_Li(ref, wi, on_light);
+    sum += area.pdf_Li(x.p, wi, on_light);
     const auto* sphere = std::get_if<SphereEmitter>(&area.surface);
     if (sphere) break;  // sampled by its visible cone, or seen from inside
     ray = on_light.spawn(wi);
@@ -212,20 +216,20 @@ Receiver receiver_of(const LightCase& c) {
   return {c.refs[0], c.receiver_normal, c.receiver_radius};
 }
 
-SquareCase direction_square(const LightCase& c, const Point3& ref) {
-  const Cone cone = cone_of(c, ref);
+SquareCase direction_square(const LightCase& c, const LightReceiver& x) {
+  const Cone cone = cone_of(c, x.p);
   SquareCase square;
   square.name = c.name;
-  square.subdivisions = std::holds_alternative<InfiniteLight>(c.light) ? 1 : 40;
+  square.subdivisions = c.subdivisions;
   square.sample = [=](IndependentRandom& random, Point2* p) {
-    const auto s = sample_Li(c.light, ref, random);
+    const auto s = sample_Li(c.light, x, random);
     if (!s) return false;
     *p = direction_to_square(cone.frame.to_local(s->wi), cone.z_min);
     return true;
   };
-  square.density = [=](double x, double y) {
-    const Vector3 wi = cone.frame.to_world(square_to_direction(x, y, cone.z_min));
-    return density(c, ref, wi) * square_solid_angle(cone.z_min);
+  square.density = [=](double p, double q) {
+    const Vector3 wi = cone.frame.to_world(square_to_direction(p, q, cone.z_min));
+    return density(c, x, wi) * square_solid_angle(cone.z_min);
   };
   return square;
 }

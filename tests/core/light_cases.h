@@ -17,6 +17,7 @@ struct LightCase {
   std::vector<Point3> refs;   // lit points; the receiver of fluxes lies at the first one
   Vector3 receiver_normal{0, 0, 1};
   float receiver_radius = 0.5f;
+  int subdivisions = 40;  // of a chi-square bin: more where few bins hold much of an outline
 };
 
 const std::vector<LightCase>& light_cases();
@@ -27,10 +28,9 @@ inline std::optional<EmissionSample> sample_Le(const Light& light, IndependentRa
   const Point2 u_dir = random.next_2d();
   return std::visit([&](const auto& l) { return l.sample_Le(u_pos, u_dir, mode); }, light);
 }
-inline std::optional<LightSample> sample_Li(const Light& light, const Point3& ref,
+inline std::optional<LightSample> sample_Li(const Light& light, const LightReceiver& x,
                                             IndependentRandom& random) {
-  const Point2 u = random.next_2d();
-  return std::visit([&](const auto& l) { return l.sample_Li(ref, u); }, light);
+  return sample_Li(light, x, random.next_2d());
 }
 
 // One-sided disk that catches light.
@@ -45,8 +45,7 @@ struct Receiver {
 };
 Receiver receiver_of(const LightCase& c);
 
-// sample_Li and pdf_Li of an area or infinite light from ref, over the cone of directions that holds the
-// lamp.
-SquareCase direction_square(const LightCase& c, const Point3& ref);
+// sample_Li and pdf_Li of an area or infinite light at x, over the cone of directions that holds the lamp.
+SquareCase direction_square(const LightCase& c, const LightReceiver& x);
 
 }  // namespace kaustik::test

@@ -60,7 +60,7 @@ TEST(Light, PhotonsAndIrradianceCarryTheSameFlux) {
       }
       for (int i = 0; i < 100000; ++i) {
         const Point3 p = receiver.point(random.next_2d());
-        const auto s = test::sample_Li(c.light, p, random);
+        const auto s = test::sample_Li(c.light, {p, receiver.normal, false}, random);
         const float cosine = s ? glm::dot(s->wi, receiver.normal) : 0;
         irradiance.add(cosine > 0 ? luminance(s->Li) * cosine / s->pdf * receiver.area() : 0);
       }
@@ -77,7 +77,12 @@ TEST(Light, DirectionsFollowTheirDensity) {
   std::vector<test::SquareCase> cases;
   for (const LightCase& c : test::light_cases()) {
     if (is_delta(c.light)) continue;
-    for (const Point3& ref : c.refs) cases.push_back(test::direction_square(c, ref));
+    for (const Point3& ref : c.refs) {
+      cases.push_back(test::direction_square(c, {ref}));
+      // Of skies, the receiver's normal chooses too.
+      if (is_infinite(c.light))
+        cases.push_back(test::direction_square(c, {ref, glm::normalize(Vector3(1, -2, 0.5f)), false}));
+    }
   }
   // A lamp's outline crosses bins: 40 subdivisions of 16 bins resolve its area to better than a percent.
   test::expect_all_accepted(cases, 40000, 0.01);

@@ -121,7 +121,7 @@ TEST(LightTree, IsNeverZeroWhereALampContributes) {
     for (uint32_t lamp = 0; lamp < all.size(); ++lamp)
       for (int k = 0; k < 20; ++k) {
         const Point2 u = random.next_2d();
-        const auto s = std::visit([&](const auto& l) { return l.sample_Li(x.p, u); }, all[lamp]);
+        const auto s = sample_Li(all[lamp], x, u);
         if (!s || is_black(s->Li)) continue;
         if (!x.two_sided && !(glm::dot(x.n, s->wi) > 0)) continue;
         ++contributing;
