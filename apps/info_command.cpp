@@ -112,9 +112,11 @@ Json info_json(const std::string& path, const Job& job) {
   out["lights"] = lights_json(scene);
   out["surface_groups"] = groups_json(scene);
   out["needs"] = {{"specular", scene.needs.specular},
+                  {"delta", scene.needs.delta},
                   {"diffuse", scene.needs.diffuse},
                   {"only_delta_lights", scene.needs.only_delta_lights},
                   {"infinite_light", scene.needs.infinite_light},
+                  {"sky_alone", scene.needs.sky_alone},
                   {"any_light", scene.needs.any_light},
                   {"left_out", scene.needs.left_out()}};
   out["plan"] = {{"direct", render::name_of(plan.direct)},

@@ -36,8 +36,14 @@ VisibilityTree foretell_visibility(const Scene& scene, const accel::Bvh& bvh,
   const SurfaceTable surfaces(scene);
   tbb::enumerable_thread_specific<Votes> by_thread;
   const size_t lamps = std::min<size_t>(scene.lights.size(), VisibilityTree::kMostLamps);
+  const auto power = [&](uint32_t lamp) {
+    return is_infinite(scene.lights[lamp]) ? 0.0 : double(scene.light_power.pdf(lamp));
+  };
+  double sum = 0;
+  for (uint32_t lamp = 0; lamp < scene.lights.size(); ++lamp) sum += power(lamp);
   for (uint32_t lamp = 0; lamp < lamps; ++lamp) {
-    const TraceSettings trace = straight_photons(settings, lamp, double(scene.light_power.pdf(lamp)));
+    if (!(power(lamp) > 0)) continue;
+    const TraceSettings trace = straight_photons(settings, lamp, power(lamp) / sum);
     const uint64_t blocks = (trace.photons + kShootBlock - 1) / kShootBlock;
     tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t block) {
       Votes& votes = by_thread.local();

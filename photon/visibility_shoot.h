@@ -12,10 +12,10 @@ struct VisibilitySettings {
   EmissionMode emission = EmissionMode::kCosine;
 };
 
-// Lets each lamp emit its share of the photons, by power, and counts where they go straight on: nothing is
-// scattered and nothing stored. Of more than VisibilityTree::kMostLamps lamps the others are left out:
-// nothing is foretold of them. The result is a function of scene and settings alone, whatever the number of
-// threads.
+// Lets each lamp but skies emit its share of the photons, by power, and counts where they go straight on:
+// nothing is scattered and nothing stored. Of more than VisibilityTree::kMostLamps lamps the others are left
+// out: nothing is foretold of them. The result is a function of scene and settings alone, whatever the number
+// of threads.
 VisibilityTree foretell_visibility(const Scene& scene, const accel::Bvh& bvh,
                                    const VisibilitySettings& settings);
 

@@ -38,7 +38,7 @@ bool dark(const Scene& scene) {
 }
 
 // Few lamps are all sampled, each once; of more, one.
-constexpr size_t kMostLampsSampled = 4;
+constexpr size_t kMostLampsSampled = LightSampler::kMostByPower;
 bool samples_each(const Scene& scene) {
   return scene.lights.size() <= kMostLampsSampled;
 }
@@ -66,8 +66,8 @@ std::optional<LampSample> sample_lamp(const Scene& scene, uint32_t lamp, float e
   return LampSample{*s, f * s->Li * (w / pdf)};
 }
 
-// The sum over all lamps of what each brings times V, as foretold, put right for one of them: chosen by what
-// it brings where it is not known whether it is seen.
+// The sum over all lamps of what each brings times V, as foretold, put right for one of them at most: chosen
+// by what it brings times p. As often as the most doubtful of them alone would be.
 Rgb sample_each_lamp(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, float u_ray,
                      const Point2& u, TileCounters& counters, LobePart part) {
   struct Candidate {
@@ -76,7 +76,7 @@ Rgb sample_each_lamp(const RenderContext& ctx, const ShadingPoint& x, LightWeigh
   };
   std::array<Candidate, kMostLampsSampled> candidates;
   size_t count = 0;
-  float all = 0;  // of what they bring
+  float all = 0, p = 0;
   Rgb sum(0);
   for (uint32_t lamp = 0; lamp < ctx.scene.lights.size(); ++lamp) {
     const auto s = sample_lamp(ctx.scene, lamp, 1, x, weight, part, u);
@@ -84,14 +84,17 @@ Rgb sample_each_lamp(const RenderContext& ctx, const ShadingPoint& x, LightWeigh
     const photon::VisibilityGuess guess = foretold(ctx, x, part, lamp);
     const float size = s->brings.x + s->brings.y + s->brings.z;
     sum += s->brings * guess.v;
-    all += size;
+    all += size * guess.p;
+    p = std::max(p, guess.p);
     candidates[count++] = {*s, guess.v, size * guess.p};
   }
-  float at = u_ray * all;
+  if (!(u_ray < p)) return sum;
+  float at = u_ray / p * all;
   for (size_t i = 0; i < count; ++i) {
     const Candidate& c = candidates[i];
     if (at < c.size)
-      return sum + c.sample.brings * ((trace_visibility(ctx, x, c.sample.at, counters) - c.v) * all / c.size);
+      return sum + c.sample.brings *
+                       ((trace_visibility(ctx, x, c.sample.at, counters) - c.v) * (all / (c.size * p)));
     at -= c.size;
   }
   return sum;

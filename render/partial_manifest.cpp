@@ -45,8 +45,9 @@ void for_each_time(Statistics& s, F&& f) {
 
 template <class Needs, class F>
 void for_each_need(Needs& n, F&& f) {
-  f("specular", n.specular), f("diffuse", n.diffuse), f("only_delta_lights", n.only_delta_lights);
-  f("infinite_light", n.infinite_light), f("any_light", n.any_light);
+  f("specular", n.specular), f("delta", n.delta), f("diffuse", n.diffuse);
+  f("only_delta_lights", n.only_delta_lights), f("infinite_light", n.infinite_light);
+  f("sky_alone", n.sky_alone), f("any_light", n.any_light);
 }
 
 // Exact: C's hexadecimal notation.

@@ -31,11 +31,11 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
       plan.direct = Direct::kPhotons, plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
       break;
     case Method::kAuto:
-      // Direct light with foretold visibility: the error of shadow rays in less time. An infinite lamp is
-      // partly seen nearly everywhere, so that little can be foretold. Indirect light by photons: less error
+      // Direct light with foretold visibility: the error of shadow rays in less time. A sky is partly seen
+      // nearly everywhere, so that nothing is foretold of it. Indirect light by photons: less error
       // in the same time than paths on every scene measured, and no fireflies where a small bright patch
       // lights the room (docs/accuracy.md).
-      plan.direct = needs.any_light && !needs.infinite_light ? Direct::kPredicted : Direct::kShadowRays;
+      plan.direct = needs.any_light && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
       plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
       break;
   }

@@ -80,9 +80,11 @@ Json seconds_json(const RenderStatistics& s, const OuterTimes& t) {
 
 Json needs_json(const SceneNeeds& needs) {
   return {{"specular", needs.specular},
+          {"delta", needs.delta},
           {"diffuse", needs.diffuse},
           {"only_delta_lights", needs.only_delta_lights},
           {"infinite_light", needs.infinite_light},
+          {"sky_alone", needs.sky_alone},
           {"any_light", needs.any_light},
           {"left_out", needs.left_out()}};
 }

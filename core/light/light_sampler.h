@@ -5,14 +5,14 @@ namespace kaustik {
 
 // Chooses the lamp of a shadow ray. All estimators that choose one ask here, and here for the probability.
 //
-// Of at most kMostByPower lamps one is chosen in proportion to its power, wherever the light arrives. Of
-// more, lamps that have a place are chosen by a LightTree; those without (distant, infinite) beside it, each
-// as often as the whole tree (pbrt-v4's rule); one choice in eight is made by power
-// all the same. Immutable; thread-safe.
+// Of at most kMostByPower lamps one is chosen in proportion to its power, wherever the light arrives: so few
+// are better all sampled (render/lighting.cpp). Of more, lamps that have a place are chosen by a LightTree;
+// those without (distant, infinite) beside it, each as often as the whole tree (pbrt-v4's rule); one choice
+// in eight is made by power all the same. Immutable; thread-safe.
 class LightSampler {
  public:
   // Measured: docs/accuracy.md.
-  static constexpr size_t kMostByPower = 16;
+  static constexpr size_t kMostByPower = 4;
 
   LightSampler() = default;
   explicit LightSampler(const std::vector<Light>& lights, size_t most_by_power = kMostByPower);

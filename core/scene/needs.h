@@ -11,6 +11,7 @@ struct SceneNeeds {
   bool diffuse = false;            // some surface has a broad part: photon maps are of use
   bool only_delta_lights = false;  // paths cannot hit a lamp: caustics need photons
   bool infinite_light = false;
+  bool sky_alone = false;  // every lamp is infinite: little can be foretold of what is seen
   bool any_light = false;
 
   // One sentence per thing left out, e.g. "no specular surface: no caustic pass".

@@ -31,6 +31,7 @@ SceneNeeds needs_of(const Scene& scene) {
   }
   needs.any_light = !scene.lights.empty();
   needs.infinite_light = !scene.infinite_lights.empty();
+  needs.sky_alone = needs.any_light && scene.infinite_lights.size() == scene.lights.size();
   needs.only_delta_lights =
       needs.any_light && std::all_of(scene.lights.begin(), scene.lights.end(), is_delta);
   return needs;

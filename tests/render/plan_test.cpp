@@ -53,9 +53,11 @@ TEST(Plan, PresetsOfASceneThatNeedsEverything) {
   }
 }
 
-TEST(Plan, AutoForetellsVisibilityUnlessALampIsInfinite) {
+TEST(Plan, AutoForetellsVisibilityUnlessTheSkyIsAlone) {
   SceneNeeds needs = needs_of(true);
   needs.infinite_light = true;
+  EXPECT_EQ(make_plan({}, needs).direct, Direct::kPredicted);
+  needs.sky_alone = true;
   EXPECT_EQ(make_plan({}, needs).direct, Direct::kShadowRays);
   EXPECT_EQ(make_plan({}, SceneNeeds{}).direct, Direct::kShadowRays);
   EXPECT_EQ(make_plan({}, needs_of(true)).direct, Direct::kPredicted);
