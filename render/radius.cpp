@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/sampling/sampler.h"
 #include "render/shading_point.h"
@@ -27,46 +28,51 @@ constexpr RadiusRule kIndirectRule{500, 200};
 constexpr RadiusRule kCausticRule{232, kFewestInReach};
 constexpr uint64_t kPilotStream = 0x9117;  // keeps the pilot's random numbers apart from the image's
 
-// The first non-specular point of a camera ray, as a query without radius; false where there is none.
-bool pilot_query(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings, uint32_t index,
-                 photon::GatherQuery* query) {
+// A query without radius.
+struct PilotPoint {
+  photon::GatherQuery query;
+  bool both_sides = false;  // what comes through is gathered, too
+};
+
+// The first non-specular point of a camera ray; nothing where there is none.
+std::optional<PilotPoint> pilot_point(const Scene& scene, const accel::Bvh& bvh,
+                                      const RenderSettings& settings, uint32_t index) {
   Sampler sampler(hash_combine(settings.seed, kPilotStream), index);
   const Point2 u = sampler.next_2d();
   Ray ray = scene.camera.generate_ray({u.x * float(scene.camera.width), u.y * float(scene.camera.height)});
   for (int events = 0; events <= settings.max_bounces; ++events) {
     SurfaceInteraction si;
-    if (!bvh.intersect(ray, &si)) return false;
+    if (!bvh.intersect(ray, &si)) return std::nullopt;
     const ShadingPoint x(scene, si, -ray.d);
     if (!x.specular()) {
-      *query = {si.p, glm::dot(si.n, x.wo) < 0 ? -si.n : si.n, si.surface_group};
-      return true;
+      const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;
+      return PilotPoint{{si.p, n, si.surface_group}, transmits(*x.bsdf)};
     }
     const auto s = scatter(x, sampler);
-    if (!s) return false;
+    if (!s) return std::nullopt;
     ray = si.spawn(s->wi);
   }
-  return false;
+  return std::nullopt;
 }
 
-std::vector<photon::GatherQuery> visible_queries(const Scene& scene, const accel::Bvh& bvh,
-                                                 const RenderSettings& settings) {
-  std::vector<photon::GatherQuery> found;
+std::vector<PilotPoint> visible_points(const Scene& scene, const accel::Bvh& bvh,
+                                       const RenderSettings& settings) {
+  std::vector<PilotPoint> found;
   for (uint32_t i = 0; i < kPilotPoints; ++i) {
-    photon::GatherQuery query;
-    if (pilot_query(scene, bvh, settings, i, &query)) found.push_back(query);
+    if (const auto point = pilot_point(scene, bvh, settings, i)) found.push_back(*point);
   }
   return found;
 }
 
 // Photons evenly spaced in the map's order.
-std::vector<photon::GatherQuery> photon_queries(const photon::PhotonMap& map) {
-  std::vector<photon::GatherQuery> queries;
+std::vector<PilotPoint> photon_points(const photon::PhotonMap& map) {
+  std::vector<PilotPoint> points;
   const uint64_t count = std::min<uint64_t>(map.size(), kPilotPoints);
   for (uint64_t i = 0; i < count; ++i) {
     const photon::Photon p = map.photon(map.size() / count * i);
-    queries.push_back({p.p, p.n, p.surface_group});
+    points.push_back({{p.p, p.n, p.surface_group}});
   }
-  return queries;
+  return points;
 }
 
 // Distance to the k-th nearest photon; `reach` or more when the scene holds fewer. The search radius grows
@@ -78,13 +84,23 @@ float nearest_radius(const photon::PhotonMap& map, photon::GatherQuery query, fl
   return reach;
 }
 
-// Median over the queries of the distance to the k-th nearest photon; queries that do not find so many are
+// On the side where photons lie more densely: on the other there may be none before the far wall of a hollow
+// ball, whose normals are the same.
+float nearest_radius(const photon::PhotonMap& map, const PilotPoint& point, float reach, uint32_t k) {
+  const float r = nearest_radius(map, point.query, reach, k);
+  if (!point.both_sides) return r;
+  photon::GatherQuery behind = point.query;
+  behind.n = -behind.n;
+  return std::min(r, nearest_radius(map, behind, reach, k));
+}
+
+// Median over the points of the distance to the k-th nearest photon; points that do not find so many are
 // left out. Nothing found gives 0.
-float median_radius(const photon::PhotonMap& map, const std::vector<photon::GatherQuery>& queries,
-                    float reach, uint32_t k) {
-  std::vector<float> radii(queries.size());
-  tbb::parallel_for(size_t(0), queries.size(),
-                    [&](size_t i) { radii[i] = nearest_radius(map, queries[i], reach, k); });
+float median_radius(const photon::PhotonMap& map, const std::vector<PilotPoint>& points, float reach,
+                    uint32_t k) {
+  std::vector<float> radii(points.size());
+  tbb::parallel_for(size_t(0), points.size(),
+                    [&](size_t i) { radii[i] = nearest_radius(map, points[i], reach, k); });
   radii.erase(std::remove_if(radii.begin(), radii.end(), [&](float r) { return !(r > 0 && r < reach); }),
               radii.end());
   if (radii.empty()) return 0;
@@ -99,12 +115,12 @@ uint32_t photons_to_reach(const RadiusRule& rule, const photon::PhotonMap& map, 
   return static_cast<uint32_t>(std::lround(std::clamp(rule.of_million * root * root, rule.least, 1e9)));
 }
 
-// Where every query fails with k photons, fewer must do; the last resort is a fixed part of the scene.
-float auto_radius(const photon::PhotonMap& map, const std::vector<photon::GatherQuery>& queries, float reach,
+// Where every point fails with k photons, fewer must do; the last resort is a fixed part of the scene.
+float auto_radius(const photon::PhotonMap& map, const std::vector<PilotPoint>& points, float reach,
                   uint32_t photons, const PassShare& pass) {
   if (map.empty()) return reach / 64;  // those of other passes need not be
   for (uint32_t k = photons_in_reach(photons, pass.shares); k > 0; k /= 2)
-    if (const float r = median_radius(map, queries, reach, k); r > 0) return r;
+    if (const float r = median_radius(map, points, reach, k); r > 0) return r;
   return reach / 64;
 }
 
@@ -114,9 +130,9 @@ GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const Render
                          const PassShare& pass, const PhotonMaps& maps) {
   if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius, 0};
   const float reach = 2 * scene.bounds.radius(), f = settings.radius_factor;
-  const auto visible = visible_queries(scene, bvh, settings);
-  const auto choose = [&](const photon::PhotonMap& map, const auto& queries, uint32_t k) {
-    return f * auto_radius(map, queries, reach, k, pass);
+  const auto visible = visible_points(scene, bvh, settings);
+  const auto choose = [&](const photon::PhotonMap& map, const auto& points, uint32_t k) {
+    return f * auto_radius(map, points, reach, k, pass);
   };
   // Shadow photons lie as densely as direct ones would without what casts the shadows, and like caustics they
   // fill little of the picture.
@@ -124,9 +140,9 @@ GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const Render
   const photon::PhotonMap& direct = signed_light ? maps.shadow : maps.direct.map;
   const uint32_t caustic = photons_to_reach(kCausticRule, maps.caustic.map, pass);
   const double scaled = std::clamp(caustic * double(f) * double(f), double(kFewestInReach), 1e9);
-  return {choose(direct, signed_light ? photon_queries(direct) : visible,
+  return {choose(direct, signed_light ? photon_points(direct) : visible,
                  photons_to_reach(kDirectRule, direct, pass)),
-          choose(maps.caustic.map, photon_queries(maps.caustic.map), caustic),
+          choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
           choose(maps.indirect.map, visible, photons_to_reach(kIndirectRule, maps.indirect.map, pass)),
           static_cast<uint32_t>(std::lround(scaled))};
 }

@@ -74,6 +74,28 @@ TEST_P(Furnace, GlassAndMirrorChangeNothing) {
   EXPECT_NEAR(found.mean, kExpected, 5 * found.standard_error + kTruncated + kExpected / 512 + 1e-3);
   EXPECT_LT(found.standard_error, 0.02);
 }
+// A hollow ball that lets light through, under a sky of one: its photons lie on the inside, and the nearest
+// with the outside's normal on the far wall. Inside L = rho + rho L, outside rho + rho L, which is the same.
+TEST(TransmittingFurnace, RadiusIsChosenOnTheSideOfThePhotons) {
+  constexpr double kShare = 0.4;
+  Scene scene;
+  const Rgb share{static_cast<float>(kShare)};
+  add_shape(scene, sphere({0, 0, 0}, 1, add_material(scene, DiffuseTransmission{share, share})));
+  scene.lights.push_back(InfiniteLight{Rgb(1)});
+  look_at(scene, {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 10, 8, 8);
+  finalize_scene(scene);
+  RenderSettings settings;
+  settings.method = Method::kPhoton;
+  settings.photons = 100'000;
+  std::vector<double> means;
+  for (settings.seed = 0; settings.seed < 8; ++settings.seed)
+    means.push_back(total_mean(render_with_threads(scene, settings).film));
+  const Estimate found = estimate_of(means);
+  const double expected = kShare / (1 - kShare);
+  EXPECT_NEAR(found.mean, expected, 5 * found.standard_error + expected / 512);
+  EXPECT_LT(found.standard_error, 0.02 * expected);
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, Furnace, ::testing::Values(Method::kMc, Method::kHybrid, Method::kPhoton));
 
 }  // namespace
