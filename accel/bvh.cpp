@@ -66,14 +66,29 @@ void store4(float* to, Float4 values) {
   std::memcpy(to, &values, sizeof(values));
 }
 
-void fill(RTCRay& r, const Ray& ray, float to_embree) {
+// Of components beyond Embree gives up, and builds of it with assertions end the program.
+constexpr float kFarthest = 1.8e18f;
+
+bool within_reach(Float4 o, Float4 d) {
+  const auto inside = (o <= kFarthest) & (o >= -kFarthest) & (d <= kFarthest) & (d >= -kFarthest);
+  uint64_t halves[2];
+  static_assert(sizeof halves == sizeof inside);
+  std::memcpy(halves, &inside, sizeof halves);
+  return (halves[0] & halves[1]) == ~uint64_t{0};
+}
+
+// False for rays from out of Embree's reach, or that are not finite: they meet nothing.
+bool fill(RTCRay& r, const Ray& ray, float to_embree) {
   static_assert(offsetof(RTCRay, tnear) == 3 * sizeof(float) && offsetof(RTCRay, time) == 7 * sizeof(float));
-  store4(&r.org_x, Float4{ray.o.x, ray.o.y, ray.o.z, kNear} * Float4{to_embree, to_embree, to_embree, 1});
-  store4(&r.dir_x, Float4{ray.d.x, ray.d.y, ray.d.z, 0});
+  const Float4 o = Float4{ray.o.x, ray.o.y, ray.o.z, kNear} * Float4{to_embree, to_embree, to_embree, 1};
+  const Float4 d{ray.d.x, ray.d.y, ray.d.z, 0};
+  store4(&r.org_x, o);
+  store4(&r.dir_x, d);
   r.tfar = far_end(ray.t_max * to_embree);
   r.mask = 0xffffffffu;
   r.id = 0;
   r.flags = 0;
+  return within_reach(o, d);
 }
 
 RTCScene new_scene(RTCDevice device) {
@@ -129,7 +144,7 @@ struct Bvh::Impl {
   void attach(RTCScene scene, RTCGeometry geometry, unsigned geometry_id);
   void commit(int threads);
   void start_packets(RTCRayHit16* query) const;
-  void load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query) const;
+  void load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query, int* valid) const;
   void store_packet(const RTCRayHit16& query, size_t first, HitLanes* hits) const;
 };
 
@@ -251,11 +266,11 @@ Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 
 Hit Bvh::intersect(const Ray& ray) const {
   RTCRayHit query;
-  fill(query.ray, ray, impl_->to_embree);
+  Hit hit;
+  if (!fill(query.ray, ray, impl_->to_embree)) return hit;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embree_intersect(impl_->embree.scene, &query);
-  Hit hit;
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
   hit.t = query.ray.tfar * impl_->to_scene;
   hit.uv = {query.hit.u, query.hit.v};
@@ -274,12 +289,15 @@ void Bvh::Impl::start_packets(RTCRayHit16* query) const {
   std::fill_n(query->ray.flags, kPacket, 0u);
 }
 
-void Bvh::Impl::load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query) const {
+// valid: -1 for rays that are to be traced, 0 for the others; rays out of reach become such.
+void Bvh::Impl::load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query, int* valid) const {
   float* const o[] = {query->ray.org_x, query->ray.org_y, query->ray.org_z};
   float* const d[] = {query->ray.dir_x, query->ray.dir_y, query->ray.dir_z};
   for (int c = 0; c < 3; ++c) {
     for (size_t i = 0; i < kPacket; ++i) o[c][i] = rays.o[c][first + i] * to_embree;
     std::copy_n(rays.d[c] + first, kPacket, d[c]);
+    for (size_t i = 0; i < kPacket; ++i)
+      valid[i] &= -int{std::abs(o[c][i]) <= kFarthest} & -int{std::abs(d[c][i]) <= kFarthest};
   }
   std::fill_n(query->ray.tfar, kPacket, far_end(kInfinity));
   std::fill_n(query->hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
@@ -306,7 +324,7 @@ void Bvh::intersect(const RayLanes& rays, size_t count, HitLanes* hits, RayOrder
   impl_->start_packets(&query);
   for (size_t first = 0; first < count; first += kPacket) {
     for (size_t i = 0; i < kPacket; ++i) valid[i] = first + i < count ? -1 : 0;
-    impl_->load_packet(rays, first, &query);
+    impl_->load_packet(rays, first, &query, valid);
     embree_intersect(impl_->embree.scene, valid, coherent, &query);
     impl_->store_packet(query, first, hits);
   }
@@ -314,7 +332,7 @@ void Bvh::intersect(const RayLanes& rays, size_t count, HitLanes* hits, RayOrder
 
 bool Bvh::occluded(const Ray& ray) const {
   RTCRay query;
-  fill(query, ray, impl_->to_embree);
+  if (!fill(query, ray, impl_->to_embree)) return false;
   embree_occluded(impl_->embree.scene, &query);
   return query.tfar == kEmbreeOccluded;
 }

@@ -256,6 +256,30 @@ TEST(Bvh, EmptySceneAndEmptyMeshHitNothing) {
   EXPECT_FALSE(Bvh(scene).occluded({{0, 0, 0}, {0, 0, 1}}));
 }
 
+// Builds of Embree with assertions would end the program.
+TEST(Bvh, RaysOutOfReachMeetNothing) {
+  const Scene scene = unit_wall();
+  const Bvh bvh(scene);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const Ray rays[] = {{{0, 0, 1e20f}, {0, 0, -1}},     {{0, -kInfinity, 2}, {0, 0, -1}},
+                      {{kNan, 0, 2}, {0, 0, -1}},      {{0, 0, 2}, {0, 0, -2e18f}},
+                      {{0, 0, 2}, {kInfinity, 0, -1}}, {{0, 0, 2}, {0, kNan, -1}}};
+  RayLanes lanes{};
+  for (size_t i = 0; i < std::size(rays); ++i) {
+    EXPECT_FALSE(bvh.intersect(rays[i]).valid()) << i;
+    EXPECT_FALSE(bvh.occluded(rays[i])) << i;
+    for (int c = 0; c < 3; ++c) lanes.o[c][i] = rays[i].o[c], lanes.d[c][i] = rays[i].d[c];
+  }
+  const Ray met{{0, 0, 2}, {0, 0, -1}};
+  for (int c = 0; c < 3; ++c) lanes.o[c][6] = met.o[c], lanes.d[c][6] = met.d[c];
+  for (const RayOrder order : {RayOrder::kMixed, RayOrder::kNeighbours}) {
+    HitLanes hits{};
+    bvh.intersect(lanes, 7, &hits, order);
+    for (size_t i = 0; i < 6; ++i) EXPECT_FALSE(hits.valid(i)) << i;
+    EXPECT_EQ(hits.t[6], 2);
+  }
+}
+
 TEST(Bvh, BuildLeavesDenormalsAloneAndReportsMemory) {
   const Scene scene = unit_wall();
   const Bvh bvh(scene);
