@@ -116,6 +116,7 @@ class SceneParser {
   bool stopped_ = false;             // too many errors
   uint64_t ignored_pushes_ = 0;      // blocks opened beyond the limit
   uint64_t bytes_read_ = 0;
+  uint64_t files_included_ = 0;
   std::vector<uint32_t> open_files_;
   Tokenizer* tokens_ = nullptr;  // of the innermost open file
 };

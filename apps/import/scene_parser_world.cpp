@@ -14,6 +14,7 @@ namespace {
 constexpr size_t kDeepestInclude = 64;
 // Files that include others twice each grow without end long before they are deep.
 constexpr uint64_t kMostBytes = uint64_t{8} << 30;
+constexpr uint64_t kMostIncludes = 100'000;
 
 }  // namespace
 
@@ -157,9 +158,10 @@ void SceneParser::include(const Token& word, bool keep_state) {
                               fmt::format("\"{}\" includes itself", diagnostics_.files.name(*file)));
   }
   bytes_read_ += diagnostics_.files.text(*file).size() + 1;
-  if (bytes_read_ > kMostBytes) {
+  if (bytes_read_ > kMostBytes || ++files_included_ > kMostIncludes) {
     if (!stopped_)
-      diagnostics_.error(name->location, "the included files are too long in all: reading stops here");
+      diagnostics_.error(name->location,
+                         "the included files are too many or too long in all: reading stops here");
     stopped_ = true;
     return;
   }

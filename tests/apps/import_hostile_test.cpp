@@ -104,6 +104,20 @@ TEST_F(ImportHostile, IncludesThatAreTooDeep) {
   EXPECT_EQ(diagnostics_.entries()[0].message, "more than 64 files included inside each other");
 }
 
+// Ten times as many at each of six levels.
+TEST_F(ImportHostile, IncludesThatAreTooMany) {
+  for (int i = 0; i < 6; ++i) {
+    std::string text;
+    for (int k = 0; k < 10; ++k) text += "Include \"f" + std::to_string(i + 1) + ".pbrt\"\n";
+    write("f" + std::to_string(i) + ".pbrt", text);
+  }
+  write("f6.pbrt", "");
+  messages("WorldBegin Include \"f0.pbrt\"");
+  ASSERT_EQ(diagnostics_.error_count(), 1u);
+  EXPECT_EQ(diagnostics_.entries()[0].message,
+            "the included files are too many or too long in all: reading stops here");
+}
+
 TEST_F(ImportHostile, LongTokensAreCut) {
   const std::string out = messages("WorldBegin\n" + std::string(1'000'000, 'x') + "\n");
   EXPECT_LT(out.size(), 1000u);
