@@ -172,21 +172,22 @@ std::string disney(Directive& d) {
          "\"coateddiffuse\": `color`, `roughness` and `eta` are what is kept";
 }
 
-// v4's amount is the share of the second material.
+// v3's amount is the share of the first material, v4's that of the second: they change places, so that a
+// texture serves, too.
 std::string mix(Directive& d) {
   const Parameter* first = d.find("namedmaterial1");
   const Parameter* second = d.find("namedmaterial2");
   if (!first || !second || first->strings.size() != 1 || second->strings.size() != 1) return "";
-  Parameter materials = *first;
+  Parameter materials = *second;
   materials.name = "materials";
-  materials.strings.push_back(second->strings[0]);
-  if (!second->value_places.empty()) materials.value_places.push_back(second->value_places[0]);
+  materials.strings.push_back(first->strings[0]);
+  if (!first->value_places.empty()) materials.value_places.push_back(first->value_places[0]);
   Parameter* amount = find(d, "amount");
   if (amount && amount->strings.empty() && !amount->numbers.empty()) {
     double mean = 0;
     for (const double v : amount->numbers) mean += v / double(amount->numbers.size());
     amount->type = ParameterType::kFloat;
-    amount->numbers = {1 - mean};
+    amount->numbers = {mean};
   }
   erase(d, {"namedmaterial1", "namedmaterial2"});
   d.parameters.push_back(std::move(materials));

@@ -89,8 +89,8 @@ TEST_F(ImportV3, OtherMaterials) {
   const auto mix = material(
       "MakeNamedMaterial \"m\" \"string type\" \"mix\" \"rgb amount\" [ .25 .25 .25 ] "
       "\"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\"");
-  EXPECT_THAT(mix.find("materials")->strings, ElementsAre("a", "b"));
-  EXPECT_THAT(numbers(mix, "amount"), ElementsAre(.75));
+  EXPECT_THAT(mix.find("materials")->strings, ElementsAre("b", "a"));
+  EXPECT_THAT(numbers(mix, "amount"), ElementsAre(.25));
 }
 
 TEST_F(ImportV3, WholeFile) {
