@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/scene/bilinear.h"
@@ -144,6 +145,7 @@ float turn_of(const Context& c) {
   return static_cast<float>(glm::radians(c.reader.number("phimax")));
 }
 
+// Which of the two is larger does not matter, as in pbrt.
 bool check_extent(const Context& c, double z_min, double z_max) {
   if (z_min < z_max) return true;
   c.error(
@@ -157,7 +159,7 @@ std::optional<ShapeSource> make_sphere(const Context& c) {
   const auto limit = [&](std::string_view name, double whole) {
     return c.reader.has(name) ? std::clamp(c.reader.number(name), -radius, radius) : whole;
   };
-  const double z_min = limit("zmin", -radius), z_max = limit("zmax", radius);
+  const auto [z_min, z_max] = std::minmax({limit("zmin", -radius), limit("zmax", radius)});
   if (!check_extent(c, z_min, z_max)) return std::nullopt;
   const glm::dmat4 local = glm::scale(glm::dmat4(1), glm::dvec3(radius));
   if (z_min == -radius && z_max == radius && c.reader.number("phimax") == 360)
@@ -171,7 +173,7 @@ std::optional<ShapeSource> make_sphere(const Context& c) {
 
 std::optional<ShapeSource> make_cylinder(const Context& c) {
   const double radius = c.reader.number("radius");
-  const double z_min = c.reader.number("zmin"), z_max = c.reader.number("zmax");
+  const auto [z_min, z_max] = std::minmax({c.reader.number("zmin"), c.reader.number("zmax")});
   if (!check_extent(c, z_min, z_max)) return std::nullopt;
   Quadric q;
   q.kind = QuadricKind::kCylinder;

@@ -57,9 +57,20 @@ TEST_F(ImportInstances, CutShapesAreQuadrics) {
   EXPECT_TRUE(std::holds_alternative<Sphere>(s.shapes[3].geometry));
 }
 
+TEST_F(ImportInstances, EitherEndOfQuadricsMayComeFirst) {
+  const Scene s = world(R"(Shape "cylinder" "float zmin" 2 "float zmax" 1
+    Shape "sphere" "float zmin" 0.5 "float zmax" -0.25)");
+  const auto &cylinder = std::get<Quadric>(s.shapes[0].geometry),
+             &sphere = std::get<Quadric>(s.shapes[1].geometry);
+  EXPECT_EQ(cylinder.z_min, 1);
+  EXPECT_EQ(cylinder.z_max, 2);
+  EXPECT_EQ(sphere.z_min, -0.25f);
+  EXPECT_EQ(sphere.z_max, 0.5f);
+}
+
 TEST_F(ImportInstances, NothingIsLeftOfShapesIsAnError) {
-  EXPECT_EQ(first_lines("Shape \"cylinder\" \"float zmin\" 2 \"float zmax\" 1"),
-            "2:31: error: nothing of the cylinder lies between `zmin` = 2 and `zmax` = 1\n");
+  EXPECT_EQ(first_lines("Shape \"cylinder\" \"float zmin\" 2 \"float zmax\" 2"),
+            "2:31: error: nothing of the cylinder lies between `zmin` = 2 and `zmax` = 2\n");
   EXPECT_EQ(first_lines("Shape \"sphere\" \"float phimax\" 0"),
             "2:31: error: `phimax` of shape \"sphere\" must be > 0 and <= 360, not 0\n");
   EXPECT_EQ(first_lines("AreaLightSource \"diffuse\" Scale 1 2 1 Shape \"cylinder\"")
