@@ -166,8 +166,9 @@ const TypeSpec* find_type(const Category& category, const Directive& directive, 
                       fmt::format("pbrt's {} \"{}\" is not rendered; there are: {}", category.noun,
                                   directive.type, fmt::join(names, ", ")));
   } else {
-    diagnostics.error(directive.type_location, fmt::format("unknown {} \"{}\"{}", category.noun,
-                                                           directive.type, name_hint(directive.type, names)));
+    diagnostics.error(directive.type_location,
+                      fmt::format("unknown {} \"{}\"{}", category.noun, directive.type.substr(0, 60),
+                                  name_hint(directive.type, names)));
   }
   return nullptr;
 }
