@@ -31,7 +31,8 @@ float fresnel_conductor(float cos_theta_i, float eta, float k) {
   const float p_cross = two_a_cos * sin2;
   if (!(p_sum + p_cross > 0)) return perpendicular;
   const float parallel = perpendicular * (p_sum - p_cross) / (p_sum + p_cross);
-  return 0.5f * (perpendicular + parallel);
+  // What matches its surroundings reflects nothing, up to rounding.
+  return std::max(0.0f, 0.5f * (perpendicular + parallel));
 }
 
 }  // namespace kaustik

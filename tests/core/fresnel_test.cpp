@@ -75,6 +75,11 @@ TEST(Fresnel, ConductorMatchesComplexReference) {
   }
 }
 
+// A metal of reflectance zero matches its surroundings.
+TEST(Fresnel, ConductorIsNeverNegative) {
+  for (int i = 0; i <= 100'000; ++i) EXPECT_GE(fresnel_conductor(float(i) * 1e-5f, 1, 0), 0.0f) << i;
+}
+
 TEST(Dielectric, ObeysSnellOnBothSides) {
   for (const float eta : {1.5f, 0.7f, 2.4f, 1.0f}) {
     const Dielectric glass{eta};
