@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
+#include <span>
 
 #include "apps/import/gzip.h"
 #include "apps/import/ply_body.h"
@@ -15,6 +17,29 @@ namespace kaustik::pbrt {
 namespace {
 
 constexpr uint64_t kLargestMeshFile = uint64_t{1} << 38;
+
+// What pbrt takes for uv where the file has none: a triangle's (0, 0), (1, 0), (1, 1) and a quad's with (0,
+// 1) as well. They are kept where faces have no corners in common. Any number of threads may add faces.
+class BareFaces {
+ public:
+  explicit BareFaces(size_t vertices) : uv_(vertices), taken_(vertices) {}
+
+  void add(std::span<const uint32_t> corners) {
+    static const std::array<Point2, 4> kUv{Point2(0, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1)};
+    bool kept = corners.size() <= kUv.size();
+    for (size_t i = 0; kept && i < corners.size(); ++i) {
+      kept = !taken_[corners[i]].exchange(true, std::memory_order_relaxed);
+      if (kept) uv_[corners[i]] = kUv[i];
+    }
+    if (!kept) shared_.store(true, std::memory_order_relaxed);
+  }
+  std::vector<Point2> take() { return shared_ ? std::vector<Point2>() : std::move(uv_); }
+
+ private:
+  std::vector<Point2> uv_;
+  std::vector<std::atomic<bool>> taken_;
+  std::atomic<bool> shared_ = false;
+};
 
 class MeshReader {
  public:
@@ -82,7 +107,11 @@ class MeshReader {
   bool read_faces(const PlyExtent& extent) {
     const auto list = header_.elements[header_.face].find_indices();
     mesh_.indices.resize(extent.triangles);
-    return for_each_block(extent, [&](const PlyBlock& block) {
+    const uint64_t faces = header_.elements[header_.face].count;
+    const bool may_be_bare =
+        mesh_.uv.empty() && extent.triangles > faces && extent.triangles + 2 * faces <= mesh_.P.size();
+    BareFaces bare(may_be_bare ? mesh_.P.size() : 0);
+    const bool read = for_each_block(extent, [&](const PlyBlock& block) {
       std::array<uint32_t, 3>* out = mesh_.indices.data() + block.triangles;
       std::vector<uint32_t> corners;
       return read_ply_block(bytes_, header_, header_.face, block, list, [&](const PlyValues& face) {
@@ -96,9 +125,12 @@ class MeshReader {
         }
         triangulate(corners, mesh_.P, out);
         out += corners.size() - 2;
+        if (may_be_bare) bare.add(corners);
         return std::string();
       });
     });
+    if (read && may_be_bare) mesh_.uv = bare.take();
+    return read;
   }
 
   std::string_view bytes_;

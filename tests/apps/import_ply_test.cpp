@@ -4,10 +4,10 @@
 #include <cstring>
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include "apps/import/gzip.h"
 #include "apps/import/ply.h"
+#include "tests/apps/gzipped.h"
 #include "tests/apps/import_support.h"
 
 namespace kaustik::pbrt {
@@ -132,6 +132,20 @@ std::string replaced(std::string_view from, std::string_view to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
+// pbrt makes patches of quads: their own parameters are the uv of those that share no corner.
+TEST_F(ImportPly, QuadsHaveTheUvOfPatches) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n3 0 0\n3 1 0\n";
+  const MeshResult apart = read(head + "4 3 0 1 2\n3 4 5 6\n");
+  ASSERT_EQ(apart.error, "");
+  const std::vector<Point2> uv{{1, 0}, {1, 1}, {0, 1}, {0, 0}, {0, 0}, {1, 0}, {1, 1}};
+  EXPECT_EQ(apart.mesh.uv, uv);
+  EXPECT_TRUE(read(head + "4 3 0 1 2\n3 2 5 6\n").mesh.uv.empty());
+  EXPECT_TRUE(read(head + "3 0 1 2\n3 0 1 2\n").mesh.uv.empty());
+}
+
 TEST_F(ImportPly, ReadsCarriageReturns) {
   std::string text;
   for (const char c : kTriangle) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -251,20 +265,6 @@ TEST_F(ImportPly, LargeMeshesAreReadWhole) {
     EXPECT_EQ(result.mesh.indices[6], (std::array<uint32_t, 3>{6, 7, 8}));
     EXPECT_EQ(result.mesh.indices[kCount - 1 + 100][0], kCount - 1);
   }
-}
-
-std::string gzipped(const std::string& text) {
-  std::string out(text.size() + 1000, '\0');
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
 }
 
 TEST_F(ImportPly, ReadsGzip) {
