@@ -6,6 +6,7 @@
 #include <map>
 
 #include "apps/import/default_view.h"
+#include "apps/import/gltf/deformation.h"
 #include "apps/import/gltf/lights_and_cameras.h"
 #include "apps/import/gltf/materials.h"
 #include "apps/import/gltf/meshes.h"
@@ -22,13 +23,19 @@ constexpr std::string_view kKnown[] = {"KHR_lights_punctual",        "KHR_materi
                                        "KHR_materials_unlit",        "KHR_materials_anisotropy",
                                        "KHR_materials_iridescence",  "KHR_materials_dispersion",
                                        "KHR_mesh_quantization",      "KHR_texture_transform",
-                                       "EXT_texture_webp",           "KHR_materials_variants"};
+                                       "EXT_texture_webp",           "KHR_materials_variants",
+                                       "EXT_mesh_gpu_instancing",    "KHR_materials_diffuse_transmission",
+                                       "KHR_node_visibility",        "KHR_materials_pbrSpecularGlossiness",
+                                       "KHR_texture_basisu",         "KHR_materials_diffuse_roughness",
+                                       "KHR_animation_pointer",      "KHR_xmp_json_ld"};
 
 class Importer {
  public:
   Importer(const Document& document, const std::filesystem::path& path, Diagnostics& diagnostics)
       : document_(document),
         warnings_({document.file(), 0, 0}, diagnostics),
+        nodes_(placed_nodes(document)),
+        deformation_(document, nodes_),
         textures_(document, path, warnings_, diagnostics.files, scene_),
         materials_(document, textures_, warnings_, scene_) {
     scene_.location = warnings_.where();
@@ -36,12 +43,12 @@ class Importer {
 
   SceneDescription run() {
     check_extensions();
-    const std::vector<PlacedNode> nodes = placed_nodes(document_);
-    for (const PlacedNode& n : nodes) {
-      if (const auto mesh = document_.item("nodes", n.node)["mesh"].index(document_.size("meshes")))
-        ++uses_[*mesh];
+    for (const PlacedNode& n : nodes_) {
+      const View node = document_.item("nodes", n.node);
+      const auto mesh = node["mesh"].index(document_.size("meshes"));
+      if (mesh && !deformation_.applies_to(node)) uses_[*mesh] += instances_of(document_, node).size();
     }
-    for (const PlacedNode& n : nodes) add_node(n);
+    for (const PlacedNode& n : nodes_) add_node(n);
     if (document_.size("animations") > 0)
       warnings_.say("animations are left out: the scene stands as it is written");
     return std::move(scene_);
@@ -73,26 +80,42 @@ class Importer {
       }
     }
     add_light(document_, node, m, warnings_, scene_);
-    if (node.has("skin")) warnings_.say("skins are left out: meshes stand as they are written");
-    if (const auto mesh = node["mesh"].index(document_.size("meshes"))) add_mesh(*mesh, m);
+    const auto mesh = node["mesh"].index(document_.size("meshes"));
+    if (!mesh) return;
+    if (deformation_.applies_to(node)) return add_deformed(node, *mesh, m);
+    for (const glm::dmat4& instance : instances_of(document_, node)) add_mesh(*mesh, m * instance);
+  }
+
+  std::optional<ShapeDescription> shape_of(const View& primitive) {
+    const glm::dvec3 tint = mean_vertex_colour(document_, primitive, warnings_);
+    const Look& look = materials_.look(primitive["material"].index(document_.size("materials")), tint);
+    auto shape = triangles_of(document_, primitive, look.uv_set, total_, warnings_);
+    if (!shape) return std::nullopt;
+    shape->material = look.material;
+    shape->area_light = look.area_light;
+    if (look.alpha) shape->parameters.push_back(*look.alpha);
+    if (look.emits_image && leaves_image(*shape))
+      warnings_.say("textures of emission are not repeated beyond their edges");
+    return shape;
   }
 
   std::vector<ShapeDescription> shapes_of(uint64_t mesh) {
     std::vector<ShapeDescription> shapes;
     const View primitives = document_.item("meshes", mesh)["primitives"];
     for (uint64_t i = 0; i < primitives.size(); ++i) {
-      const View primitive = primitives.at(i);
-      const Look& look = materials_.look(primitive["material"].index(document_.size("materials")));
-      auto shape = triangles_of(document_, primitive, look.uv_set, total_, warnings_);
-      if (!shape) continue;
-      shape->material = look.material;
-      shape->area_light = look.area_light;
-      if (look.alpha) shape->parameters.push_back(*look.alpha);
-      if (look.emits_image && leaves_image(*shape))
-        warnings_.say("textures of emission are not repeated beyond their edges");
-      shapes.push_back(std::move(*shape));
+      if (auto shape = shape_of(primitives.at(i))) shapes.push_back(std::move(*shape));
     }
     return shapes;
+  }
+
+  void add_deformed(const View& node, uint64_t mesh, const glm::dmat4& to_world) {
+    const View primitives = document_.item("meshes", mesh)["primitives"];
+    for (uint64_t i = 0; i < primitives.size(); ++i) {
+      auto shape = shape_of(primitives.at(i));
+      if (!shape) continue;
+      const bool in_world = deformation_.apply(node, primitives.at(i), *shape);
+      place(std::move(*shape), in_world ? glm::dmat4(1) : to_world);
+    }
   }
 
   static bool leaves_image(const ShapeDescription& shape) {
@@ -135,6 +158,8 @@ class Importer {
   const Document& document_;
   SceneDescription scene_;
   FileWarnings warnings_;
+  std::vector<PlacedNode> nodes_;
+  Deformation deformation_;
   Textures textures_;
   Materials materials_;
   std::map<uint64_t, uint64_t> uses_;  // of meshes by nodes

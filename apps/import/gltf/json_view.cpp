@@ -23,6 +23,14 @@ View View::operator[](const char* name) const {
   return {*found, path};
 }
 
+std::vector<std::string> View::names() const {
+  std::vector<std::string> out;
+  if (json_ && json_->is_object()) {
+    for (const auto& member : json_->items()) out.push_back(member.key());
+  }
+  return out;
+}
+
 View View::at(uint64_t i) const {
   if (i >= size()) fail(fmt::format("has no item {}: there are {}", i, size()));
   return {(*json_)[i], fmt::format("{}[{}]", path_, i)};

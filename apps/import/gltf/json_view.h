@@ -30,6 +30,8 @@ class View {
   // A member of an object; one that does not exist when it is absent. An object is expected.
   View operator[](const char* name) const;
   bool has(const char* name) const { return (*this)[name].exists(); }
+  // Of an object's members; none when absent.
+  std::vector<std::string> names() const;
   // An item of a list; out of range is an error.
   View at(uint64_t i) const;
   // Of a list; 0 when absent.

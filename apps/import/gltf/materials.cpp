@@ -11,6 +11,10 @@ namespace {
 
 using Maker = DirectiveMaker<MaterialDescription>;
 
+constexpr const char* kClearcoat = "KHR_materials_clearcoat";
+constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* kSheet = "KHR_materials_diffuse_transmission";
+
 glm::dvec3 colour(const std::vector<double>& v) {
   return {v[0], v[1], v[2]};
 }
@@ -28,19 +32,21 @@ double index_of(const View& material) {
 
 }  // namespace
 
-const Look& Materials::look(std::optional<uint64_t> index) {
-  const auto found = looks_.find(index);
+const Look& Materials::look(std::optional<uint64_t> index, const glm::dvec3& tint) {
+  const std::pair key{index, std::array<double, 3>{tint.x, tint.y, tint.z}};
+  const auto found = looks_.find(key);
   if (found != looks_.end()) return found->second;
   const View material = index ? document_.item("materials", *index) : View();
-  const std::string name =
-      index ? fmt::format("{} {}", material["name"].text("material"), *index) : "default";
-  return looks_.emplace(index, make(material, name)).first->second;
+  std::string name = index ? fmt::format("{} {}", material["name"].text("material"), *index) : "default";
+  if (tint != glm::dvec3(1)) name += fmt::format(" tinted {}", looks_.size());
+  tint_ = tint;
+  return looks_.emplace(key, make(material, name)).first->second;
 }
 
 Look Materials::make(const View& material, const std::string& name) {
   warn_of_extensions(material);
   Look look;
-  look.uv_set = metallic_roughness(material)["baseColorTexture"]["texCoord"].count(0);
+  look.uv_set = base_of(material).texture["texCoord"].count(0);
   look.material = {std::nullopt, surface(material, name), warnings_.where()};
   look.alpha = alpha_of(material);
   add_lamp(material, look);
@@ -59,7 +65,21 @@ std::string Materials::surface(const View& material, const std::string& name) {
   return mixed(name, solid, clear, share);
 }
 
+Materials::Base Materials::base_of(const View& material) const {
+  const View glossiness = extension(material, kGlossiness), pbr = metallic_roughness(material);
+  Base base = glossiness
+                  ? Base{glossiness["diffuseTexture"], glossiness["diffuseFactor"].numbers(4, {1, 1, 1, 1})}
+                  : Base{pbr["baseColorTexture"], pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})};
+  for (size_t k = 0; k < 4; ++k) {
+    if (k < 3) base.factor[k] *= tint_[static_cast<int>(k)];
+    base.factor[k] = std::clamp(base.factor[k], 0.0, 1.0);
+  }
+  return base;
+}
+
 std::string Materials::opaque(const View& material, const std::string& name) {
+  if (extension(material, kGlossiness)) return glossy(material, name);
+  if (extension(material, kSheet)["diffuseTransmissionFactor"].number(0) > 0) return sheet(material, name);
   const View pbr = metallic_roughness(material);
   const double metallic = std::clamp(pbr["metallicFactor"].number(1), 0.0, 1.0);
   const Share share = share_of(metallic, pbr["metallicRoughnessTexture"], 2);
@@ -93,60 +113,131 @@ std::string Materials::mixed(const std::string& name, const std::string& first, 
   return add(std::move(*m), name, View());
 }
 
+// Diffuse and specular colours: what reflects more than any glass, on the mean, is metal.
+std::string Materials::glossy(const View& material, const std::string& name) {
+  constexpr double kMostOfGlass = 0.35;
+  const View glossiness = extension(material, kGlossiness);
+  const glm::dvec3 F0 =
+      glm::clamp(colour(glossiness["specularFactor"].numbers(3, {1, 1, 1})) *
+                     textures_.mean(glossiness["specularGlossinessTexture"]).value_or(glm::dvec3(1)),
+                 0.0, 1.0);
+  const double most = std::max(F0.x, std::max(F0.y, F0.z)), root = std::sqrt(most);
+  if (most <= kMostOfGlass)
+    return dielectric_part(material, name, std::clamp((1 + root) / (1 - root), 1.01, 4.0));
+  Maker m("conductor", warnings_.where());
+  m.rgb("reflectance", F0);
+  add_roughness(material, false, *m);
+  return add(std::move(*m), name, material);
+}
+
+// Light that comes through a sheet, evenly.
+std::string Materials::sheet(const View& material, const std::string& name) {
+  const View transmission = extension(material, kSheet);
+  const double through = std::clamp(transmission["diffuseTransmissionFactor"].number(0), 0.0, 1.0);
+  if (transmission.has("diffuseTransmissionTexture"))
+    warnings_.say("KHR_materials_diffuse_transmission is rendered by its factors and colours");
+  const Base base = base_of(material);
+  Maker m("diffusetransmission", warnings_.where());
+  add_colour("reflectance", base.texture, (1 - through) * base.colour(), *m);
+  add_colour(
+      "transmittance", transmission["diffuseTransmissionColorTexture"],
+      through *
+          glm::clamp(colour(transmission["diffuseTransmissionColorFactor"].numbers(3, {1, 1, 1})), 0.0, 1.0),
+      *m);
+  return add(std::move(*m), name, material);
+}
+
 std::string Materials::dielectric_part(const View& material, const std::string& name) {
-  const bool dull = extension(material, "KHR_materials_specular")["specularFactor"].number(1) == 0;
+  return dielectric_part(material, name, index_of(material));
+}
+
+// A clear coat takes the place of the base's own reflection.
+std::string Materials::dielectric_part(const View& material, const std::string& name, double eta) {
+  const bool coat = extension(material, kClearcoat)["clearcoatFactor"].number(0) >= 0.5;
+  const bool dull = !coat && extension(material, "KHR_materials_specular")["specularFactor"].number(1) == 0;
   Maker m(dull ? "diffuse" : "coateddiffuse", warnings_.where());
-  add_colour(material, *m);
+  const Base base = base_of(material);
+  add_colour("reflectance", base.texture, base.colour(), *m);
   if (!dull) {
-    m.number("eta", index_of(material));
-    add_roughness(material, *m);
+    m.number("eta", coat ? 1.5 : eta);
+    add_roughness(material, coat, *m);
   }
   return add(std::move(*m), name, material);
 }
 
 std::string Materials::metal_part(const View& material, const std::string& name) {
   Maker m("conductor", warnings_.where());
-  add_colour(material, *m);
-  add_roughness(material, *m);
+  const Base base = base_of(material);
+  add_colour("reflectance", base.texture, base.colour(), *m);
+  add_roughness(material, false, *m);
   return add(std::move(*m), name, material);
 }
 
 // Without a volume behind it the surface is a pane.
 std::string Materials::clear_part(const View& material, const std::string& name) {
-  const View pbr = metallic_roughness(material);
-  const bool tinted =
-      colour(pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})) != glm::dvec3(1) || pbr.has("baseColorTexture");
-  if (tinted) warnings_.say("transmission is not coloured by the base colour");
+  const Base base = base_of(material);
+  if (base.colour() != glm::dvec3(1) || base.texture)
+    warnings_.say("transmission is not coloured by the base colour");
   const View volume = extension(material, "KHR_materials_volume");
   const bool pane = !(volume["thicknessFactor"].number(0) > 0);
   if (volume.has("attenuationDistance"))
     warnings_.say("volumes do not absorb: KHR_materials_volume's attenuation is left out");
   Maker m(pane ? "thindielectric" : "dielectric", warnings_.where());
   m.number("eta", index_of(material));
-  if (!pane) add_roughness(material, *m);
+  if (!pane) add_roughness(material, false, *m);
   return add(std::move(*m), name, material);
 }
 
-void Materials::add_colour(const View& material, MaterialDescription& m) {
-  const View pbr = metallic_roughness(material);
-  const glm::dvec3 factor = glm::clamp(colour(pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})), 0.0, 1.0);
-  const auto texture = textures_.colour(pbr["baseColorTexture"], factor);
-  m.parameters.push_back(texture ? textures_.parameter("reflectance", *texture)
-                                 : make_parameter(ParameterType::kRgb, "reflectance",
-                                                  std::vector<double>{factor.x, factor.y, factor.z},
-                                                  warnings_.where()));
+void Materials::add_colour(const std::string& parameter, const View& texture, const glm::dvec3& factor,
+                           MaterialDescription& m) {
+  const auto named = textures_.colour(texture, factor);
+  m.parameters.push_back(named ? textures_.parameter(parameter, *named)
+                               : make_parameter(ParameterType::kRgb, parameter,
+                                                std::vector<double>{factor.x, factor.y, factor.z},
+                                                warnings_.where()));
 }
 
 // glTF's roughness is the root of the width of GGX, which is what pbrt takes when it does not map it.
-void Materials::add_roughness(const View& material, MaterialDescription& m) {
-  const View pbr = metallic_roughness(material);
-  const double roughness = std::clamp(pbr["roughnessFactor"].number(1), 0.0, 1.0);
-  const auto texture = textures_.channel(pbr["metallicRoughnessTexture"], 1,
-                                         [roughness](double v) { return roughness * v * roughness * v; });
-  m.parameters.push_back(texture
-                             ? textures_.parameter("roughness", *texture)
-                             : make_parameter(ParameterType::kFloat, "roughness",
-                                              std::vector<double>{roughness * roughness}, warnings_.where()));
+Materials::Width Materials::width_of(const View& material, bool coat) {
+  const auto squared = [](double x) { return x * x; };
+  if (const View glossiness = extension(material, kGlossiness); glossiness && !coat) {
+    const double factor = std::clamp(glossiness["glossinessFactor"].number(1), 0.0, 1.0);
+    return {glossiness["specularGlossinessTexture"], 3, [=](double v) { return squared(1 - factor * v); }};
+  }
+  const View of = coat ? extension(material, kClearcoat) : metallic_roughness(material);
+  const double factor =
+      std::clamp(coat ? of["clearcoatRoughnessFactor"].number(0) : of["roughnessFactor"].number(1), 0.0, 1.0);
+  return {of[coat ? "clearcoatRoughnessTexture" : "metallicRoughnessTexture"], 1,
+          [=](double v) { return squared(factor * v); }};
+}
+
+void Materials::add_width(const std::string& parameter, const Width& width, MaterialDescription& m) {
+  const auto texture = textures_.channel(width.texture, width.channel, width.width);
+  m.parameters.push_back(texture ? textures_.parameter(parameter, *texture)
+                                 : make_parameter(ParameterType::kFloat, parameter,
+                                                  std::vector<double>{width.width(1)}, warnings_.where()));
+}
+
+// With KHR_materials_anisotropy facets are wider along the tangent, which is u here.
+void Materials::add_roughness(const View& material, bool coat, MaterialDescription& m) {
+  const Width width = width_of(material, coat);
+  const View anisotropy = coat ? View() : extension(material, "KHR_materials_anisotropy");
+  const double strength = std::clamp(anisotropy["anisotropyStrength"].number(0), -1.0, 1.0);
+  if (strength == 0) {
+    add_width("roughness", width, m);
+  } else {
+    const double rotation = anisotropy["anisotropyRotation"].number(0);
+    if (std::abs(std::sin(2 * rotation)) > 0.01 || anisotropy.has("anisotropyTexture"))
+      warnings_.say(
+          "KHR_materials_anisotropy is rendered along u or v, whichever is nearer, and without textures");
+    Width wide = width;
+    wide.width = [width, strength](double v) {
+      return width.width(v) + (1 - width.width(v)) * strength * strength;
+    };
+    const bool along_u = std::abs(std::cos(rotation)) >= std::abs(std::sin(rotation));
+    add_width("uroughness", along_u ? wide : width, m);
+    add_width("vroughness", along_u ? width : wide, m);
+  }
   m.parameters.push_back(
       make_parameter(ParameterType::kBool, "remaproughness", std::vector<double>{0}, warnings_.where()));
 }
@@ -166,11 +257,11 @@ std::string Materials::add(MaterialDescription m, const std::string& name, const
 std::optional<Parameter> Materials::alpha_of(const View& material) {
   const std::string mode = material["alphaMode"].text("OPAQUE");
   if (mode == "OPAQUE") return std::nullopt;
-  const View pbr = metallic_roughness(material);
-  const double factor = std::clamp(pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})[3], 0.0, 1.0);
+  const Base base = base_of(material);
+  const double factor = base.factor[3];
   const double cutoff = mode == "MASK" ? material["alphaCutoff"].number(0.5) : -1;
   const auto covered = [=](double v) { return cutoff < 0 ? factor * v : factor * v >= cutoff ? 1.0 : 0.0; };
-  const auto texture = textures_.channel(pbr["baseColorTexture"], 3, covered);
+  const auto texture = textures_.channel(base.texture, 3, covered);
   if (texture) return textures_.parameter("alpha", *texture);
   if (covered(1) == 1) return std::nullopt;
   return make_parameter(ParameterType::kFloat, "alpha", std::vector<double>{covered(1)}, warnings_.where());
@@ -213,19 +304,29 @@ bool Materials::add_emitted_image(const View& material, const glm::dvec3& L, uin
 }
 
 void Materials::warn_of_extensions(const View& material) {
-  const View pbr = metallic_roughness(material);
+  constexpr std::string_view kRendered[] = {kClearcoat,
+                                            kGlossiness,
+                                            kSheet,
+                                            "KHR_materials_anisotropy",
+                                            "KHR_materials_emissive_strength",
+                                            "KHR_materials_ior",
+                                            "KHR_materials_specular",
+                                            "KHR_materials_transmission",
+                                            "KHR_materials_volume"};
+  for (const std::string& name : material["extensions"].names()) {
+    if (std::find(std::begin(kRendered), std::end(kRendered), name) == std::end(kRendered))
+      warnings_.say(fmt::format("{} is left out", name.substr(0, 60)));
+  }
   const View specular = extension(material, "KHR_materials_specular");
   if (specular && specular["specularFactor"].number(1) != 0)
     warnings_.say(
         "KHR_materials_specular is left out, but where its factor is 0: reflection follows from the index of "
         "refraction");
-  if (extension(material, "KHR_materials_clearcoat")["clearcoatFactor"].number(0) > 0)
-    warnings_.say("KHR_materials_clearcoat is left out");
-  for (const char* name :
-       {"KHR_materials_sheen", "KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_unlit",
-        "KHR_materials_dispersion", "KHR_materials_pbrSpecularGlossiness"}) {
-    if (extension(material, name)) warnings_.say(fmt::format("{} is left out", name));
-  }
+  if (extension(material, kClearcoat)["clearcoatFactor"].number(0) > 0)
+    warnings_.say(
+        "KHR_materials_clearcoat takes the place of the base's own reflection where its factor is 0.5 or "
+        "more, and "
+        "is left out elsewhere and over metal");
   if (material.has("occlusionTexture")) warnings_.say("occlusion textures are left out: light is traced");
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Materials of a glTF file as the nearest ones of pbrt.
 
+#include <array>
+#include <functional>
 #include <map>
 
 #include "apps/import/gltf/document.h"
@@ -25,14 +27,31 @@ class Materials {
   Materials(const Document& document, Textures& textures, FileWarnings& warnings, SceneDescription& scene)
       : document_(document), textures_(textures), warnings_(warnings), scene_(scene) {}
 
-  // Of a material's index; of glTF's default material without one.
-  const Look& look(std::optional<uint64_t> index);
+  // Of a material's index; of glTF's default material without one. tint: multiplies the base colour.
+  const Look& look(std::optional<uint64_t> index, const glm::dvec3& tint);
 
  private:
   Look make(const View& material, const std::string& name);
   std::string surface(const View& material, const std::string& name);
   std::string opaque(const View& material, const std::string& name);
+  // Base colour and alpha, or what stands for them in KHR_materials_pbrSpecularGlossiness.
+  struct Base {
+    View texture;
+    std::vector<double> factor;  // four
+    glm::dvec3 colour() const { return {factor[0], factor[1], factor[2]}; }
+  };
+  Base base_of(const View& material) const;
+  // The width of GGX, as a function of a texture's value.
+  struct Width {
+    View texture;
+    int channel;
+    std::function<double(double)> width;
+  };
+  static Width width_of(const View& material, bool coat);
+  std::string glossy(const View& material, const std::string& name);
+  std::string sheet(const View& material, const std::string& name);
   std::string dielectric_part(const View& material, const std::string& name);
+  std::string dielectric_part(const View& material, const std::string& name, double eta);
   std::string metal_part(const View& material, const std::string& name);
   std::string clear_part(const View& material, const std::string& name);
   // The share of a mixture's second part: a texture's, where one is named.
@@ -46,8 +65,10 @@ class Materials {
   std::string mixed(const std::string& name, const std::string& first, const std::string& second,
                     const Share& share);
   std::string add(MaterialDescription m, const std::string& name, const View& material);
-  void add_colour(const View& material, MaterialDescription& m);
-  void add_roughness(const View& material, MaterialDescription& m);
+  void add_colour(const std::string& parameter, const View& texture, const glm::dvec3& factor,
+                  MaterialDescription& m);
+  void add_width(const std::string& parameter, const Width& width, MaterialDescription& m);
+  void add_roughness(const View& material, bool coat, MaterialDescription& m);
   std::optional<Parameter> alpha_of(const View& material);
   void add_lamp(const View& material, Look& look);
   bool add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set, Directive& lamp);
@@ -57,7 +78,8 @@ class Materials {
   Textures& textures_;
   FileWarnings& warnings_;
   SceneDescription& scene_;
-  std::map<std::optional<uint64_t>, Look> looks_;
+  glm::dvec3 tint_{1};  // of the look that is being made
+  std::map<std::pair<std::optional<uint64_t>, std::array<double, 3>>, Look> looks_;
 };
 
 }  // namespace kaustik::gltf

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/import/make_parameter.h"
 
 namespace kaustik::gltf {
@@ -86,8 +88,6 @@ std::optional<ShapeDescription> triangles_of(const Document& document, const Vie
   std::vector<double> corners = corners_of(document, primitive, vertices);
   add_numbers(corners.size(), primitive, total);
   if (corners.empty()) return std::nullopt;
-  if (primitive["attributes"].has("COLOR_0")) warnings.say("colours of vertices are left out");
-  if (primitive.has("targets")) warnings.say("morph targets are left out: meshes have their basic shape");
   DirectiveMaker<ShapeDescription> shape("trianglemesh", warnings.where());
   shape.add(ParameterType::kPoint3, "P", std::move(*P));
   shape.add(ParameterType::kInteger, "indices", std::move(corners));
@@ -99,6 +99,22 @@ std::optional<ShapeDescription> triangles_of(const Document& document, const Vie
     shape.add(ParameterType::kPoint2, "uv", std::move(*uv));
   }
   return std::move(*shape);
+}
+
+glm::dvec3 mean_vertex_colour(const Document& document, const View& primitive, FileWarnings& warnings) {
+  const auto accessor = primitive["attributes"]["COLOR_0"].index(document.size("accessors"));
+  if (!accessor) return glm::dvec3(1);
+  const bool with_alpha = document.item("accessors", *accessor)["type"].text() == "VEC4";
+  const size_t n = with_alpha ? 4 : 3;
+  const std::vector<double> c = document.elements(*accessor, static_cast<int>(n)).values;
+  glm::dvec3 sum(0);
+  bool differ = false;
+  for (size_t i = 0; i + n <= c.size(); i += n) {
+    sum += glm::dvec3(c[i], c[i + 1], c[i + 2]);
+    differ = differ || !std::equal(c.begin(), c.begin() + 3, c.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  if (differ) warnings.say("colours of vertices are rendered as the mean of their mesh");
+  return c.empty() ? glm::dvec3(1) : glm::clamp(sum / (double(c.size()) / double(n)), 0.0, 1.0);
 }
 
 }  // namespace kaustik::gltf

@@ -13,4 +13,7 @@ namespace kaustik::gltf {
 std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive, uint64_t uv_set,
                                              uint64_t& total, FileWarnings& warnings);
 
+// What the colours of its vertices multiply the base colour by, on the mean; 1 without.
+glm::dvec3 mean_vertex_colour(const Document& document, const View& primitive, FileWarnings& warnings);
+
 }  // namespace kaustik::gltf

@@ -7,6 +7,19 @@
 namespace kaustik::gltf {
 namespace {
 
+// Translation, rotation as a quaternion, scale.
+glm::dmat4 transform_of(const std::vector<double>& t, const std::vector<double>& r,
+                        const std::vector<double>& s, const View& rotation) {
+  const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+  if (!(length > 0)) rotation.fail("is no rotation: all of it is zero");
+  const glm::dquat q(r[3] / length, r[0] / length, r[1] / length, r[2] / length);
+  glm::dmat3 m = glm::mat3_cast(q);
+  for (int k = 0; k < 3; ++k) m[k] *= s[static_cast<size_t>(k)];
+  glm::dmat4 out(m);
+  out[3] = glm::dvec4(t[0], t[1], t[2], 1);
+  return out;
+}
+
 glm::dmat4 local_transform(const View& node) {
   if (const View matrix = node["matrix"]) {
     const std::vector<double> m = matrix.numbers(16, {});
@@ -17,14 +30,11 @@ glm::dmat4 local_transform(const View& node) {
   const std::vector<double> t = node["translation"].numbers(3, {0, 0, 0});
   const std::vector<double> r = node["rotation"].numbers(4, {0, 0, 0, 1});
   const std::vector<double> s = node["scale"].numbers(3, {1, 1, 1});
-  const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-  if (!(length > 0)) node["rotation"].fail("is no rotation: all of it is zero");
-  const glm::dquat q(r[3] / length, r[0] / length, r[1] / length, r[2] / length);
-  glm::dmat3 m = glm::mat3_cast(q);
-  for (int k = 0; k < 3; ++k) m[k] *= s[static_cast<size_t>(k)];
-  glm::dmat4 out(m);
-  out[3] = glm::dvec4(t[0], t[1], t[2], 1);
-  return out;
+  return transform_of(t, r, s, node["rotation"]);
+}
+
+bool is_visible(const View& node) {
+  return node["extensions"]["KHR_node_visibility"]["visible"].flag(true);
 }
 
 // Of the scene that is shown; of a file without scenes every node that is nobody's child.
@@ -65,11 +75,39 @@ std::vector<PlacedNode> placed_nodes(const Document& document) {
     PlacedNode at = waiting.back();
     waiting.pop_back();
     const View node = document.item("nodes", at.node);
+    if (!is_visible(node)) continue;
     at.to_world = at.to_world * local_transform(node);
     out.push_back(at);
     const View children = node["children"];
     for (uint64_t i = children.size(); i-- > 0;) push(*children.at(i).index(nodes), at.to_world);
   }
+  return out;
+}
+
+std::vector<glm::dmat4> instances_of(const Document& document, const View& node) {
+  const View attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+  if (!attributes) return {glm::dmat4(1)};
+  std::optional<uint64_t> count;
+  const auto values = [&](const char* name, int components, const std::vector<double>& otherwise) {
+    const auto accessor = attributes[name].index(document.size("accessors"));
+    if (!accessor) return otherwise;
+    const Elements e = document.elements(*accessor, components);
+    if (count && *count != e.count)
+      attributes[name].fail(fmt::format("has not the {} instances of others", *count));
+    count = e.count;
+    return e.values;
+  };
+  const std::vector<double> t = values("TRANSLATION", 3, {}), r = values("ROTATION", 4, {}),
+                            s = values("SCALE", 3, {});
+  const auto part = [](const std::vector<double>& all, uint64_t i, size_t n, std::vector<double> otherwise) {
+    if (all.empty()) return otherwise;
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(i * n);
+    return std::vector<double>(at, at + static_cast<std::ptrdiff_t>(n));
+  };
+  std::vector<glm::dmat4> out;
+  for (uint64_t i = 0; i < count.value_or(0); ++i)
+    out.push_back(transform_of(part(t, i, 3, {0, 0, 0}), part(r, i, 4, {0, 0, 0, 1}),
+                               part(s, i, 3, {1, 1, 1}), attributes["ROTATION"]));
   return out;
 }
 

@@ -17,4 +17,7 @@ struct PlacedNode {
 // (two parents, or its own ancestor) is an error.
 std::vector<PlacedNode> placed_nodes(const Document& document);
 
+// Where the node's mesh stands in it: once, or as often as EXT_mesh_gpu_instancing says.
+std::vector<glm::dmat4> instances_of(const Document& document, const View& node);
+
 }  // namespace kaustik::gltf

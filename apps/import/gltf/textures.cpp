@@ -35,7 +35,9 @@ std::optional<uint64_t> Textures::image_of(const View& info) {
   const View t = document_.item("textures", *texture);
   auto source = t["source"].index(document_.size("images"));
   if (!source) source = t["extensions"]["EXT_texture_webp"]["source"].index(document_.size("images"));
-  if (!source) warnings_.say("textures without an image that is PNG, JPEG or WebP are left out");
+  if (!source)
+    warnings_.say(
+        "textures without an image that is PNG, JPEG or WebP (such as KHR_texture_basisu) are left out");
   return source;
 }
 

@@ -1,0 +1,145 @@
+// Extensions of glTF's materials and nodes, colours of vertices, skins and morph targets.
+
+#include "gltf_support.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<double> numbers(const Directive& d, std::string_view name) {
+  const Parameter* p = d.find(name);
+  return p ? p->numbers : std::vector<double>{};
+}
+
+class ImportGltfExtensions : public ImportGltf {
+ protected:
+  MaterialDescription material(const std::string& extensions, const std::string& factors = "") {
+    return describe(triangle(R"({ "pbrMetallicRoughness": { "roughnessFactor": 0.5)" + factors +
+                             R"( }, "extensions": { )" + extensions + " } }"))
+        .materials.at(0);
+  }
+  // The triangle with more attributes, whose bytes follow those of triangle_bytes().
+  std::filesystem::path triangle_with(const std::string& attributes, const std::string& accessors,
+                                      const std::string& more, const std::string& bytes) {
+    std::string parts(kTriangleParts);
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      const size_t at = parts.find(from);
+      ASSERT_NE(at, parts.npos) << from;
+      parts.replace(at, from.size(), to);
+    };
+    replace(R"("TEXCOORD_0": 2 })", R"("TEXCOORD_0": 2, )" + attributes + " }");
+    replace(R"("type": "SCALAR" } ])", R"("type": "SCALAR" }, )" + accessors + " ]");
+    replace(R"("byteLength": 6 } ])",
+            R"("byteLength": 6 }, { "buffer": 0, "byteOffset": 104, "byteLength": )" +
+                std::to_string(bytes.size()) + " } ]");
+    return gltf(parts + R"("materials": [ {} ], )" + more, triangle_bytes() + bytes);
+  }
+};
+
+// Metal whose facets are wider along u: alpha_t = alpha + (1 - alpha) strength^2 (KHR_materials_anisotropy).
+TEST_F(ImportGltfExtensions, Anisotropy) {
+  const auto along_u = material(R"("KHR_materials_anisotropy": { "anisotropyStrength": 0.5 })");
+  EXPECT_THAT(numbers(along_u, "uroughness"), ElementsAre(0.25 + 0.75 * 0.25));
+  EXPECT_THAT(numbers(along_u, "vroughness"), ElementsAre(0.25));
+  const auto along_v = material(
+      R"("KHR_materials_anisotropy": { "anisotropyStrength": 0.5, "anisotropyRotation": 1.5707963 })");
+  EXPECT_THAT(numbers(along_v, "vroughness"), ElementsAre(0.25 + 0.75 * 0.25));
+  EXPECT_THAT(diagnostics_.format_all(), testing::Not(HasSubstr("anisotropy")));
+}
+
+TEST_F(ImportGltfExtensions, ClearcoatIsTheCoat) {
+  const auto paint =
+      material(R"("KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.25 })",
+               R"(, "metallicFactor": 0)");
+  EXPECT_EQ(paint.type, "coateddiffuse");
+  EXPECT_THAT(numbers(paint, "roughness"), ElementsAre(0.0625));
+}
+
+TEST_F(ImportGltfExtensions, SpecularAndGlossiness) {
+  const auto paint = material(R"("KHR_materials_pbrSpecularGlossiness": {
+      "diffuseFactor": [ 0.5, 0.25, 0.125, 1 ], "specularFactor": [ 0.04, 0.04, 0.04 ], "glossinessFactor": 0.5 })");
+  EXPECT_EQ(paint.type, "coateddiffuse");
+  EXPECT_THAT(numbers(paint, "reflectance"), ElementsAre(0.5, 0.25, 0.125));
+  EXPECT_NEAR(numbers(paint, "eta").at(0), 1.5, 1e-12);  // ((n - 1) / (n + 1))^2 = 0.04
+  EXPECT_THAT(numbers(paint, "roughness"), ElementsAre(0.25));
+  const auto gold = material(R"("KHR_materials_pbrSpecularGlossiness": {
+      "diffuseFactor": [ 0, 0, 0, 1 ], "specularFactor": [ 1, 0.75, 0.25 ] })");
+  EXPECT_EQ(gold.type, "conductor");
+  EXPECT_THAT(numbers(gold, "reflectance"), ElementsAre(1, 0.75, 0.25));
+}
+
+TEST_F(ImportGltfExtensions, DiffuseTransmission) {
+  const auto leaf = material(R"("KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.25,
+      "diffuseTransmissionColorFactor": [ 1, 0.5, 0 ] })",
+                             R"(, "metallicFactor": 0)");
+  EXPECT_EQ(leaf.type, "diffusetransmission");
+  EXPECT_THAT(numbers(leaf, "reflectance"), ElementsAre(0.75, 0.75, 0.75));
+  EXPECT_THAT(numbers(leaf, "transmittance"), ElementsAre(0.25, 0.125, 0));
+}
+
+TEST_F(ImportGltfExtensions, OthersAreNamed) {
+  material(R"("VENDOR_materials_glitter": { "glitter": 1 })");
+  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("VENDOR_materials_glitter is left out"));
+}
+
+TEST_F(ImportGltfExtensions, ColoursOfVerticesAsTheirMean) {
+  Bytes colours;
+  colours.floats({1, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0.75f});
+  const auto s = describe(triangle_with(
+      R"("COLOR_0": 4)", R"({ "bufferView": 4, "componentType": 5126, "count": 3, "type": "VEC3" })",
+      R"("nodes": [ { "mesh": 0 } ])", colours.text()));
+  EXPECT_THAT(numbers(s.materials.at(0), "reflectance"), ElementsAre(0.5, 0.5, 0.25));
+  EXPECT_THAT(diagnostics_.format_all(),
+              HasSubstr("colours of vertices are rendered as the mean of their mesh"));
+}
+
+// Joints a and b, each with half of every vertex: the mean of two translations, whatever the node's own is.
+TEST_F(ImportGltfExtensions, Skins) {
+  Bytes bytes;
+  bytes.shorts({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
+  bytes.floats({0.5f, 0.5f, 0, 0, 0.5f, 0.5f, 0, 0, 0.5f, 0.5f, 0, 0});
+  const auto s =
+      describe(triangle_with(R"("JOINTS_0": 4, "WEIGHTS_0": 5)",
+                             R"({ "bufferView": 4, "componentType": 5123, "count": 3, "type": "VEC4" },
+         { "bufferView": 4, "byteOffset": 24, "componentType": 5126, "count": 3, "type": "VEC4" })",
+                             R"("skins": [ { "joints": [ 1, 2 ] } ],
+         "nodes": [ { "mesh": 0, "skin": 0, "translation": [ 9, 9, 9 ] }, { "translation": [ 2, 0, 0 ] },
+                    { "translation": [ 0, 4, 0 ] } ])",
+                             bytes.text()));
+  ASSERT_EQ(s.shapes.size(), 1u);
+  EXPECT_EQ(s.shapes[0].object_to_world, glm::dmat4(1));
+  EXPECT_THAT(numbers(s.shapes[0], "P"), ElementsAre(1, 2, 0, 2, 2, 0, 1, 3, 0));
+}
+
+TEST_F(ImportGltfExtensions, MorphTargets) {
+  std::string parts(kTriangleParts);
+  const std::string indices = R"("indices": 3,)";
+  parts.replace(parts.find(indices), indices.size(), R"("indices": 3, "targets": [ { "POSITION": 1 } ],)");
+  const auto s =
+      describe(gltf(parts + R"("materials": [ {} ], "nodes": [ { "mesh": 0, "weights": [ 0.5 ] } ])"));
+  EXPECT_THAT(numbers(s.shapes.at(0), "P"), ElementsAre(0, 0, 0.5, 1, 0, 0.5, 0, 1, 0.5));
+}
+
+TEST_F(ImportGltfExtensions, HiddenNodes) {
+  const auto s = describe(triangle("{}", R"(, "extensionsRequired": [ "KHR_node_visibility" ], "scenes": [ {
+      "nodes": [ 0 ] } ])"));
+  EXPECT_EQ(s.shapes.size(), 1u);
+  const auto hidden =
+      describe(gltf(std::string(kTriangleParts) + R"("materials": [ {} ], "nodes": [ { "children":
+      [ 1 ], "extensions": { "KHR_node_visibility": { "visible": false } } }, { "mesh": 0 } ])"));
+  EXPECT_TRUE(hidden.shapes.empty());
+}
+
+// The normals' accessor as three translations.
+TEST_F(ImportGltfExtensions, Instances) {
+  const auto s = describe(gltf(std::string(kTriangleParts) + R"("materials": [ {} ], "nodes": [ { "mesh": 0,
+      "extensions": { "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": 1 } } } } ],
+      "extensionsRequired": [ "EXT_mesh_gpu_instancing" ])"));
+  ASSERT_EQ(s.instances.size(), 3u);
+  EXPECT_EQ(s.instances[2].instance_to_world[3], glm::dvec4(0, 0, 1, 1));
+}
+
+}  // namespace
+}  // namespace kaustik::pbrt
