@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/import/gltf/derived_image.h"
 #include "apps/import/make_parameter.h"
 
 namespace kaustik {
@@ -33,9 +34,20 @@ std::optional<std::string> map_of(const aiMaterial& mtl, aiTextureType type) {
   return file;
 }
 
-std::string add_texture(const std::string& file, const std::string& value_type, const SourceLocation& where,
-                        SceneDescription& scene) {
+std::string add_texture(const aiMaterial& mtl, const std::string& file, const std::string& keyword,
+                        const MtlContext& context) {
+  SceneDescription& scene = context.scene;
+  const SourceLocation& where = context.warnings.where();
+  const std::string value_type = keyword == "map_d" ? "float" : "spectrum";
   DirectiveMaker<TextureDescription> texture("imagemap", where);
+  aiString name;
+  mtl.Get(AI_MATKEY_NAME, name);
+  if (const auto found = context.options.find({name.C_Str(), keyword}); found != context.options.end()) {
+    const MapOptions& o = found->second;
+    if (o.clamp) texture.text("wrap", "clamp");
+    texture.number("uscale", o.scale[0]).number("vscale", o.scale[1]);
+    texture.number("udelta", o.offset[0]).number("vdelta", o.offset[1]);
+  }
   texture->name = fmt::format("texture {}", scene.textures.size());
   texture->name_location = texture->value_type_location = where;
   texture->value_type = value_type;
@@ -47,15 +59,29 @@ std::string add_texture(const std::string& file, const std::string& value_type, 
 
 using Maker = DirectiveMaker<MaterialDescription>;
 
-void add_reflectance(const aiMaterial& mtl, FileWarnings& warnings, SceneDescription& scene, Maker& m) {
+void add_reflectance(const aiMaterial& mtl, const MtlContext& context, Maker& m) {
   const auto file = map_of(mtl, aiTextureType_DIFFUSE);
   if (!file) {
     const glm::dvec3 kd = colour(mtl, AI_MATKEY_COLOR_DIFFUSE, glm::dvec3(0.5));
     m.rgb("reflectance", glm::min(kd, 1.0));
     return;
   }
-  m.add(make_parameter(ParameterType::kTexture, "reflectance",
-                       add_texture(*file, "spectrum", warnings.where(), scene), warnings.where()));
+  m.add(make_parameter(ParameterType::kTexture, "reflectance", add_texture(mtl, *file, "map_kd", context),
+                       context.warnings.where()));
+}
+
+// Programs write maps of normals as `map_Bump`, too: those are blue.
+void add_normals(const aiMaterial& mtl, const MtlContext& context, Maker& m) {
+  auto file = map_of(mtl, aiTextureType_NORMALS);
+  if (const auto bump = map_of(mtl, aiTextureType_HEIGHT); bump && !file) {
+    std::string error;
+    const auto mean = gltf::mean_colour(context.folder / *bump, false, error);
+    if (mean && mean->z > 0.75 && mean->x < 0.65 && mean->y < 0.65)
+      file = bump;
+    else
+      context.warnings.say("`map_Bump` is left out, where it is no map of normals");
+  }
+  if (file) m.text("normalmap", *file);
 }
 
 // Phong's exponent as a width of GGX: as wide as Blinn's lobe of that exponent (Walter et al. 2007, 5.2).
@@ -80,45 +106,56 @@ Maker metal(const aiMaterial& mtl, const SourceLocation& where, double width) {
   return m;
 }
 
-}  // namespace
-
-MaterialDescription material_of_mtl(const aiMaterial& mtl, FileWarnings& warnings, SceneDescription& scene) {
-  const SourceLocation& where = warnings.where();
+int illum_of(const aiMaterial& mtl) {
   int illum = 2;
   mtl.Get(AI_MATKEY_SHADING_MODEL, illum);  // assimp's names of models; the number itself where it has one
   mtl.Get("$mat.illum", 0, 0, illum);
-  const double opacity = number(mtl, AI_MATKEY_OPACITY, 1);
+  return illum;
+}
+
+bool is_clear(const aiMaterial& mtl, int illum) {
+  const bool faint = number(mtl, AI_MATKEY_OPACITY, 1) < 0.5 && !map_of(mtl, aiTextureType_OPACITY);
+  return illum == 4 || illum == 6 || illum == 7 || faint;
+}
+
+}  // namespace
+
+MaterialDescription material_of_mtl(const aiMaterial& mtl, const MtlContext& context) {
+  const SourceLocation& where = context.warnings.where();
+  const int illum = illum_of(mtl);
   const double exponent = number(mtl, AI_MATKEY_SHININESS, 0);
   const double metallic = number(mtl, AI_MATKEY_METALLIC_FACTOR, 0);
   const double roughness = number(mtl, AI_MATKEY_ROUGHNESS_FACTOR, -1);
   const double width = roughness >= 0 ? roughness * roughness : width_of(exponent);
   const glm::dvec3 ks = colour(mtl, AI_MATKEY_COLOR_SPECULAR, glm::dvec3(0));
-  if (map_of(mtl, aiTextureType_HEIGHT)) warnings.say("`map_Bump` is left out");
-  if (illum == 4 || illum == 6 || illum == 7 || (opacity < 0.5 && !map_of(mtl, aiTextureType_OPACITY)))
-    return std::move(*clear(mtl, where));
+  if (is_clear(mtl, illum)) return std::move(*clear(mtl, where));
   if (illum == 3 || illum == 5 || metallic > 0.5)
     return std::move(*metal(mtl, where, illum == 3 && roughness < 0 && exponent <= 0 ? 0 : width));
   const bool coated = ks != glm::dvec3(0) || roughness >= 0;
   Maker m(coated ? "coateddiffuse" : "diffuse", where);
-  add_reflectance(mtl, warnings, scene, m);
+  add_reflectance(mtl, context, m);
   if (coated) m.number("roughness", width).flag("remaproughness", false);
-  if (const auto file = map_of(mtl, aiTextureType_NORMALS)) m.text("normalmap", *file);
+  add_normals(mtl, context, m);
   return std::move(*m);
 }
 
 std::optional<Directive> lamp_of_mtl(const aiMaterial& mtl, const SourceLocation& where) {
   const glm::dvec3 ke = colour(mtl, AI_MATKEY_COLOR_EMISSIVE, glm::dvec3(0));
-  if (ke == glm::dvec3(0)) return std::nullopt;
+  const auto image = map_of(mtl, aiTextureType_EMISSIVE);
+  if (ke == glm::dvec3(0) && !image) return std::nullopt;
   DirectiveMaker<Directive> lamp("diffuse", where);
-  return *lamp.rgb("L", ke);
+  if (!image) return *lamp.rgb("L", ke);
+  const double brightest = std::max(ke.x, std::max(ke.y, ke.z));
+  return *lamp.text("filename", *image).number("scale", brightest > 0 ? brightest : 1);
 }
 
-std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, FileWarnings& warnings,
-                                      SceneDescription& scene) {
-  const auto file = map_of(mtl, aiTextureType_OPACITY);
-  if (!file) return std::nullopt;
-  return make_parameter(ParameterType::kTexture, "alpha",
-                        add_texture(*file, "float", warnings.where(), scene), warnings.where());
+std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, const MtlContext& context) {
+  const SourceLocation& where = context.warnings.where();
+  if (const auto file = map_of(mtl, aiTextureType_OPACITY))
+    return make_parameter(ParameterType::kTexture, "alpha", add_texture(mtl, *file, "map_d", context), where);
+  const double opacity = number(mtl, AI_MATKEY_OPACITY, 1);
+  if (!(opacity < 1) || is_clear(mtl, illum_of(mtl))) return std::nullopt;
+  return make_parameter(ParameterType::kFloat, "alpha", std::vector<double>{opacity}, where);
 }
 
 }  // namespace kaustik

@@ -1,18 +1,29 @@
 #pragma once
 #include <assimp/material.h>
 
+#include <filesystem>
+
+#include "apps/import/mtl_text.h"
 #include "apps/import/warnings.h"
 #include "core/scene/description.h"
 
 namespace kaustik {
 
-// The nearest material of pbrt, without a name. Textures that it needs are added to the scene.
-MaterialDescription material_of_mtl(const aiMaterial& mtl, FileWarnings& warnings, SceneDescription& scene);
+// What a material is read with: options of maps, and the folder that these lie in.
+struct MtlContext {
+  const MapOptionsOf& options;
+  const std::filesystem::path& folder;
+  FileWarnings& warnings;
+  SceneDescription& scene;
+};
 
-// Ke as the radiance of an area light; nothing where it is black.
+// The nearest material of pbrt, without a name. Textures that it needs are added to the scene.
+MaterialDescription material_of_mtl(const aiMaterial& mtl, const MtlContext& context);
+
+// Ke, or map_Ke times it, as the radiance of an area light; nothing where it is black.
 std::optional<Directive> lamp_of_mtl(const aiMaterial& mtl, const SourceLocation& where);
 
-// map_d as the `alpha` of shapes.
-std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, FileWarnings& warnings, SceneDescription& scene);
+// map_d, or d, as the `alpha` of shapes.
+std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, const MtlContext& context);
 
 }  // namespace kaustik

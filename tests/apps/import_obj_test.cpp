@@ -72,6 +72,44 @@ TEST_F(ImportObj, Materials) {
   EXPECT_THAT(numbers(s.area_lights[0], "L"), ElementsAre(4, 2, 1));
 }
 
+// Options of maps, words that nobody knows, and paths of another machine.
+TEST_F(ImportObj, TypicalLibraries) {
+  write("wood.png", "");
+  write("my wood.png", "");
+  write("scene.mtl",
+        "newmtl a\n\tKd 0.5\n\tmap_Kd -s 2 3 1 -o 0.5 0 0 -clamp on wood.png\n\td -halo 0.75\naniso 0.5\n"
+        "newmtl b\nKd spectral x.rfl 1\nmap_Kd C:\\\\textures\\\\my wood.png\ndecal d.png\n"
+        "newmtl c\nmap_Kd none.png\nKe 2 1 0.5\nmap_Ke wood.png\n");
+  const auto s = describe("mtllib scene.mtl\n" + std::string(kQuad) +
+                          "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\nusemtl c\nf 1 2 4\n");
+  ASSERT_EQ(s.textures.size(), 2u);
+  EXPECT_EQ(s.textures[0].find("filename")->strings[0], "wood.png");
+  EXPECT_THAT(numbers(s.textures[0], "uscale"), ElementsAre(2));
+  EXPECT_THAT(numbers(s.textures[0], "vscale"), ElementsAre(3));
+  EXPECT_THAT(numbers(s.textures[0], "udelta"), ElementsAre(0.5));
+  EXPECT_EQ(s.textures[0].find("wrap")->strings[0], "clamp");
+  EXPECT_EQ(s.textures[1].find("filename")->strings[0], "my wood.png");
+  ASSERT_EQ(s.shapes.size(), 3u);
+  EXPECT_THAT(numbers(s.shapes[0], "alpha"), ElementsAre(0.75));
+  ASSERT_EQ(s.area_lights.size(), 1u);
+  EXPECT_EQ(s.area_lights[0].find("filename")->strings[0], "wood.png");
+  EXPECT_THAT(numbers(s.area_lights[0], "scale"), ElementsAre(2));
+  for (const char* said : {"`aniso`", "`Kd spectral`", "`decal`", "there is no file \"none.png\""})
+    EXPECT_THAT(diagnostics_.format_all(), HasSubstr(said));
+}
+
+TEST_F(ImportObj, LibrariesMayBeSeveral) {
+  write("a.mtl", "newmtl a\nKd 0.25 0.25 0.25\n");
+  write("b.mtl", "newmtl b\nKd 0.75 0.75 0.75\n");
+  const auto s =
+      describe("mtllib a.mtl b.mtl\n" + std::string(kQuad) + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
+  double sum = 0;
+  for (const MaterialDescription& m : s.materials) {
+    if (m.name.starts_with("a ") || m.name.starts_with("b ")) sum += numbers(m, "reflectance").at(0);
+  }
+  EXPECT_EQ(sum, 1);
+}
+
 TEST_F(ImportObj, MissingLibrariesAreGrey) {
   describe("mtllib none.mtl\n" + std::string(kQuad) + "f 1 2 3\n");
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("scene.obj:1:8: warning: cannot open"));
