@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/import/make_parameter.h"
 #include "apps/import/pbrt_v3_materials.h"
 
 namespace kaustik::pbrt {
@@ -96,6 +97,8 @@ void V3Upgrader::upgrade(std::string_view word, Directive& d) {
   if (word == "Film") upgrade_film(d);
   if (word == "LightSource" || word == "AreaLightSource") upgrade_light(d);
   if (word == "Texture") upgrade_texture(d);
+  if (word == "Camera") upgrade_camera(d);
+  if (word == "Shape") upgrade_shape(d);
   if (word == "PixelFilter" && d.type == "gaussian") drop(word, "alpha", "the width is `sigma`", d);
   for (const Renaming& r : kParameters) {
     if (r.word == word) rename(word, r.from, r.to, d);
@@ -122,8 +125,54 @@ void V3Upgrader::upgrade_film(Directive& film) {
   scale->numbers[0] *= 100;
 }
 
+// Latitudes and longitudes, +y up, as v4 has them.
+void V3Upgrader::upgrade_camera(Directive& camera) {
+  if (camera.type != "environment") return;
+  rename_type("Camera", "environment", "spherical", camera);
+  camera.parameters.push_back(
+      make_parameter(ParameterType::kString, "mapping", "equirectangular", camera.type_location));
+}
+
+// Coordinates were pairs of floats.
+void V3Upgrader::upgrade_shape(Directive& shape) {
+  for (const std::string_view name : {"uv", "st"}) {
+    Parameter* p = find(shape, name);
+    if (!p || p->type != ParameterType::kFloat) continue;
+    p->type = ParameterType::kPoint2;
+    warn_once("Shape/float uv", p->location, "`float uv` of pbrt-v3's `Shape` becomes `point2 uv`");
+  }
+  if (shape.type == "loopsubdiv") rename("Shape", "nlevels", "levels", shape);
+}
+
+// The image of v4's projector is all of its colour.
+void V3Upgrader::fold_intensity(Directive& light) {
+  const Parameter* I = light.find("I");
+  if (!I || I->type != ParameterType::kRgb || I->numbers.size() != 3) return;
+  warn_once("Light/projection", I->location,
+            "`I` of pbrt-v3's light \"projection\" becomes `scale`: its luminance multiplies the image");
+  const double Y = 0.2126 * I->numbers[0] + 0.7152 * I->numbers[1] + 0.0722 * I->numbers[2];
+  Parameter* scale = find(light, "scale");
+  if (scale)
+    for (double& v : scale->numbers) v *= Y;
+  else
+    light.parameters.push_back(
+        make_parameter(ParameterType::kFloat, "scale", std::vector<double>{Y}, I->location));
+  erase(light, "I");
+}
+
+// Red along u and green along v.
+void V3Upgrader::upgrade_uv(Directive& texture) {
+  rename_type("Texture", "uv", "bilerp", texture);
+  const auto corner = [&](std::string_view name, double u, double v) {
+    texture.parameters.push_back(make_parameter(ParameterType::kRgb, std::string(name),
+                                                std::vector<double>{u, v, 0}, texture.type_location));
+  };
+  corner("v00", 0, 0), corner("v01", 0, 1), corner("v10", 1, 0), corner("v11", 1, 1);
+}
+
 // `scale` was a colour.
 void V3Upgrader::upgrade_light(Directive& light) {
+  if (light.type == "projection") fold_intensity(light);
   const Parameter* scale = light.find("scale");
   if (!scale || scale->type != ParameterType::kRgb || scale->numbers.size() != 3) return;
   const std::string_view name = light.type == "point" || light.type == "spot" ||
@@ -153,6 +202,7 @@ void V3Upgrader::upgrade_light(Directive& light) {
 }
 
 void V3Upgrader::upgrade_texture(Directive& texture) {
+  if (texture.type == "uv") upgrade_uv(texture);
   Parameter* gamma = find(texture, "gamma");
   if (gamma && gamma->type == ParameterType::kBool && gamma->numbers.size() == 1) {
     warn_once("Texture/gamma", gamma->location, "`gamma` of pbrt-v3's `Texture` becomes `encoding`");

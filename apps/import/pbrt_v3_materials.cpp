@@ -172,6 +172,30 @@ std::string disney(Directive& d) {
          "\"coateddiffuse\": `color`, `roughness` and `eta` are what is kept";
 }
 
+// sigma_a and sigma_s are known to both versions.
+std::string subsurface(Directive& d) {
+  const bool of_v3 =
+      d.find("Kr") || d.find("Kt") || d.find("Kd") || d.find("index") || d.type != "subsurface";
+  if (!of_v3) return "";
+  d.type = "subsurface";
+  rename(d, "Kd", "reflectance");
+  rename(d, "index", "eta");
+  erase(d, {"Kr", "Kt"});
+  keep_width(d, 0, true);
+  return "v4's \"subsurface\", without `Kr` and `Kt`";
+}
+
+std::string kd_subsurface(Directive& d) {
+  set_default(d, "Kd", 0.5);
+  return subsurface(d);
+}
+
+std::string fourier(Directive& d) {
+  d.type = "measured";
+  rename(d, "bsdffile", "filename");
+  return "v4's \"measured\"";
+}
+
 // v3's amount is the share of the first material, v4's that of the second: they change places, so that a
 // texture serves, too.
 std::string mix(Directive& d) {
@@ -191,7 +215,7 @@ std::string mix(Directive& d) {
   }
   erase(d, {"namedmaterial1", "namedmaterial2"});
   d.parameters.push_back(std::move(materials));
-  return "v4's \"mix\", whose `amount` is that of the second material";
+  return "v4's \"mix\" in the other order: its `amount` is that of the second material";
 }
 
 std::string none(Directive& d) {
@@ -205,13 +229,16 @@ std::string none(Directive& d) {
 std::string upgrade_v3_material(Directive& d) {
   using Upgrade = std::string (*)(Directive&);
   static const std::map<std::string_view, Upgrade> table = {{"disney", disney},
+                                                            {"fourier", fourier},
                                                             {"glass", glass},
+                                                            {"kdsubsurface", kd_subsurface},
                                                             {"matte", matte},
                                                             {"metal", metal},
                                                             {"mirror", mirror},
                                                             {"mix", mix},
                                                             {"none", none},
                                                             {"plastic", plastic},
+                                                            {"subsurface", subsurface},
                                                             {"substrate", substrate},
                                                             {"uber", uber},
                                                             {"translucent", translucent}};

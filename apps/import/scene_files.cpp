@@ -6,6 +6,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "apps/import/gzip.h"
+
 namespace kaustik::pbrt {
 
 namespace fs = std::filesystem;
@@ -60,6 +62,13 @@ std::optional<uint32_t> SceneFiles::open(const fs::path& path, std::string& erro
   if (found != by_canonical_path_.end()) return found->second;
   auto text = read_bytes(path, kLargestSceneFile, error);
   if (!text) return std::nullopt;
+  if (is_gzip(*text)) {
+    text = unpack_gzip(*text, error);
+    if (!text) {
+      error = fmt::format("cannot read \"{}\": {}", path.string(), error);
+      return std::nullopt;
+    }
+  }
   const uint32_t file = files_.add(path.string(), std::move(*text));
   by_canonical_path_.emplace(key, file);
   return file;

@@ -20,6 +20,18 @@ constexpr size_t kMostUnclosed = 10;  // that are reported
 // Defaults are copied into every shape that they apply to.
 constexpr size_t kLongestDefault = 1024;
 
+// As in pbrt, the last one of a name holds.
+void keep_last_ones(std::vector<Parameter>& parameters, DiagnosticList& diagnostics) {
+  for (size_t i = parameters.size(); i-- > 0;) {
+    const auto first = std::find_if(parameters.begin(), parameters.end(),
+                                    [&](const Parameter& p) { return p.name == parameters[i].name; });
+    if (first == parameters.begin() + std::ptrdiff_t(i)) continue;
+    diagnostics.warning(parameters[i].location, fmt::format("this `{}` replaces an earlier one", first->name),
+                        {{first->location, "the earlier one"}});
+    parameters.erase(first);
+  }
+}
+
 }  // namespace
 
 const std::map<std::string_view, SceneParser::Entry>& SceneParser::directives() {
@@ -47,9 +59,9 @@ const std::map<std::string_view, SceneParser::Entry>& SceneParser::directives() 
       {"LightSource", {&P::on_light, kWorld}},
       {"LookAt", {&P::on_look_at, kAny}},
       {"MakeNamedMaterial", {&P::on_make_named_material, kWorld}},
-      {"MakeNamedMedium", {&P::on_not_rendered, kAny}},
+      {"MakeNamedMedium", {&P::on_medium, kAny}},
       {"Material", {&P::on_material, kWorld}},
-      {"MediumInterface", {&P::on_not_rendered, kAny}},
+      {"MediumInterface", {&P::on_medium, kAny}},
       {"NamedMaterial", {&P::on_named_material, kWorld}},
       {"ObjectBegin", {&P::on_object_begin, kWorld}},
       {"ObjectEnd", {&P::on_object_end, kWorld}},
@@ -162,8 +174,10 @@ bool SceneParser::read_directive(const Token& word, std::string_view target, Dir
   out.location = word.location;
   out.type_location = type->location;
   out.parameters = parse_parameters(*tokens_, diagnostics_);
+  keep_last_ones(out.parameters, diagnostics_);
   add_defaults(target, out.parameters);
   v3_.upgrade(word.text, out);
+  if (word.text == "Material" || word.text == "Shape") resolve_names(word.text, out);
   if (!tokens_->peek().is(TokenKind::kWord) && !tokens_->peek().is(TokenKind::kEnd)) {
     diagnostics_.error(tokens_->peek().location,
                        fmt::format("expected a parameter \"type name\" or a directive, not `{}`",
@@ -190,11 +204,7 @@ void SceneParser::on_attribute(const Token& word) {
   if (!target) return;
   const std::string name = unescape(target->text);
   std::vector<Parameter> parameters = parse_parameters(*tokens_, diagnostics_);
-  if (name == "medium") {
-    diagnostics_.error(target->location,
-                       fmt::format("`Attribute \"{}\"`: there are no such things here", name));
-    return;
-  }
+  if (name == "medium") return warn_once(word, "`Attribute \"medium\"` is ignored: there are no media");
   constexpr std::string_view kTargets[] = {"shape", "light", "material", "texture"};
   if (std::find(std::begin(kTargets), std::end(kTargets), name) == std::end(kTargets)) {
     diagnostics_.error(target->location, fmt::format("unknown target \"{}\" of `Attribute`{}", name,
@@ -220,6 +230,10 @@ void SceneParser::on_attribute(const Token& word) {
     all->push_back(std::move(p));
   }
   current = std::move(all);
+}
+
+void SceneParser::warn_once(const Token& word, std::string message) {
+  if (warned_.insert(message).second) diagnostics_.warning(word.location, std::move(message));
 }
 
 void SceneParser::push(bool object, const SourceLocation& where) {

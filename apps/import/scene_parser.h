@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,16 @@ class SceneParser {
   bool read_directive(const Token& word, std::string_view target, Directive& out);
   void add_defaults(std::string_view target, std::vector<Parameter>& parameters);
   std::optional<uint32_t> open_beside(const std::string& name, std::string& error);
-  void concat(const glm::dmat4& m) { state_.ctm = state_.ctm * m; }
+  void concat(const glm::dmat4& m) { set_transform(state_.ctm * m); }
+  void set_transform(const glm::dmat4& m) {
+    if (!state_.at_end_time) state_.ctm = m;
+  }
+  void warn_once(const Token& word, std::string message);
+
+  // Names (scene_names.cpp).
+  std::string define(std::string_view what, const std::string& name, const SourceLocation& where,
+                     std::set<std::string>& known, LaterNames& later);
+  void resolve_names(std::string_view word, Directive& directive, bool of_float_texture = false) const;
 
   // Transforms (scene_parser_transforms.cpp).
   void on_identity(const Token& word);
@@ -97,7 +107,7 @@ class SceneParser {
   void on_shape(const Token& word);
   void on_include(const Token& word);
   void on_import(const Token& word);
-  void on_not_rendered(const Token& word);
+  void on_medium(const Token& word);
   void include(const Token& word, bool keep_state);
 
   std::filesystem::path main_file_;
@@ -109,7 +119,9 @@ class SceneParser {
   GraphicsState state_;
   std::vector<Open> stack_;
   std::map<std::string, glm::dmat4, std::less<>> coordinate_systems_;
-  std::map<std::string, size_t, std::less<>> objects_;  // into scene_.objects
+  std::map<std::string, size_t, std::less<>> objects_;                    // into scene_.objects
+  std::set<std::string> float_textures_, spectrum_textures_, materials_;  // defined so far
+  std::set<std::string> warned_;
   std::optional<size_t> open_object_;
   bool in_world_ = false;
   bool misses_world_begin_ = false;  // reported

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/import/parameter_parser.h"
+#include "apps/import/realistic_camera.h"
 #include "apps/import/scene_parser.h"
 #include "apps/import/transforms.h"
 #include "core/diagnostics/nearest_name.h"
@@ -13,7 +14,7 @@
 namespace kaustik::pbrt {
 
 void SceneParser::on_identity(const Token&) {
-  state_.ctm = glm::dmat4(1);
+  set_transform(glm::dmat4(1));
 }
 
 void SceneParser::on_translate(const Token& word) {
@@ -49,7 +50,7 @@ void SceneParser::on_look_at(const Token& word) {
 
 void SceneParser::on_transform(const Token& word) {
   const auto v = parse_numbers(*tokens_, 16, word.text, diagnostics_);
-  v ? void(state_.ctm = matrix(*v)) : skip_arguments();
+  v ? set_transform(matrix(*v)) : skip_arguments();
 }
 
 void SceneParser::on_concat_transform(const Token& word) {
@@ -67,7 +68,7 @@ void SceneParser::on_coord_sys_transform(const Token& word) {
   if (!name) return;
   const auto found = coordinate_systems_.find(name->text);
   if (found != coordinate_systems_.end()) {
-    state_.ctm = found->second;
+    set_transform(found->second);
     return;
   }
   std::vector<std::string_view> names;
@@ -80,11 +81,12 @@ void SceneParser::on_active_transform(const Token& word) {
   const Token which = tokens_->peek();
   const bool known = which.text == "All" || which.text == "StartTime" || which.text == "EndTime";
   if (which.is(TokenKind::kWord) && known) tokens_->next();
-  if (which.text == "All") return;  // what holds anyway
-  diagnostics_.error(word.location,
-                     known ? "moving things are not rendered: there is `ActiveTransform All` only"
-                           : "`ActiveTransform` needs All, StartTime or EndTime");
-  if (!known) skip_arguments();
+  if (!known) {
+    diagnostics_.error(word.location, "`ActiveTransform` needs All, StartTime or EndTime");
+    return skip_arguments();
+  }
+  state_.at_end_time = which.text == "EndTime";
+  if (which.text != "All") warn_once(word, "nothing moves: things stand as they do when the shutter opens");
 }
 
 void SceneParser::on_transform_times(const Token& word) {
@@ -159,6 +161,12 @@ void SceneParser::on_world_end(const Token& word) {
 
 void SceneParser::on_world_begin(const Token& word) {
   if (in_world_) return diagnostics_.error(word.location, "a second `WorldBegin`");
+  if (scene_.camera && scene_.camera->type == "realistic") {
+    const auto open = [this](const std::string& name, std::string& error) {
+      return open_beside(name, error);
+    };
+    replace_realistic_camera(*scene_.camera, scene_.film ? &*scene_.film : nullptr, open, diagnostics_);
+  }
   in_world_ = true;
   state_.ctm = glm::dmat4(1);
   coordinate_systems_["world"] = state_.ctm;

@@ -24,10 +24,14 @@ void SceneParser::on_texture(const Token& word) {
   if (!name) return;
   const auto value_type = quoted("its type, \"float\" or \"spectrum\",", word);
   if (!value_type || !read_directive(word, "texture", texture)) return;
-  texture.name = unescape(name->text);
-  texture.name_location = name->location;
   texture.value_type = unescape(value_type->text);
   if (texture.value_type == "color") texture.value_type = "spectrum";  // pbrt-v3's word
+  const bool is_float = texture.value_type == "float";
+  resolve_names("Texture", texture, is_float);
+  texture.name =
+      define("texture", unescape(name->text), name->location, is_float ? float_textures_ : spectrum_textures_,
+             is_float ? state_.float_textures : state_.spectrum_textures);
+  texture.name_location = name->location;
   texture.value_type_location = value_type->location;
   colours_.reduce("Texture", *state_.colour_space, texture);
   texture.texture_to_world = state_.ctm;
@@ -58,13 +62,18 @@ void SceneParser::on_make_named_material(const Token& word) {
   material.type_location = type->value_location(0);
   std::erase_if(material.parameters, [](const Parameter& p) { return p.name == "type"; });
   v3_.upgrade("Material", material);
+  resolve_names("Material", material);
+  material.name = define("material", material.name, material.name_location, materials_, state_.materials);
   colours_.reduce("Material", *state_.colour_space, material);
   scene_.materials.push_back(std::move(material));
 }
 
 void SceneParser::on_named_material(const Token& word) {
   const auto name = quoted("a name", word);
-  if (name) state_.material = {std::nullopt, unescape(name->text), name->location};
+  if (!name) return;
+  std::string text = unescape(name->text);
+  if (const auto later = state_.materials.find(text); later != state_.materials.end()) text = later->second;
+  state_.material = {std::nullopt, std::move(text), name->location};
 }
 
 void SceneParser::on_area_light(const Token& word) {
@@ -80,6 +89,9 @@ void SceneParser::on_light(const Token& word) {
   if (!read_directive(word, "light", light)) return;
   colours_.reduce(word.text, *state_.colour_space, light);
   light.light_to_world = state_.ctm;
+  // Of these it only turns directions, so that pbrt takes whatever else stands in it.
+  if (light.type == "infinite" || light.type == "distant")
+    light.light_to_world = glm::dmat4(glm::dmat3(state_.ctm));
   scene_.lights.push_back(std::move(light));
 }
 
@@ -170,10 +182,14 @@ void SceneParser::include(const Token& word, bool keep_state) {
   if (!keep_state) state_ = before;
 }
 
-void SceneParser::on_not_rendered(const Token& word) {
-  diagnostics_.error(
-      word.location,
-      fmt::format("pbrt's `{}` is not rendered: there is nothing between surfaces", word.text));
+// A name and parameters, or two names.
+void SceneParser::on_medium(const Token& word) {
+  warn_once(
+      word,
+      word.text == "MediumInterface"
+          ? "`MediumInterface` is ignored: there is nothing between surfaces, glass does not absorb, and "
+            "media within material \"interface\" are not seen"
+          : "`MakeNamedMedium` is ignored: there is nothing between surfaces");
   skip_arguments();
 }
 

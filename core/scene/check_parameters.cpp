@@ -104,16 +104,18 @@ bool is_neutral(const ParameterSpec& spec, const Parameter& p) {
          std::all_of(p.numbers.begin(), p.numbers.end(), [&](double v) { return v == *spec.neutral; });
 }
 
-bool check_unused(const Context& c, const ParameterSpec& spec, const Parameter& p) {
-  if (is_neutral(spec, p)) return true;
-  if (spec.state == ParameterState::kNotRendered) {
-    c.diagnostics.error(p.value_location(0), fmt::format("`{}` of {}: {}", p.name, c.owner(), spec.doc));
-    return false;
-  }
+void warn_of_unused(const Context& c, const ParameterSpec& spec, const Parameter& p) {
+  if (is_neutral(spec, p)) return;
   if (c.warned.insert(fmt::format("{}/{}/{}", c.noun, c.spec.name, p.name)).second) {
     c.diagnostics.warning(p.location, fmt::format("`{}` of {} is ignored: {}", p.name, c.owner(), spec.doc));
   }
-  return true;
+}
+
+void warn_of_approximation(const Context& c, const Directive& directive) {
+  if (c.spec.approximated.empty()) return;
+  if (c.warned.insert(fmt::format("{}/{}", c.noun, c.spec.name)).second)
+    c.diagnostics.warning(directive.type_location,
+                          fmt::format("{} is approximated: {}", c.owner(), c.spec.approximated));
 }
 
 bool check_one(const Context& c, const Parameter& p) {
@@ -124,7 +126,10 @@ bool check_one(const Context& c, const Parameter& p) {
     return false;
   }
   if (!check_type(c, *spec, p)) return false;
-  if (spec->state != ParameterState::kUsed) return check_unused(c, *spec, p);
+  if (spec->state != ParameterState::kUsed) {
+    warn_of_unused(c, *spec, p);
+    return true;
+  }
   return check_count(c, *spec, p) && check_range(c, *spec, p);
 }
 
@@ -176,6 +181,7 @@ const TypeSpec* find_type(const Category& category, const Directive& directive, 
 bool check_parameters(std::string_view noun, const TypeSpec& spec, const Directive& directive,
                       WarnedOnce& warned, DiagnosticList& diagnostics) {
   const Context context{noun, spec, warned, diagnostics};
+  warn_of_approximation(context, directive);
   bool ok = check_duplicates(context, directive);
   for (const Parameter& p : directive.parameters) ok = check_one(context, p) && ok;
   return ok;

@@ -67,25 +67,17 @@ inline ParameterSpec without_default(ParameterSpec p, std::string_view default_t
 
 // Of pbrt, without effect here. Every type that pbrt allows is accepted, so that the warning is all that it
 // costs.
-inline ParameterSpec unused(ParameterState state, std::string_view name, std::vector<ParameterType> types,
-                            std::string_view doc, std::optional<double> neutral) {
+inline ParameterSpec ignored(std::string_view name, std::vector<ParameterType> types, std::string_view doc,
+                             std::optional<double> neutral = std::nullopt) {
   ParameterSpec p;
   p.name = name;
   p.types = std::move(types);
   p.min_items = 0;
   p.max_items = std::numeric_limits<size_t>::max();
   p.doc = doc;
-  p.state = state;
+  p.state = ParameterState::kIgnored;
   p.neutral = neutral;
   return p;
-}
-inline ParameterSpec ignored(std::string_view name, std::vector<ParameterType> types, std::string_view doc,
-                             std::optional<double> neutral = std::nullopt) {
-  return unused(ParameterState::kIgnored, name, std::move(types), doc, neutral);
-}
-inline ParameterSpec not_rendered(std::string_view name, std::vector<ParameterType> types,
-                                  std::string_view doc, std::optional<double> neutral = std::nullopt) {
-  return unused(ParameterState::kNotRendered, name, std::move(types), doc, neutral);
 }
 
 }  // namespace kaustik::spec

@@ -22,8 +22,7 @@ namespace kaustik {
 
 enum class ParameterState {
   kUsed,
-  kIgnored,     // pbrt knows it, the picture is made without it: one warning
-  kNotRendered  // pbrt knows it, and leaving it out would make another picture: an error
+  kIgnored  // pbrt knows it, the picture is made without it: one warning
 };
 
 struct Range {
@@ -57,6 +56,8 @@ struct TypeSpec {
   std::string_view name;
   std::string_view doc;
   std::vector<ParameterSpec> parameters;
+  // For types that are taken for others: what becomes of them. One warning; empty for all others.
+  std::string_view approximated = {};
 
   const ParameterSpec* find(std::string_view parameter_name) const;
 };

@@ -31,10 +31,14 @@ std::string default_text(const ParameterSpec& p) {
 std::string row(const ParameterSpec& p) {
   std::string meaning(p.doc);
   if (p.state == ParameterState::kIgnored) meaning = "*ignored with a warning:* " + meaning;
-  if (p.state == ParameterState::kNotRendered) meaning = "*an error:* " + meaning;
   if (p.neutral) meaning += fmt::format(" ({} is accepted in silence)", *p.neutral);
   return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, type_text(p), default_text(p), p.unit,
                      p.range.text(), meaning);
+}
+
+std::string description(const TypeSpec& type) {
+  if (type.approximated.empty()) return std::string(type.doc);
+  return fmt::format("{} *Approximated with a warning:* {}.", type.doc, type.approximated);
 }
 
 std::string table(const TypeSpec& type) {
@@ -52,7 +56,8 @@ std::string schema_markdown() {
   for (const Category& c : categories()) {
     text += fmt::format("### {}\n\n", c.directive);
     for (const TypeSpec* type : c.types) {
-      text += fmt::format("#### `{} \"{}\"`\n\n{}\n\n{}", c.directive, type->name, type->doc, table(*type));
+      text += fmt::format("#### `{} \"{}\"`\n\n{}\n\n{}", c.directive, type->name, description(*type),
+                          table(*type));
     }
     if (!c.only_in_pbrt.empty()) {
       text +=

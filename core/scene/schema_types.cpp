@@ -77,20 +77,31 @@ std::vector<TypeSpec> make_film_types() {
   bounds.max_items = 4;
   bounds.range = kNotNegative;
   const Range side{1, 1 << 20};
-  return {
-      {"rgb",
-       "The image.",
-       {integer("xresolution", 1280, "pixels", side, "width"),
-        integer("yresolution", 720, "pixels", side, "height"),
-        text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop, bounds,
-        number("diagonal", 35, "mm", kPositive, "of pbrt's realistic camera; without effect on the others"),
-        text("sensor", "cie1931", "colours are those of this one, in linear Rec. 709"),
-        number("iso", 100, "", kPositive, "radiance is multiplied by iso / 100"),
-        without_default(number("exposuretime", 1, "s", kPositive, "radiance is multiplied by it"),
-                        "shutterclose - shutteropen"),
-        number("whitebalance", 0, "K", {0, 25000}, "daylight of this colour becomes white; 0: as it is"),
-        ignored("maxcomponentvalue", {Type::kFloat}, "samples are not clamped"),
-        ignored("savefp16", {Type::kBool}, "layers are 32-bit floats")}}};
+  TypeSpec rgb{
+      "rgb",
+      "The image.",
+      {integer("xresolution", 1280, "pixels", side, "width"),
+       integer("yresolution", 720, "pixels", side, "height"),
+       text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop, bounds,
+       number("diagonal", 35, "mm", kPositive, "of pbrt's realistic camera; without effect on the others"),
+       text("sensor", "cie1931", "colours are those of this one, in linear Rec. 709"),
+       number("iso", 100, "", kPositive, "radiance is multiplied by iso / 100"),
+       without_default(number("exposuretime", 1, "s", kPositive, "radiance is multiplied by it"),
+                       "shutterclose - shutteropen"),
+       number("whitebalance", 0, "K", {0, 25000}, "daylight of this colour becomes white; 0: as it is"),
+       ignored("maxcomponentvalue", {Type::kFloat}, "samples are not clamped"),
+       ignored("savefp16", {Type::kBool}, "layers are 32-bit floats")}};
+  TypeSpec gbuffer = rgb, spectral = rgb;
+  gbuffer.name = "gbuffer";
+  gbuffer.approximated = "as \"rgb\"; `--aov` chooses layers";
+  gbuffer.parameters.push_back(
+      ignored("coordinatesystem", {Type::kString}, "layers are in the world's coordinates"));
+  spectral.name = "spectral";
+  spectral.approximated = "as \"rgb\": there are three colours";
+  spectral.parameters.push_back(ignored("nbuckets", {Type::kInteger}, "there are three colours"));
+  for (const std::string_view name : {"lambdamin", "lambdamax"})
+    spectral.parameters.push_back(ignored(name, {Type::kFloat}, "there are three colours"));
+  return {std::move(rgb), std::move(gbuffer), std::move(spectral)};
 }
 
 std::vector<TypeSpec> make_sampler_types() {
@@ -155,16 +166,13 @@ std::vector<const TypeSpec*> specs_of(const std::vector<Row>& rows) {
 
 std::vector<Category> make_categories() {
   return {
-      {"Camera", "camera", specs_of(camera_types()), {"realistic"}},
-      {"Film", "film", specs_of(film_types()), {"gbuffer", "spectral"}},
+      {"Camera", "camera", specs_of(camera_types()), {}},
+      {"Film", "film", specs_of(film_types()), {}},
       {"Sampler", "sampler", specs_of(sampler_types()), {}},
       {"PixelFilter", "pixel filter", specs_of(filter_types()), {}},
       {"Accelerator", "accelerator", specs_of(accelerator_types()), {}},
-      {"Material",
-       "material",
-       specs_of(material_rows()),
-       {"coatedconductor", "hair", "measured", "subsurface"}},
-      {"Texture", "texture", specs_of(texture_types()), {"fbm", "marble", "ptex", "windy", "wrinkled"}},
+      {"Material", "material", specs_of(material_rows()), {"hair"}},
+      {"Texture", "texture", specs_of(texture_types()), {"ptex"}},
       {"Shape", "shape", specs_of(shape_types()), {"curve"}},
       {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
       {"LightSource", "light", specs_of(light_rows()), {}},

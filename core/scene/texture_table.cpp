@@ -90,6 +90,11 @@ class TextureTable::Maker {
     if (type == "dots") return DotsTexture{mapping(), operand("outside"), operand("inside")};
     if (type == "bilerp")
       return BilerpTexture{mapping(), value("v00"), value("v01"), value("v10"), value("v11")};
+    if (type == "fbm") return FbmTexture{octaves()};
+    if (type == "wrinkled") return WrinkledTexture{octaves()};
+    if (type == "windy") return WindyTexture{};
+    if (type == "marble")
+      return MarbleTexture{octaves(), float(p_.number("scale")), float(p_.number("variation"))};
     return image();
   }
 
@@ -139,6 +144,7 @@ class TextureTable::Maker {
     return {};
   }
 
+  Octaves octaves() const { return {float(p_.number("roughness")), int(p_.number("octaves"))}; }
   Vector2 pair(std::string_view a, std::string_view b) {
     return {static_cast<float>(p_.number(a)), static_cast<float>(p_.number(b))};
   }

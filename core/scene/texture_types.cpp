@@ -34,6 +34,14 @@ std::vector<ParameterSpec> mapped(std::vector<ParameterSpec> own) {
   return own;
 }
 
+// Each octave costs a lookup of noise.
+std::vector<ParameterSpec> octaves(std::vector<ParameterSpec> own) {
+  own.push_back(integer("octaves", 8, "", {1, 32}, "how many sums of noise, each finer than the one before"));
+  own.push_back(
+      number("roughness", 0.5, "", kNotNegative, "strength of an octave over that of the one before"));
+  return own;
+}
+
 std::vector<TypeSpec> make_texture_types() {
   return {
       {"constant", "One value everywhere.", {operand("value", 1, "the value")}},
@@ -67,6 +75,12 @@ std::vector<TypeSpec> make_texture_types() {
                     "of integers: `sRGB`, `linear` or `gamma` and a number, as \"gamma 2.2\""),
                number("scale", 1, "", kAnyNumber, "multiplies the value"),
                flag("invert", false, "one minus the value, after `scale`")})},
+      {"fbm", "Noise in texture space, summed over octaves: fractional Brownian motion.", octaves({})},
+      {"wrinkled", "The same of the noise's absolute value.", octaves({})},
+      {"windy", "Waves of water.", {}},
+      {"marble", "Veins across y of texture space.",
+       octaves({number("scale", 1, "1/m", kAnyNumber, "multiplies the point"),
+                number("variation", 0.2, "", kAnyNumber, "how far noise displaces the veins")})},
   };
 }
 

@@ -1,5 +1,6 @@
 #include "core/texture/noise.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -54,21 +55,60 @@ Cell cell_of(float x) {
   return {static_cast<uint32_t>(wrapped), x - low};
 }
 
+float smooth_step(float low, float high, float x) {
+  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+// How many octaves are coarser than the footprint, the last one in part.
+float visible_octaves(const Vector3& dpdx, const Vector3& dpdy, int count) {
+  const float squared = std::max(glm::dot(dpdx, dpdx), glm::dot(dpdy, dpdy));
+  return std::clamp(-1 - 0.5f * std::log2(squared), 0.0f, float(count));
+}
+
+constexpr float kLacunarity = 1.99f, kMeanOfAbsoluteNoise = 0.2f;
+
 }  // namespace
 
-float noise(float x, float y) {
-  if (!std::isfinite(x) || !std::isfinite(y)) return 0;
-  const Cell cx = cell_of(x), cy = cell_of(y);
-  const float wx = smooth(cx.offset), wy = smooth(cy.offset), wz = smooth(0.5f);
+float noise(const Point3& p) {
+  if (!is_finite(p)) return 0;
+  const Cell cx = cell_of(p.x), cy = cell_of(p.y), cz = cell_of(p.z);
+  const float wx = smooth(cx.offset), wy = smooth(cy.offset), wz = smooth(cz.offset);
   float layer[2];
   for (uint32_t z = 0; z < 2; ++z) {
     const auto corner = [&](uint32_t i, uint32_t j) {
-      return gradient(cx.index + i, cy.index + j, z, cx.offset - float(i), cy.offset - float(j),
-                      0.5f - float(z));
+      return gradient(cx.index + i, cy.index + j, cz.index + z, cx.offset - float(i), cy.offset - float(j),
+                      cz.offset - float(z));
     };
     layer[z] = lerp(wy, lerp(wx, corner(0, 0), corner(1, 0)), lerp(wx, corner(0, 1), corner(1, 1)));
   }
   return lerp(wz, layer[0], layer[1]);
+}
+
+float noise(float x, float y) {
+  return noise({x, y, 0.5f});
+}
+
+float fbm(const Point3& p, const Vector3& dpdx, const Vector3& dpdy, const Octaves& octaves) {
+  const float visible = visible_octaves(dpdx, dpdy, octaves.count);
+  const int whole = int(visible);
+  float sum = 0, lambda = 1, strength = 1;
+  for (int i = 0; i < whole; ++i, lambda *= kLacunarity, strength *= octaves.omega)
+    sum += strength * noise(lambda * p);
+  return sum + strength * smooth_step(0.3f, 0.7f, visible - float(whole)) * noise(lambda * p);
+}
+
+float turbulence(const Point3& p, const Vector3& dpdx, const Vector3& dpdy, const Octaves& octaves) {
+  const float visible = visible_octaves(dpdx, dpdy, octaves.count);
+  const int whole = int(visible);
+  float sum = 0, lambda = 1, strength = 1;
+  for (int i = 0; i < whole; ++i, lambda *= kLacunarity, strength *= octaves.omega)
+    sum += strength * std::abs(noise(lambda * p));
+  const float part = smooth_step(0.3f, 0.7f, visible - float(whole));
+  sum += strength * lerp(part, kMeanOfAbsoluteNoise, std::abs(noise(lambda * p)));
+  for (int i = whole; i < octaves.count; ++i, strength *= octaves.omega)
+    sum += strength * kMeanOfAbsoluteNoise;
+  return sum;
 }
 
 }  // namespace kaustik

@@ -1,6 +1,6 @@
 #include "core/texture/texture.h"
 
-#include "core/texture/noise.h"
+#include <cmath>
 
 namespace kaustik {
 
@@ -36,8 +36,7 @@ float checkerboard_weight(const CheckerboardTexture& board, const TextureContext
     return 0.5f - 0.5f * square_wave(at.st.x, filter_radius(at.dstdx.x, at.dstdy.x)) *
                       square_wave(at.st.y, filter_radius(at.dstdx.y, at.dstdy.y));
   }
-  const Point3 p = c.to_world.inverse_point(c.x.p);
-  const Vector3 dx = c.to_world.inverse_vector(c.x.dpdx), dy = c.to_world.inverse_vector(c.x.dpdy);
+  const auto [p, dx, dy] = c.solid();
   float product = 1;
   for (int k = 0; k < 3; ++k) product *= square_wave(p[k], filter_radius(dx[k], dy[k]));
   return 0.5f - 0.5f * product;
@@ -57,6 +56,18 @@ bool inside_dot(const Point2& st) {
       cell + kMaxShift * Vector2(noise(cell.x + 1.5f, cell.y + 2.8f), noise(cell.x + 4.5f, cell.y + 9.8f));
   const Vector2 d = st - center;
   return glm::dot(d, d) < kRadius * kRadius;
+}
+
+// pbrt's colours of marble: six cubic Bezier curves over nine points, one after the other.
+Rgb marble_colour(float t) {
+  static const Rgb points[] = {{.58f, .58f, .6f}, {.58f, .58f, .6f}, {.58f, .58f, .6f},
+                               {.5f, .5f, .5f},   {.6f, .59f, .58f}, {.58f, .58f, .6f},
+                               {.58f, .58f, .6f}, {.2f, .2f, .33f},  {.58f, .58f, .6f}};
+  constexpr int kCurves = 6;
+  const int first = std::min(int(t * kCurves), kCurves - 1);
+  const float u = t * kCurves - float(first), v = 1 - u;
+  const Rgb* b = points + first;
+  return 1.5f * (v * v * v * b[0] + 3 * v * v * u * b[1] + 3 * v * u * u * b[2] + u * u * u * b[3]);
 }
 
 }  // namespace
@@ -93,6 +104,28 @@ Rgb ImageTexture::evaluate(const TextureContext& c) const {
       scale * c.set.images().lookup(image, sampling, {at.st.x, 1 - at.st.y}, down(at.dstdx), down(at.dstdy));
   if (grey) value = Rgb(value.x);
   return glm::max(invert ? Rgb(1) - value : value, Rgb(0));
+}
+
+Rgb FbmTexture::evaluate(const TextureContext& c) const {
+  const auto [p, dx, dy] = c.solid();
+  return Rgb(fbm(p, dx, dy, octaves));
+}
+
+Rgb WrinkledTexture::evaluate(const TextureContext& c) const {
+  const auto [p, dx, dy] = c.solid();
+  return Rgb(turbulence(p, dx, dy, octaves));
+}
+
+Rgb WindyTexture::evaluate(const TextureContext& c) const {
+  const auto [p, dx, dy] = c.solid();
+  const float strength = fbm(0.1f * p, 0.1f * dx, 0.1f * dy, {0.5f, 3});
+  return Rgb(std::abs(strength) * fbm(p, dx, dy, {0.5f, 6}));
+}
+
+Rgb MarbleTexture::evaluate(const TextureContext& c) const {
+  const auto [p, dx, dy] = c.solid();
+  const float at = scale * p.y + variation * fbm(scale * p, scale * dx, scale * dy, octaves);
+  return marble_colour(0.5f + 0.5f * std::sin(at));
 }
 
 uint32_t TextureSet::add(Texture texture, const Transform& to_world) {

@@ -10,6 +10,7 @@
 #include "core/geometry/shape.h"
 #include "core/texture/image_lookup.h"
 #include "core/texture/mapping.h"
+#include "core/texture/noise.h"
 
 namespace kaustik {
 
@@ -28,6 +29,14 @@ struct TextureContext {
   const TexturePoint& x;
 
   Rgb operator()(const TextureOperand& operand) const;
+  // The point and its footprint in texture space.
+  struct SolidCoordinates {
+    Point3 p;
+    Vector3 dpdx, dpdy;
+  };
+  SolidCoordinates solid() const {
+    return {to_world.inverse_point(x.p), to_world.inverse_vector(x.dpdx), to_world.inverse_vector(x.dpdy)};
+  }
   TextureCoordinates coordinates(const TextureMapping& mapping) const {
     return map_to_texture(mapping, to_world, x);
   }
@@ -98,8 +107,35 @@ struct ImageTexture {
   Rgb evaluate(const TextureContext& c) const;
 };
 
+// Sums of noise in texture space (core/texture/noise.h).
+struct FbmTexture {
+  static constexpr std::string_view kName = "fbm";
+  Octaves octaves;
+  Rgb evaluate(const TextureContext& c) const;
+};
+struct WrinkledTexture {
+  static constexpr std::string_view kName = "wrinkled";
+  Octaves octaves;
+  Rgb evaluate(const TextureContext& c) const;
+};
+
+// Waves of water, whose height follows the wind (pharr 2004, section 11.6.4).
+struct WindyTexture {
+  static constexpr std::string_view kName = "windy";
+  Rgb evaluate(const TextureContext& c) const;
+};
+
+// Veins across y of texture space, displaced by noise (pharr 2004, section 11.6.5).
+struct MarbleTexture {
+  static constexpr std::string_view kName = "marble";
+  Octaves octaves;
+  float scale = 1, variation = 0.2f;
+  Rgb evaluate(const TextureContext& c) const;
+};
+
 using Texture = std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture,
-                             CheckerboardTexture, DotsTexture, BilerpTexture, ImageTexture>;
+                             CheckerboardTexture, DotsTexture, BilerpTexture, ImageTexture, FbmTexture,
+                             WrinkledTexture, WindyTexture, MarbleTexture>;
 
 // All textures of a scene. Immutable once built; thread-safe then.
 class TextureSet {

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "gzipped.h"
 #include "import_support.h"
 
 namespace kaustik::pbrt {
@@ -41,6 +42,41 @@ std::string spectrum() {
   return text;
 }
 
+std::string packed_mesh() {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 20\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 18\nproperty list uchar int vertex_indices\nend_header\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + " " + std::to_string(i * i % 7) + " 0.5\n";
+  for (int i = 0; i < 18; ++i)
+    text += "3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+  return gzipped(text);
+}
+
+// A triangle of twelve zeros, then the floats 1: its bytes are in its text.
+std::string gltf_text() {
+  return R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0, 1 ] } ],
+  "nodes": [ { "mesh": 0, "skin": 0, "weights": [ 0.5 ] }, { "translation": [ 0, 0, 1 ], "children": [] } ],
+  "skins": [ { "joints": [ 1 ] } ],
+  "materials": [ { "name": "paint", "pbrMetallicRoughness": { "baseColorFactor": [ 1, 0.5, 0.25, 1 ] },
+      "extensions": { "KHR_materials_anisotropy": { "anisotropyStrength": 0.5 } } } ],
+  "meshes": [ { "primitives": [ { "material": 0, "targets": [ { "POSITION": 0 } ],
+      "attributes": { "POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2, "COLOR_0": 0 } } ] } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" },
+      { "componentType": 5121, "count": 3, "type": "VEC4" },
+      { "componentType": 5126, "count": 3, "type": "VEC4" } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+  "buffers": [ { "byteLength": 36,
+      "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ] })";
+}
+
+std::string library() {
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += "newmtl m" + std::to_string(i) + "\nKd 0.5 0.25 0.125\nNs 20.5\nd -halo 0.75\nillum " +
+            std::to_string(i) + "\nmap_Kd -s 2 2 1 -o 0.5 0 0 -clamp on none.png\naniso 0.5\n";
+  return text;
+}
+
 struct Kind {
   std::string name, file;
   std::string scene;  // that reads it; empty where the file is the scene
@@ -67,6 +103,21 @@ class DamagedFile : public ImportTest, public testing::WithParamInterface<Kind> 
     return loaded.has_value();
   }
 };
+
+// A library of materials is damaged as an OBJ's second file: no damage keeps the faces from being read.
+TEST_F(ImportTest, DamagedMaterialsOfAnObj) {
+  const std::string bytes = library();
+  std::mt19937 random(21);
+  for (int trial = 0; trial < 60; ++trial) {
+    std::string changed = trial == 0 ? bytes : bytes.substr(0, random() % bytes.size());
+    for (int changes = trial % 4; changes > 0 && !changed.empty(); --changes)
+      changed[random() % changed.size()] = static_cast<char>(random() % 256);
+    write("scene.mtl", changed);
+    Diagnostics diagnostics;
+    const auto obj = write("scene.obj", "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m3\nf 1 2 3\n");
+    EXPECT_TRUE(load_scene(obj, diagnostics)) << "trial " << trial << "\n" << diagnostics.format_all();
+  }
+}
 
 TEST_P(DamagedFile, CutAnywhere) {
   const std::string bytes = GetParam().bytes();
@@ -101,7 +152,14 @@ INSTANTIATE_TEST_SUITE_P(
     All, DamagedFile,
     testing::Values(
         Kind{"glb", "scene.glb", "", [] { return of_gallery("gltf.glb"); }},
-        Kind{"obj", "scene.obj", "", grid_obj},
+        Kind{"gltf", "scene.gltf", "", gltf_text}, Kind{"obj", "scene.obj", "", grid_obj},
+        Kind{"ply_gz", "mesh.ply.gz", kFilm + "Shape \"plymesh\" \"string filename\" \"mesh.ply.gz\"\n",
+             packed_mesh},
+        Kind{"include_gz", "part.pbrt.gz", kFilm + "Include \"part.pbrt.gz\"\n",
+             [] {
+               return gzipped(
+                   "Material \"diffuse\" \"rgb reflectance\" [ 0.5 0.25 0.75 ]\nShape \"sphere\"\n");
+             }},
         Kind{"png", "tiles.png", with_image(kTexture, "tiles.png"),
              [] { return of_gallery("images/tiles.png"); }},
         Kind{"exr", "slide.exr", with_image(kTexture, "slide.exr"), [] { return of_gallery("slide.exr"); }},

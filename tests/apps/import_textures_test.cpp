@@ -132,11 +132,12 @@ TEST_F(ImportTextures, SaysWhatIsWrongWithTextures) {
   EXPECT_EQ(first_lines(R"(Texture "t" "colour" "constant")"),
             "2:13: error: a texture is \"float\" or \"spectrum\", not \"colour\"; known: float, spectrum\n");
   EXPECT_EQ(
-      first_lines(R"(Texture "t" "float" "fbm")"),
-      "2:21: error: pbrt's texture \"fbm\" is not rendered; there are: constant, scale, mix, directionmix, "
-      "checkerboard, dots, bilerp, imagemap\n");
+      first_lines(R"(Texture "t" "float" "ptex")"),
+      "2:21: error: pbrt's texture \"ptex\" is not rendered; there are: constant, scale, mix, directionmix, "
+      "checkerboard, dots, bilerp, imagemap, fbm, wrinkled, windy, marble\n");
   EXPECT_EQ(first_lines("Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"mix\""),
-            "3:9: error: float texture `t` is defined twice\n");
+            "3:9: warning: texture `t` is defined again, as in pbrt-v3: this one holds up to the end of the "
+            "block\n");
   EXPECT_EQ(first_lines(R"(Texture "t" "float" "constant" "rgb value" [1 1 1])"),
             "2:32: error: `value` is a number here: \"float value\"\n");
   EXPECT_EQ(first_lines(R"(Texture "t" "float" "imagemap")"),
@@ -145,6 +146,39 @@ TEST_F(ImportTextures, SaysWhatIsWrongWithTextures) {
       first_lines(R"(Texture "t" "float" "dots" "string mapping" "planer")"),
       "2:45: error: unknown mapping \"planer\"; did you mean `planar`? known: uv, spherical, cylindrical, "
       "planar\n");
+}
+
+// As in pbrt-v3, whose names end with their block.
+TEST_F(ImportTextures, NamesMayBeUsedAgain) {
+  const Scene s = world(R"(
+    Texture "t" "spectrum" "constant" "rgb value" [ .1 .1 .1 ]
+    AttributeBegin
+      Texture "t" "spectrum" "constant" "rgb value" [ .2 .2 .2 ]
+      Texture "t" "spectrum" "scale" "texture tex" "t" "float scale" 2
+      MakeNamedMaterial "m" "string type" "diffuse" "texture reflectance" "t"
+      NamedMaterial "m" Shape "sphere"
+    AttributeEnd
+    AttributeBegin
+      MakeNamedMaterial "m" "string type" "diffuse" "texture reflectance" "t"
+      NamedMaterial "m" Shape "sphere"
+    AttributeEnd
+    NamedMaterial "m" Shape "sphere")");
+  const auto reflectance = [&](size_t shape) {
+    SurfaceInteraction si = make_interaction(s.shapes, {{0, 0, 2}, {0, 0, -1}}, {1, uint32_t(shape), 0, {}});
+    return std::get<Lambertian>(*BsdfAt(s, si, {0, 0, 1})).reflectance.x;
+  };
+  EXPECT_FLOAT_EQ(reflectance(0), 0.4f);
+  EXPECT_FLOAT_EQ(reflectance(1), 0.1f);
+  EXPECT_FLOAT_EQ(reflectance(2), 0.4f);
+}
+
+TEST_F(ImportTextures, NoiseHasItsParameters) {
+  world(R"(Texture "f" "float" "fbm" "integer octaves" 3 "float roughness" .25
+    Texture "w" "float" "wrinkled" Texture "y" "float" "windy"
+    Texture "m" "spectrum" "marble" "float scale" 2 "float variation" .5
+    Material "diffuse" "texture reflectance" "m" "texture displacement" "w" Shape "sphere")");
+  EXPECT_EQ(first_lines(R"(Texture "f" "float" "fbm" "integer octaves" 0)"),
+            "2:45: error: `octaves` of texture \"fbm\" must be >= 1 and <= 32, not 0\n");
 }
 
 TEST_F(ImportTextures, SaysWhatIsWrongWithNames) {

@@ -91,6 +91,25 @@ TEST_F(ImportV3, OtherMaterials) {
       "\"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\"");
   EXPECT_THAT(mix.find("materials")->strings, ElementsAre("b", "a"));
   EXPECT_THAT(numbers(mix, "amount"), ElementsAre(.25));
+  const auto skin = material("Material \"kdsubsurface\" \"rgb Kd\" [ .5 .4 .3 ] \"rgb mfp\" [ 1 1 1 ]");
+  EXPECT_EQ(skin.type, "subsurface");
+  EXPECT_THAT(numbers(skin, "reflectance"), ElementsAre(.5, .4, .3));
+  EXPECT_EQ(material("Material \"fourier\" \"string bsdffile\" \"x.bsdf\"").type, "measured");
+}
+
+// What exporters of v3 write: coordinates as floats, cameras of all directions, projectors with a colour.
+TEST_F(ImportV3, OlderWordsAreRendered) {
+  load(R"(Camera "environment" WorldBegin
+    Shape "trianglemesh" "point P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 2 ]
+      "float uv" [ 0 0 1 0 0 1 ]
+    Texture "uv" "color" "uv"
+    Material "matte" "texture Kd" "uv"
+    Shape "loopsubdiv" "integer nlevels" 1 "integer indices" [ 0 1 2 ] "point P" [ 0 0 0 1 0 0 0 1 0 ])");
+  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("`float uv` of pbrt-v3's `Shape` becomes `point2 uv`"));
+  const auto s = describe("Camera \"environment\" WorldBegin LightSource \"projection\" \"rgb I\" [ 2 2 2 ]");
+  EXPECT_EQ(s.camera->type, "spherical");
+  EXPECT_EQ(s.camera->find("mapping")->strings[0], "equirectangular");
+  EXPECT_NEAR(numbers(s.lights[0], "scale").at(0), 2, 1e-12);  // of weights that add up to one
 }
 
 TEST_F(ImportV3, WholeFile) {

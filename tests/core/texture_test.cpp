@@ -165,6 +165,18 @@ TEST(Texture, NoiseRepeatsAndIsBounded) {
 }
 
 // At most one disc of radius 0.35 in each field: so much of the plane at most; some fields have none.
+// One octave of noise is noise. A footprint as wide as its period leaves nothing but the mean of turbulence.
+TEST(Texture, OctavesOfNoise) {
+  const Point3 p(0.3f, 1.7f, 2.2f);
+  const Vector3 none(0), wide(10, 0, 0);
+  EXPECT_EQ(fbm({0.3f, 1.7f, 0.5f}, none, none, {0.5f, 1}), noise(0.3f, 1.7f));
+  EXPECT_FLOAT_EQ(fbm(p, none, none, {0.5f, 2}), noise(p) + 0.5f * noise(1.99f * p));
+  EXPECT_FLOAT_EQ(turbulence(p, none, none, {0.25f, 2}),
+                  std::abs(noise(p)) + 0.25f * std::abs(noise(1.99f * p)) + 0.0625f * 0.2f);
+  EXPECT_EQ(fbm(p, wide, none, {0.5f, 8}), 0.0f);
+  EXPECT_NEAR(turbulence(p, none, wide, {0.5f, 2}), 0.2f + 0.2f + 0.1f, 1e-6f);
+}
+
 TEST(Texture, DotsCoverAPart) {
   const DotsTexture dots{UvMapping{}, {Rgb(1)}, {Rgb(0)}};
   double covered = 0;
