@@ -31,21 +31,23 @@ void report_energy(const render::RenderStatistics& s, const Console& console) {
         fmt::format("energy: {:.3g} % of the photons' flux is unaccounted for", share(e.unaccounted())));
 }
 
+std::string by_kind(const std::array<uint64_t, photon::kPhotonKinds>& counts) {
+  std::string text;
+  for (size_t k = 0; k < counts.size(); ++k)
+    text += fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(counts[k]));
+  return text;
+}
+
 void report_photons(const render::RenderResult& result, const Console& console) {
   const render::RenderStatistics& s = result.statistics;
   if (!s.any_photons()) return;
-  std::string stored;
-  for (size_t k = 0; k < s.photons.stored.size(); ++k) {
-    stored +=
-        fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(s.photons.stored[k]));
-  }
   if (s.photons.emitted > 0)
-    console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted), stored));
+    console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted),
+                             by_kind(s.photons.stored)));
   if (s.guided.emitted > 0)
-    console.note(
-        fmt::format("guided photons: {} emitted; stored: caustic {}; learned from {}, of which {} left one",
-                    grouped(s.guided.emitted), grouped(s.guided.stored), grouped(s.guide_photons),
-                    grouped(s.guide_hits)));
+    console.note(fmt::format("guided photons: {} emitted; stored: {}; learned from {}, of which {} served",
+                             grouped(s.guided.emitted), by_kind(s.guided.stored), grouped(s.guide_photons),
+                             grouped(s.guide_hits)));
   report_energy(s, console);
   if (s.radius > 0) console.note(fmt::format("gather radius: {:.4g} m", s.radius));
   if (result.plan.direct == render::DirectEstimator::kLecture) {

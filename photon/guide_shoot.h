@@ -1,8 +1,11 @@
 #pragma once
 // The photons from which guided emission learns.
 
+#include <functional>
+
 #include "accel/bvh.h"
 #include "photon/emission_guide.h"
+#include "photon/photon.h"
 
 namespace kaustik::photon {
 
@@ -12,15 +15,20 @@ struct GuideSettings {
       0;  // of the render: an eighth of them is emitted to learn from, or up to .3 where few serve
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
+  PhotonKind kind = PhotonKind::kCaustic;  // that is to be left
+  // How much a photon matters where it was left; zero: it does not serve. Unset: all matter alike.
+  // Thread-safe, and a function of the photon alone.
+  std::function<float(const Photon&)> importance{};
 };
 
 struct LearnedGuide {
   EmissionGuide guide;             // empty where guiding would not help much
-  uint64_t emitted = 0, hits = 0;  // photons learned from, and how many of them left a caustic photon
+  uint64_t emitted = 0, hits = 0;  // photons learned from, and how many of them served
 };
 
 // Emits photons in rounds, each but the first guided by what all before have found, and learns where those
-// start that leave caustic photons. A function of scene and settings alone, whatever the number of threads.
+// start that leave photons of the kind where they matter. A function of scene and settings alone, whatever
+// the number of threads.
 LearnedGuide learn_guide(const Scene& scene, const accel::Bvh& bvh, const GuideSettings& settings);
 
 }  // namespace kaustik::photon

@@ -18,7 +18,9 @@ void for_each_count(Statistics& s, F&& f) {
     f(fmt::format("stored_{}", photon::kPhotonKindNames[k]), s.photons.stored[k]);
   f("photon_rays", s.photons.rays), f("photon_shadow_rays", s.photons.shadow_rays);
   f("dropped_photons", s.photons.dropped_invalid);
-  f("guided_emitted", s.guided.emitted), f("guided_stored", s.guided.stored);
+  f("guided_emitted", s.guided.emitted);
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k)
+    f(fmt::format("guided_stored_{}", photon::kPhotonKindNames[k]), s.guided.stored[k]);
   f("guided_rays", s.guided.rays), f("guided_dropped", s.guided.dropped_invalid);
   f("guide_photons", s.guide_photons), f("guide_hits", s.guide_hits), f("guide_boxes", s.guide_boxes);
   f("camera_rays", s.rays.camera), f("specular_rays", s.rays.specular);

@@ -5,6 +5,7 @@
 
 #include "photon/visibility_shoot.h"
 #include "render/radius.h"
+#include "render/visible_points.h"
 
 namespace kaustik::render {
 
@@ -127,59 +128,100 @@ void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const Render
   statistics->photon_trace_s += seconds_since(start);
 }
 
-// Likewise.
-void learn_guide(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                 const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
-  if (guided_photons(settings, plan, settings.photons) == 0) return;
-  if (!maps->guide) {
-    const auto start = std::chrono::steady_clock::now();
-    maps->guide = std::make_unique<const photon::LearnedGuide>(photon::learn_guide(
-        scene, bvh, {settings.seed, settings.photons, settings.max_bounces, settings.emission}));
-    statistics->photon_trace_s += seconds_since(start);
+// Likewise. Indirect photons lie everywhere where light is, outside of a room, too: those that are seen
+// count.
+std::unique_ptr<const photon::LearnedGuide> learn_guide(const Scene& scene, const accel::Bvh& bvh,
+                                                        const RenderSettings& settings, PhotonKind kind) {
+  constexpr uint32_t kPoints = 1u << 14;
+  photon::GuideSettings guide{settings.seed, settings.photons, settings.max_bounces, settings.emission, kind};
+  std::optional<VisibleDensity> visible;
+  if (kind == PhotonKind::kIndirect) {
+    visible.emplace(visible_points(scene, bvh, settings, kPoints));
+    guide.importance = [&](const photon::Photon& photon) { return visible->at(photon); };
   }
-  statistics->guide_photons = maps->guide->emitted;
-  statistics->guide_hits = maps->guide->hits;
-  statistics->guide_boxes = maps->guide->guide.boxes();
+  return std::make_unique<const photon::LearnedGuide>(photon::learn_guide(scene, bvh, guide));
 }
 
-// Caustic photons in place of those of `shot`.
-void shoot_guided(const Scene& scene, const accel::Bvh& bvh, photon::TraceSettings trace,
-                  const photon::ShootProgress& progress, photon::ShootResult* shot,
-                  RenderStatistics* statistics) {
-  constexpr auto kCaustic = size_t(PhotonKind::kCaustic);
-  trace.kinds = {};
-  trace.kinds.caustic = true;
-  photon::ShootResult guided = photon::shoot(scene, bvh, trace, progress);
-  shot->buffers[kCaustic] = std::move(guided.buffers[kCaustic]);
-  const photon::TraceCounters& c = guided.counters;
-  statistics->guided += {c.emitted, c.stored[kCaustic], c.rays, c.dropped_invalid};
+// Likewise.
+void learn_guides(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                  const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
+  if (settings.guide == Guide::kOff) return;
+  const photon::KindMask kinds = kinds_needed(plan);
+  const auto start = std::chrono::steady_clock::now();
+  const auto learn = [&](PhotonKind kind, auto* guide) {
+    if (!kinds[kind]) return;
+    if (!*guide) *guide = learn_guide(scene, bvh, settings, kind);
+    statistics->guide_photons += (*guide)->emitted;
+    statistics->guide_hits += (*guide)->hits;
+    statistics->guide_boxes += (*guide)->guide.boxes();
+  };
+  statistics->guide_photons = statistics->guide_hits = statistics->guide_boxes = 0;
+  learn(PhotonKind::kCaustic, &maps->caustic_guide);
+  learn(PhotonKind::kIndirect, &maps->indirect_guide);
+  statistics->photon_trace_s += seconds_since(start);
 }
 
-// Shoots what the plan reads, caustic photons apart where they are guided. False when progress cancelled.
+// A shoot for some kinds.
+struct Shoot {
+  photon::TraceSettings trace;
+  bool guided = false;
+};
+
+void take(PhotonKind kind, Shoot* from, Shoot* to) {
+  (kind == PhotonKind::kCaustic ? from->trace.kinds.caustic : from->trace.kinds.indirect) = false;
+  (kind == PhotonKind::kCaustic ? to->trace.kinds.caustic : to->trace.kinds.indirect) = true;
+}
+
+// A shoot for each kind that is guided, and one for all others.
+std::vector<Shoot> plan_shoots(const RenderSettings& settings, const EstimatorPlan& plan,
+                               const PassShare& pass, const PhotonMaps& maps) {
+  Shoot others{trace_settings(settings, plan, pass)};
+  std::vector<Shoot> shoots;
+  const auto guide = [&](PhotonKind kind, const auto& learned, uint64_t photons) {
+    if (!others.trace.kinds[kind] || !learned || learned->guide.empty()) return;
+    Shoot guided{others.trace, true};
+    guided.trace.kinds = {};
+    guided.trace.guide = &learned->guide;
+    guided.trace.photons = photons;
+    take(kind, &others, &guided);
+    shoots.push_back(guided);
+  };
+  guide(PhotonKind::kCaustic, maps.caustic_guide, guided_photons(settings, plan, pass.photons));
+  guide(PhotonKind::kIndirect, maps.indirect_guide, pass.photons);
+  if (others.trace.kinds.any()) shoots.insert(shoots.begin(), others);
+  return shoots;
+}
+
+void add(const Shoot& shoot, photon::ShootResult&& result, photon::ShootResult* all,
+         RenderStatistics* statistics) {
+  const photon::TraceCounters& c = result.counters;
+  if (shoot.guided)
+    statistics->guided += {c.emitted, c.rays, c.dropped_invalid, c.stored};
+  else
+    statistics->photons += c;
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k)
+    if (shoot.trace.kinds[PhotonKind(k)]) all->buffers[k] = std::move(result.buffers[k]);
+}
+
+// Shoots what the plan reads. False when progress cancelled.
 bool shoot_kinds(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                  const EstimatorPlan& plan, const PassShare& pass, const ProgressCallback& progress,
                  const PhotonMaps& maps, photon::ShootResult* shot, RenderStatistics* statistics) {
-  photon::TraceSettings trace = trace_settings(settings, plan, pass);
-  photon::TraceSettings guided = trace;
-  if (maps.guide && !maps.guide->guide.empty()) {
-    trace.kinds.caustic = false;
-    guided.guide = &maps.guide->guide;
-    guided.photons = guided_photons(settings, plan, pass.photons);
-  }
-  const uint64_t first = trace.kinds.any() ? trace.photons : 0;
-  const uint64_t total = first + (guided.guide ? guided.photons : 0);
+  const std::vector<Shoot> shoots = plan_shoots(settings, plan, pass, maps);
+  uint64_t total = 0, before = 0;
+  for (const Shoot& shoot : shoots) total += shoot.trace.photons;
   std::atomic<bool> cancelled{false};
-  const auto told = [&](uint64_t before) {
-    return [&, before](uint64_t done, uint64_t) {
+  for (const Shoot& shoot : shoots) {
+    const auto told = [&](uint64_t done, uint64_t) {
       const bool go_on = !progress || progress({"photons", before + done, total, pass.pass, pass.shares});
       if (!go_on) cancelled = true;
       return go_on;
     };
-  };
-  *shot = photon::shoot(scene, bvh, trace, told(0));
-  statistics->photons += shot->counters;
-  if (guided.guide && !cancelled) shoot_guided(scene, bvh, guided, told(first), shot, statistics);
-  return !cancelled;
+    add(shoot, photon::shoot(scene, bvh, shoot.trace, told), shot, statistics);
+    if (cancelled) return false;
+    before += shoot.trace.photons;
+  }
+  return true;
 }
 
 }  // namespace
@@ -205,7 +247,7 @@ bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSet
                       PhotonMaps* maps, std::optional<GatherRadii>* radii, RenderStatistics* statistics) {
   foretell_visibility(scene, bvh, settings, plan, maps, statistics);
   if (!kinds_needed(plan).any()) return true;
-  learn_guide(scene, bvh, settings, plan, maps, statistics);
+  learn_guides(scene, bvh, settings, plan, maps, statistics);
   free_maps(maps);
   const auto start = std::chrono::steady_clock::now();
   photon::ShootResult shot;

@@ -29,7 +29,8 @@ struct PhotonMaps {
   RadiusShrink shrink;
   std::unique_ptr<const accel::EdgeIndex> edges;             // where surfaces end; the estimates point to it
   std::unique_ptr<const photon::VisibilityTree> visibility;  // only for `predicted`; of all passes
-  std::unique_ptr<const photon::LearnedGuide> guide;         // only for caustics by photons; of all passes
+  // For caustic and indirect photons that are read; of all passes.
+  std::unique_ptr<const photon::LearnedGuide> caustic_guide, indirect_guide;
 };
 
 // The kinds that the plan's estimators read; only these are traced and stored.

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "core/sampling/sampler.h"
-#include "render/shading_point.h"
+#include "render/visible_points.h"
 
 namespace kaustik::render {
 
@@ -26,47 +24,10 @@ struct RadiusRule {
 constexpr RadiusRule kDirectRule{160, 64};
 constexpr RadiusRule kIndirectRule{500, 200};
 constexpr RadiusRule kCausticRule{232, kFewestInReach};
-constexpr uint64_t kPilotStream = 0x9117;  // keeps the pilot's random numbers apart from the image's
-
-// A query without radius.
-struct PilotPoint {
-  photon::GatherQuery query;
-  bool both_sides = false;  // what comes through is gathered, too
-};
-
-// The first non-specular point of a camera ray; nothing where there is none.
-std::optional<PilotPoint> pilot_point(const Scene& scene, const accel::Bvh& bvh,
-                                      const RenderSettings& settings, uint32_t index) {
-  Sampler sampler(hash_combine(settings.seed, kPilotStream), index);
-  const Point2 u = sampler.next_2d();
-  Ray ray = scene.camera.generate_ray({u.x * float(scene.camera.width), u.y * float(scene.camera.height)});
-  for (int events = 0; events <= settings.max_bounces; ++events) {
-    SurfaceInteraction si;
-    if (!bvh.intersect(ray, &si)) return std::nullopt;
-    const ShadingPoint x(scene, si, -ray.d);
-    if (!x.specular()) {
-      const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;
-      return PilotPoint{{si.p, n, si.surface_group}, transmits(*x.bsdf)};
-    }
-    const auto s = scatter(x, sampler);
-    if (!s) return std::nullopt;
-    ray = si.spawn(s->wi);
-  }
-  return std::nullopt;
-}
-
-std::vector<PilotPoint> visible_points(const Scene& scene, const accel::Bvh& bvh,
-                                       const RenderSettings& settings) {
-  std::vector<PilotPoint> found;
-  for (uint32_t i = 0; i < kPilotPoints; ++i) {
-    if (const auto point = pilot_point(scene, bvh, settings, i)) found.push_back(*point);
-  }
-  return found;
-}
 
 // Photons evenly spaced in the map's order.
-std::vector<PilotPoint> photon_points(const photon::PhotonMap& map) {
-  std::vector<PilotPoint> points;
+std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
+  std::vector<VisiblePoint> points;
   const uint64_t count = std::min<uint64_t>(map.size(), kPilotPoints);
   for (uint64_t i = 0; i < count; ++i) {
     const photon::Photon p = map.photon(map.size() / count * i);
@@ -86,7 +47,7 @@ float nearest_radius(const photon::PhotonMap& map, photon::GatherQuery query, fl
 
 // On the side where photons lie more densely: on the other there may be none before the far wall of a hollow
 // ball, whose normals are the same.
-float nearest_radius(const photon::PhotonMap& map, const PilotPoint& point, float reach, uint32_t k) {
+float nearest_radius(const photon::PhotonMap& map, const VisiblePoint& point, float reach, uint32_t k) {
   const float r = nearest_radius(map, point.query, reach, k);
   if (!point.both_sides) return r;
   photon::GatherQuery behind = point.query;
@@ -96,7 +57,7 @@ float nearest_radius(const photon::PhotonMap& map, const PilotPoint& point, floa
 
 // Median over the points of the distance to the k-th nearest photon; points that do not find so many are
 // left out. Nothing found gives 0.
-float median_radius(const photon::PhotonMap& map, const std::vector<PilotPoint>& points, float reach,
+float median_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
                     uint32_t k) {
   std::vector<float> radii(points.size());
   tbb::parallel_for(size_t(0), points.size(),
@@ -116,7 +77,7 @@ uint32_t photons_to_reach(const RadiusRule& rule, const photon::PhotonMap& map, 
 }
 
 // Where every point fails with k photons, fewer must do; the last resort is a fixed part of the scene.
-float auto_radius(const photon::PhotonMap& map, const std::vector<PilotPoint>& points, float reach,
+float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
                   uint32_t photons, const PassShare& pass) {
   if (map.empty()) return reach / 64;  // those of other passes need not be
   for (uint32_t k = photons_in_reach(photons, pass.shares); k > 0; k /= 2)
@@ -130,7 +91,7 @@ GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const Render
                          const PassShare& pass, const PhotonMaps& maps) {
   if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius, 0};
   const float reach = 2 * scene.bounds.radius(), f = settings.radius_factor;
-  const auto visible = visible_points(scene, bvh, settings);
+  const auto visible = visible_points(scene, bvh, settings, kPilotPoints);
   const auto choose = [&](const photon::PhotonMap& map, const auto& points, uint32_t k) {
     return f * auto_radius(map, points, reach, k, pass);
   };

@@ -25,7 +25,7 @@ LectureCounters& LectureCounters::operator+=(const LectureCounters& o) {
 
 GuidedCounters& GuidedCounters::operator+=(const GuidedCounters& o) {
   emitted += o.emitted;
-  stored += o.stored;
+  for (size_t k = 0; k < stored.size(); ++k) stored[k] += o.stored[k];
   rays += o.rays;
   dropped_invalid += o.dropped_invalid;
   return *this;

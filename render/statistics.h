@@ -37,10 +37,11 @@ inline constexpr size_t kDropExamples = 10;
 // Adds to a sorted list of at most kDropExamples, the first of all.
 void add_examples(const std::vector<DroppedSample>& more, std::vector<DroppedSample>* examples);
 
-// Of photons emitted for caustics alone, where that is guided. Their flux adds up to the lamps' power on the
+// Of photons emitted for one kind alone, where that is guided. Their flux adds up to the lamps' power on the
 // mean only, so it is not in the energy ledger.
 struct GuidedCounters {
-  uint64_t emitted = 0, stored = 0, rays = 0, dropped_invalid = 0;
+  uint64_t emitted = 0, rays = 0, dropped_invalid = 0;
+  std::array<uint64_t, photon::kPhotonKinds> stored{};
   GuidedCounters& operator+=(const GuidedCounters& o);
 };
 

@@ -15,11 +15,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 uint64_t stored(const RenderStatistics& s, int kind) {
-  const bool caustic = kind == int(photon::PhotonKind::kCaustic);
-  return s.photons.stored[size_t(kind)] + (caustic ? s.guided.stored : 0);
+  return s.photons.stored[size_t(kind)] + s.guided.stored[size_t(kind)];
 }
 
-// Photons emitted for caustics alone, and the photons, hits and boxes that they were learned from.
+// Photons emitted for one kind alone, and the photons, hits and boxes that they were learned from.
 Json guided_json(const RenderStatistics& s) {
   return {{"emitted", s.guided.emitted},
           {"learned_from", s.guide_photons},

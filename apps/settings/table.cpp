@@ -231,7 +231,8 @@ void add_photons(std::vector<Setting>& table) {
   table.push_back(choice(
       "guide", &RenderSettings::guide, render::kGuideNames,
       "Caustics from photons of their own, emitted where photons were found to reach mirrors and glass "
-      "and a diffuse surface behind. off: all kinds from the same photons."));
+      "and a diffuse surface behind, and indirect light from photons emitted where they were found to reach "
+      "what is seen. off: all kinds from the same photons."));
   table.push_back(count("max-bounces", "bounces", &RenderSettings::max_bounces, 1, 65535, {},
                         "Longest chain of reflections and refractions of photons and paths."));
 }
