@@ -27,7 +27,7 @@ class RenderCommand : public testing::ProgramTest {
 TEST_F(RenderCommand, WritesEveryFileAndSaysSo) {
   const Outcome outcome =
       run_kaustik({"render", small_scene(film(24, 16)), "-o", path("a.exr"), "-o", path("a.png"), "--photons",
-                   "10k", "--spp", "2", "--aov", "all", "--stats", path("a.json")});
+                   "10k", "--guide", "off", "--spp", "2", "--aov", "all", "--stats", path("a.json")});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   EXPECT_THAT(files(), ElementsAre("a.exr", "a.json", "a.png", "small.pbrt"));
   for (const char* expected : {"a.exr", "a.png", "a.json", "10,000 emitted", "photon trace", "total"}) {
