@@ -345,8 +345,9 @@ class Tracer {
   template <class B>
   bool scatter(size_t k, const B& bsdf, const SurfaceInteraction& si, const Arrival& photon) {
     const auto u = [&](int dimension) { return numbers_.u[dimension][k]; };
-    const Frame frame = si.shading_frame();
-    const Vector3 wo = -photon.ray.d, wo_local = frame.to_local(wo);
+    const Vector3 wo = -photon.ray.d;
+    const Frame frame = scatters_about_n<B>(si, wo) ? geometric_frame(si) : si.shading_frame();
+    const Vector3 wo_local = frame.to_local(wo);
     const auto sample =
         bsdf.sample_f(wo_local, kChoosesLobe<B> ? u(2) : 0, {u(0), u(1)}, TransportMode::kImportance);
     if (!sample) return false;
@@ -354,15 +355,13 @@ class Tracer {
     if (!scatters_[k]) return false;
     WalkState& state = walkers_.state[k];
     state = sample->specular ? state.behind_specular() : state.behind_diffuse();
-    const Vector3 wi = unit(frame.to_world(sample->wi));
-    const float c_out = shading_correction(si, wi, sample->wi.z);
-    if (c_out == 0) return false;
-    const Rgb next = sample->weight * (shading_correction(si, wo, wo_local.z) / c_out) * photon.flux;
+    const Onward on = onward(bsdf, si, frame, wo, wo_local, *sample);
+    const Rgb next = on.weight * photon.flux;
     if (is_black(next) || !valid(next)) return false;
     lanes_.scattered_energy[k] = energy_of(next, units_per_watt_);
     const float scale = roulette(photon.flux, next, u(kChoosesLobe<B> ? 3 : 2));
     if (scale == 0) return false;
-    lanes_.set_next(k, si.spawn(wi), scale * next);
+    lanes_.set_next(k, si.spawn(unit(on.wi)), scale * next);
     lanes_.next_energy[k] = energy_of(scale * next, units_per_watt_);
     return true;
   }

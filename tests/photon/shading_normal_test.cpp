@@ -80,9 +80,9 @@ TEST(ShadingNormals, DepositsAndReflectionAgreeWithCameraPaths) {
   finalize_scene(scene);
   const accel::Bvh bvh(scene);
 
-  // integral over the mesh of E_s = I |wi.ns| / d^2; then what leaves it, with the share of the cosine lobe
-  // of ns as seen by n: rho / pi times the integral of |w.n| over both hemispheres' overlap, pi (1 + n.ns)
-  // / 2.
+  // integral over the mesh of E_s = I |wi.ns| / d^2; then what leaves it: rho / pi times E_s times the
+  // integral of |w.n| over both hemispheres' overlap, pi (1 + n.ns) / 2, and, where n and ns disagree and
+  // camera paths shade n, times E_n = I |wi.n| / d^2 and the rest, pi (1 - n.ns) / 2.
   Accumulator received, reflected;
   std::mt19937_64 engine(3);
   const auto uniform = [&] { return static_cast<float>(engine() >> 40) * 0x1p-24f; };
@@ -97,8 +97,11 @@ TEST(ShadingNormals, DepositsAndReflectionAgreeWithCameraPaths) {
     const bool visible = glm::dot(wi, si.n) > 0;
     const double E =
         one_side && visible ? static_cast<double>(glm::dot(wi, si.ns) / length_squared(to_lamp)) : 0;
+    const double E_n = visible ? static_cast<double>(glm::dot(wi, si.n) / length_squared(to_lamp)) : 0;
+    const double rho_half = 0.5 * static_cast<double>(rho);
+    const auto n_ns = static_cast<double>(glm::dot(si.n, si.ns));
     received.add(area * E);
-    reflected.add(area * E * static_cast<double>(rho * 0.5f * (1 + glm::dot(si.n, si.ns))));
+    reflected.add(area * rho_half * (E * (1 + n_ns) + E_n * (1 - n_ns)));
   }
 
   const Traced t = trace_all(scene, settings_for(400000, {true, false, false, true}));
