@@ -17,10 +17,18 @@ float second_integral(float x) {
   return x / 2 + y * (1 - 2 * std::abs(y));
 }
 
-// The square wave averaged by a triangle of half width r about x (pharr 2023, equation 10.11).
+// The square wave averaged by a triangle of half width r about x (pharr 2023, equation 10.11). One edge alone
+// in reach, at distance d, leaves 1 - (1 - d / r)^2 of the field that x is in: differences of the second
+// integral would be lost in rounding there.
 float square_wave(float x, float r) {
-  if (std::floor(x - r) == std::floor(x + r))
-    return 1 - 2 * (std::floor(x) - 2 * floor_of_half(std::floor(x)));
+  x -= 2 * floor_of_half(x);
+  const auto field = [](float floor_x) { return 1 - 2 * (floor_x - 2 * floor_of_half(floor_x)); };
+  const float edge = std::floor(x + r);
+  if (std::floor(x - r) == edge) return field(edge);
+  if (r < 0.5f) {
+    const float inside = 1 - std::min(std::abs(x - edge) / r, 1.0f);
+    return field(std::floor(x)) * (1 - inside * inside);
+  }
   return (second_integral(x + r) - 2 * second_integral(x) + second_integral(x - r)) / (r * r);
 }
 

@@ -139,6 +139,19 @@ TEST(Texture, CheckerboardIsFilteredByATriangle) {
   EXPECT_NEAR(value(board(), x).x, 1 - beyond, 1e-5f);
 }
 
+// The same of a footprint of 1/65536 of a field, far from the origin: a quarter of r inside the field beyond
+// the border, 1 - (3/4)^2 / 2.
+TEST(Texture, CheckerboardIsFilteredInSmall) {
+  for (const float border : {1.0f, 15.0f}) {
+    constexpr float kRadius = 0x1p-16f;
+    TexturePoint x = at_uv(border - kRadius / 4, 0.5f);
+    x.duvdx = {kRadius / 1.5f, 0};
+    EXPECT_NEAR(value(board(), x).x, 1 - 0.5f * 0.75f * 0.75f, border * 0x1p-24f / kRadius);
+    x.uv.x = border + kRadius / 4;
+    EXPECT_NEAR(value(board(), x).x, 0.5f * 0.75f * 0.75f, border * 0x1p-24f / kRadius);
+  }
+}
+
 // Filtering moves values, it adds none: the mean over a period is that of the two textures, for any width.
 // Midpoints of 64 columns: exact up to rounding for a function that is symmetric about both borders.
 TEST(Texture, CheckerboardKeepsItsMean) {
