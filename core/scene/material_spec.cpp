@@ -1,5 +1,7 @@
 #include "core/scene/material_spec.h"
 
+#include "core/spectrum/named_spectra.h"
+
 namespace kaustik::spec {
 namespace {
 
@@ -62,8 +64,9 @@ Ggx facets_of(const MaterialInputs& p, std::string_view prefix) {
 Conductor metal_of(const MaterialInputs& p, std::string_view prefix) {
   const Ggx facets = facets_of(p, prefix);
   if (p.has("reflectance")) return {Rgb(1), k_of_reflectance(p.rgb("reflectance")), facets};
-  // Copper's measured index at the wavelengths of the three primaries (Johnson and Christy 1972).
-  Conductor copper{Rgb(0.200438f, 0.924033f, 1.102212f), Rgb(3.912949f, 2.452848f, 2.142188f), facets};
+  static const MetalColour kCopper =
+      metal_colour(*named_spectrum("metal-Cu-eta"), *named_spectrum("metal-Cu-k"));
+  Conductor copper{Rgb(kCopper.eta), Rgb(kCopper.k), facets};
   const std::string eta = std::string(prefix) + "eta", k = std::string(prefix) + "k";
   if (p.has(eta)) copper.eta = p.rgb(eta);
   if (p.has(k)) copper.k = p.rgb(k);

@@ -87,6 +87,15 @@ TEST_F(ImportColours, MetalsKeepTheirColour) {
   EXPECT_EQ(gold.k, Rgb(expected.k));
 }
 
+// pbrt's default is "metal-Cu-eta" and "metal-Cu-k".
+TEST_F(ImportColours, MetalWithoutIndicesIsCopper) {
+  const Scene scene = world("Material \"conductor\"\n" + std::string(kSphere));
+  const auto& metal = std::get<Conductor>(scene.materials.at(0).typical());
+  const MetalColour copper = metal_colour(*named_spectrum("metal-Cu-eta"), *named_spectrum("metal-Cu-k"));
+  EXPECT_EQ(metal.eta, Rgb(copper.eta));
+  EXPECT_EQ(metal.k, Rgb(copper.k));
+}
+
 TEST_F(ImportColours, GlassIsItsIndexAtTheSodiumLine) {
   const Scene scene =
       world("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n" + std::string(kSphere) +
