@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 namespace kaustik::pbrt {
 
@@ -48,6 +50,19 @@ std::string refusal(const OIIO::ImageSpec& spec) {
   return {};
 }
 
+// Whether a PNG of so many pixels cannot be whole: deflate packs to no less than 1/1032. OpenImageIO takes
+// memory for all of it before it finds out.
+bool is_cut_png(const std::string& path, const OIIO::ImageSpec& spec) {
+  std::array<char, 26> head{};  // signature, then IHDR with its bits per channel and type of colour
+  if (!std::ifstream(path, std::ios::binary).read(head.data(), head.size())) return false;
+  const int type = head[25], channels = type == 2 ? 3 : type == 4 ? 2 : type == 6 ? 4 : 1;
+  const uint64_t row =
+      (static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(head[24] * channels) + 7) / 8;
+  constexpr uint64_t kMostPacked = 1032;
+  std::error_code none;
+  return std::filesystem::file_size(path, none) < row * static_cast<uint64_t>(spec.height) / kMostPacked;
+}
+
 // The channels that count, of all pixels.
 bool read_values(OIIO::ImageInput& in, const std::array<int, 3>& channels, bool grey,
                  std::vector<float>& values) {
@@ -85,6 +100,7 @@ std::optional<DecodedImage> decode_image(const std::string& path, const ImageEnc
   in->threads(1);  // otherwise the library makes a pool of threads of its own
   const OIIO::ImageSpec spec = in->spec();
   if (const std::string why = refusal(spec); !why.empty()) return fail(why);
+  if (in->format_name() == std::string_view("png") && is_cut_png(path, spec)) return fail("it ends early");
   const std::array<int, 3> channels = colour_channels(spec);
   const bool grey = channels[0] == channels[1];
   std::vector<float> values;

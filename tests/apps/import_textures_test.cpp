@@ -230,6 +230,17 @@ TEST_F(ImportTextures, RefusesHugeImagesByTheirHeaders) {
   EXPECT_TRUE(said.starts_with("2:53: error: cannot read the image \"huge.pfm\": ")) << said;
 }
 
+// A PNG is refused by its size where its pixels cannot be in it; one colour packs nearly as well as can be.
+TEST_F(ImportTextures, RefusesCutImagesByTheirSize) {
+  write_image<uint8_t>("black.png", 2048, 1, std::vector<uint8_t>(2048 * 2048));
+  EXPECT_EQ(colour_at(with_texture("\"string filename\" \"black.png\""), 0.5f, 0.5f), Rgb(0));
+  std::ifstream in(folder_ / "black.png", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  write("cut.png", bytes.substr(0, bytes.size() / 2));
+  EXPECT_TRUE(first_lines("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"cut.png\"")
+                  .starts_with("2:53: error: cannot read the image \"cut.png\": it ends early\n"));
+}
+
 // Partial results of another picture are refused: the hash of the scene's files covers images.
 TEST_F(ImportTextures, ImagesAreAPartOfTheContent) {
   const std::string text = "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\"";
