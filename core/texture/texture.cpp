@@ -66,13 +66,13 @@ bool inside_dot(const Point2& st) {
   return glm::dot(d, d) < kRadius * kRadius;
 }
 
-// pbrt's colours of marble: six cubic Bezier curves over nine points, one after the other.
+// pbrt's colours of marble: six cubic Bezier curves over nine points, one after the other. NaN stays NaN.
 Rgb marble_colour(float t) {
   static const Rgb points[] = {{.58f, .58f, .6f}, {.58f, .58f, .6f}, {.58f, .58f, .6f},
                                {.5f, .5f, .5f},   {.6f, .59f, .58f}, {.58f, .58f, .6f},
                                {.58f, .58f, .6f}, {.2f, .2f, .33f},  {.58f, .58f, .6f}};
   constexpr int kCurves = 6;
-  const int first = std::min(int(t * kCurves), kCurves - 1);
+  const int first = t > 0 ? std::min(int(t * kCurves), kCurves - 1) : 0;  // of NaN, too
   const float u = t * kCurves - float(first), v = 1 - u;
   const Rgb* b = points + first;
   return 1.5f * (v * v * v * b[0] + 3 * v * v * u * b[1] + 3 * v * u * u * b[2] + u * u * u * b[3]);

@@ -152,6 +152,13 @@ TEST(Texture, CheckerboardIsFilteredInSmall) {
   }
 }
 
+// Octaves that are beyond numbers leave no number, which readers of textures know.
+TEST(Texture, MarbleOfWhatIsNoNumber) {
+  MarbleTexture marble;
+  marble.octaves.omega = 1e30f;
+  EXPECT_TRUE(std::isnan(value(marble, at({0.3f, 0.4f, 0.5f})).x));
+}
+
 // Filtering moves values, it adds none: the mean over a period is that of the two textures, for any width.
 // Midpoints of 64 columns: exact up to rounding for a function that is symmetric about both borders.
 TEST(Texture, CheckerboardKeepsItsMean) {
