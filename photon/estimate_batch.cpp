@@ -4,7 +4,6 @@
 #include <functional>
 #include <numeric>
 
-#include "photon/boundary_correction.h"
 #include "photon/packing.h"
 
 namespace kaustik::photon {
@@ -94,7 +93,7 @@ void EstimateBatch::read(std::span<const uint32_t> of_one_map, GatherCounters& c
     reading.accepted = float(results_[k].counters.accepted);
     reading.flux = results_[k].flux;
     if (!settings.edges || is_black(reading.flux)) continue;
-    reading.flux /= float(surface_share(*settings.edges, reading.si, settings.kernel, reading.query.radius));
+    reading.flux /= float(share_of_disc(settings, reading.si, reading.query.radius));
   }
 }
 

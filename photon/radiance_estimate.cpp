@@ -74,7 +74,7 @@ Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery
   const Vector3 wo = frame.to_local(x.wo);
   const Rgb Lr = std::visit(ReflectedRadiance{map, disc, settings.kernel, frame, wo, counters}, x.bsdf);
   if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
-  return Lr / float(surface_share(*settings.edges, x.si, settings.kernel, disc.radius));
+  return Lr / float(share_of_disc(settings, x.si, disc.radius));
 }
 
 // Of the photons that arrived on the side of n.
@@ -93,6 +93,12 @@ Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& 
 }
 
 }  // namespace
+
+double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction& si, float radius) {
+  if (settings.areas && settings.areas->covers(si.surface_group))
+    return settings.areas->share(si, settings.kernel, radius);
+  return surface_share(*settings.edges, si, settings.kernel, radius);
+}
 
 float disc_of_nearest(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
   const float radius = map.nearest_radius(query, k, counters);

@@ -5,6 +5,7 @@
 #include "core/bsdf/bsdf.h"
 #include "core/geometry/interaction.h"
 #include "photon/photon_map.h"
+#include "photon/surface_areas.h"
 
 namespace kaustik::photon {
 
@@ -17,7 +18,13 @@ struct EstimateSettings {
   // Where surfaces end; null: discs are taken to lie on the surface as a whole. Not read by the leaf lookup,
   // whose cells cut the disc anyway.
   const accel::EdgeIndex* edges = nullptr;
+  // Where surfaces curve, for `radius`; read beside edges only. null: as if they were flat.
+  const SurfaceAreas* areas = nullptr;
 };
+
+// Share of the kernel's mass on si's surface within `radius` metres, in (0, 1]: what a sum over photons is
+// divided by. settings.edges is not null. Thread-safe.
+double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction& si, float radius);
 
 // By how much kernels make light too bright, and what it took to find out.
 struct BiasEstimate {
@@ -29,7 +36,7 @@ struct BiasEstimate {
 // Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", equations 7.3 to 7.6. No cosine: flux per
 // area already holds it. wo: unit, world, away from the surface. Bias: that of the kernel, O(radius^2) where
 // light is smooth. With settings.edges the sum is divided by the kernel's share on the surface
-// (surface_share), without it is too dark by up to half within radius of the surface's border. Of a BSDF that
+// (share_of_disc), without it is too dark by up to half within radius of the surface's border. Of a BSDF that
 // lets light through, photons on the far side count too, with a disc of their own; a body's opposite surface
 // nearer than the radius is then taken for this one. Zero for specular BSDFs and empty maps. Thread-safe.
 //

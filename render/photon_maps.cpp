@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 
 #include "photon/visibility_shoot.h"
 #include "render/radius.h"
@@ -81,6 +83,29 @@ void set_estimates(const RenderSettings& settings, const PassShare& pass, const 
                    static_cast<uint32_t>(settings.min_photons / pass.shares)};
 }
 
+// Smallest 2^(k/2) metres that is not below the radius, so that passes whose radius falls a little share what
+// is made for it.
+float at_least(float radius) {
+  int exponent = 0;
+  const float mantissa = std::frexp(radius, &exponent);
+  return std::ldexp(mantissa <= std::numbers::sqrt2_v<float> / 2 ? std::numbers::sqrt2_v<float> / 2 : 1.0f,
+                    exponent);
+}
+
+// Where surfaces curve, for the discs of each map. Those that shrink to the nearest photons are small where
+// photons are many; where they are few they are read as if surfaces were flat.
+void set_areas(const Scene& scene, PhotonMaps* maps) {
+  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
+    const photon::EstimateSettings& estimate = read->estimate;
+    if (!maps->edges || estimate.nearest > 0 || !(estimate.radius > 0)) continue;
+    const float radius = at_least(estimate.radius);
+    if (!read->areas || read->areas_radius != radius)
+      read->areas = std::make_unique<const photon::SurfaceAreas>(scene, maps->bends, radius);
+    read->areas_radius = radius;
+    read->estimate.areas = read->areas.get();
+  }
+}
+
 void note_radii(const GatherRadii& radii, RenderStatistics* s) {
   s->direct_radius = radii.direct, s->caustic_radius = radii.caustic, s->indirect_radius = radii.indirect;
   s->radius = std::max({radii.direct, radii.caustic, radii.indirect});
@@ -104,8 +129,8 @@ void free_maps(PhotonMaps* maps) {
 // Of the scene alone.
 void find_edges(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings, PhotonMaps* maps) {
   if (settings.lookup == Lookup::kLeaf || maps->edges) return;
-  maps->edges =
-      std::make_unique<accel::EdgeIndex>(accel::without_continued(find_boundary_edges(scene.shapes), bvh));
+  maps->edges = std::make_unique<accel::EdgeIndex>(
+      accel::without_continued(find_boundary_edges(scene.shapes, &maps->bends), bvh));
 }
 
 // One for 32 samples of the image, so that they cost little beside the shadow rays they save, up to as many
@@ -260,6 +285,7 @@ bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSet
   if (!*radii) *radii = settle_radii(scene, bvh, settings, plan, pass, *maps);
   find_edges(scene, bvh, settings, maps);
   set_estimates(settings, pass, **radii, maps);
+  set_areas(scene, maps);
   note_radii(**radii, statistics);
   add_sizes(*maps, statistics);
   statistics->photon_build_s += seconds_since(build_start);

@@ -20,6 +20,9 @@ namespace kaustik::render {
 struct ReadMap {
   photon::PhotonMap map;
   photon::EstimateSettings estimate;
+  // For discs of up to areas_radius metres; estimate points to it where it serves.
+  std::unique_ptr<const photon::SurfaceAreas> areas;
+  float areas_radius = 0;
 };
 
 struct PhotonMaps {
@@ -28,6 +31,7 @@ struct PhotonMaps {
   photon::LectureSettings lecture;
   RadiusShrink shrink;
   std::unique_ptr<const accel::EdgeIndex> edges;             // where surfaces end; the estimates point to it
+  std::vector<SurfaceBend> bends;                            // how they curve, by surface group
   std::unique_ptr<const photon::VisibilityTree> visibility;  // only for `predicted`; of all passes
   // For caustic and indirect photons that are read; of all passes.
   std::unique_ptr<const photon::LearnedGuide> caustic_guide, indirect_guide;

@@ -89,20 +89,44 @@ std::vector<MeshSide> sides_of(const TriangleMesh& mesh) {
   return sides;
 }
 
-bool is_flat(const TriangleMesh& mesh, const MeshSide& a, const MeshSide& b) {
-  const float cosine = glm::dot(winding_normal(mesh, a.corner / 3), winding_normal(mesh, b.corner / 3));
-  // Windings that agree run along their common side in opposite directions.
-  return (a.forward != b.forward ? cosine : -cosine) > kBendCosine;
+std::pair<Point3, Point3> ends_of(const TriangleMesh& mesh, const MeshSide& side) {
+  return {mesh.P[side.vertices >> 32], mesh.P[side.vertices & 0xffffffffu]};
 }
 
-void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, std::vector<OpenSide>* open) {
+// Two triangles at a side of both.
+struct Bend {
+  bool smooth = false;
+  bool oriented = true;
+  double angle = 0;  // radians
+};
+
+Bend bend_of(const TriangleMesh& mesh, const MeshSide& a, const MeshSide& b) {
+  const Normal3 na = winding_normal(mesh, a.corner / 3), nb = winding_normal(mesh, b.corner / 3);
+  // Windings that agree run along their common side in opposite directions.
+  const Normal3 turned = a.forward != b.forward ? nb : -nb;
+  if (!(glm::dot(na, turned) > kBendCosine)) return {};
+  const bool oriented = orientation(mesh, a.corner / 3, na, false) *
+                            orientation(mesh, b.corner / 3, nb, false) *
+                            (a.forward != b.forward ? 1.0f : -1.0f) >
+                        0;
+  return {true, oriented, 2 * std::asin(std::min(0.5 * double(glm::length(na - turned)), 1.0))};
+}
+
+void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, std::vector<OpenSide>* open,
+                    SurfaceBend* bends) {
   const std::vector<MeshSide> sides = sides_of(mesh);
   for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].vertices == sides[begin].vertices) ++end;
-    if (end - begin == 2 && is_flat(mesh, sides[begin], sides[begin + 1])) continue;
+    if (end - begin == 2) {
+      const Bend bend = bend_of(mesh, sides[begin], sides[begin + 1]);
+      const auto [low, high] = ends_of(mesh, sides[begin]);
+      bends->oriented = bends->oriented && bend.oriented;
+      bends->bend += bend.angle * glm::length(glm::dvec3(high) - glm::dvec3(low));
+      if (bend.smooth) continue;
+    }
     for (size_t i = begin; i < end; ++i) {
-      std::array<PointBits, 2> ends = {bits_of(mesh.P[sides[i].vertices >> 32]),
-                                       bits_of(mesh.P[sides[i].vertices & 0xffffffffu])};
+      const auto [low, high] = ends_of(mesh, sides[i]);
+      std::array<PointBits, 2> ends = {bits_of(low), bits_of(high)};
       std::sort(ends.begin(), ends.end());
       open->push_back({ends, group, shape, sides[i].corner});
     }
@@ -171,11 +195,12 @@ class Joint {
 // More triangles at one edge make no surface; matching them takes cubic time.
 constexpr size_t kMaxSidesOfJoint = 64;
 
-void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges) {
+void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges,
+                    std::vector<SurfaceBend>* bends) {
   std::vector<OpenSide> open;
   for (uint32_t i = 0; i < shapes.size(); ++i)
     if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[i].geometry))
-      add_open_sides(*mesh, i, shapes[i].surface_group, &open);
+      add_open_sides(*mesh, i, shapes[i].surface_group, &open, &(*bends)[shapes[i].surface_group]);
   const auto key = [](const OpenSide& s) { return std::tie(s.surface_group, s.ends, s.shape, s.corner); };
   tbb::parallel_sort(open.begin(), open.end(),
                      [&](const OpenSide& a, const OpenSide& b) { return key(a) < key(b); });
@@ -191,16 +216,16 @@ void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>*
 // Of an instanced mesh, in its own space.
 struct OwnEdges {
   std::vector<BoundaryEdge> edges;
+  std::vector<SurfaceBend> bends{1};
   uint64_t instances = 0;
 };
 
-std::vector<BoundaryEdge> own_edges(const InstancedMesh& instance, bool flip_normal) {
+void find_own_edges(const InstancedMesh& instance, bool flip_normal, OwnEdges* own) {
   std::vector<Shape> alone(1);
   alone[0].geometry = *instance.mesh;
   alone[0].flip_normal = flip_normal;
-  std::vector<BoundaryEdge> edges;
-  add_mesh_edges(alone, &edges);
-  return edges;
+  own->bends[0].area = surface_area(alone[0]);
+  add_mesh_edges(alone, &own->edges, &own->bends);
 }
 
 void add_placed(const OwnEdges& own, const Transform& t, uint32_t group, std::vector<BoundaryEdge>* edges) {
@@ -214,7 +239,8 @@ void add_placed(const OwnEdges& own, const Transform& t, uint32_t group, std::ve
   }
 }
 
-void add_instance_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges) {
+void add_instance_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges,
+                        std::vector<SurfaceBend>* bends) {
   std::map<std::pair<const TriangleMesh*, bool>, OwnEdges> own;
   const auto for_each_instance = [&](const auto& fn) {
     for (const Shape& shape : shapes)
@@ -222,21 +248,53 @@ void add_instance_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEd
         fn(shape, *instance, own[{instance->mesh.get(), shape.flip_normal}]);
   };
   for_each_instance([](const Shape& shape, const InstancedMesh& instance, OwnEdges& found) {
-    if (found.instances++ == 0) found.edges = own_edges(instance, shape.flip_normal);
+    if (found.instances++ == 0) find_own_edges(instance, shape.flip_normal, &found);
   });
   for_each_instance([&](const Shape& shape, const InstancedMesh& instance, const OwnEdges& found) {
+    SurfaceBend& bend = (*bends)[shape.surface_group];
+    bend.oriented = bend.oriented && found.bends[0].oriented;
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(instance.to_world.linear))));
+    bend.bend += found.bends[0].bend * scale;
+    bend.area += found.bends[0].area * scale * scale;
     if (found.edges.size() * found.instances <= kMostInstanceEdges)
       add_placed(found, instance.to_world, shape.surface_group, edges);
   });
 }
 
+// Of an ellipsoid as of a ball of its mean radius.
+double bend_of_quadric(const Shape& shape) {
+  const Transform* to_world = nullptr;
+  double curvature = 2;  // the sum of both, of the unit shape
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) to_world = &sphere->to_world;
+  if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
+    if (quadric->kind == QuadricKind::kDisk) return 0;
+    if (quadric->kind == QuadricKind::kCylinder) curvature = 1;
+    to_world = &quadric->to_world;
+  }
+  if (!to_world) return 0;
+  const glm::dmat3 m(to_world->linear);
+  const double scale = curvature == 1 ? std::sqrt(glm::length(glm::cross(m[0], m[1])))
+                                      : std::cbrt(std::abs(glm::determinant(m)));
+  return scale > 0 ? curvature * surface_area(shape) / scale : 0;
+}
+
 }  // namespace
 
-std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes) {
+std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes,
+                                              std::vector<SurfaceBend>* bends) {
   std::vector<BoundaryEdge> edges;
-  add_mesh_edges(shapes, &edges);
-  add_instance_edges(shapes, &edges);
+  uint32_t groups = 0;
+  for (const Shape& shape : shapes) groups = std::max(groups, shape.surface_group + 1);
+  std::vector<SurfaceBend> found(groups);
+  for (const Shape& shape : shapes) {
+    if (std::holds_alternative<InstancedMesh>(shape.geometry)) continue;
+    found[shape.surface_group].area += surface_area(shape);
+    found[shape.surface_group].bend += bend_of_quadric(shape);
+  }
+  add_mesh_edges(shapes, &edges, &found);
+  add_instance_edges(shapes, &edges, &found);
   for (const Shape& shape : shapes) add_rims(shape, &edges);
+  if (bends) *bends = std::move(found);
   return edges;
 }
 

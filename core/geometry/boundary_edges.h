@@ -22,6 +22,14 @@ struct BoundaryEdge {
   uint32_t surface_group = 0;
 };
 
+// How a surface group bends where it has no edges.
+struct SurfaceBend {
+  double area = 0;  // m^2
+  double bend = 0;  // rad m: over its smooth joints, the angle times the length (a cylinder's area over its
+                    // radius, a ball's area over half of it)
+  bool oriented = true;  // facets that meet smoothly have their normals on one side
+};
+
 // Most edges of all instances of one mesh: where there are more, they are left out, and estimates next to
 // them are too dark.
 inline constexpr uint64_t kMostInstanceEdges = 1 << 20;
@@ -36,6 +44,9 @@ inline constexpr float kBendCosine = 0.9f;
 // quadrics polygons of corners on the rim. Whole spheres have no edges; triangles without area are left out.
 // Edges where unwelded facets meet are listed although the surface goes on, see accel::without_continued. O(n
 // log n); the order depends on shapes alone and not on their scale.
-std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes);
+// bends: if not null, becomes how the groups bend, by surface group. Of instances, as if they were scaled
+// evenly; joints of two meshes are left out.
+std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes,
+                                              std::vector<SurfaceBend>* bends = nullptr);
 
 }  // namespace kaustik
