@@ -40,18 +40,20 @@ class GuideLearner {
       learned.emitted += trace.photons;
       rounds_.push_back({double(trace.photons), std::move(learned.guide)});
       learned.guide = EmissionGuide(weighted(), scene_.lights.size() > 1 ? 5 : 4);
-      if (is_vain(learned.guide)) break;
+      if (is_vain(learned.guide) || serves_enough()) break;
     }
     learned.hits = starts_.size();
-    if (learned.guide.variance() > kMostVariance) learned.guide = {};
+    if (learned.guide.variance() > kMostVariance || serves_enough()) learned.guide = {};
     return learned;
   }
 
  private:
   // Many photons have served, and nearly evenly.
   bool is_vain(const EmissionGuide& guide) const {
-    return starts_.size() >= (1u << 13) && guide.variance() > 0.9;
+    return starts_.size() >= (1u << 12) && guide.variance() > 0.9;
   }
+  // In the first round, the uniform one.
+  bool serves_enough() const { return double(uniform_hits_) >= settings_.enough * rounds_[0].photons; }
 
   struct Round {
     double photons = 0;
@@ -61,7 +63,7 @@ class GuideLearner {
   // A small target is found step by step: each round knows it better, and meets it more often. Photons that
   // miss it end soon, so that they cost little.
   bool found_few() const {
-    return !starts_.empty() && starts_.size() < (1u << 14) && rays_ < settings_.photons;
+    return !starts_.empty() && starts_.size() < (1u << 14) && rays_ < settings_.photons / 4;
   }
 
   TraceSettings settings_of(uint64_t round, const EmissionGuide& guide) const {
@@ -69,7 +71,7 @@ class GuideLearner {
     TraceSettings trace;
     trace.seed = settings_.seed;
     trace.pass = kGuidePass + round + (uint64_t(settings_.kind) << 8);
-    trace.photons = std::clamp(settings_.photons / (8 * kRounds), kFewest, kMost)
+    trace.photons = std::clamp(settings_.photons / 64, kFewest, kMost)
                     << (round < kRounds ? 0 : round - kRounds + 1);
     trace.max_bounces = settings_.max_bounces;
     trace.emission = settings_.emission;
@@ -96,6 +98,7 @@ class GuideLearner {
     });
     for (const auto& found : of_block) starts_.insert(starts_.end(), found.begin(), found.end());
     for (const TraceCounters& of : counters) rays_ += of.rays;
+    if (rounds_.empty()) uniform_hits_ = starts_.size();
   }
 
   double importance(const Photon& photon) const {
@@ -128,7 +131,7 @@ class GuideLearner {
   const accel::Bvh& bvh_;
   const GuideSettings& settings_;
   SurfaceTable surfaces_{scene_};
-  uint64_t rays_ = 0;
+  uint64_t rays_ = 0, uniform_hits_ = 0;
   std::vector<Round> rounds_;
   std::vector<Start> starts_;
 };

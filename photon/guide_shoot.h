@@ -11,14 +11,17 @@ namespace kaustik::photon {
 
 struct GuideSettings {
   uint64_t seed = 0;
-  uint64_t photons =
-      0;  // of the render: an eighth of them is emitted to learn from, or up to .3 where few serve
+  // Of the render: a thirteenth of them is emitted to learn from; more where few serve, until they have
+  // traced a quarter as many rays.
+  uint64_t photons = 0;
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
   PhotonKind kind = PhotonKind::kCaustic;  // that is to be left
   // How much a photon matters where it was left; zero: it does not serve. Unset: all matter alike.
   // Thread-safe, and a function of the photon alone.
   std::function<float(const Photon&)> importance{};
+  // Where so many of the uniform photons serve, nothing is guided.
+  double enough = 2;
 };
 
 struct LearnedGuide {

@@ -153,12 +153,18 @@ void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const Render
   statistics->photon_trace_s += seconds_since(start);
 }
 
+// Caustic photons that uniform emission leaves on its way to other kinds cost nothing: from so many on, guided
+// ones are not worth their rays (docs/performance.md).
+constexpr double kEnoughCaustics = 1.0 / 64;
+
 // Likewise. Indirect photons lie everywhere where light is, outside of a room, too: those that are seen
 // count.
 std::unique_ptr<const photon::LearnedGuide> learn_guide(const Scene& scene, const accel::Bvh& bvh,
-                                                        const RenderSettings& settings, PhotonKind kind) {
+                                                        const RenderSettings& settings, PhotonKind kind,
+                                                        bool beside_others) {
   constexpr uint32_t kPoints = 1u << 14;
   photon::GuideSettings guide{settings.seed, settings.photons, settings.max_bounces, settings.emission, kind};
+  if (beside_others) guide.enough = kEnoughCaustics;
   std::optional<VisibleDensity> visible;
   if (kind == PhotonKind::kIndirect) {
     visible.emplace(visible_points(scene, bvh, settings, kPoints));
@@ -173,16 +179,17 @@ void learn_guides(const Scene& scene, const accel::Bvh& bvh, const RenderSetting
   if (settings.guide == Guide::kOff) return;
   const photon::KindMask kinds = kinds_needed(plan);
   const auto start = std::chrono::steady_clock::now();
-  const auto learn = [&](PhotonKind kind, auto* guide) {
+  const auto learn = [&](PhotonKind kind, bool beside_others, auto* guide) {
     if (!kinds[kind]) return;
-    if (!*guide) *guide = learn_guide(scene, bvh, settings, kind);
+    if (!*guide) *guide = learn_guide(scene, bvh, settings, kind, beside_others);
     statistics->guide_photons += (*guide)->emitted;
     statistics->guide_hits += (*guide)->hits;
     statistics->guide_boxes += (*guide)->guide.boxes();
   };
   statistics->guide_photons = statistics->guide_hits = statistics->guide_boxes = 0;
-  learn(PhotonKind::kCaustic, &maps->caustic_guide);
-  learn(PhotonKind::kIndirect, &maps->indirect_guide);
+  learn(PhotonKind::kIndirect, false, &maps->indirect_guide);
+  const bool uniform_indirect = kinds.indirect && maps->indirect_guide->guide.empty();
+  learn(PhotonKind::kCaustic, uniform_indirect || kinds.direct || kinds.shadow, &maps->caustic_guide);
   statistics->photon_trace_s += seconds_since(start);
 }
 
@@ -211,8 +218,8 @@ std::vector<Shoot> plan_shoots(const RenderSettings& settings, const EstimatorPl
     take(kind, &others, &guided);
     shoots.push_back(guided);
   };
-  guide(PhotonKind::kCaustic, maps.caustic_guide, guided_photons(settings, plan, pass.photons));
   guide(PhotonKind::kIndirect, maps.indirect_guide, pass.photons);
+  guide(PhotonKind::kCaustic, maps.caustic_guide, guided_photons(settings, plan, pass.photons));
   if (others.trace.kinds.any()) shoots.insert(shoots.begin(), others);
   return shoots;
 }
