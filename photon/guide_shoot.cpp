@@ -63,7 +63,7 @@ class GuideLearner {
   // A small target is found step by step: each round knows it better, and meets it more often. Photons that
   // miss it end soon, so that they cost little.
   bool found_few() const {
-    return !starts_.empty() && starts_.size() < (1u << 14) && rays_ < settings_.photons / 4;
+    return !starts_.empty() && starts_.size() < (1u << 14) && rays_ < settings_.photons / 2;
   }
 
   TraceSettings settings_of(uint64_t round, const EmissionGuide& guide) const {

@@ -12,7 +12,7 @@ namespace kaustik::photon {
 struct GuideSettings {
   uint64_t seed = 0;
   // Of the render: a thirteenth of them is emitted to learn from; more where few serve, until they have
-  // traced a quarter as many rays.
+  // traced half as many rays.
   uint64_t photons = 0;
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;

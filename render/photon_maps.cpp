@@ -153,8 +153,8 @@ void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const Render
   statistics->photon_trace_s += seconds_since(start);
 }
 
-// Caustic photons that uniform emission leaves on its way to other kinds cost nothing: from so many on, guided
-// ones are not worth their rays (docs/performance.md).
+// Caustic photons that uniform emission leaves on its way to other kinds cost nothing: from so many on,
+// guided ones are not worth their rays (docs/performance.md).
 constexpr double kEnoughCaustics = 1.0 / 64;
 
 // Likewise. Indirect photons lie everywhere where light is, outside of a room, too: those that are seen

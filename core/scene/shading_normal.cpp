@@ -40,8 +40,10 @@ Vector3 mapped(const TextureSet& textures, uint32_t image, const TexturePoint& x
   constexpr ImageSampling kSampling;
   const Rgb colour = textures.images().lookup(image, kSampling, {x.uv.x, 1 - x.uv.y}, Vector2(0), Vector2(0));
   const Vector3 local = 2.0f * colour - 1.0f;
-  const Vector3 along_u = glm::normalize(tangents(surface, ns).u);
-  return local.x * along_u + local.y * glm::cross(ns, along_u) + local.z * ns;
+  const Tangents t = tangents(surface, ns);
+  const Vector3 along_u = glm::normalize(t.u), across = glm::cross(ns, along_u);
+  // Where uv is mirrored, towards v all the same, as programs that bake maps take it.
+  return local.x * along_u + (glm::dot(across, t.v) < 0 ? -local.y : local.y) * across + local.z * ns;
 }
 
 }  // namespace

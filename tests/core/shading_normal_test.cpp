@@ -82,12 +82,12 @@ class OneColour final : public ImageLibrary {
   Rgb colour_;
 };
 
-Normal3 mapped(const Rgb& colour, const SurfaceInteraction& si) {
+Normal3 mapped(const Rgb& colour, const SurfaceInteraction& si, const SurfaceParameters& surface = plane()) {
   TextureSet textures;
   textures.set_images(std::make_shared<OneColour>(colour));
   TexturedMaterial material;
   material.normal_map = 0;
-  return shading_normal(textures, material, {}, plane(), si);
+  return shading_normal(textures, material, {}, surface, si);
 }
 
 // 2 c - 1 in the frame of u, ns x u, ns: (0.6, 0, 0.8) from (0.8, 0.5, 0.9).
@@ -97,6 +97,22 @@ TEST(NormalMap, OfAPlane) {
   EXPECT_NEAR(n.y, 0, 1e-6f);
   EXPECT_NEAR(n.z, 0.8f, 1e-6f);
   EXPECT_NEAR(mapped({0.5f, 0.8f, 0.9f}, {}).y, 0.6f, 1e-6f);
+}
+
+// Symmetric models show half of a map mirrored: up in the map stays up on both halves, from either side.
+TEST(NormalMap, GreenIsTowardsV) {
+  for (const bool u_turned : {false, true})
+    for (const bool v_turned : {false, true})
+      for (const float side : {1.0f, -1.0f}) {
+        SurfaceParameters surface = plane();
+        if (u_turned) surface.dpdu = -surface.dpdu;
+        if (v_turned) surface.dpdv = -surface.dpdv;
+        SurfaceInteraction si;
+        si.n = si.ns = {0, 0, side};
+        const Normal3 n = mapped({0.5f, 0.8f, 0.9f}, si, surface);
+        EXPECT_NEAR(n.y, v_turned ? -0.6f : 0.6f, 1e-6f);
+        EXPECT_NEAR(n.z, 0.8f * side, 1e-6f);
+      }
 }
 
 TEST(NormalMap, WithoutANormalChangesNothing) {
