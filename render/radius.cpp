@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "render/visible_points.h"
 
@@ -25,12 +26,21 @@ constexpr RadiusRule kDirectRule{160, 64};
 constexpr RadiusRule kIndirectRule{500, 200};
 constexpr RadiusRule kCausticRule{232, kFewestInReach};
 
-// Photons evenly spaced in the map's order.
+// Photons evenly spaced in the light of the map, in its order: guided ones lie densely where they are dim.
 std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
+  constexpr uint64_t kLookedAt = 1 << 16;
+  const uint64_t looked_at = std::min(map.size(), kLookedAt);
+  const auto photon = [&](uint64_t i) { return map.photon(i * map.size() / looked_at); };
+  std::vector<double> light(looked_at);
+  tbb::parallel_for(uint64_t{0}, looked_at,
+                    [&](uint64_t i) { light[i] = double(max_component(photon(i).flux)); });
+  std::partial_sum(light.begin(), light.end(), light.begin());
   std::vector<VisiblePoint> points;
-  const uint64_t count = std::min<uint64_t>(map.size(), kPilotPoints);
+  const uint64_t count = std::min<uint64_t>(looked_at, kPilotPoints);
   for (uint64_t i = 0; i < count; ++i) {
-    const photon::Photon p = map.photon(map.size() / count * i);
+    const double at = light.back() * (double(i) + 0.5) / double(count);
+    const auto found = std::lower_bound(light.begin(), light.end(), at);
+    const photon::Photon p = photon(uint64_t(std::min(found, light.end() - 1) - light.begin()));
     points.push_back({{p.p, p.n, p.surface_group}});
   }
   return points;
