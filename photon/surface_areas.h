@@ -26,7 +26,7 @@ class SurfaceAreas {
   static constexpr int kFineness = 12;
 
   // Groups of more pieces are not summed, nor what would make all of them more than kMostPieces.
-  static constexpr uint64_t kMostPieces = 1 << 22;
+  static constexpr uint64_t kMostPieces = 1 << 20;
 
   SurfaceAreas() = default;
 
