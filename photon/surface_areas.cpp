@@ -44,16 +44,13 @@ class Cutter {
     const TriangleMesh quadric = tessellated(shape);
     const auto* const instance = std::get_if<InstancedMesh>(&shape.geometry);
     const TriangleMesh& mesh = shape.mesh() ? *shape.mesh() : quadric;
-    for (size_t t = 0; t < mesh.indices.size(); ++t) {
-      Corners c;
-      for (size_t k = 0; k < 3; ++k) {
-        c[k] = mesh.P[mesh.indices[t][k]];
-        if (instance) c[k] = instance->to_world.point(c[k]);
-      }
-      group_ = shape.surface_group;
+    group_ = shape.surface_group;
+    for (const auto& triangle : mesh.indices) {
+      Corners c{mesh.P[triangle[0]], mesh.P[triangle[1]], mesh.P[triangle[2]]};
       n_ = triangle_normal(c[1] - c[0], c[2] - c[0]);
       if (n_ == Normal3(0)) continue;
-      n_ *= orientation(shape, mesh, t);
+      n_ *= outside_of(mesh, triangle, n_, shape.flip_normal);
+      if (instance) place(instance->to_world, &c);
       cut(c);
     }
   }
@@ -61,16 +58,10 @@ class Cutter {
  private:
   using Corners = std::array<Point3, 3>;
 
-  // +1 or -1: from the winding's normal in world space to SurfaceInteraction::n.
-  float orientation(const Shape& shape, const TriangleMesh& mesh, size_t t) const {
-    if (mesh.N.empty()) return shape.flip_normal ? -1.0f : 1.0f;
-    const auto [i0, i1, i2] = mesh.indices[t];
-    Normal3 N = mesh.N[i0] + mesh.N[i1] + mesh.N[i2];
-    if (const auto* instance = std::get_if<InstancedMesh>(&shape.geometry)) {
-      N = instance->to_world.normal(N);
-      if (shape.flip_normal) N = -N;
-    }
-    return glm::dot(n_, N) < 0 ? -1.0f : 1.0f;
+  // As SurfaceInteraction::n is placed: also where the map mirrors, the outside stays outside.
+  void place(const Transform& to_world, Corners* c) {
+    for (Point3& p : *c) p = to_world.point(p);
+    n_ = glm::normalize(to_world.normal(n_));
   }
 
   // Into strips along the shortest side, and those into cells: needles stay few.
@@ -168,7 +159,8 @@ std::vector<bool> curved_groups(const Scene& scene, const std::vector<SurfaceBen
 
 }  // namespace
 
-SurfaceAreas::SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius) {
+SurfaceAreas::SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius)
+    : radius_(radius) {
   const float voxel = radius / kFineness;
   if (!(voxel > 0) || !std::isfinite(voxel)) return;
   covered_ = curved_groups(scene, bends, radius);

@@ -28,8 +28,6 @@ class SurfaceAreas {
   // Groups of more pieces are not summed, nor what would make all of them more than kMostPieces.
   static constexpr uint64_t kMostPieces = 1 << 20;
 
-  SurfaceAreas() = default;
-
   // For discs of up to `radius` metres on groups where photons are gathered; they bend by `bends`, one for
   // each group.
   SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius);
@@ -43,11 +41,12 @@ class SurfaceAreas {
   // tell it. radius: that of the constructor, or less: then of fewer pieces.
   double share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius) const;
 
-  uint64_t memory_bytes() const { return pieces_.memory_bytes(); }
+  float radius() const { return radius_; }  // metres, for discs of up to which it was made
 
  private:
   static constexpr double kLeastShare = 1.0 / 256;
 
+  float radius_;
   std::vector<bool> covered_;
   PhotonMap pieces_;
 };

@@ -92,6 +92,14 @@ float at_least(float radius) {
                     exponent);
 }
 
+// Those of another map, or of this one in the pass before, where they are for the same radius.
+std::shared_ptr<const photon::SurfaceAreas> areas_for(float radius, const Scene& scene,
+                                                      const PhotonMaps& maps) {
+  for (const ReadMap* read : {&maps.direct, &maps.caustic, &maps.indirect})
+    if (read->areas && read->areas->radius() == radius) return read->areas;
+  return std::make_shared<const photon::SurfaceAreas>(scene, maps.bends, radius);
+}
+
 // Where surfaces curve, for the discs of each map. Those that shrink to the nearest photons are small where
 // photons are many; where they are few they are read as if surfaces were flat.
 void set_areas(const Scene& scene, PhotonMaps* maps) {
@@ -99,9 +107,7 @@ void set_areas(const Scene& scene, PhotonMaps* maps) {
     const photon::EstimateSettings& estimate = read->estimate;
     if (!maps->edges || estimate.nearest > 0 || !(estimate.radius > 0)) continue;
     const float radius = at_least(estimate.radius);
-    if (!read->areas || read->areas_radius != radius)
-      read->areas = std::make_unique<const photon::SurfaceAreas>(scene, maps->bends, radius);
-    read->areas_radius = radius;
+    read->areas = areas_for(radius, scene, *maps);
     read->estimate.areas = read->areas.get();
   }
 }

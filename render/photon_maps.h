@@ -20,9 +20,7 @@ namespace kaustik::render {
 struct ReadMap {
   photon::PhotonMap map;
   photon::EstimateSettings estimate;
-  // For discs of up to areas_radius metres; estimate points to it where it serves.
-  std::unique_ptr<const photon::SurfaceAreas> areas;
-  float areas_radius = 0;
+  std::shared_ptr<const photon::SurfaceAreas> areas;  // estimate points to it where it serves
 };
 
 struct PhotonMaps {

@@ -40,7 +40,7 @@ std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
   for (uint64_t i = 0; i < count; ++i) {
     const double at = light.back() * (double(i) + 0.5) / double(count);
     const auto found = std::lower_bound(light.begin(), light.end(), at);
-    const photon::Photon p = photon(uint64_t(std::min(found, light.end() - 1) - light.begin()));
+    const photon::Photon p = photon(uint64_t(found - light.begin()));
     points.push_back({{p.p, p.n, p.surface_group}});
   }
   return points;

@@ -36,13 +36,6 @@ Normal3 winding_normal(const TriangleMesh& mesh, uint32_t triangle) {
   return triangle_normal(mesh.P[i1] - mesh.P[i0], mesh.P[i2] - mesh.P[i0]);
 }
 
-// +1 or -1: from the winding's normal to the one that make_interaction gives.
-float orientation(const TriangleMesh& mesh, uint32_t triangle, const Normal3& winding, bool flip_normal) {
-  if (mesh.N.empty()) return flip_normal ? -1.0f : 1.0f;
-  const auto [i0, i1, i2] = mesh.indices[triangle];
-  return glm::dot(winding, mesh.N[i0] + mesh.N[i1] + mesh.N[i2]) < 0 ? -1.0f : 1.0f;
-}
-
 // The side from corner % 3 to the next vertex of triangle corner / 3.
 struct MeshSide {
   uint64_t vertices;  // welded, the lower one first
@@ -105,8 +98,8 @@ Bend bend_of(const TriangleMesh& mesh, const MeshSide& a, const MeshSide& b) {
   // Windings that agree run along their common side in opposite directions.
   const Normal3 turned = a.forward != b.forward ? nb : -nb;
   if (!(glm::dot(na, turned) > kBendCosine)) return {};
-  const bool oriented = orientation(mesh, a.corner / 3, na, false) *
-                            orientation(mesh, b.corner / 3, nb, false) *
+  const bool oriented = outside_of(mesh, mesh.indices[a.corner / 3], na, false) *
+                            outside_of(mesh, mesh.indices[b.corner / 3], nb, false) *
                             (a.forward != b.forward ? 1.0f : -1.0f) >
                         0;
   return {true, oriented, 2 * std::asin(std::min(0.5 * double(glm::length(na - turned)), 1.0))};
@@ -142,7 +135,7 @@ class Joint {
       const uint32_t t = side.corner / 3, k = side.corner % 3;
       Facet facet;
       facet.n = winding_normal(mesh, t);
-      facet.orientation = orientation(mesh, t, facet.n, shapes[side.shape].flip_normal);
+      facet.orientation = outside_of(mesh, mesh.indices[t], facet.n, shapes[side.shape].flip_normal);
       facet.forward = bits_of(mesh.P[mesh.indices[t][k]]) == side.ends[0];
       facet.third = mesh.P[mesh.indices[t][(k + 2) % 3]];
       facets_.push_back(facet);
@@ -263,19 +256,13 @@ void add_instance_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEd
 
 // Of an ellipsoid as of a ball of its mean radius.
 double bend_of_quadric(const Shape& shape) {
-  const Transform* to_world = nullptr;
-  double curvature = 2;  // the sum of both, of the unit shape
-  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) to_world = &sphere->to_world;
-  if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
-    if (quadric->kind == QuadricKind::kDisk) return 0;
-    if (quadric->kind == QuadricKind::kCylinder) curvature = 1;
-    to_world = &quadric->to_world;
-  }
-  if (!to_world) return 0;
-  const glm::dmat3 m(to_world->linear);
-  const double scale = curvature == 1 ? std::sqrt(glm::length(glm::cross(m[0], m[1])))
-                                      : std::cbrt(std::abs(glm::determinant(m)));
-  return scale > 0 ? curvature * surface_area(shape) / scale : 0;
+  const auto quadric = quadric_of(shape);
+  if (!quadric || quadric->kind == QuadricKind::kDisk) return 0;
+  const bool ball = quadric->kind == QuadricKind::kSphere;
+  const glm::dmat3 m(quadric->to_world.linear);
+  const double radius =
+      ball ? std::cbrt(std::abs(glm::determinant(m))) : std::sqrt(glm::length(glm::cross(m[0], m[1])));
+  return radius > 0 ? (ball ? 2 : 1) * surface_area(shape) / radius : 0;
 }
 
 }  // namespace

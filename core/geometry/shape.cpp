@@ -106,6 +106,14 @@ double area(const Disk& d) {
 
 }  // namespace
 
+std::optional<Quadric> quadric_of(const Shape& shape) {
+  if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) return *quadric;
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return Quadric{sphere->to_world};
+  if (const auto* disk = std::get_if<Disk>(&shape.geometry))
+    return Quadric{disk->to_world, QuadricKind::kDisk, 0, 0, disk->inner};
+  return std::nullopt;
+}
+
 Bounds3 bounds_of(const Shape& shape) {
   return std::visit([](const auto& g) { return bounds(g); }, shape.geometry);
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -66,6 +67,9 @@ struct Shape {
     return std::get_if<TriangleMesh>(&geometry);
   }
 };
+
+// Spheres and disks as the quadrics that they are; nothing for meshes.
+std::optional<Quadric> quadric_of(const Shape& shape);
 
 Bounds3 bounds_of(const Shape& shape);
 double surface_area(const Shape& shape);

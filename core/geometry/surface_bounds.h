@@ -61,6 +61,14 @@ inline Normal3 triangle_normal(const Vector3& e1, const Vector3& e2) {
   return length > 0 ? Normal3(n / length) : Normal3(0);
 }
 
+// +1 or -1: from the normal of a triangle's winding, in the mesh's own space, to that of the outside.
+inline float outside_of(const TriangleMesh& mesh, const std::array<uint32_t, 3>& triangle,
+                        const Normal3& winding, bool flip_normal) {
+  if (mesh.N.empty()) return flip_normal ? -1.0f : 1.0f;
+  const auto [i0, i1, i2] = triangle;
+  return glm::dot(winding, mesh.N[i0] + mesh.N[i1] + mesh.N[i2]) < 0 ? -1.0f : 1.0f;
+}
+
 // +z mapped as a normal, unit.
 inline Normal3 disk_normal(const Transform& to_world) {
   return Normal3(glm::normalize(glm::dvec3(to_world.normal({0, 0, 1}))));

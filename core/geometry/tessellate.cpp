@@ -16,7 +16,12 @@ double place_along(const Quadric& q, double t) {
   return std::clamp((z - low) / (high - low), 0.0, 1.0);
 }
 
-TriangleMesh tessellated(const Quadric& q, bool flip_normal) {
+}  // namespace
+
+TriangleMesh tessellated(const Shape& shape) {
+  const auto found = quadric_of(shape);
+  if (!found) return {};
+  const Quadric& q = *found;
   const int up = q.kind == QuadricKind::kSphere ? kAround / 2 : 1;
   const int around = std::max(1, int(std::ceil(kAround * double(q.phi_max) / (2 * std::numbers::pi))));
   TriangleMesh mesh;
@@ -25,7 +30,7 @@ TriangleMesh tessellated(const Quadric& q, bool flip_normal) {
       const glm::dvec3 p = point_at(q, place_along(q, i / double(up)), double(q.phi_max) * j / around);
       const Normal3 n(glm::normalize(glm::dvec3(q.to_world.normal(Normal3(normal_at(q, p))))));
       mesh.P.push_back(q.to_world.point(Point3(p)));
-      mesh.N.push_back(flip_normal ? -n : n);
+      mesh.N.push_back(shape.flip_normal ? -n : n);
     }
   }
   const auto corner = [&](int i, int j) { return static_cast<uint32_t>(i * (around + 1) + j); };
@@ -36,24 +41,6 @@ TriangleMesh tessellated(const Quadric& q, bool flip_normal) {
     }
   }
   return mesh;
-}
-
-}  // namespace
-
-TriangleMesh tessellated(const Shape& shape) {
-  if (const auto* quadric = std::get_if<Quadric>(&shape.geometry))
-    return tessellated(*quadric, shape.flip_normal);
-  Quadric whole;
-  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
-    whole.to_world = sphere->to_world;
-  } else if (const auto* disk = std::get_if<Disk>(&shape.geometry)) {
-    whole.to_world = disk->to_world;
-    whole.kind = QuadricKind::kDisk;
-    whole.inner = disk->inner;
-  } else {
-    return {};
-  }
-  return tessellated(whole, shape.flip_normal);
 }
 
 }  // namespace kaustik

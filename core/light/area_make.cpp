@@ -16,9 +16,8 @@ TriangleEmitter make_emitter(const TriangleMesh& mesh, bool flip_normal) {
     const glm::dvec3 normal = glm::cross(glm::dvec3(e1), glm::dvec3(e2));
     const double length = glm::length(normal);
     if (!(length > 0)) continue;
-    Normal3 n(normal / length);
-    const bool flip = mesh.N.empty() ? flip_normal : glm::dot(n, mesh.N[i0] + mesh.N[i1] + mesh.N[i2]) < 0;
-    e.triangles.push_back({p0, e1, e2, flip ? -n : n});
+    const Normal3 n(normal / length);
+    e.triangles.push_back({p0, e1, e2, outside_of(mesh, {i0, i1, i2}, n, flip_normal) * n});
     areas.push_back(0.5 * length);
   }
   e.by_area = DiscreteDistribution(areas);
@@ -63,14 +62,6 @@ std::vector<EmissionImage::Triangle> triangles_of(const TriangleMesh& mesh, cons
   return out;
 }
 
-// Spheres and disks as the quadrics that they are.
-Quadric quadric_of(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return Quadric{sphere->to_world};
-  if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) return *quadric;
-  const auto& disk = std::get<Disk>(shape.geometry);
-  return Quadric{disk.to_world, QuadricKind::kDisk, 0, 0, disk.inner};
-}
-
 // False where the mesh has triangles that are none.
 bool set_image(const Shape& shape, std::shared_ptr<const LightImage> image, DiffuseAreaLight& light) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
@@ -79,7 +70,7 @@ bool set_image(const Shape& shape, std::shared_ptr<const LightImage> image, Diff
     light.image = std::make_shared<const EmissionImage>(std::move(image), triangles_of(*mesh, emitter));
     return true;
   }
-  const Quadric quadric = quadric_of(shape);
+  const Quadric quadric = *quadric_of(shape);
   light.surface = QuadricEmitter{quadric, shape.flip_normal};
   light.image = std::make_shared<const EmissionImage>(std::move(image), quadric, double(light.area));
   return true;

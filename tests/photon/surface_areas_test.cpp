@@ -20,11 +20,16 @@ const double kPieceError =
     4 * std::sqrt(std::numbers::sqrt3 * 2 * std::numbers::pi * SurfaceAreas::kFineness / 12) /
     (std::numbers::pi * SurfaceAreas::kFineness * SurfaceAreas::kFineness);
 
-SurfaceAreas areas_of(std::vector<Shape> shapes, float radius) {
+Scene scene_of(std::vector<Shape> shapes) {
   Scene scene;
   scene.shapes = std::move(shapes);
   scene.materials = {Lambertian{Rgb(1)}};
   finalize_scene(scene);
+  return scene;
+}
+
+SurfaceAreas areas_of(std::vector<Shape> shapes, float radius) {
+  const Scene scene = scene_of(std::move(shapes));
   std::vector<SurfaceBend> bends;
   find_boundary_edges(scene.shapes, &bends);
   return SurfaceAreas(scene, bends, radius);
@@ -106,6 +111,33 @@ TEST(SurfaceAreas, OfATubeTheDiscIsAStrip) {
                   share_of_tube(double(kTube), kernel, double(radius)), tolerance)
           << radius;
     }
+}
+
+// The outside of an instance is where SurfaceInteraction has it, mirrored or not, whoever says where it is.
+TEST(SurfaceAreas, KnowTheOutsideOfInstances) {
+  constexpr float kTube = 0.25f, kRadius = 0.5f;
+  for (const bool with_normals : {false, true})
+    for (const bool flip : {false, true})
+      for (const float mirror : {1.0f, -1.0f}) {
+        auto mesh = std::get<TriangleMesh>(tube(kTube, 8, 128, 16).geometry);
+        // Normals of a reversed shape are turned over where the mesh is made.
+        if (with_normals)
+          for (const Point3& p : mesh.P)
+            mesh.N.push_back((flip ? -1.0f : 1.0f) * glm::normalize(Normal3(p.x, p.y, 0)));
+        Shape shape;
+        shape.flip_normal = flip;
+        const auto to_world = Transform::from_matrix(glm::dmat4(glm::dmat3(double(mirror))));
+        shape.geometry = InstancedMesh{
+            std::make_shared<const TriangleMesh>(mesh), {{-kTube, -kTube, -4}, {kTube, kTube, 4}}, to_world};
+        const Scene scene = scene_of({shape});
+        const Ray ray{{2, 0.01f, 0.1f}, {-1, 0, 0}};
+        const SurfaceInteraction si = make_interaction(scene.shapes, ray, accel::Bvh(scene).intersect(ray));
+        EXPECT_NEAR(si.n.x, flip ? -1 : 1, 0.01f);
+        const double tolerance = kPieceError + 1 / 43.0;
+        EXPECT_NEAR(areas_of({shape}, kRadius).share(si, {}, kRadius), share_of_tube(kTube, {}, kRadius),
+                    tolerance)
+            << with_normals << flip << mirror;
+      }
 }
 
 // A wire under even light of 1 W/m^2 shows 1/pi, read with discs five times as wide as it is.
