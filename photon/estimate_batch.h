@@ -34,6 +34,9 @@ class EstimateBatch {
 
   void flush(GatherCounters& counters);
 
+  // How many different points of the maps have been asked for since begin_block().
+  size_t readings() const { return readings_.size(); }
+
  private:
   static constexpr uint32_t kNone = ~0u;
   static constexpr int kLookedAt = 16;  // of a pixel's readings, the latest

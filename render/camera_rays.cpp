@@ -27,14 +27,16 @@ uint64_t pixel_stream(uint64_t seed, const Camera& camera, int x, int y) {
   return hash_combine(hash_combine(seed, kCameraStream), pixel);
 }
 
-void CameraRays::trace(const accel::Bvh& bvh, uint64_t seed, int x, int y, uint64_t first, uint64_t count) {
+void CameraRays::trace(const accel::Bvh& bvh, uint64_t seed, int x, int y, BlockPart part, uint64_t first,
+                       uint64_t count) {
   const Camera& camera = bvh.scene().camera;
   const RayGenerator generate(camera);
   const bool lens = camera.lens_radius() > 0;
   const int x0 = x - x % kRayBlock, y0 = y - y % kRayBlock;
-  first_ = first;
+  first_ = first, part_ = part;
   for (int i = 0; i < kRayBlock * kRayBlock; ++i) {
     const int px = x0 + i % kRayBlock, py = y0 + i / kRayBlock;
+    if (!has_pixel(part, px, py)) continue;
     const int in_x = std::min(px, camera.width - 1), in_y = std::min(py, camera.height - 1);
     const uint64_t stream = pixel_stream(seed, camera, in_x, in_y);
     for (uint64_t sample = first; sample < first + count; ++sample) {
@@ -49,7 +51,7 @@ void CameraRays::trace(const accel::Bvh& bvh, uint64_t seed, int x, int y, uint6
       }
     }
   }
-  bvh.intersect(rays_, size_t(count) * kRayBlock * kRayBlock, &hits_, accel::RayOrder::kNeighbours);
+  bvh.intersect(rays_, size_t(count) * size_t(pixels_in(part)), &hits_, accel::RayOrder::kNeighbours);
 }
 
 }  // namespace kaustik::render

@@ -10,6 +10,20 @@ namespace kaustik::render {
 
 inline constexpr int kRayBlock = 4;  // pixels along each axis of a block
 
+// Of a block: all its pixels, or those of one colour of a checkerboard.
+enum class BlockPart { kWhole, kEven, kOdd };
+inline constexpr int pixels_in(BlockPart part) {
+  return kRayBlock * kRayBlock / (part == BlockPart::kWhole ? 1 : 2);
+}
+inline constexpr int kHalves = 2;
+// Which half pixel (x, y) belongs to: 0 for kEven, 1 for kOdd.
+inline constexpr int half_of(int x, int y) {
+  return (x + y) & 1;
+}
+inline constexpr bool has_pixel(BlockPart part, int x, int y) {
+  return part == BlockPart::kWhole || half_of(x, y) == (part == BlockPart::kOdd);
+}
+
 // The Sampler seed of pixel (x, y) of the full image, whose samples are its points. Their first dimensions
 // are the place in the pixel, and that on the lens where there is one.
 uint64_t pixel_stream(uint64_t seed, const Camera& camera, int x, int y);
@@ -20,11 +34,14 @@ inline uint32_t ray_dimensions(const Camera& camera) {
 class CameraRays {
  public:
   // Samples of each pixel that are traced at once, at most.
-  static constexpr uint64_t kSamples = accel::kRayLanes / (kRayBlock * kRayBlock);
+  static constexpr uint64_t most_samples(BlockPart part) {
+    return uint64_t(accel::kRayLanes) / uint64_t(pixels_in(part));
+  }
 
-  // Rays of samples [first, first + count) of the pixels of block (x / kRayBlock, y / kRayBlock), and what
-  // they meet. As dense as the pixel filter's modulus. Beyond the image its last pixels stand again.
-  void trace(const accel::Bvh& bvh, uint64_t seed, int x, int y, uint64_t first, uint64_t count);
+  // Rays of samples [first, first + count) of the pixels of a part of block (x / kRayBlock, y / kRayBlock),
+  // and what they meet. As dense as the pixel filter's modulus. Beyond the image its last pixels stand again.
+  void trace(const accel::Bvh& bvh, uint64_t seed, int x, int y, BlockPart part, uint64_t first,
+             uint64_t count);
 
   Ray ray(int x, int y, uint64_t sample) const { return rays_.get(lane(x, y, sample)); }
   Hit hit(int x, int y, uint64_t sample) const { return hits_.get(lane(x, y, sample)); }
@@ -33,14 +50,17 @@ class CameraRays {
 
  private:
   size_t lane(int x, int y, uint64_t sample) const {
-    return size_t((sample - first_) * kRayBlock + uint64_t(y % kRayBlock)) * kRayBlock +
-           size_t(x % kRayBlock);
+    // Of two neighbours in a row one is even, one odd.
+    const uint64_t place =
+        uint64_t(y % kRayBlock * kRayBlock + x % kRayBlock) >> (part_ != BlockPart::kWhole);
+    return size_t((sample - first_) * uint64_t(pixels_in(part_)) + place);
   }
 
   accel::RayLanes rays_;
   accel::HitLanes hits_;
   int8_t weights_[accel::kRayLanes];
   uint64_t first_ = 0;
+  BlockPart part_ = BlockPart::kWhole;
 };
 
 }  // namespace kaustik::render

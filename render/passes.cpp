@@ -7,6 +7,7 @@
 
 #include "photon/memory_forecast.h"
 #include "render/pass_set.h"
+#include "render/path_integrator.h"
 #include "render/photon_maps.h"
 
 namespace kaustik::render {
@@ -15,6 +16,14 @@ PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp) 
   const auto share = [shares](uint64_t whole) { return whole / shares + (whole % shares != 0); };
   const uint64_t samples = share(static_cast<uint64_t>(spp));
   return {pass, shares, share(photons), samples * pass, samples * (pass + 1)};
+}
+
+PassSamples pass_samples(const PassShare& pass, const RenderSettings& settings, const EstimatorPlan& plan) {
+  constexpr double kFurtherWork = 0.5;  // measured (docs/performance.md)
+  if (settings.adaptive == Adaptive::kOff || pass.shares > 1 || traces_paths(plan))
+    return {pass.first_sample, pass.end_sample, 0};
+  const uint64_t strata = pass.pass << 32;
+  return {strata, strata + pass.end_sample - pass.first_sample, kFurtherWork};
 }
 
 double RadiusShrink::squared(uint64_t pass, float alpha) {

@@ -26,6 +26,20 @@ struct PassShare {
 // least what was asked for.
 PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp);
 
+// Numbers of the camera samples of a pass, of each pixel.
+struct PassSamples {
+  uint64_t first = 0, end = 0;
+  // Others follow from `end` on where the first differ most, for at most so much of their work; 0: none.
+  double further_work = 0;
+};
+
+// Further samples are taken where settings.adaptive says so and one pass holds all, with which they are
+// stratified; another pass with as many, beyond those of the settings, has strata of its own
+// (core/sampling/sampler.h). Of several passes the samples of all together are stratified, which further ones
+// of each would spoil. Paths from the camera have none: the few that bring most of their light are seldom
+// among the first.
+PassSamples pass_samples(const PassShare& pass, const RenderSettings& settings, const EstimatorPlan& plan);
+
 // Gather radii r0 of the first pass, metres; 0 for maps that are not read.
 struct GatherRadii {
   float direct = 0, caustic = 0, indirect = 0;

@@ -15,6 +15,7 @@ struct RenderContext {
   const EstimatorPlan& plan;
   const PhotonMaps& maps;
   PassShare pass;
+  PassSamples samples{};
   RayCone cone{};  // of a camera ray
 };
 

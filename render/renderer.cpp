@@ -10,6 +10,7 @@
 
 #include "render/error_estimate.h"
 #include "render/photon_maps.h"
+#include "render/sample_counts.h"
 #include "render/tiles.h"
 
 namespace kaustik::render {
@@ -76,7 +77,8 @@ class PassRenderer {
               RenderStatistics* statistics) {
     const PassShare part = share(pass);
     const RayCone cone = camera_cone(scene_.camera, part.end_sample - part.first_sample);
-    const RenderContext ctx{scene_, bvh_, settings_, plan_, maps_, part, cone};
+    const RenderContext ctx{scene_, bvh_, settings_, plan_, maps_, part, pass_samples(part, settings_, plan_),
+                            cone};
     if (!make_photon_maps(scene_, bvh_, settings_, plan_, ctx.pass, progress_, &maps_, radii, statistics))
       return false;
     const auto start = std::chrono::steady_clock::now();
@@ -105,16 +107,20 @@ bool has_samples(const FilmSums& film) {
   return false;
 }
 
-ExactUnits units_of(const Scene& scene, const RenderSettings& settings, uint64_t shares) {
-  return choose_units(scene, pass_share(0, shares, settings.photons, settings.spp).end_sample);
+ExactUnits units_of(const Scene& scene, const RenderSettings& settings, const EstimatorPlan& plan,
+                    uint64_t shares) {
+  const PassShare pass = pass_share(0, shares, settings.photons, settings.spp);
+  const bool further = pass_samples(pass, settings, plan).further_work > 0;
+  return choose_units(scene, pass.end_sample << (further ? kMostDoublings : 0));
 }
 
-PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, uint64_t shares, bool with_totals) {
+PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, const EstimatorPlan& plan,
+                     uint64_t shares, bool with_totals) {
   PassSums sums;
   sums.shares = shares;
   PixelWindow<PixelTotals> zero;
   if (with_totals) zero = make_window<PixelTotals>(settings.crop, scene.camera);
-  sums.totals = FilmTotals(std::move(zero), units_of(scene, settings, shares));
+  sums.totals = FilmTotals(std::move(zero), units_of(scene, settings, plan, shares));
   return sums;
 }
 
@@ -171,8 +177,10 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   const PassSet missing = goal.without(task.done.passes);
   const bool goes_on = !task.done.passes.empty();
   task.keep_sums |= goes_on || missing.count() != 1;
-  result.sums = goes_on ? std::move(task.done) : nothing_yet(scene, settings, shares, task.keep_sums);
-  require(result.sums.shares == shares && result.sums.totals.units() == units_of(scene, settings, shares),
+  result.sums =
+      goes_on ? std::move(task.done) : nothing_yet(scene, settings, result.plan, shares, task.keep_sums);
+  require(result.sums.shares == shares &&
+              result.sums.totals.units() == units_of(scene, settings, result.plan, shares),
           "the passes that are there are of another scene or of other settings");
 
   PassRenderer renderer(scene, bvh, settings, result.plan, shares,

@@ -14,6 +14,7 @@ namespace kaustik::render {
 
 struct RayCounters {
   uint64_t camera = 0, specular = 0, shadow = 0, bounce = 0;  // paths' segments by what they are traced for
+  uint64_t all() const { return camera + specular + shadow + bounce; }
   RayCounters& operator+=(const RayCounters& o);
 };
 

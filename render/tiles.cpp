@@ -2,124 +2,17 @@
 
 #include <tbb/parallel_for.h>
 
-#include <array>
+#include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <numeric>
 
-#include "render/camera_rays.h"
-#include "render/photon_integrator.h"
+#include "render/block_samples.h"
+#include "render/sample_counts.h"
 
 namespace kaustik::render {
 
 namespace {
-
-struct TileResult {
-  TileCounters counters;
-  uint64_t dropped = 0;
-  std::vector<DroppedSample> examples;
-};
-
-bool valid(const Rgb& c, bool signed_light) {
-  return is_finite(c) && (signed_light || (c.x >= 0 && c.y >= 0 && c.z >= 0));
-}
-
-// Estimates that subtract may fall below zero, and are right on average only if they may.
-bool valid_radiance(const PixelResult& s, DirectEstimator direct) {
-  const bool predicted = direct == DirectEstimator::kPredicted;
-  return valid(s.emitted, false) && valid(s.direct, predicted || direct == DirectEstimator::kSigned) &&
-         valid(s.caustic, false) && valid(s.indirect, predicted) && is_finite(s.bias);
-}
-
-void expose(const Sensor& sensor, PixelResult* s) {
-  if (sensor.neutral) return;
-  for (Rgb* light : {&s->emitted, &s->direct, &s->caustic, &s->indirect, &s->bias}) *light = sensor(*light);
-}
-
-// Pixels [x0, x1) x [y0, y1) of the full image.
-struct PixelRange {
-  int x0, x1, y0, y1;
-
-  // Its part within `side` pixels of the full image.
-  PixelRange in_square(int x, int y, int side) const {
-    return {std::max(x0, x), std::min(x1, x + side), std::max(y0, y), std::min(y1, y + side)};
-  }
-};
-
-// Samples [first, end) of the pixels of one block of rays, pixel by pixel: neighbours in a block see much the
-// same photons.
-class BlockSamples {
- public:
-  BlockSamples(const RenderContext& ctx, const PixelRange& pixels, uint64_t first, uint64_t end)
-      : ctx_(ctx), pixels_(pixels), first_(first), end_(end) {
-    rays_.trace(ctx.bvh, ctx.settings.seed, pixels.x0, pixels.y0, first, end - first);
-  }
-
-  void shade(photon::EstimateBatch* batch, TileCounters& counters) {
-    for_each([&](int x, int y, uint64_t i, PixelResult& result) {
-      batch->begin_pixel(pixel_of_block(x, y));
-      const uint64_t stream = pixel_stream(ctx_.settings.seed, ctx_.scene.camera, x, y);
-      Sampler sampler(stream, i, ray_dimensions(ctx_.scene.camera));
-      // Once a pass: most of its noise is that of the photons, which all samples share.
-      const bool with_bias = ctx_.settings.estimate_bias.value_or(false) && i == ctx_.pass.first_sample;
-      const CameraSample sample{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch};
-      trace_camera_ray(ctx_, sample, sampler, counters, &result);
-    });
-    batch->flush(counters.gather);
-  }
-
-  void add_to(FilmSums* film, TileResult* tile) {
-    for_each([&](int x, int y, uint64_t i, PixelResult& result) {
-      if (valid_radiance(result, ctx_.plan.direct)) {
-        expose(ctx_.scene.sensor, &result);
-        film->at(x - film->x0(), y - film->y0()).add(result, rays_.weight(x, y, i));
-        return;
-      }
-      ++tile->dropped;
-      add_examples({{y, x, i}}, &tile->examples);
-    });
-  }
-
- private:
-  template <class Fn>
-  void for_each(const Fn& fn) {
-    PixelResult* result = results_.data();
-    for (int y = pixels_.y0; y < pixels_.y1; ++y)
-      for (int x = pixels_.x0; x < pixels_.x1; ++x)
-        for (uint64_t i = first_; i < end_; ++i) fn(x, y, i, *result++);
-  }
-
-  static uint32_t pixel_of_block(int x, int y) {
-    static_assert(kRayBlock * kRayBlock <= photon::EstimateBatch::kPixels);
-    return uint32_t(y % kRayBlock * kRayBlock + x % kRayBlock);
-  }
-
-  const RenderContext& ctx_;
-  PixelRange pixels_;
-  uint64_t first_, end_;
-  CameraRays rays_;
-  std::array<PixelResult, accel::kRayLanes> results_;
-};
-
-// Adds the pass's samples of pixels of one block of rays.
-void render_block(const RenderContext& ctx, const PixelRange& pixels, FilmSums* film,
-                  photon::EstimateBatch* batch, TileResult* tile) {
-  const PassShare& pass = ctx.pass;
-  batch->begin_block();
-  for (uint64_t first = pass.first_sample; first < pass.end_sample; first += CameraRays::kSamples) {
-    BlockSamples samples(ctx, pixels, first, std::min(pass.end_sample, first + CameraRays::kSamples));
-    samples.shade(batch, tile->counters);
-    samples.add_to(film, tile);
-  }
-}
-
-TileResult render_tile(const RenderContext& ctx, const PixelRange& pixels, FilmSums* film) {
-  TileResult tile;
-  photon::EstimateBatch batch;
-  for (int y = pixels.y0 - pixels.y0 % kRayBlock; y < pixels.y1; y += kRayBlock)
-    for (int x = pixels.x0 - pixels.x0 % kRayBlock; x < pixels.x1; x += kRayBlock)
-      render_block(ctx, pixels.in_square(x, y, kRayBlock), film, &batch, &tile);
-  return tile;
-}
 
 // Integer sums and a sorted list: the order in which tiles finish leaves no trace.
 struct MergedTiles {
@@ -144,35 +37,127 @@ struct MergedTiles {
   }
 };
 
+// fn(corner) for the blocks that a tile touches: the corner of the part that lies in it.
+template <class Fn>
+void for_each_block(const PixelRange& tile, const Fn& fn) {
+  for (int y = tile.y0 - tile.y0 % kRayBlock; y < tile.y1; y += kRayBlock)
+    for (int x = tile.x0 - tile.x0 % kRayBlock; x < tile.x1; x += kRayBlock)
+      fn(tile.in_square(x, y, kRayBlock));
+}
+
+// A pass's samples of the film's window.
+class TilePass {
+ public:
+  TilePass(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film)
+      : ctx_(ctx),
+        progress_(progress),
+        film_(*film),
+        window_{film->x0(), film->x0() + film->width(), film->y0(), film->y0() + film->height()},
+        counts_(*film) {
+    // Tiles are counted from the corner of the full image, as the blocks of rays are.
+    for (int y = window_.y0 - window_.y0 % kTileSize; y < window_.y1; y += kTileSize)
+      for (int x = window_.x0 - window_.x0 % kTileSize; x < window_.x1; x += kTileSize)
+        tiles_.push_back(window_.in_square(x, y, kTileSize));
+    to_do_ = tiles_.size() * (adapts() ? 2 : 1);
+  }
+
+  // False when progress cancelled.
+  bool render() {
+    if (!each_tile([this](const PixelRange& tile) { return first_samples(tile); })) return false;
+    if (!adapts()) return true;
+    counts_.share_out(samples(), 1 + ctx_.samples.further_work);
+    sort_by_work();
+    return each_tile([this](const PixelRange& tile) { return further_samples(tile); });
+  }
+
+  void fill(RenderStatistics* statistics) const { merged_.fill(statistics); }
+
+ private:
+  bool adapts() const { return ctx_.samples.further_work > 0; }
+  uint64_t samples() const { return ctx_.samples.end - ctx_.samples.first; }  // of each pixel, at first
+
+  TileResult first_samples(const PixelRange& tile) {
+    TileResult result;
+    photon::EstimateBatch batch;
+    for_each_block(tile, [&](const PixelRange& block) {
+      BlockMoments moments;
+      batch.begin_block();
+      render_block(ctx_, block, {BlockPart::kWhole, ctx_.samples.first, ctx_.samples.end}, &batch, &film_,
+                   &moments, &result);
+      if (!adapts()) return;
+      for (int half = 0; half < kHalves; ++half)
+        counts_.spread(block.x0, block.y0, half) = spread_of(moments, half);
+    });
+    return result;
+  }
+
+  TileResult further_samples(const PixelRange& tile) {
+    TileResult result;
+    photon::EstimateBatch batch;
+    for_each_block(tile, [&](const PixelRange& block) {
+      BlockMoments ignored;
+      batch.begin_block();
+      for (int half = 0; half < kHalves; ++half) {
+        const uint64_t first = ctx_.samples.end;
+        const uint64_t more = counts_.count(block.x0, block.y0, half) - samples();
+        const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd, first, first + more};
+        render_block(ctx_, block, range, &batch, &film_, &ignored, &result);
+      }
+    });
+    return result;
+  }
+
+  // The longest tiles first, so that no thread is left with one at the end.
+  void sort_by_work() {
+    const auto counts = [&](const PixelRange& tile) {
+      uint64_t sum = 0;
+      for_each_block(tile, [&](const PixelRange& block) {
+        for (int half = 0; half < kHalves; ++half) sum += counts_.count(block.x0, block.y0, half);
+      });
+      return sum;
+    };
+    std::ranges::stable_sort(tiles_, std::greater<>(), counts);
+  }
+
+  // render_tile(tile) for all. False when progress cancelled.
+  template <class Fn>
+  bool each_tile(const Fn& render_tile) {
+    std::mutex mutex;
+    std::atomic<size_t> next{0};
+    tbb::parallel_for(
+        size_t(0), tiles_.size(),
+        [&](size_t) {
+          if (cancelled_) return;
+          const TileResult tile = render_tile(tiles_[next++]);
+          const std::lock_guard lock(mutex);
+          merged_.add(tile);
+          ++done_;
+          if (progress_ && !progress_({"render", done_, to_do_, ctx_.pass.pass, ctx_.pass.shares}))
+            cancelled_ = true;
+        },
+        tbb::simple_partitioner());
+    return done_ % tiles_.size() == 0 && (done_ == to_do_ || !cancelled_);
+  }
+
+  const RenderContext& ctx_;
+  const ProgressCallback& progress_;
+  FilmSums& film_;
+  PixelRange window_;
+  std::vector<PixelRange> tiles_;
+  SampleCounts counts_;
+  MergedTiles merged_;
+  uint64_t done_ = 0, to_do_ = 0;
+  std::atomic<bool> cancelled_{false};
+};
+
 }  // namespace
 
 bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
                   RenderStatistics* statistics) {
-  const PixelRange window{film->x0(), film->x0() + film->width(), film->y0(), film->y0() + film->height()};
-  // Tiles are counted from the corner of the full image, as the blocks of rays are.
-  const int first_column = window.x0 / kTileSize, first_row = window.y0 / kTileSize;
-  const int columns = (window.x1 - 1) / kTileSize + 1 - first_column;
-  const int tiles = columns * ((window.y1 - 1) / kTileSize + 1 - first_row);
-  std::mutex mutex;
-  std::atomic<bool> cancelled{false};
-  MergedTiles merged;
-  uint64_t done = 0;
-  tbb::parallel_for(
-      tbb::blocked_range<int>(0, tiles, 1),
-      [&](const tbb::blocked_range<int>& range) {
-        for (int i = range.begin(); i < range.end() && !cancelled; ++i) {
-          const int x = (first_column + i % columns) * kTileSize, y = (first_row + i / columns) * kTileSize;
-          const TileResult tile = render_tile(ctx, window.in_square(x, y, kTileSize), film);
-          const std::lock_guard lock(mutex);
-          merged.add(tile);
-          ++done;
-          if (progress && !progress({"render", done, uint64_t(tiles), ctx.pass.pass, ctx.pass.shares}))
-            cancelled = true;
-        }
-      },
-      tbb::simple_partitioner());
-  merged.fill(statistics);
-  return done == uint64_t(tiles);
+  TilePass pass(ctx, progress, film);
+  const bool finished = pass.render();
+  pass.fill(statistics);
+  return finished;
 }
 
 }  // namespace kaustik::render

@@ -68,7 +68,10 @@ TEST_F(BenchCommand, CountersAreWholeNumbersThatDoNotDependOnThreads) {
     for (const Json& p : r["points"]) EXPECT_EQ(p["counters"], counters) << method << " " << p["threads"];
     const Json again = measured({"--photons", "20k", "--threads", "2", "--repeat", "1", "--method", method});
     EXPECT_EQ(again["points"][0]["counters"], counters) << method;
-    EXPECT_EQ(counters["rays"]["camera"], 16 * 12);
+    EXPECT_GE(counters["rays"]["camera"], 16 * 12);
+    if (method == std::string("mc")) {
+      EXPECT_EQ(counters["rays"]["camera"], 16 * 12);
+    }
     EXPECT_LE(counters["gather"]["accepted"], counters["gather"]["candidates"]);
     // Kinds that are guided have photons of their own, and where all are there are no others.
     const uint64_t emitted = counters["photons"]["emitted"],

@@ -25,7 +25,7 @@ TEST(CameraRays, AreTheRaysAndHitsOfEachSampleByItself) {
   constexpr uint64_t kSeed = 3, kFirst = 5, kCount = 3;
   size_t met = 0;
   for (const Pixel& block : {Pixel{0, 0}, Pixel{4, 8}, Pixel{8, 8}}) {
-    rays.trace(bvh, kSeed, block.x, block.y, kFirst, kCount);
+    rays.trace(bvh, kSeed, block.x, block.y, BlockPart::kWhole, kFirst, kCount);
     for (int y = block.y; y < std::min(kSide, block.y + kRayBlock); ++y) {
       for (int x = block.x; x < std::min(kSide, block.x + kRayBlock); ++x) {
         for (uint64_t i = kFirst; i < kFirst + kCount; ++i) {
@@ -51,17 +51,38 @@ TEST(CameraRays, AreTheRaysAndHitsOfEachSampleByItself) {
 TEST(CameraRays, EveryPixelOfABlockNamesIt) {
   const Scene scene = cornell(kSide);
   const accel::Bvh bvh(scene);
+  constexpr uint64_t kSamples = CameraRays::most_samples(BlockPart::kWhole);
   CameraRays by_corner, by_pixel;
-  by_corner.trace(bvh, 0, 4, 4, 0, CameraRays::kSamples);
-  by_pixel.trace(bvh, 0, 6, 7, 0, CameraRays::kSamples);
+  by_corner.trace(bvh, 0, 4, 4, BlockPart::kWhole, 0, kSamples);
+  by_pixel.trace(bvh, 0, 6, 7, BlockPart::kWhole, 0, kSamples);
   for (int y = 4; y < 8; ++y) {
     for (int x = 4; x < 8; ++x) {
-      for (uint64_t i = 0; i < CameraRays::kSamples; ++i) {
+      for (uint64_t i = 0; i < kSamples; ++i) {
         ASSERT_EQ(by_pixel.ray(x, y, i).d, by_corner.ray(x, y, i).d);
         ASSERT_EQ(by_pixel.hit(x, y, i).t, by_corner.hit(x, y, i).t);
         ASSERT_EQ(by_pixel.hit(x, y, i).shape, by_corner.hit(x, y, i).shape);
       }
     }
+  }
+}
+
+// The two halves of a block are its rays, each once, with more samples of each at a time.
+TEST(CameraRays, HalvesMakeTheBlock) {
+  const Scene scene = cornell(kSide);
+  const accel::Bvh bvh(scene);
+  constexpr uint64_t kSamples = CameraRays::most_samples(BlockPart::kEven);
+  static_assert(kSamples == 2 * CameraRays::most_samples(BlockPart::kWhole));
+  CameraRays whole;
+  std::array<CameraRays, kHalves> halves;
+  halves[0].trace(bvh, 0, 4, 4, BlockPart::kEven, 0, kSamples);
+  halves[1].trace(bvh, 0, 4, 4, BlockPart::kOdd, 0, kSamples);
+  for (uint64_t i = 0; i < kSamples; ++i) {
+    whole.trace(bvh, 0, 4, 4, BlockPart::kWhole, i, 1);
+    for (int y = 4; y < 8; ++y)
+      for (int x = 4; x < 8; ++x) {
+        ASSERT_EQ(halves[size_t(half_of(x, y))].ray(x, y, i).d, whole.ray(x, y, i).d);
+        ASSERT_EQ(halves[size_t(half_of(x, y))].hit(x, y, i).t, whole.hit(x, y, i).t);
+      }
   }
 }
 

@@ -33,6 +33,7 @@ TEST(InvalidSamples, AreDroppedCountedAndNamed) {
     RenderSettings settings;
     settings.method = Method::kRaytrace;
     settings.spp = 2;
+    settings.adaptive = Adaptive::kOff;
     const auto result = render_with_threads(half_broken(Rgb(value)), settings, 3);
     EXPECT_EQ(result.statistics.dropped_samples, 8u * 4u * 2u) << value;
     ASSERT_EQ(result.statistics.dropped_examples.size(), 10u);
@@ -96,15 +97,35 @@ TEST(Render, ReportsEveryTile) {
   RenderSettings settings;
   settings.method = Method::kRaytrace;
   settings.spp = 1;
-  uint64_t last = 0;
-  render(scene, accel::Bvh(scene), settings, [&](const Progress& p) {
-    EXPECT_EQ(p.phase, "render");
-    EXPECT_EQ(p.total, 9u);  // 40 pixels are three tiles of 16
-    EXPECT_EQ(p.done, last + 1);
-    last = p.done;
-    return true;
-  });
-  EXPECT_EQ(last, 9u);
+  for (const bool further : {false, true}) {
+    settings.adaptive = further ? Adaptive::kOn : Adaptive::kOff;
+    const uint64_t tiles = further ? 18 : 9;  // 40 pixels are three tiles of 16, gone through once or twice
+    uint64_t last = 0;
+    render(scene, accel::Bvh(scene), settings, [&](const Progress& p) {
+      EXPECT_EQ(p.phase, "render");
+      EXPECT_EQ(p.total, tiles);
+      EXPECT_EQ(p.done, last + 1);
+      last = p.done;
+      return true;
+    });
+    EXPECT_EQ(last, tiles);
+  }
+}
+
+// Whatever is done by then is shown, also while further samples are taken.
+TEST(Render, CancelledAmongFurtherSamplesKeepsTheFirst) {
+  const Scene scene = cornell(40);
+  RenderSettings settings;
+  settings.method = Method::kRaytrace;
+  settings.spp = 2;
+  const accel::Bvh bvh(scene);
+  const auto whole = render(scene, bvh, settings);
+  for (const uint64_t at : {9u, 11u}) {
+    const auto cut = render(scene, bvh, settings, [&](const Progress& p) { return p.done < at; });
+    EXPECT_TRUE(cut.cancelled);
+    EXPECT_EQ(cut.shown, Shown::kTiles);
+    EXPECT_NEAR(total_mean(cut.film), total_mean(whole.film), 0.1 * total_mean(whole.film));
+  }
 }
 
 TEST(Render, RefusesSenselessSettings) {

@@ -1,0 +1,94 @@
+#include "render/block_samples.h"
+
+#include "render/photon_integrator.h"
+
+namespace kaustik::render {
+
+namespace {
+
+bool valid(const Rgb& c, bool signed_light) {
+  return is_finite(c) && (signed_light || (c.x >= 0 && c.y >= 0 && c.z >= 0));
+}
+
+// Estimates that subtract may fall below zero, and are right on average only if they may.
+bool valid_radiance(const PixelResult& s, DirectEstimator direct) {
+  const bool predicted = direct == DirectEstimator::kPredicted;
+  return valid(s.emitted, false) && valid(s.direct, predicted || direct == DirectEstimator::kSigned) &&
+         valid(s.caustic, false) && valid(s.indirect, predicted) && is_finite(s.bias);
+}
+
+void expose(const Sensor& sensor, PixelResult* s) {
+  if (sensor.neutral) return;
+  for (Rgb* light : {&s->emitted, &s->direct, &s->caustic, &s->indirect, &s->bias}) *light = sensor(*light);
+}
+
+// Samples of the pixels of one block of rays, pixel by pixel: neighbours in a block see much the same
+// photons.
+class BlockSamples {
+ public:
+  BlockSamples(const RenderContext& ctx, const PixelRange& pixels, const SampleRange& samples)
+      : ctx_(ctx), pixels_(pixels), samples_(samples) {
+    rays_.trace(ctx.bvh, ctx.settings.seed, pixels.x0, pixels.y0, samples.part, samples.first,
+                samples.end - samples.first);
+  }
+
+  void shade(photon::EstimateBatch* batch, TileCounters& counters) {
+    for_each([&](int x, int y, uint64_t i, PixelResult& result) {
+      batch->begin_pixel(pixel_of_block(x, y));
+      const uint64_t stream = pixel_stream(ctx_.settings.seed, ctx_.scene.camera, x, y);
+      Sampler sampler(stream, i, ray_dimensions(ctx_.scene.camera));
+      // Once a pass: most of its noise is that of the photons, which all samples share.
+      const bool with_bias = ctx_.settings.estimate_bias.value_or(false) && i == ctx_.samples.first;
+      const CameraSample sample{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch};
+      const auto work = [&] { return counters.rays.all() + counters.gather.queries + batch->readings(); };
+      const uint64_t before = work();
+      trace_camera_ray(ctx_, sample, sampler, counters, &result);
+      work_[size_t(&result - results_.data())] = work() - before;
+    });
+    batch->flush(counters.gather);
+  }
+
+  void add_to(FilmSums* film, BlockMoments* moments, TileResult* tile) {
+    for_each([&](int x, int y, uint64_t i, PixelResult& result) {
+      if (valid_radiance(result, ctx_.plan.direct)) {
+        expose(ctx_.scene.sensor, &result);
+        film->at(x - film->x0(), y - film->y0()).add(result, rays_.weight(x, y, i));
+        (*moments)[pixel_of_block(x, y)].add(result.radiance(), work_[size_t(&result - results_.data())]);
+        return;
+      }
+      ++tile->dropped;
+      add_examples({{y, x, i}}, &tile->examples);
+    });
+  }
+
+ private:
+  template <class Fn>
+  void for_each(const Fn& fn) {
+    PixelResult* result = results_.data();
+    for (int y = pixels_.y0; y < pixels_.y1; ++y)
+      for (int x = pixels_.x0; x < pixels_.x1; ++x)
+        if (has_pixel(samples_.part, x, y))
+          for (uint64_t i = samples_.first; i < samples_.end; ++i) fn(x, y, i, *result++);
+  }
+
+  const RenderContext& ctx_;
+  PixelRange pixels_;
+  SampleRange samples_;
+  CameraRays rays_;
+  std::array<PixelResult, accel::kRayLanes> results_;
+  std::array<uint64_t, accel::kRayLanes> work_;
+};
+
+}  // namespace
+
+void render_block(const RenderContext& ctx, const PixelRange& pixels, const SampleRange& samples,
+                  photon::EstimateBatch* batch, FilmSums* film, BlockMoments* moments, TileResult* tile) {
+  const uint64_t most = CameraRays::most_samples(samples.part);
+  for (uint64_t first = samples.first; first < samples.end; first += most) {
+    BlockSamples some(ctx, pixels, {samples.part, first, std::min(samples.end, first + most)});
+    some.shade(batch, tile->counters);
+    some.add_to(film, moments, tile);
+  }
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,105 @@
+#include "render/sample_counts.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace kaustik::render {
+
+namespace {
+
+// Relative variances as whole numbers that grow with their logarithm: the upper bits of a float.
+constexpr int kMantissaBits = 4;
+constexpr uint32_t kSteps = 1u << (9 + kMantissaBits - 1);  // of all finite floats that are not negative
+// Of the count. If the variance of a mean fell like 1 / count, the root of the relative variance would be
+// best; of stratified samples it falls faster, and what is smooth gains as much from a few as edges do from
+// many.
+constexpr int kStepsPerDoubling = 4 << kMantissaBits;
+uint32_t step_of(double relative_variance) {
+  const float value = static_cast<float>(std::min(relative_variance, 1e30));
+  return value > 0 ? std::bit_cast<uint32_t>(value) >> (23 - kMantissaBits) : 0;
+}
+
+int doublings(uint32_t step, uint32_t threshold) {
+  return std::clamp((int(step) - int(threshold)) / kStepsPerDoubling, 0, kMostDoublings);
+}
+
+// Work of the first samples of all pixels whose gain lies in each step.
+using Histogram = std::array<double, kSteps>;
+
+double work_of(const Histogram& first, uint32_t threshold) {
+  double sum = 0;
+  for (uint32_t step = 0; step < kSteps; ++step)
+    if (first[step] > 0) sum += std::ldexp(first[step], doublings(step, threshold));
+  return sum;
+}
+
+// The least threshold that takes no more work.
+uint32_t least_threshold(const Histogram& first, double most) {
+  uint32_t low = 1, high = kSteps;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (work_of(first, middle) <= most)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
+}
+
+}  // namespace
+
+SampleCounts::SampleCounts(const FilmSums& window)
+    : first_column_(window.x0() / kRayBlock),
+      first_row_(window.y0() / kRayBlock),
+      columns_((window.x0() + window.width() - 1) / kRayBlock + 1 - first_column_),
+      rows_((window.y0() + window.height() - 1) / kRayBlock + 1 - first_row_),
+      spreads_(size_t(columns_) * size_t(rows_) * kHalves),
+      counts_(spreads_.size()) {}
+
+// The other half counts as much as the blocks around together: it is nearer, and less of it.
+SampleSpread SampleCounts::neighbours(int column, int row, int half) const {
+  constexpr double kAround = 1.0 / 16;
+  SampleSpread sum;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows_ - 1); ++r) {
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns_ - 1); ++c) {
+      const SampleSpread* const block = &spreads_[(size_t(r) * size_t(columns_) + size_t(c)) * kHalves];
+      if (r == row && c == column)
+        sum.add(block[1 - half], 1);
+      else
+        for (int h = 0; h < kHalves; ++h) sum.add(block[h], kAround);
+    }
+  }
+  return sum;
+}
+
+void SampleCounts::share_out(uint64_t first, double work) {
+  SampleSpread all;
+  double roots = 0;
+  for (const SampleSpread& half : spreads_) {
+    all.add(half, 1);
+    if (half.pixels > 0) roots += std::sqrt(std::max(half.mean * half.pixels, 0.0));
+  }
+  if (!(all.pixels > 0)) return;
+  const double root = roots / all.pixels, least = root * root / 2;
+
+  std::vector<uint32_t> steps(spreads_.size());
+  Histogram first_work{};
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      for (int half = 0; half < kHalves; ++half) {
+        const SampleSpread near = neighbours(column, row, half);
+        const size_t i = (size_t(row) * size_t(columns_) + size_t(column)) * kHalves + size_t(half);
+        if (!(near.work > 0)) continue;
+        const double m = near.mean / near.pixels;
+        steps[i] = step_of(near.variance / near.work / (m * m + least * least));
+        first_work[steps[i]] += spreads_[i].work;
+      }
+    }
+  }
+  const uint32_t threshold = least_threshold(first_work, all.work * work);
+  for (size_t i = 0; i < counts_.size(); ++i) counts_[i] = first << doublings(steps[i], threshold);
+}
+
+}  // namespace kaustik::render
