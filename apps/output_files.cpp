@@ -46,6 +46,7 @@ void check_image_output(const std::string& path) {
     throw ExitError(kBadCommandLine, error.what());
   }
   check_writable(path);
+  if (!render::is_exr(path)) render::image_formats();
 }
 
 void write_text_file(const std::string& path, const std::string& text) {

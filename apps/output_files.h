@@ -9,7 +9,8 @@ namespace kaustik::app {
 // read-only, or the name is a folder's. Creates nothing.
 void check_writable(const std::string& path);
 
-// check_writable, and the extension must be that of a picture that we write.
+// check_writable, and the extension must be that of a picture that we write. Throws std::runtime_error where
+// its library cannot be loaded.
 void check_image_output(const std::string& path);
 
 // Writes a whole text to a temporary name beside `path` and renames it, so that nobody sees half a file.

@@ -5,8 +5,6 @@
 #include <gnu/libc-version.h>
 #endif
 
-#include <OpenImageIO/imageio.h>
-
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
@@ -14,6 +12,7 @@
 #include "apps/exit_error.h"
 #include "apps/instruction_set.h"
 #include "core/version.h"
+#include "render/image_formats.h"
 
 namespace kaustik::app {
 
@@ -24,9 +23,8 @@ std::string absolute(const std::string& path) {
 }
 
 std::string program_and_libraries() {
-  const int images = OIIO::openimageio_version();
-  std::string build = fmt::format("{} ({}), Embree {}, OpenImageIO {}.{}.{}", version(), build_id(),
-                                  accel::embree_version(), images / 10000, images / 100 % 100, images % 100);
+  std::string build = fmt::format("{} ({}), Embree {}, OpenImageIO {}", version(), build_id(),
+                                  accel::embree_version(), render::image_formats().version());
 #ifdef __GLIBC__
   build += fmt::format(", C library {}", gnu_get_libc_version());
 #endif

@@ -9,8 +9,8 @@
 
 namespace kaustik::app {
 
-// "0.1.0 (c9c1c43), Embree 3.13.5, C library 2.36": the program, and the libraries whose bits it computes
-// with. The first call asks Embree, best before it is at work.
+// "0.1.0 (c9c1c43), Embree 3.13.5, OpenImageIO 2.4.7, C library 2.36": the program, and the libraries whose
+// bits it computes with. The first call asks Embree, best before it is at work, and loads OpenImageIO.
 std::string program_build();
 
 // Settings by the names of their options, as texts that assign what is set: those that decide the sums over

@@ -67,6 +67,16 @@ void report_stop(const StopRule& rule, const render::RenderResult& result, const
                            passes == 1 ? "" : "es", error.empty() ? "" : ": ", error));
 }
 
+// Pictures take little from the manifest; all of it names the versions of libraries that they may not need.
+render::PartialManifest manifest_for_outputs(const Job& job, const RenderSession& session,
+                                             const render::PassSums& sums, const std::string& stopped_by) {
+  if (writes_sums(session)) return manifest_of(job, session.outputs.files, session.goal, sums, stopped_by);
+  render::PartialManifest manifest;
+  manifest.needs = job.scene.needs;
+  manifest.stopped_by = stopped_by;
+  return manifest;
+}
+
 int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, Checkpoint& checkpoint,
            const StopRule& rule, const Console& console) {
   const render::RenderResult& result = outcome.result;
@@ -80,8 +90,7 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   } catch (const std::exception& error) {
     trouble = fmt::format("no checkpoint: {}", error.what());
   }
-  const render::PartialManifest manifest =
-      manifest_of(job, session.outputs.files, session.goal, result.sums, rule.reason());
+  const render::PartialManifest manifest = manifest_for_outputs(job, session, result.sums, rule.reason());
   report_stop(rule, result, console);
   write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
   if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
@@ -95,7 +104,7 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
 int run_session(const Job& job, RenderSession session, const InterruptGuard& interrupt,
                 const Stopwatch& total, const Console& console) {
   int code = kDone;
-  program_build();  // asks Embree for its version, now that it is not at work
+  if (writes_sums(session)) program_build();  // asks Embree for its version, now that it is not at work
   with_thread_limit(job.settings.render.threads, [&] {
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);

@@ -1,6 +1,5 @@
 #include "apps/thread_limit.h"
 
-#include <OpenImageIO/imageio.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -11,9 +10,6 @@ namespace kaustik::app {
 void with_thread_limit(int threads, const std::function<void()>& work) {
   const int limit = threads > 0 ? threads : core_limits().usable();
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(limit));
-  // OpenEXR's own pool stays empty. OpenImageIO's is never made (render/image_io.cpp): its attribute
-  // "threads" would first make it with a thread per core, then shrink it.
-  OIIO::attribute("exr_threads", -1);
   tbb::task_arena arena(limit);
   arena.execute(work);
 }

@@ -4,6 +4,7 @@ if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
 endif()
 find_package(TBB REQUIRED)
+find_package(OpenEXR CONFIG REQUIRED)
 find_package(OpenImageIO REQUIRED)
 # Debian's OpenImageIO names OpenCV's headers, which its package neither needs nor brings; CMake refuses folders that
 # do not exist.

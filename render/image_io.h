@@ -1,14 +1,15 @@
 #pragma once
-// Reading and writing pictures through OpenImageIO: EXR with layers and metadata, PNG and JPEG tone-mapped.
-// Not handled: deep images, mip levels, spectral or non-Rec. 709 primaries.
+// Reading and writing pictures: EXR with layers and metadata, PNG and JPEG tone-mapped. All but writing EXR
+// asks image_formats(), whose std::runtime_error passes through where it cannot be loaded. Not handled: deep
+// images, mip levels, spectral or non-Rec. 709 primaries.
 
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "render/film.h"
 #include "render/image.h"
+#include "render/image_formats.h"
 #include "render/tonemap.h"
 
 namespace kaustik::render {
@@ -24,8 +25,6 @@ class ImageError : public std::runtime_error {
   std::string path_;
 };
 
-using Metadata = std::vector<std::pair<std::string, std::string>>;
-
 struct WriteOptions {
   std::vector<Layer> layers;  // EXR only: besides the image itself
   Metadata metadata;          // string attributes: of every format that keeps them
@@ -40,6 +39,9 @@ std::vector<Layer> layers_from_names(const std::vector<std::string>& names);
 // line: to fail before rendering.
 void check_output_name(const std::string& path);
 
+// By its name: the one format that is written without image_formats().
+bool is_exr(const std::string& path);
+
 // Writes a film by the extension of its path. EXR: 32-bit float, channels R G B (total radiance) and for each
 // layer `direct.R direct.G direct.B`, `normal.X normal.Y normal.Z`, `depth.Z`, `photons.Y`; a crop becomes
 // the data window inside the full display window. PNG, JPEG: 8-bit sRGB. The file appears under its name only
@@ -53,10 +55,9 @@ void write_image(const std::string& path, const Image& image, const ToneSettings
 
 inline constexpr uint64_t kMostPixelsRead = uint64_t{1} << 30;
 
-// Reads R, G, B (or one grey channel three times) of any format OpenImageIO knows, as linear floats: integer
-// formats are decoded from sRGB. Only the data window is returned. Throws ImageError; also,
-// before memory is taken, when the header promises more pixels than most_pixels, a side of more than 2^16,
-// deep data or none.
+// Reads R, G, B (or one grey channel three times) of any format that image_formats() knows, as linear
+// floats: integer formats are decoded from sRGB. Only the data window is returned. Throws ImageError, also
+// for what ImageFormats::read refuses.
 Image read_image(const std::string& path, uint64_t most_pixels = kMostPixelsRead);
 
 }  // namespace kaustik::render

@@ -1,6 +1,5 @@
 #include "apps/bench/machine.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <hwy/highway.h>
 #include <sys/utsname.h>
@@ -11,6 +10,7 @@
 
 #include "accel/embree_version.h"
 #include "apps/usable_cores.h"
+#include "render/image_formats.h"
 
 namespace kaustik::app {
 
@@ -72,10 +72,9 @@ std::vector<std::string> highway_targets() {
 }
 
 Json libraries() {
-  const int oiio = OIIO::openimageio_version();  // 10000 major + 100 minor + patch
   return {{"embree", accel::embree_version()},
           {"tbb", TBB_runtime_version()},
-          {"openimageio", fmt::format("{}.{}.{}", oiio / 10000, oiio / 100 % 100, oiio % 100)},
+          {"openimageio", render::image_formats().version()},
           {"highway", fmt::format("{}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH)},
           {"highway_targets", highway_targets()}};
 }

@@ -4,8 +4,7 @@
 #include <set>
 
 #include "apps/import/gltf/importer.h"
-#include "apps/import/image_textures.h"
-#include "apps/import/light_image_file.h"
+#include "apps/import/image_files.h"
 #include "apps/import/obj_importer.h"
 #include "apps/import/ply.h"
 #include "apps/import/scene_parser.h"
@@ -71,16 +70,16 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
       return result;
     };
   };
-  const auto textures = std::make_shared<ImageTextures>();
+  SceneTextures textures;
   const auto load_texture = [&](const std::string& name, const SourceLocation& where,
                                 const ImageEncoding& encoding) {
     const auto load = [&](const std::filesystem::path& file, std::string* content) {
-      return textures->load(file.string(), encoding, content);
+      return textures.load(file, encoding, content);
     };
     return load_with(load)(name, where);
   };
   auto scene = build_scene(*description, load_with(load_ply), diagnostics, load_with(load_light_image),
-                           {load_texture, textures});
+                           {load_texture, [&] { return textures.library(); }});
   diagnostics.sort_by_location();
   if (!scene || diagnostics.has_errors()) return std::nullopt;
   scene->keeps = description->keeps;

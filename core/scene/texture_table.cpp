@@ -199,9 +199,9 @@ class TextureTable::Maker {
 TextureTable::TextureTable(const SceneDescription& description, const ImageLoader& images, WarnedOnce& warned,
                            DiagnosticList& diagnostics)
     : description_(description), images_(images) {
-  set_->set_images(images.library);
   for (const TextureDescription& texture : description.textures) add(texture, warned, diagnostics);
   load_images(diagnostics);
+  if (images.library) set_->set_images(images.library());
 }
 
 void TextureTable::add(const TextureDescription& texture, WarnedOnce& warned, DiagnosticList& diagnostics) {

@@ -55,7 +55,8 @@ struct ImageLoader {
   // The same file with the same encoding is one image. Called from several threads at once.
   std::function<ImageResult(const std::string& filename, const SourceLocation& where, const ImageEncoding&)>
       load;
-  std::shared_ptr<const ImageLibrary> library;  // kept by the scene; read when all are loaded
+  // Kept by the scene. Called when all images are loaded; null is enough where there are none.
+  std::function<std::shared_ptr<const ImageLibrary>()> library;
 };
 
 }  // namespace kaustik

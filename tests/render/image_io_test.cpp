@@ -7,6 +7,7 @@
 
 #include <fstream>
 
+#include "render/exr_file.h"
 #include "tests/render/image_statistics.h"
 
 namespace kaustik::render {
@@ -88,7 +89,8 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
 
 TEST(ImageIo, CropIsTheDataWindow) {
   const std::string path = output_file("crop.exr");
-  write_film(path, numbered_film(1, 3, 5));
+  const Film film = numbered_film(1, 3, 5);
+  write_film(path, film);
   const OIIO::ImageSpec spec = read_channels(path).spec;
   EXPECT_EQ(spec.x, 1);
   EXPECT_EQ(spec.y, 3);
@@ -96,7 +98,32 @@ TEST(ImageIo, CropIsTheDataWindow) {
   EXPECT_EQ(spec.full_width, 5);
   EXPECT_EQ(spec.full_height, 5);
   EXPECT_EQ(spec.nchannels, 3);
-  EXPECT_EQ(read_image(path).width, 3);
+  const Image image = read_image(path);
+  EXPECT_EQ(image.width, 3);
+  EXPECT_EQ(image.at(0, 0), film.at(0, 0).radiance());
+  EXPECT_EQ(image.at(2, 1), film.at(2, 1).radiance());
+}
+
+TEST(ImageIo, EqualPicturesAreEqualBytes) {
+  const std::string first = output_file("first.exr"), second = output_file("second.exr");
+  WriteOptions options;
+  options.layers = {Layer::kDepth};
+  options.metadata = {{"kaustik:seed", "42"}};
+  for (const std::string& path : {first, second}) write_film(path, numbered_film(), options);
+  const auto bytes = [](const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(bytes(first), bytes(second));
+}
+
+// A small file meets the end of the disk only when it is closed.
+TEST(ImageIo, FullDiskIsNoticed) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const std::vector<float> grey(4 * 4, 0.5f);
+  const ExrPicture picture{
+      .channels = {"Y"}, .width = 4, .height = 4, .full_width = 4, .full_height = 4, .values = grey.data()};
+  EXPECT_THROW(write_exr_file("/dev/full", picture, {}), std::exception);
 }
 
 // An 8-bit level is at most half a level away from the encoded value.

@@ -1,4 +1,4 @@
-#include "apps/import/decoded_image.h"
+#include "images/decoded_image.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace kaustik::pbrt {
+namespace kaustik::images {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::optional<DecodedImage> decode_image(const std::string& path, const ImageEnc
   return image;
 }
 
-}  // namespace kaustik::pbrt
+}  // namespace kaustik::images

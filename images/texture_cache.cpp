@@ -1,4 +1,4 @@
-#include "apps/import/image_textures.h"
+#include "images/texture_cache.h"
 
 #include <OpenImageIO/imagecache.h>
 #include <fmt/format.h>
@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "apps/import/scene_files.h"
-#include "core/content_hash.h"
-
-namespace kaustik::pbrt {
+namespace kaustik::images {
 
 namespace {
 
@@ -17,7 +14,6 @@ using Options = OIIO::TextureOpt;
 
 constexpr const char* kPixels = "kaustik:pixels";  // attribute that carries a DecodedImage
 constexpr int kTile = 64;
-constexpr uint64_t kLargestFile = uint64_t{1} << 32;
 
 // Hands decoded pixels to the cache.
 class DecodedInput final : public OIIO::ImageInput {
@@ -105,7 +101,7 @@ bool is_finite(const Point2& p) {
 
 // One cache for the process, never destroyed: the library keeps a record for each thread and cache, which
 // outlives the cache and is taken for that of a later one at the same address.
-struct ImageTextures::System {
+struct TextureCache::System {
   using Cache = decltype(owned(OIIO::ImageCache::create(false)));
   using Textures = decltype(owned(OIIO::TextureSystem::create(false)));
 
@@ -142,19 +138,13 @@ struct ImageTextures::System {
   }
 };
 
-ImageTextures::ImageTextures() : system_(System::get()) {}
-ImageTextures::~ImageTextures() {
+TextureCache::TextureCache() : system_(System::get()) {}
+TextureCache::~TextureCache() {
   system_.remove(names_, bytes_);
 }
 
-ImageResult ImageTextures::load(const std::string& path, const ImageEncoding& encoding,
-                                std::string* content) {
+ImageResult TextureCache::load(const std::string& path, const ImageEncoding& encoding) {
   ImageResult result;
-  const auto bytes = read_bytes(path, kLargestFile, result.error);
-  if (!bytes) return result;
-  ContentHash hash;
-  hash.add(*bytes);
-  *content = hash.text();
   {
     const std::lock_guard lock(mutex_);
     const auto found = loaded_.find({path, encoding});
@@ -169,7 +159,7 @@ ImageResult ImageTextures::load(const std::string& path, const ImageEncoding& en
   return result;
 }
 
-void ImageTextures::add(const DecodedImage& image, const std::string& path, ImageResult* result) {
+void TextureCache::add(const DecodedImage& image, const std::string& path, ImageResult* result) {
   if (bytes_ + image.pixels.size() > kMostImageBytes) {
     result->error =
         fmt::format("cannot read the image \"{}\": the scene's images are more than {} bytes in all", path,
@@ -199,10 +189,10 @@ void ImageTextures::add(const DecodedImage& image, const std::string& path, Imag
   entries_.push_back({handle, image.spec.nchannels});
 }
 
-Rgb ImageTextures::lookup(uint32_t image, const ImageSampling& sampling, const Point2& st,
-                          const Vector2& dstdx, const Vector2& dstdy) const {
-  if (!pbrt::is_finite(st)) return Rgb(0);
-  const bool has_footprint = pbrt::is_finite(dstdx) && pbrt::is_finite(dstdy);
+Rgb TextureCache::lookup(uint32_t image, const ImageSampling& sampling, const Point2& st,
+                         const Vector2& dstdx, const Vector2& dstdy) const {
+  if (!images::is_finite(st)) return Rgb(0);
+  const bool has_footprint = images::is_finite(dstdx) && images::is_finite(dstdy);
   const Vector2 dx = has_footprint ? reduced(dstdx) : Vector2(0);
   const Vector2 dy = has_footprint ? reduced(dstdy) : Vector2(0);
   const bool point = dx == Vector2(0) && dy == Vector2(0);
@@ -214,4 +204,4 @@ Rgb ImageTextures::lookup(uint32_t image, const ImageSampling& sampling, const P
   return entry.channels == 1 ? Rgb(value[0]) : Rgb(value[0], value[1], value[2]);
 }
 
-}  // namespace kaustik::pbrt
+}  // namespace kaustik::images

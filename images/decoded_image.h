@@ -9,7 +9,7 @@
 
 #include "core/texture/image_lookup.h"
 
-namespace kaustik::pbrt {
+namespace kaustik::images {
 
 // What is refused by its header, before memory is taken: images of more pixels than this, and deep ones.
 inline constexpr uint64_t kMostImagePixels = uint64_t{1} << 27;
@@ -27,4 +27,4 @@ struct DecodedImage {
 std::optional<DecodedImage> decode_image(const std::string& path, const ImageEncoding& encoding,
                                          std::string& error);
 
-}  // namespace kaustik::pbrt
+}  // namespace kaustik::images

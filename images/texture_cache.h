@@ -7,9 +7,10 @@
 #include <mutex>
 #include <vector>
 
-#include "apps/import/decoded_image.h"
+#include "images/decoded_image.h"
+#include "render/image_formats.h"
 
-namespace kaustik::pbrt {
+namespace kaustik::images {
 
 // All images of a scene together are decoded to so many bytes at most, MIP levels apart; more are refused by
 // their headers.
@@ -17,16 +18,14 @@ inline constexpr uint64_t kMostImageBytes = uint64_t{8} << 30;
 
 // Images live in the cache as tiles of linear half or float pixels; MIP levels are made there when they are
 // first read. It has room for all of them, and makes no threads.
-class ImageTextures final : public ImageLibrary {
+class TextureCache final : public render::TextureImages {
  public:
-  ImageTextures();
-  ~ImageTextures() override;
-  ImageTextures(const ImageTextures&) = delete;
-  ImageTextures& operator=(const ImageTextures&) = delete;
+  TextureCache();
+  ~TextureCache() override;
+  TextureCache(const TextureCache&) = delete;
+  TextureCache& operator=(const TextureCache&) = delete;
 
-  // Decodes a file and keeps its tiles. content: takes the ContentHash of the file, if it could be read. May
-  // be called from several threads at once, not beside lookup().
-  ImageResult load(const std::string& path, const ImageEncoding& encoding, std::string* content);
+  ImageResult load(const std::string& path, const ImageEncoding& encoding) override;
 
   Rgb lookup(uint32_t image, const ImageSampling& sampling, const Point2& st, const Vector2& dstdx,
              const Vector2& dstdy) const override;
@@ -53,4 +52,4 @@ class ImageTextures final : public ImageLibrary {
   uint64_t bytes_ = 0;
 };
 
-}  // namespace kaustik::pbrt
+}  // namespace kaustik::images

@@ -1,0 +1,55 @@
+#include "apps/import/image_files.h"
+
+#include <fmt/format.h>
+
+#include "apps/import/scene_files.h"
+#include "core/content_hash.h"
+#include "render/image_io.h"
+
+namespace kaustik::pbrt {
+
+namespace {
+
+constexpr uint64_t kLargestImageFile = uint64_t{1} << 32;
+
+// Nothing, with the reason in `error`, where the file cannot be read.
+std::optional<std::string> hash_of(const std::filesystem::path& path, std::string& error) {
+  const auto bytes = read_bytes(path, kLargestImageFile, error);
+  if (!bytes) return std::nullopt;
+  ContentHash hash;
+  hash.add(*bytes);
+  return hash.text();
+}
+
+}  // namespace
+
+LightImageResult load_light_image(const std::filesystem::path& path, std::string* content) {
+  LightImageResult result;
+  const auto hash = hash_of(path, result.error);
+  if (!hash) return result;
+  if (content) *content = *hash;
+  try {
+    render::Image image = render::read_image(path.string(), kMostLightPixels);
+    result.image = {image.width, image.height, std::move(image.pixels)};
+  } catch (const render::ImageError& e) {
+    result.error = fmt::format("cannot read {}", e.what());
+  }
+  return result;
+}
+
+render::TextureImages& SceneTextures::textures() {
+  const std::lock_guard lock(mutex_);
+  if (!textures_) textures_ = render::image_formats().make_textures();
+  return *textures_;
+}
+
+ImageResult SceneTextures::load(const std::filesystem::path& path, const ImageEncoding& encoding,
+                                std::string* content) {
+  ImageResult result;
+  const auto hash = hash_of(path, result.error);
+  if (!hash) return result;
+  *content = *hash;
+  return textures().load(path.string(), encoding);
+}
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,116 @@
+#include "images/openimageio.h"
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <fmt/format.h>
+
+#include "images/texture_cache.h"
+
+namespace kaustik::images {
+
+namespace {
+
+using render::Channels;
+using render::ImageNumbers;
+using render::Metadata;
+
+std::string reason(const std::unique_ptr<OIIO::ImageOutput>& out) {
+  return out ? out->geterror() : OIIO::geterror();
+}
+
+std::string write_pixels(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                         const void* pixels) {
+  auto out = OIIO::ImageOutput::create(path);
+  if (!out) return reason(out);
+  out->threads(1);  // otherwise the library makes a pool of threads of its own
+  if (!out->open(path, spec)) return reason(out);
+  const bool written = out->write_image(type, pixels);
+  const std::string message = written ? "" : reason(out);
+  const bool closed = out->close();
+  if (written && closed) return {};
+  return message.empty() ? reason(out) : message;
+}
+
+// First channel and number of channels that hold the colour: R, G, B of the default layer, else the first
+// three, else one grey.
+std::pair<int, int> colour_channels(const OIIO::ImageSpec& spec) {
+  for (int c = 0; c + 2 < spec.nchannels; ++c)
+    if (spec.channelnames[size_t(c)] == "R" && spec.channelnames[size_t(c) + 1] == "G" &&
+        spec.channelnames[size_t(c) + 2] == "B")
+      return {c, 3};
+  return {0, spec.nchannels >= 3 ? 3 : 1};
+}
+
+// What a broken or hostile header may say; empty when it is fine.
+std::string refusal(const OIIO::ImageSpec& spec, Channels channels, uint64_t most_pixels) {
+  constexpr int kLongestSide = 1 << 16;
+  if (spec.deep || spec.depth > 1) return "deep or three-dimensional images are not read";
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it holds no pixels";
+  const uint64_t pixels = uint64_t(spec.width) * uint64_t(spec.height);
+  if (spec.width > kLongestSide || spec.height > kLongestSide || pixels > most_pixels)
+    return fmt::format("{} x {} pixels are more than the {} that are read, or more than {} a side",
+                       spec.width, spec.height, most_pixels, kLongestSide);
+  if (channels == Channels::kAll && spec.nchannels > 4)
+    return fmt::format("{} channels are more than the 4 that are read", spec.nchannels);
+  return {};
+}
+
+class OpenImageIo final : public render::ImageFormats {
+ public:
+  // OpenEXR's own pool stays empty. OpenImageIO's is never made: its attribute "threads" would first make it
+  // with a thread per core, then shrink it.
+  OpenImageIo() { OIIO::attribute("exr_threads", -1); }
+
+  std::string version() const override {
+    const int v = OIIO::openimageio_version();  // 10000 major + 100 minor + patch
+    return fmt::format("{}.{}.{}", v / 10000, v / 100 % 100, v % 100);
+  }
+
+  std::optional<ImageNumbers> read(const std::string& path, Channels channels, uint64_t most_pixels,
+                                   std::string& error) const override {
+    const auto fail = [&](std::string why) {
+      error = std::move(why);
+      return std::nullopt;
+    };
+    auto in = OIIO::ImageInput::open(path);
+    if (!in) return fail(OIIO::geterror());
+    in->threads(1);
+    const OIIO::ImageSpec spec = in->spec();
+    if (std::string why = refusal(spec, channels, most_pixels); !why.empty()) return fail(std::move(why));
+    const auto [first, count] =
+        channels == Channels::kAll ? std::pair(0, spec.nchannels) : colour_channels(spec);
+    ImageNumbers out{spec.width, spec.height, count, !spec.format.is_floating_point(), {}};
+    out.values.resize(out.count() * size_t(count));
+    if (!in->read_image(0, 0, first, first + count, OIIO::TypeDesc::FLOAT, out.values.data()))
+      return fail(in->geterror());
+    return out;
+  }
+
+  std::string write_srgb8(const std::string& path, int width, int height, const std::vector<uint8_t>& pixels,
+                          const Metadata& metadata) const override {
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("compression", OIIO::Strutil::iends_with(path, ".png") ? "zip" : "jpeg:95");
+    for (const auto& [key, value] : metadata) spec.attribute(key, value);
+    return write_pixels(path, spec, OIIO::TypeDesc::UINT8, pixels.data());
+  }
+
+  std::string write_numbers(const std::string& path, const ImageNumbers& image, int bits) const override {
+    const OIIO::TypeDesc type = bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+    const OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
+    return write_pixels(path, spec, OIIO::TypeDesc::FLOAT, image.values.data());
+  }
+
+  std::shared_ptr<render::TextureImages> make_textures() const override {
+    return std::make_shared<TextureCache>();
+  }
+};
+
+}  // namespace
+
+const render::ImageFormats& openimageio() {
+  static const OpenImageIo formats;
+  return formats;
+}
+
+}  // namespace kaustik::images

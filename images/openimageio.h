@@ -1,0 +1,11 @@
+#pragma once
+// The image formats by OpenImageIO.
+
+#include "render/image_formats.h"
+
+namespace kaustik::images {
+
+// One for the process.
+const render::ImageFormats& openimageio();
+
+}  // namespace kaustik::images
