@@ -1,6 +1,6 @@
 #pragma once
 // What OpenImageIO does for us: reading pictures of any format, PNG and JPEG, image textures. It stands
-// behind an interface because it brings some 260 libraries, whose loading takes longer than many a scene: the
+// behind an interface because it brings some 250 libraries, whose loading takes longer than many a scene: the
 // program loads it when it is first asked for something (images/loaded.cpp), tests link it
 // (images/linked.cpp). Errors are texts, not exceptions, so that no type of ours has to be the same on both
 // sides of the border.
