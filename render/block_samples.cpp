@@ -33,27 +33,29 @@ class BlockSamples {
   }
 
   void shade(photon::EstimateBatch* batch, TileCounters& counters) {
-    for_each([&](int x, int y, uint64_t i, PixelResult& result) {
+    for_each([&](int x, int y, uint64_t i, Sample& sample) {
+      static_assert(kRayBlock * kRayBlock <= photon::EstimateBatch::kPixels);
       batch->begin_pixel(pixel_of_block(x, y));
       const uint64_t stream = pixel_stream(ctx_.settings.seed, ctx_.scene.camera, x, y);
       Sampler sampler(stream, i, ray_dimensions(ctx_.scene.camera));
       // Once a pass: most of its noise is that of the photons, which all samples share.
       const bool with_bias = ctx_.settings.estimate_bias.value_or(false) && i == ctx_.samples.first;
-      const CameraSample sample{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch};
+      const CameraSample ray{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch};
       const auto work = [&] { return counters.rays.all() + counters.gather.queries + batch->readings(); };
       const uint64_t before = work();
-      trace_camera_ray(ctx_, sample, sampler, counters, &result);
-      work_[size_t(&result - results_.data())] = work() - before;
+      trace_camera_ray(ctx_, ray, sampler, counters, &sample.result);
+      sample.work = work() - before;
     });
     batch->flush(counters.gather);
   }
 
   void add_to(FilmSums* film, BlockMoments* moments, TileResult* tile) {
-    for_each([&](int x, int y, uint64_t i, PixelResult& result) {
+    for_each([&](int x, int y, uint64_t i, Sample& sample) {
+      PixelResult& result = sample.result;
       if (valid_radiance(result, ctx_.plan.direct)) {
         expose(ctx_.scene.sensor, &result);
         film->at(x - film->x0(), y - film->y0()).add(result, rays_.weight(x, y, i));
-        (*moments)[pixel_of_block(x, y)].add(result.radiance(), work_[size_t(&result - results_.data())]);
+        if (moments) (*moments)[pixel_of_block(x, y)].add(result.radiance(), sample.work);
         return;
       }
       ++tile->dropped;
@@ -62,21 +64,25 @@ class BlockSamples {
   }
 
  private:
+  struct Sample {
+    PixelResult result;
+    uint64_t work = 0;  // rays and readings of a map
+  };
+
   template <class Fn>
   void for_each(const Fn& fn) {
-    PixelResult* result = results_.data();
+    Sample* sample = taken_.data();
     for (int y = pixels_.y0; y < pixels_.y1; ++y)
       for (int x = pixels_.x0; x < pixels_.x1; ++x)
         if (has_pixel(samples_.part, x, y))
-          for (uint64_t i = samples_.first; i < samples_.end; ++i) fn(x, y, i, *result++);
+          for (uint64_t i = samples_.first; i < samples_.end; ++i) fn(x, y, i, *sample++);
   }
 
   const RenderContext& ctx_;
   PixelRange pixels_;
   SampleRange samples_;
   CameraRays rays_;
-  std::array<PixelResult, accel::kRayLanes> results_;
-  std::array<uint64_t, accel::kRayLanes> work_;
+  std::array<Sample, accel::kRayLanes> taken_;
 };
 
 }  // namespace

@@ -26,8 +26,8 @@ struct SampleRange {
   uint64_t first, end;
 };
 
-// Adds samples of pixels of one block of rays to film and tile, and to moments. pixels: of the full image.
-// batch.begin_block() comes first.
+// Adds samples of pixels of one block of rays to film and tile, and to moments if there are any. pixels: of
+// the full image. batch.begin_block() comes first.
 void render_block(const RenderContext& ctx, const PixelRange& pixels, const SampleRange& samples,
                   photon::EstimateBatch* batch, FilmSums* film, BlockMoments* moments, TileResult* tile);
 

@@ -10,6 +10,11 @@ namespace kaustik::render {
 
 inline constexpr int kRayBlock = 4;  // pixels along each axis of a block
 
+// The number of pixel (x, y) of the full image in its block.
+inline constexpr uint32_t pixel_of_block(int x, int y) {
+  return uint32_t(y % kRayBlock * kRayBlock + x % kRayBlock);
+}
+
 // Of a block: all its pixels, or those of one colour of a checkerboard.
 enum class BlockPart { kWhole, kEven, kOdd };
 inline constexpr int pixels_in(BlockPart part) {
@@ -51,8 +56,7 @@ class CameraRays {
  private:
   size_t lane(int x, int y, uint64_t sample) const {
     // Of two neighbours in a row one is even, one odd.
-    const uint64_t place =
-        uint64_t(y % kRayBlock * kRayBlock + x % kRayBlock) >> (part_ != BlockPart::kWhole);
+    const uint32_t place = pixel_of_block(x, y) >> (part_ != BlockPart::kWhole);
     return size_t((sample - first_) * uint64_t(pixels_in(part_)) + place);
   }
 

@@ -11,7 +11,7 @@ namespace {
 
 // Relative variances as whole numbers that grow with their logarithm: the upper bits of a float.
 constexpr int kMantissaBits = 4;
-constexpr uint32_t kSteps = 1u << (9 + kMantissaBits - 1);  // of all finite floats that are not negative
+constexpr uint32_t kSteps = 1u << (8 + kMantissaBits);  // of all finite floats that are not negative
 // Of the count. If the variance of a mean fell like 1 / count, the root of the relative variance would be
 // best; of stratified samples it falls faster, and what is smooth gains as much from a few as edges do from
 // many.
@@ -59,16 +59,17 @@ SampleCounts::SampleCounts(const FilmSums& window)
       counts_(spreads_.size()) {}
 
 // The other half counts as much as the blocks around together: it is nearer, and less of it.
-SampleSpread SampleCounts::neighbours(int column, int row, int half) const {
+SampleSpread SampleCounts::neighbours(size_t i) const {
   constexpr double kAround = 1.0 / 16;
+  const int half = int(i % kHalves), column = int(i / kHalves) % columns_, row = int(i / kHalves) / columns_;
   SampleSpread sum;
   for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows_ - 1); ++r) {
     for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns_ - 1); ++c) {
-      const SampleSpread* const block = &spreads_[(size_t(r) * size_t(columns_) + size_t(c)) * kHalves];
+      const SampleSpread* const halves = &spreads_[block(c, r)];
       if (r == row && c == column)
-        sum.add(block[1 - half], 1);
+        sum.add(halves[1 - half], 1);
       else
-        for (int h = 0; h < kHalves; ++h) sum.add(block[h], kAround);
+        for (int h = 0; h < kHalves; ++h) sum.add(halves[h], kAround);
     }
   }
   return sum;
@@ -86,17 +87,12 @@ void SampleCounts::share_out(uint64_t first, double work) {
 
   std::vector<uint32_t> steps(spreads_.size());
   Histogram first_work{};
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      for (int half = 0; half < kHalves; ++half) {
-        const SampleSpread near = neighbours(column, row, half);
-        const size_t i = (size_t(row) * size_t(columns_) + size_t(column)) * kHalves + size_t(half);
-        if (!(near.work > 0)) continue;
-        const double m = near.mean / near.pixels;
-        steps[i] = step_of(near.variance / near.work / (m * m + least * least));
-        first_work[steps[i]] += spreads_[i].work;
-      }
-    }
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const SampleSpread near = neighbours(i);
+    if (!(near.work > 0)) continue;
+    const double m = near.mean / near.pixels;
+    steps[i] = step_of(near.variance / near.work / (m * m + least * least));
+    first_work[steps[i]] += spreads_[i].work;
   }
   const uint32_t threshold = least_threshold(first_work, all.work * work);
   for (size_t i = 0; i < counts_.size(); ++i) counts_[i] = first << doublings(steps[i], threshold);

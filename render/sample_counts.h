@@ -37,10 +37,13 @@ class SampleCounts {
 
  private:
   size_t index(int x, int y, int half) const {
-    const size_t column = size_t(x / kRayBlock - first_column_), row = size_t(y / kRayBlock - first_row_);
-    return (row * size_t(columns_) + column) * kHalves + size_t(half);
+    return block(x / kRayBlock - first_column_, y / kRayBlock - first_row_) + size_t(half);
   }
-  SampleSpread neighbours(int column, int row, int half) const;
+  // Where the halves of a block of the window begin.
+  size_t block(int column, int row) const {
+    return (size_t(row) * size_t(columns_) + size_t(column)) * kHalves;
+  }
+  SampleSpread neighbours(size_t i) const;
 
   int first_column_, first_row_, columns_, rows_;
   std::vector<SampleSpread> spreads_;

@@ -21,12 +21,8 @@ struct SampleMoments {
   }
 };
 
-// Of a block of rays, by pixel_of_block(): the number of pixel (x, y) of the full image in its block. Pixels
-// outside the window have no samples.
+// Of a block of rays, by pixel_of_block(). Pixels outside the window have no samples.
 using BlockMoments = std::array<SampleMoments, kRayBlock * kRayBlock>;
-inline uint32_t pixel_of_block(int x, int y) {
-  return uint32_t(y % kRayBlock * kRayBlock + x % kRayBlock);
-}
 
 // What some samples of some pixels say: sums over the pixels.
 struct SampleSpread {

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <mutex>
-#include <numeric>
+#include <optional>
 
 #include "render/block_samples.h"
 #include "render/sample_counts.h"
@@ -37,98 +38,82 @@ struct MergedTiles {
   }
 };
 
-// fn(corner) for the blocks that a tile touches: the corner of the part that lies in it.
-template <class Fn>
-void for_each_block(const PixelRange& tile, const Fn& fn) {
-  for (int y = tile.y0 - tile.y0 % kRayBlock; y < tile.y1; y += kRayBlock)
-    for (int x = tile.x0 - tile.x0 % kRayBlock; x < tile.x1; x += kRayBlock)
-      fn(tile.in_square(x, y, kRayBlock));
-}
-
 // A pass's samples of the film's window.
 class TilePass {
  public:
   TilePass(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film)
-      : ctx_(ctx),
-        progress_(progress),
-        film_(*film),
-        window_{film->x0(), film->x0() + film->width(), film->y0(), film->y0() + film->height()},
-        counts_(*film) {
-    // Tiles are counted from the corner of the full image, as the blocks of rays are.
-    for (int y = window_.y0 - window_.y0 % kTileSize; y < window_.y1; y += kTileSize)
-      for (int x = window_.x0 - window_.x0 % kTileSize; x < window_.x1; x += kTileSize)
-        tiles_.push_back(window_.in_square(x, y, kTileSize));
-    to_do_ = tiles_.size() * (adapts() ? 2 : 1);
+      : ctx_(ctx), progress_(progress), film_(*film) {
+    const PixelRange window{film->x0(), film->x0() + film->width(), film->y0(), film->y0() + film->height()};
+    window.for_each_square(kTileSize, [this](const PixelRange& tile) { tiles_.push_back(tile); });
+    if (ctx.samples.further_work > 0) counts_.emplace(*film);
+    to_do_ = tiles_.size() * (counts_ ? 2 : 1);
   }
 
   // False when progress cancelled.
   bool render() {
-    if (!each_tile([this](const PixelRange& tile) { return first_samples(tile); })) return false;
-    if (!adapts()) return true;
-    counts_.share_out(samples(), 1 + ctx_.samples.further_work);
+    if (!each_tile(&TilePass::first_samples)) return false;
+    if (!counts_) return true;
+    counts_->share_out(samples(), 1 + ctx_.samples.further_work);
     sort_by_work();
-    return each_tile([this](const PixelRange& tile) { return further_samples(tile); });
+    return each_tile(&TilePass::further_samples);
   }
 
   void fill(RenderStatistics* statistics) const { merged_.fill(statistics); }
 
  private:
-  bool adapts() const { return ctx_.samples.further_work > 0; }
   uint64_t samples() const { return ctx_.samples.end - ctx_.samples.first; }  // of each pixel, at first
 
-  TileResult first_samples(const PixelRange& tile) {
-    TileResult result;
-    photon::EstimateBatch batch;
-    for_each_block(tile, [&](const PixelRange& block) {
-      BlockMoments moments;
-      batch.begin_block();
-      render_block(ctx_, block, {BlockPart::kWhole, ctx_.samples.first, ctx_.samples.end}, &batch, &film_,
-                   &moments, &result);
-      if (!adapts()) return;
-      for (int half = 0; half < kHalves; ++half)
-        counts_.spread(block.x0, block.y0, half) = spread_of(moments, half);
-    });
-    return result;
+  void first_samples(const PixelRange& block, photon::EstimateBatch* batch, TileResult* tile) {
+    const SampleRange range{BlockPart::kWhole, ctx_.samples.first, ctx_.samples.end};
+    if (!counts_) return render_block(ctx_, block, range, batch, &film_, nullptr, tile);
+    BlockMoments moments;
+    render_block(ctx_, block, range, batch, &film_, &moments, tile);
+    for (int half = 0; half < kHalves; ++half)
+      counts_->spread(block.x0, block.y0, half) = spread_of(moments, half);
   }
 
-  TileResult further_samples(const PixelRange& tile) {
-    TileResult result;
-    photon::EstimateBatch batch;
-    for_each_block(tile, [&](const PixelRange& block) {
-      BlockMoments ignored;
-      batch.begin_block();
-      for (int half = 0; half < kHalves; ++half) {
-        const uint64_t first = ctx_.samples.end;
-        const uint64_t more = counts_.count(block.x0, block.y0, half) - samples();
-        const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd, first, first + more};
-        render_block(ctx_, block, range, &batch, &film_, &ignored, &result);
-      }
-    });
-    return result;
+  void further_samples(const PixelRange& block, photon::EstimateBatch* batch, TileResult* tile) {
+    const uint64_t first = ctx_.samples.end;
+    for (int half = 0; half < kHalves; ++half) {
+      const uint64_t more = counts_->count(block.x0, block.y0, half) - samples();
+      const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd, first, first + more};
+      render_block(ctx_, block, range, batch, &film_, nullptr, tile);
+    }
   }
 
   // The longest tiles first, so that no thread is left with one at the end.
   void sort_by_work() {
     const auto counts = [&](const PixelRange& tile) {
       uint64_t sum = 0;
-      for_each_block(tile, [&](const PixelRange& block) {
-        for (int half = 0; half < kHalves; ++half) sum += counts_.count(block.x0, block.y0, half);
+      tile.for_each_square(kRayBlock, [&](const PixelRange& block) {
+        for (int half = 0; half < kHalves; ++half) sum += counts_->count(block.x0, block.y0, half);
       });
       return sum;
     };
     std::ranges::stable_sort(tiles_, std::greater<>(), counts);
   }
 
-  // render_tile(tile) for all. False when progress cancelled.
-  template <class Fn>
-  bool each_tile(const Fn& render_tile) {
+  using BlockRenderer = void (TilePass::*)(const PixelRange&, photon::EstimateBatch*, TileResult*);
+
+  TileResult render_tile(const PixelRange& tile, BlockRenderer add_samples) {
+    TileResult result;
+    photon::EstimateBatch batch;
+    tile.for_each_square(kRayBlock, [&](const PixelRange& block) {
+      batch.begin_block();
+      (this->*add_samples)(block, &batch, &result);
+    });
+    return result;
+  }
+
+  // False when progress cancelled.
+  bool each_tile(BlockRenderer add_samples) {
     std::mutex mutex;
     std::atomic<size_t> next{0};
     tbb::parallel_for(
         size_t(0), tiles_.size(),
         [&](size_t) {
           if (cancelled_) return;
-          const TileResult tile = render_tile(tiles_[next++]);
+          const TileResult tile = render_tile(tiles_[next++], add_samples);
           const std::lock_guard lock(mutex);
           merged_.add(tile);
           ++done_;
@@ -142,9 +127,8 @@ class TilePass {
   const RenderContext& ctx_;
   const ProgressCallback& progress_;
   FilmSums& film_;
-  PixelRange window_;
   std::vector<PixelRange> tiles_;
-  SampleCounts counts_;
+  std::optional<SampleCounts> counts_;  // where further samples are taken
   MergedTiles merged_;
   uint64_t done_ = 0, to_do_ = 0;
   std::atomic<bool> cancelled_{false};
