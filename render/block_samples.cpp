@@ -40,11 +40,11 @@ class BlockSamples {
       Sampler sampler(stream, i, ray_dimensions(ctx_.scene.camera));
       // Once a pass: most of its noise is that of the photons, which all samples share.
       const bool with_bias = ctx_.settings.estimate_bias.value_or(false) && i == ctx_.samples.first;
-      const CameraSample ray{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch};
-      const auto work = [&] { return counters.rays.all() + counters.gather.queries + batch->readings(); };
-      const uint64_t before = work();
+      const CameraSample ray{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch, samples_.light};
+      const auto readings = [&] { return counters.gather.queries + batch->readings(); };
+      const uint64_t rays_before = counters.rays.all(), readings_before = readings();
       trace_camera_ray(ctx_, ray, sampler, counters, &sample.result);
-      sample.work = work() - before;
+      sample.rays = counters.rays.all() - rays_before, sample.readings = readings() - readings_before;
     });
     batch->flush(counters.gather);
   }
@@ -54,8 +54,8 @@ class BlockSamples {
       PixelResult& result = sample.result;
       if (valid_radiance(result, ctx_.plan.direct)) {
         expose(ctx_.scene.sensor, &result);
-        film->at(x - film->x0(), y - film->y0()).add(result, rays_.weight(x, y, i));
-        if (moments) (*moments)[pixel_of_block(x, y)].add(result.radiance(), sample.work);
+        film->at(x - film->x0(), y - film->y0()).add(result, rays_.weight(x, y, i), samples_.light);
+        if (moments) add_to(&(*moments)[pixel_of_block(x, y)], sample);
         return;
       }
       ++tile->dropped;
@@ -66,8 +66,18 @@ class BlockSamples {
  private:
   struct Sample {
     PixelResult result;
-    uint64_t work = 0;  // rays and readings of a map
+    uint64_t rays = 0, readings = 0;  // what it took; readings are of a map
   };
+
+  // Traced light varies not at all where it cannot be told from what the maps say, or where weights may
+  // cancel.
+  void add_to(SampleMoments* moments, const Sample& sample) const {
+    const bool apart = samples_lamps(ctx_.plan.direct) && !ctx_.scene.camera.filter.is_negative();
+    const Rgb traced = apart ? sample.result.emitted + sample.result.direct : Rgb(0);
+    moments->light[size_t(SampleLight::kAll)].add(sample.result.radiance(), sample.rays + sample.readings);
+    moments->light[size_t(SampleLight::kTraced)].add(traced, sample.rays);
+    ++moments->count;
+  }
 
   template <class Fn>
   void for_each(const Fn& fn) {
@@ -91,7 +101,7 @@ void render_block(const RenderContext& ctx, const PixelRange& pixels, const Samp
                   photon::EstimateBatch* batch, FilmSums* film, BlockMoments* moments, TileResult* tile) {
   const uint64_t most = CameraRays::most_samples(samples.part);
   for (uint64_t first = samples.first; first < samples.end; first += most) {
-    BlockSamples some(ctx, pixels, {samples.part, first, std::min(samples.end, first + most)});
+    BlockSamples some(ctx, pixels, {samples.part, first, std::min(samples.end, first + most), samples.light});
     some.shade(batch, tile->counters);
     some.add_to(film, moments, tile);
   }

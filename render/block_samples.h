@@ -20,10 +20,11 @@ struct TileResult {
   std::vector<DroppedSample> examples;
 };
 
-// Numbers of samples of each pixel of a part of a block.
+// Numbers of samples of each pixel of a part of a block, and what they bring.
 struct SampleRange {
   BlockPart part;
   uint64_t first, end;
+  SampleLight light = SampleLight::kAll;
 };
 
 // Adds samples of pixels of one block of rays to film and tile, and to moments if there are any. pixels: of

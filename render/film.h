@@ -46,6 +46,11 @@ struct PixelResult {
   Rgb radiance() const { return emitted + direct + caustic + indirect; }
 };
 
+// What a sample brings. Traced light is what it needs rays for alone: emission, and direct light by lamp
+// samples. What photon maps say of a pixel can be left to its other samples.
+enum class SampleLight { kAll, kTraced };
+inline constexpr size_t kSampleLights = 2;
+
 // Sums over a pass's samples, in double. Samples count 1, or -1 where the pixel filter is negative.
 struct PixelSum {
   glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
@@ -53,9 +58,10 @@ struct PixelSum {
   glm::dvec3 bias{0};  // of the first sample alone
   uint64_t count = 0;
   uint64_t negative = 0;  // of them, those that count -1
+  uint64_t traced = 0;    // of them, those of traced light alone: where there are any, none is negative
 
   int64_t weight() const { return static_cast<int64_t>(count) - 2 * static_cast<int64_t>(negative); }
-  void add(const PixelResult& s, int sample_weight = 1) {
+  void add(const PixelResult& s, int sample_weight = 1, SampleLight light = SampleLight::kAll) {
     const double w = sample_weight;
     const auto add3 = [w](glm::dvec3& sum, const glm::vec3& v) { sum += w * glm::dvec3(v); };
     add3(emitted, s.emitted), add3(direct, s.direct), add3(caustic, s.caustic), add3(indirect, s.indirect);
@@ -64,6 +70,16 @@ struct PixelSum {
     bias += s.bias;
     ++count;
     negative += sample_weight < 0;
+    traced += light == SampleLight::kTraced;
+  }
+  // As if every sample had brought all light.
+  PixelSum completed() const {
+    PixelSum sum = *this;
+    if (traced == 0 || traced == count) return sum;
+    const double all = double(count) / double(count - traced);
+    sum.caustic *= all, sum.indirect *= all, sum.photons *= all;
+    sum.traced = 0;
+    return sum;
   }
 };
 

@@ -68,8 +68,9 @@ struct PerUnit {
 };
 
 // Returns how many sums were clamped.
-uint64_t add_pixel(const PixelSum& pass, const PerUnit& per_unit, PixelTotals* totals) {
-  if (pass.count == 0) return 0;
+uint64_t add_pixel(const PixelSum& samples, const PerUnit& per_unit, PixelTotals* totals) {
+  if (samples.count == 0) return 0;
+  const PixelSum pass = samples.completed();
   uint64_t clamped = 0;
   const auto channels = channels_of(pass);
   for (size_t i = 0; i < kSumChannels; ++i) clamped += !totals->sums[i].add(channels[i], per_unit.sums[i]);

@@ -19,7 +19,7 @@ PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp) 
 }
 
 PassSamples pass_samples(const PassShare& pass, const RenderSettings& settings, const EstimatorPlan& plan) {
-  constexpr double kFurtherWork = 0.5;  // measured (docs/performance.md)
+  constexpr double kFurtherWork = 0.75;  // measured (docs/performance.md)
   if (settings.adaptive == Adaptive::kOff || pass.shares > 1 || traces_paths(plan))
     return {pass.first_sample, pass.end_sample, 0};
   const uint64_t strata = pass.pass << 32;

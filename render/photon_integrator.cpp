@@ -88,6 +88,7 @@ void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& b
                    const MapReader& maps) {
   PixelResult* const result = maps.result;
   add_direct(ctx, x, beta, sampler, maps);
+  if (maps.sample.light == SampleLight::kTraced) return;
   if (ctx.plan.caustics == CausticEstimator::kPhotons) maps.add(ctx.maps.caustic, x, beta, &result->caustic);
   if (ctx.plan.indirect == IndirectEstimator::kPhotons)
     maps.add(ctx.maps.indirect, x, beta, &result->indirect);

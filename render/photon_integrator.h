@@ -12,6 +12,7 @@ struct CameraSample {
   Hit hit;
   bool with_bias = false;                  // the kernels' bias too, which takes a second, smaller gather
   photon::EstimateBatch* batch = nullptr;  // where estimates may wait
+  SampleLight light = SampleLight::kAll;   // traced light alone needs a plan without camera paths
 };
 
 // Adds the sample to *result, which was empty; what waits in the batch is added when that is flushed.

@@ -25,27 +25,31 @@ int doublings(uint32_t step, uint32_t threshold) {
   return std::clamp((int(step) - int(threshold)) / kStepsPerDoubling, 0, kMostDoublings);
 }
 
-// Work of the first samples of all pixels whose gain lies in each step.
+// Work of as many samples as there are first ones, of all pixels whose gain lies in each step.
 using Histogram = std::array<double, kSteps>;
 
-double work_of(const Histogram& first, uint32_t threshold) {
+double further_work_of(const Histogram& work, uint32_t threshold) {
   double sum = 0;
   for (uint32_t step = 0; step < kSteps; ++step)
-    if (first[step] > 0) sum += std::ldexp(first[step], doublings(step, threshold));
+    if (work[step] > 0) sum += work[step] * (std::ldexp(1.0, doublings(step, threshold)) - 1);
   return sum;
 }
 
 // The least threshold that takes no more work.
-uint32_t least_threshold(const Histogram& first, double most) {
+uint32_t least_threshold(const Histogram& work, double most) {
   uint32_t low = 1, high = kSteps;
   while (low < high) {
     const uint32_t middle = low + (high - low) / 2;
-    if (work_of(first, middle) <= most)
+    if (further_work_of(work, middle) <= most)
       high = middle;
     else
       low = middle + 1;
   }
   return low;
+}
+
+double gain_of(const LightSpread& light) {
+  return light.work > 0 ? light.variance / light.work : 0;
 }
 
 }  // namespace
@@ -56,7 +60,8 @@ SampleCounts::SampleCounts(const FilmSums& window)
       columns_((window.x0() + window.width() - 1) / kRayBlock + 1 - first_column_),
       rows_((window.y0() + window.height() - 1) / kRayBlock + 1 - first_row_),
       spreads_(size_t(columns_) * size_t(rows_) * kHalves),
-      counts_(spreads_.size()) {}
+      counts_(spreads_.size()),
+      lights_(spreads_.size()) {}
 
 // The other half counts as much as the blocks around together: it is nearer, and less of it.
 SampleSpread SampleCounts::neighbours(size_t i) const {
@@ -75,7 +80,7 @@ SampleSpread SampleCounts::neighbours(size_t i) const {
   return sum;
 }
 
-void SampleCounts::share_out(uint64_t first, double work) {
+void SampleCounts::share_out(uint64_t first, double further_work) {
   SampleSpread all;
   double roots = 0;
   for (const SampleSpread& half : spreads_) {
@@ -86,15 +91,17 @@ void SampleCounts::share_out(uint64_t first, double work) {
   const double root = roots / all.pixels, least = root * root / 2;
 
   std::vector<uint32_t> steps(spreads_.size());
-  Histogram first_work{};
+  Histogram work{};
   for (size_t i = 0; i < steps.size(); ++i) {
     const SampleSpread near = neighbours(i);
-    if (!(near.work > 0)) continue;
+    if (!(near.pixels > 0)) continue;
+    const double whole = gain_of(near.of(SampleLight::kAll)), traced = gain_of(near.of(SampleLight::kTraced));
     const double m = near.mean / near.pixels;
-    steps[i] = step_of(near.variance / near.work / (m * m + least * least));
-    first_work[steps[i]] += spreads_[i].work;
+    lights_[i] = whole < traced ? SampleLight::kTraced : SampleLight::kAll;
+    steps[i] = step_of(std::max(whole, traced) / (m * m + least * least));
+    work[steps[i]] += spreads_[i].of(lights_[i]).work;
   }
-  const uint32_t threshold = least_threshold(first_work, all.work * work);
+  const uint32_t threshold = least_threshold(work, all.of(SampleLight::kAll).work * further_work);
   for (size_t i = 0; i < counts_.size(); ++i) counts_[i] = first << doublings(steps[i], threshold);
 }
 

@@ -28,12 +28,15 @@ class SampleCounts {
   // threads.
   SampleSpread& spread(int x, int y, int half) { return spreads_[index(x, y, half)]; }
 
-  // Once all spreads are set: counts of 2^k first, of which all together take at most `work`
-  // times the work of the first. They follow the fourth root of variance / (work (mean^2 + m^2)), where m^2
-  // keeps dim pixels from taking all. Less is done where the limit of k is met.
-  void share_out(uint64_t first, double work);
+  // Once all spreads are set: counts of 2^k first, of which those beyond the first together take at most
+  // `further_work` times the work of the first. They follow the fourth root of
+  // variance / (work (mean^2 + m^2)), where m^2 keeps dim pixels from taking all; of all light or of traced
+  // light, whichever is more. Less is done where the limit of k is met.
+  void share_out(uint64_t first, double further_work);
 
   uint64_t count(int x, int y, int half) const { return counts_[index(x, y, half)]; }
+  // What the samples beyond the first are to bring.
+  SampleLight light(int x, int y, int half) const { return lights_[index(x, y, half)]; }
 
  private:
   size_t index(int x, int y, int half) const {
@@ -48,6 +51,7 @@ class SampleCounts {
   int first_column_, first_row_, columns_, rows_;
   std::vector<SampleSpread> spreads_;
   std::vector<uint64_t> counts_;
+  std::vector<SampleLight> lights_;
 };
 
 }  // namespace kaustik::render

@@ -53,7 +53,7 @@ class TilePass {
   bool render() {
     if (!each_tile(&TilePass::first_samples)) return false;
     if (!counts_) return true;
-    counts_->share_out(samples(), 1 + ctx_.samples.further_work);
+    counts_->share_out(samples(), ctx_.samples.further_work);
     sort_by_work();
     return each_tile(&TilePass::further_samples);
   }
@@ -76,7 +76,8 @@ class TilePass {
     const uint64_t first = ctx_.samples.end;
     for (int half = 0; half < kHalves; ++half) {
       const uint64_t more = counts_->count(block.x0, block.y0, half) - samples();
-      const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd, first, first + more};
+      const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd, first, first + more,
+                              counts_->light(block.x0, block.y0, half)};
       render_block(ctx_, block, range, batch, &film_, nullptr, tile);
     }
   }

@@ -39,6 +39,7 @@ class PixelFilter {
   FilterSample sample(const Point2& u) const;
   // The mean over the pixel's own square: the offset is u - 1/2.
   bool is_pixel_box() const { return plain_; }
+  bool is_negative() const { return mean_weight() < 1; }  // in places
   // The integral of f over that of |f|, the mean weight of samples: 1 unless f is negative in places; not
   // positive for filters that are of no use.
   double mean_weight() const { return x_.mean_weight * y_.mean_weight; }

@@ -19,8 +19,16 @@ BlockMoments moments_of(int count, const Fn& value) {
   BlockMoments block;
   for (int y = 0; y < kRayBlock; ++y)
     for (int x = 0; x < kRayBlock; ++x)
-      for (int i = 0; i < count; ++i) block[pixel_of_block(x, y)].add(Rgb(value(x, y, i)), 3);
+      for (int i = 0; i < count; ++i) {
+        SampleMoments& pixel = block[pixel_of_block(x, y)];
+        for (LightMoments& light : pixel.light) light.add(Rgb(value(x, y, i)), 3);
+        ++pixel.count;
+      }
   return block;
+}
+
+double variance_of(const BlockMoments& block, int half) {
+  return spread_of(block, half).of(SampleLight::kAll).variance;
 }
 
 // What is plane over the block is no noise, however much the samples of a pixel differ; and what does not
@@ -31,10 +39,10 @@ TEST(SampleSpread, IsTheSmallerOfTwoBounds) {
   });
   const auto crooked = moments_of(2, [](int x, int y, int) { return float(1 + x * x * y); });
   for (int half = 0; half < kHalves; ++half) {
-    EXPECT_EQ(spread_of(plane, half).variance, 0);
-    EXPECT_EQ(spread_of(crooked, half).variance, 0);
+    EXPECT_EQ(variance_of(plane, half), 0);
+    EXPECT_EQ(variance_of(crooked, half), 0);
     EXPECT_EQ(spread_of(plane, half).pixels, 8);
-    EXPECT_EQ(spread_of(plane, half).work, 8 * 3);
+    EXPECT_EQ(spread_of(plane, half).of(SampleLight::kTraced).work, 8 * 3);
     EXPECT_DOUBLE_EQ(spread_of(plane, half).mean, 8 * (8 + 0.5 * 1.5 - 0.25 * 1.5));
   }
 }
@@ -47,7 +55,7 @@ TEST(SampleSpread, OfNoiseIsItsVariance) {
   double sum = 0;
   constexpr int kBlocks = 400;
   for (int i = 0; i < kBlocks; ++i)
-    sum += spread_of(moments_of(4, [&](int, int, int) { return noise(random); }), i % 2).variance / 8;
+    sum += variance_of(moments_of(4, [&](int, int, int) { return noise(random); }), i % 2) / 8;
   const double of_one = sum / kBlocks / 3;  // a channel's
   EXPECT_LT(of_one, 4);
   EXPECT_GT(of_one, 2);
@@ -60,20 +68,27 @@ TEST(SampleSpread, OfABlockThatIsCutIsThatOfItsPixels) {
   for (int half = 0; half < kHalves; ++half) {
     const SampleSpread spread = spread_of(block, half);
     EXPECT_EQ(spread.pixels, 6);
-    EXPECT_EQ(spread.variance, 6 * 3 * 2);
+    EXPECT_EQ(spread.of(SampleLight::kAll).variance, 6 * 3 * 2);
   }
 }
 
 constexpr int kBlocks = 12, kPixels = kBlocks * kRayBlock;
 
+// Of half a block, for each of its pixels; the mean is 1.
+SampleSpread spread_by(const LightSpread& all, const LightSpread& traced = {}) {
+  SampleSpread spread{{all, traced}, 1.0, 1.0}, half;
+  half.add(spread, 8);
+  return half;
+}
+
 template <class Fn>
-SampleCounts counts_of(const Fn& variance, uint64_t first, double work) {
+SampleCounts counts_of(const Fn& variance, uint64_t first, double further_work) {
   SampleCounts counts{FilmSums(kPixels, kPixels)};
   for (int y = 0; y < kPixels; y += kRayBlock)
     for (int x = 0; x < kPixels; x += kRayBlock)
       for (int half = 0; half < kHalves; ++half)
-        counts.spread(x, y, half) = {8 * variance(x / kRayBlock, y / kRayBlock, half), 8.0, 8.0, 8.0};
-  counts.share_out(first, work);
+        counts.spread(x, y, half) = spread_by({variance(x / kRayBlock, y / kRayBlock, half), 1.0});
+  counts.share_out(first, further_work);
   return counts;
 }
 
@@ -81,8 +96,8 @@ SampleCounts counts_of(const Fn& variance, uint64_t first, double work) {
 // allowed.
 TEST(SampleCounts, KeepToTheWorkAndFollowTheRootOfTheVariance) {
   constexpr uint64_t kFirst = 2;
-  constexpr double kWork = 8;
-  const auto counts = counts_of([](int x, int, int) { return std::ldexp(1.0, 4 * x); }, kFirst, kWork);
+  constexpr double kFurther = 7;
+  const auto counts = counts_of([](int x, int, int) { return std::ldexp(1.0, 4 * x); }, kFirst, kFurther);
   uint64_t sum = 0;
   for (int y = 0; y < kPixels; y += kRayBlock) {
     uint64_t last = kFirst;
@@ -95,15 +110,15 @@ TEST(SampleCounts, KeepToTheWorkAndFollowTheRootOfTheVariance) {
       }
     EXPECT_GT(last, kFirst * 16);
   }
-  const double all = kFirst * kWork * kBlocks * kBlocks * kHalves;
+  const double all = kFirst * (1 + kFurther) * kBlocks * kBlocks * kHalves;
   EXPECT_LE(double(sum), all);
   EXPECT_GT(double(sum), all / 2);  // twice as many everywhere would be too many
 }
 
 TEST(SampleCounts, AreEvenWhereNothingDiffers) {
-  const auto dark = counts_of([](int, int, int) { return 0.0; }, 4, 4);
-  const auto noisy = counts_of([](int, int, int) { return 0.1; }, 4, 4);
-  const auto noisy_but_dear = counts_of([](int, int, int) { return 0.1; }, 4, 1.5);
+  const auto dark = counts_of([](int, int, int) { return 0.0; }, 4, 3);
+  const auto noisy = counts_of([](int, int, int) { return 0.1; }, 4, 3);
+  const auto noisy_but_dear = counts_of([](int, int, int) { return 0.1; }, 4, 0.5);
   for (int x = 0; x < kPixels; x += kRayBlock) {
     EXPECT_EQ(dark.count(x, x, 0), 4u);
     EXPECT_EQ(noisy.count(x, x, 1), 16u);
@@ -115,7 +130,7 @@ TEST(SampleCounts, AreEvenWhereNothingDiffers) {
 TEST(SampleCounts, OfAPixelDoNotDependOnItself) {
   const auto with_spot = [](double spot) {
     return counts_of([=](int x, int y, int half) { return x == 5 && y == 5 && half == 0 ? spot : 1.0; }, 4,
-                     4);
+                     3);
   };
   const auto plain = with_spot(1), bright = with_spot(1e6);
   const int at = 5 * kRayBlock;
@@ -131,10 +146,28 @@ TEST(SampleCounts, CountWhatSamplesCost) {
     for (int x = 0; x < kPixels; x += kRayBlock)
       for (int half = 0; half < kHalves; ++half) {
         const double work = x < kPixels / 2 ? 1 : 16;
-        counts.spread(x, y, half) = {8.0, 8.0, 8 * work, 8.0};
+        counts.spread(x, y, half) = spread_by({1, work});
       }
-  counts.share_out(4, 4);
+  counts.share_out(4, 3);
   EXPECT_EQ(counts.count(0, 24, 0), 2 * counts.count(kPixels - 1, 24, 0));
+}
+
+// Traced light, where it varies more for what it takes: at half the work of all light, 3.5 times the work of the
+// first samples buys seven times as many.
+TEST(SampleCounts, LeaveTheMapsOutWhereTheyTellLess) {
+  const auto counts_for = [](const LightSpread& all, const LightSpread& traced) {
+    SampleCounts counts{FilmSums(kPixels, kPixels)};
+    for (int y = 0; y < kPixels; y += kRayBlock)
+      for (int x = 0; x < kPixels; x += kRayBlock)
+        for (int half = 0; half < kHalves; ++half) counts.spread(x, y, half) = spread_by(all, traced);
+    counts.share_out(4, 3.5);
+    return counts;
+  };
+  const auto by_lamps = counts_for({1.0, 2.0}, {0.8, 1.0}), by_maps = counts_for({1.0, 2.0}, {0.4, 1.0});
+  EXPECT_EQ(by_lamps.light(0, 0, 0), SampleLight::kTraced);
+  EXPECT_EQ(by_lamps.count(0, 0, 0), 32u);
+  EXPECT_EQ(by_maps.light(0, 0, 0), SampleLight::kAll);
+  EXPECT_EQ(by_maps.count(0, 0, 0), 16u);
 }
 
 // The lamp's edges and its image in the glass ball differ most within pixels. Seeds of both ways are compared
@@ -160,7 +193,7 @@ class SpreadSamples : public ::testing::Test {
     for (const Film& film : films) {
       Rgb sum(0);
       for (int y = y0; y < y0 + kPart; ++y)
-        for (int x = x0; x < x0 + kPart; ++x) sum += film.at(x, y).emitted + film.at(x, y).direct;
+        for (int x = x0; x < x0 + kPart; ++x) sum += film.at(x, y).radiance();
       means.push_back(double(sum.x + sum.y + sum.z));
     }
     return estimate_of(means);
