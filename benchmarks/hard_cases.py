@@ -171,9 +171,15 @@ def sky_pane(_):
     return room_with_window(pane).replace("WorldBegin\n", 'WorldBegin\nLightSource "infinite" "rgb L" [ 3 3.4 4 ]\n')
 
 
+def small_glass(_):
+    """A ball of glass that fills 1 % of the lamp's view, over a floor."""
+    return (head((0, 1.6, 3), (0, 0, 0), 40) + diffuse(0.6, 0.6, 0.6) + shape((-4, 0, -4), (-4, 0, 4), (4, 0, 4), (4, 0, -4)) +
+            lamp_below((60, 60, 60), 0, 2, 0, 0.1) + sphere(0.3, 0.25, 0, 0.175, GLASS))
+
+
 SCENES = {"many-lamps": many_lamps, "lamp-in-glass": lamp_in_glass, "mirror-box": mirror_box, "diffuse-only": diffuse_only,
-          "sky-window": sky_window, "sky-pane": sky_pane}
-BY_PHOTONS = {"lamp-in-glass", "mirror-box", "sky-window", "sky-pane"}  # paths meet these lamps too seldom
+          "sky-window": sky_window, "sky-pane": sky_pane, "small-glass": small_glass}
+BY_PHOTONS = {"lamp-in-glass", "mirror-box", "sky-window", "sky-pane", "small-glass"}  # paths meet these lamps too seldom
 # An eighth of this is a pass, as with --time.
 PASSES = ["--passes", "8", "--alpha", "0.667"]
 PATHS, PHOTONS = ["--method", "mc", "--spp", "128"], ["--method", "auto", "--photons", "8M", "--spp", "128"]

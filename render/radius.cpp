@@ -25,6 +25,9 @@ struct RadiusRule {
 constexpr RadiusRule kDirectRule{160, 64};
 constexpr RadiusRule kIndirectRule{500, 200};
 constexpr RadiusRule kCausticRule{232, kFewestInReach};
+// Times the median distance: the nearest photons set the radius where caustics are dense, this one where they
+// are thin.
+constexpr float kCausticReach = 2;
 
 // Photons evenly spaced in the light of the map, in its order: guided ones lie densely where they are dim.
 std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
@@ -113,7 +116,7 @@ GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const Render
   const double scaled = std::clamp(caustic * double(f) * double(f), double(kFewestInReach), 1e9);
   return {choose(direct, signed_light ? photon_points(direct) : visible,
                  photons_to_reach(kDirectRule, direct, pass)),
-          choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
+          kCausticReach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
           choose(maps.indirect.map, visible, photons_to_reach(kIndirectRule, maps.indirect.map, pass)),
           static_cast<uint32_t>(std::lround(scaled))};
 }

@@ -20,10 +20,11 @@ inline uint32_t photons_in_reach(uint32_t of_all, uint64_t passes) {
 // Direct (k = 160 for a million, at least 64) and indirect map (500, 200): around 1024 points that the camera
 // sees. Caustic map (232, 8), and the shadow map where it is read in place of the direct one: around 1024 of
 // its photons, evenly spaced in their light, since caustics and shadows are small. Caustics are sharp where
-// they focus and spread thin elsewhere, so that no single radius serves both: there the radius also shrinks
-// to the k-th nearest photon, without --radius and --nearest. Fewer neighbours where a map has fewer photons.
-// Deterministic, a function of scene and settings only; scales with the scene exactly for powers of two. maps
-// are those of the first pass, which holds one in pass.shares of the photons: k is divided accordingly.
+// they focus and spread thin elsewhere, so that no single radius serves both: there r0 is twice as large, and
+// the radius shrinks to the k-th nearest photon, without --radius and --nearest. Fewer neighbours where a map
+// has fewer photons. Deterministic, a function of scene and settings only; scales with the scene exactly for
+// powers of two. maps are those of the first pass, which holds one in pass.shares of the photons: k is
+// divided accordingly.
 GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                          const PassShare& pass, const PhotonMaps& maps);
 

@@ -109,7 +109,7 @@ class AutoConverges : public ::testing::TestWithParam<Case> {};
 TEST_P(AutoConverges, ToPathsBlockByBlock) {
   const Scene scene = GetParam().scene();
   const auto by_paths = films(scene, settings_for(Method::kMc, 512, 1, 100));
-  const auto by_photons = films(scene, settings_for(Method::kAuto, 32, 400'000, 200));
+  const auto by_photons = films(scene, settings_for(Method::kAuto, 32, 800'000, 200));
   for (int block = 0; block < kBlocks; ++block) {
     const BlockMeans mc = means_of(by_paths, block), found = means_of(by_photons, block);
     const Estimate a = estimate_of(mc.light), b = estimate_of(found.light), bias = estimate_of(found.bias);

@@ -28,11 +28,11 @@ TEST(CausticRadius, IsThatOfTheLight) {
   maps.caustic.map = photon::PhotonMap::build(photon::make_buffer(photons, 1));
   const Scene scene = testing::lit_room(Rgb(0.5f), Rgb(1));
   const GatherRadii radii = choose_radii(scene, accel::Bvh(scene), {}, {}, maps);
-  // k photons of the even density reach so far. The distance to the k-th has a relative deviation of
+  // k photons of the even density reach half so far. The distance to the k-th has a relative deviation of
   // 1/(2 sqrt k), the median of 1024 of them one of 1.25/32 of that; 1 in 20 points lies so near the border
   // that its disc is wider.
   const double k = 232 * std::pow(2 * kEach / 1e6, 2 / 3.0);
-  const double expected = std::sqrt(k * double(kSide * kSide) / (double(kPi) * kEach));
+  const double expected = 2 * std::sqrt(k * double(kSide * kSide) / (double(kPi) * kEach));
   EXPECT_NEAR(double(radii.caustic), expected, 0.05 * expected);
 }
 

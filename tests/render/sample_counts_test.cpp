@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "render/film_totals.h"
 #include "tests/render/image_statistics.h"
 
 namespace kaustik::render {
@@ -152,8 +153,27 @@ TEST(SampleCounts, CountWhatSamplesCost) {
   EXPECT_EQ(counts.count(0, 24, 0), 2 * counts.count(kPixels - 1, 24, 0));
 }
 
-// Traced light, where it varies more for what it takes: at half the work of all light, 3.5 times the work of the
-// first samples buys seven times as many.
+// What the maps say of two samples stands for six that asked for nothing else.
+TEST(SampleCounts, TracedSamplesLeaveWhatTheMapsSay) {
+  FilmSums film(1, 1);
+  for (int i = 0; i < 8; ++i) {
+    PixelResult sample;
+    sample.direct = Rgb(float(i));
+    const bool traced = i >= 2;
+    if (!traced) sample.caustic = Rgb(3), sample.indirect = Rgb(1 + 2.0f * float(i)), sample.photons = 10;
+    film.at(0, 0).add(sample, 1, traced ? SampleLight::kTraced : SampleLight::kAll);
+  }
+  uint64_t clamped = 0;
+  const PixelResult mean = mean_of(film, {.radiance = -60, .square = -60, .depth = -60}, &clamped).at(0, 0);
+  EXPECT_EQ(mean.direct, Rgb(3.5f));
+  EXPECT_EQ(mean.caustic, Rgb(3));
+  EXPECT_EQ(mean.indirect, Rgb(2));
+  EXPECT_EQ(mean.photons, 10);
+  EXPECT_EQ(clamped, 0u);
+}
+
+// Traced light, where it varies more for what it takes: at half the work of all light, 3.5 times the work of
+// the first samples buys seven times as many.
 TEST(SampleCounts, LeaveTheMapsOutWhereTheyTellLess) {
   const auto counts_for = [](const LightSpread& all, const LightSpread& traced) {
     SampleCounts counts{FilmSums(kPixels, kPixels)};
