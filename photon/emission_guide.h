@@ -30,7 +30,7 @@ struct GuideHit {
 class EmissionGuide {
  public:
   // Of the starts that are drawn uniformly, whatever was learned: no flux grows by more than the inverse.
-  static constexpr double kUniformShare = 0.5;
+  static constexpr double kUniformShare = 1.0 / 3;
 
   EmissionGuide() = default;  // nothing learned: uniform
   // Boxes are split where the hits say so with significance, and drawn in proportion to the root of their
