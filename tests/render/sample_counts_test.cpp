@@ -82,13 +82,14 @@ SampleSpread spread_by(const LightSpread& all, const LightSpread& traced = {}) {
   return half;
 }
 
+// spread(x, y, half): of half of block (x, y).
 template <class Fn>
-SampleCounts counts_of(const Fn& variance, uint64_t first, double further_work) {
+SampleCounts counts_of(const Fn& spread, uint64_t first, double further_work) {
   SampleCounts counts{FilmSums(kPixels, kPixels)};
   for (int y = 0; y < kPixels; y += kRayBlock)
     for (int x = 0; x < kPixels; x += kRayBlock)
       for (int half = 0; half < kHalves; ++half)
-        counts.spread(x, y, half) = spread_by({variance(x / kRayBlock, y / kRayBlock, half), 1.0});
+        counts.spread(x, y, half) = spread(x / kRayBlock, y / kRayBlock, half);
   counts.share_out(first, further_work);
   return counts;
 }
@@ -98,7 +99,8 @@ SampleCounts counts_of(const Fn& variance, uint64_t first, double further_work) 
 TEST(SampleCounts, KeepToTheWorkAndFollowTheRootOfTheVariance) {
   constexpr uint64_t kFirst = 2;
   constexpr double kFurther = 7;
-  const auto counts = counts_of([](int x, int, int) { return std::ldexp(1.0, 4 * x); }, kFirst, kFurther);
+  const auto spread = [](int x, int, int) { return spread_by({std::ldexp(1.0, 4 * x), 1.0}); };
+  const auto counts = counts_of(spread, kFirst, kFurther);
   uint64_t sum = 0;
   for (int y = 0; y < kPixels; y += kRayBlock) {
     uint64_t last = kFirst;
@@ -117,9 +119,9 @@ TEST(SampleCounts, KeepToTheWorkAndFollowTheRootOfTheVariance) {
 }
 
 TEST(SampleCounts, AreEvenWhereNothingDiffers) {
-  const auto dark = counts_of([](int, int, int) { return 0.0; }, 4, 3);
-  const auto noisy = counts_of([](int, int, int) { return 0.1; }, 4, 3);
-  const auto noisy_but_dear = counts_of([](int, int, int) { return 0.1; }, 4, 0.5);
+  const auto even = [](double variance) { return [=](int, int, int) { return spread_by({variance, 1.0}); }; };
+  const auto dark = counts_of(even(0), 4, 3), noisy = counts_of(even(0.1), 4, 3),
+             noisy_but_dear = counts_of(even(0.1), 4, 0.5);
   for (int x = 0; x < kPixels; x += kRayBlock) {
     EXPECT_EQ(dark.count(x, x, 0), 4u);
     EXPECT_EQ(noisy.count(x, x, 1), 16u);
@@ -130,8 +132,10 @@ TEST(SampleCounts, AreEvenWhereNothingDiffers) {
 // The number of a pixel's samples must say nothing of what they bring.
 TEST(SampleCounts, OfAPixelDoNotDependOnItself) {
   const auto with_spot = [](double spot) {
-    return counts_of([=](int x, int y, int half) { return x == 5 && y == 5 && half == 0 ? spot : 1.0; }, 4,
-                     3);
+    const auto spread = [=](int x, int y, int half) {
+      return spread_by({x == 5 && y == 5 && half == 0 ? spot : 1.0, 1.0});
+    };
+    return counts_of(spread, 4, 3);
   };
   const auto plain = with_spot(1), bright = with_spot(1e6);
   const int at = 5 * kRayBlock;
@@ -142,14 +146,8 @@ TEST(SampleCounts, OfAPixelDoNotDependOnItself) {
 
 // Dear samples are taken less often: half as many where they cost sixteen times as much.
 TEST(SampleCounts, CountWhatSamplesCost) {
-  SampleCounts counts{FilmSums(kPixels, kPixels)};
-  for (int y = 0; y < kPixels; y += kRayBlock)
-    for (int x = 0; x < kPixels; x += kRayBlock)
-      for (int half = 0; half < kHalves; ++half) {
-        const double work = x < kPixels / 2 ? 1 : 16;
-        counts.spread(x, y, half) = spread_by({1, work});
-      }
-  counts.share_out(4, 3);
+  const auto spread = [](int x, int, int) { return spread_by({1.0, x < kBlocks / 2 ? 1.0 : 16.0}); };
+  const auto counts = counts_of(spread, 4, 3);
   EXPECT_EQ(counts.count(0, 24, 0), 2 * counts.count(kPixels - 1, 24, 0));
 }
 
@@ -176,12 +174,7 @@ TEST(SampleCounts, TracedSamplesLeaveWhatTheMapsSay) {
 // the first samples buys seven times as many.
 TEST(SampleCounts, LeaveTheMapsOutWhereTheyTellLess) {
   const auto counts_for = [](const LightSpread& all, const LightSpread& traced) {
-    SampleCounts counts{FilmSums(kPixels, kPixels)};
-    for (int y = 0; y < kPixels; y += kRayBlock)
-      for (int x = 0; x < kPixels; x += kRayBlock)
-        for (int half = 0; half < kHalves; ++half) counts.spread(x, y, half) = spread_by(all, traced);
-    counts.share_out(4, 3.5);
-    return counts;
+    return counts_of([&](int, int, int) { return spread_by(all, traced); }, 4, 3.5);
   };
   const auto by_lamps = counts_for({1.0, 2.0}, {0.8, 1.0}), by_maps = counts_for({1.0, 2.0}, {0.4, 1.0});
   EXPECT_EQ(by_lamps.light(0, 0, 0), SampleLight::kTraced);
