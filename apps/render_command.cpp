@@ -11,6 +11,7 @@
 #include "apps/render_session.h"
 #include "apps/stop_rules.h"
 #include "apps/thread_limit.h"
+#include "apps/time_plan.h"
 #include "render/photon_maps.h"
 
 namespace kaustik::app {
@@ -65,12 +66,14 @@ int run_render(const RenderOptions& options, const Console& console) {
   const int load_threads = options.overrides.alone().render.threads;
   Job job;
   with_thread_limit(load_threads, [&] { job = load_job(options.scene, options.overrides, console); });
-  settle_error_settings(console, &job.settings);
-  check_passes(options, job);
-  note_checkpoint(options, console);
   RenderSession session{options.outputs, options.checkpoint, options.passes, false, {}};
   session.outputs.files = outputs_of(options, job);
-  return run_session(job, std::move(session), interrupt, total, console);
+  session.fill_time = options.passes.empty() &&
+                      time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
+  if (!session.fill_time) settle_error_settings(console, &job.settings);
+  check_passes(options, job);
+  note_checkpoint(options, console);
+  return run_session(std::move(job), std::move(session), interrupt, total, console);
 }
 
 void add_pass_options(CLI::App& parser, RenderOptions& options) {

@@ -11,15 +11,16 @@
 #include "apps/settings/values.h"
 #include "apps/stop_rules.h"
 #include "apps/thread_limit.h"
+#include "apps/time_plan.h"
 
 namespace kaustik::app {
 
 namespace {
 
-RenderOutcome render_with_bar(const Job& job, render::RenderTask task, ProgressBar& bar,
-                              const InterruptGuard& interrupt) {
-  return render_job(
-      job.scene, job.settings.render,
+render::RenderResult render_with_bar(const Job& job, const accel::Bvh& bvh, render::RenderTask task,
+                                     ProgressBar& bar, const InterruptGuard& interrupt) {
+  return render::render(
+      job.scene, bvh, job.settings.render,
       [&](const render::Progress& progress) {
         bar.update(progress);
         return !interrupt.requested();
@@ -27,16 +28,18 @@ RenderOutcome render_with_bar(const Job& job, render::RenderTask task, ProgressB
       std::move(task));
 }
 
+// Photons that are there already, where the time is to be filled.
+std::shared_ptr<render::FirstPhotons> fill_time(const accel::Bvh& bvh, const InterruptGuard& interrupt,
+                                                const Stopwatch& total, const Console& console, Job* job) {
+  const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
+  return settle_time(job->scene, bvh, total, go_on, console, &job->settings);
+}
+
 // Open where a rule says when to stop; what there is, where it has already.
 render::PassSet goal_of(const Job& job, const RenderSession& session, StopRule& rule) {
   if (rule.met_by(session.done)) return session.done.passes;
   const bool open = job.settings.stop.any() && !session.bounded;
   return open ? render::PassSet(0, render::kMostPasses) : session.goal;
-}
-
-bool writes_sums(const RenderSession& session) {
-  const std::vector<std::string>& files = session.outputs.files;
-  return !session.checkpoint.path.empty() || std::any_of(files.begin(), files.end(), render::is_partial_name);
 }
 
 double seconds_of(const render::RenderStatistics& s) {
@@ -101,11 +104,24 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
 
 }  // namespace
 
-int run_session(const Job& job, RenderSession session, const InterruptGuard& interrupt,
-                const Stopwatch& total, const Console& console) {
+bool writes_sums(const RenderSession& session) {
+  const std::vector<std::string>& files = session.outputs.files;
+  return !session.checkpoint.path.empty() || std::any_of(files.begin(), files.end(), render::is_partial_name);
+}
+
+int run_session(Job job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
+                const Console& console) {
   int code = kDone;
   if (writes_sums(session)) program_build();  // asks Embree for its version, now that it is not at work
   with_thread_limit(job.settings.render.threads, [&] {
+    render::OuterTimes times{.load = job.load_seconds};
+    const Stopwatch watch;
+    const accel::Bvh bvh(job.scene, job.settings.render.threads);
+    times.bvh = watch.seconds();
+    std::shared_ptr<render::FirstPhotons> photons;
+    if (session.fill_time) photons = fill_time(bvh, interrupt, total, console, &job);
+    times.trials = watch.seconds() - times.bvh - (photons ? seconds_of(photons->statistics) : 0);
+    session.bounded |= photons != nullptr;
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
@@ -120,10 +136,10 @@ int run_session(const Job& job, RenderSession session, const InterruptGuard& int
     render::RenderTask task{.passes = goal_of(job, session, rule),
                             .done = std::move(session.done),
                             .after_pass = after_pass,
-                            .keep_sums = writes_sums(session)};
-    RenderOutcome outcome = render_with_bar(job, std::move(task), bar, interrupt);
+                            .keep_sums = writes_sums(session),
+                            .photons = std::move(photons)};
+    RenderOutcome outcome{render_with_bar(job, bvh, std::move(task), bar, interrupt), times};
     bar.clear();
-    outcome.times.load = job.load_seconds;
     outcome.times.total = total.seconds();
     code = finish(job, session, std::move(outcome), checkpoint, rule, console);
   });

@@ -86,14 +86,14 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   if (session.outputs.files.empty()) session.outputs.files = part.manifest.outputs;
   check_outputs(session.outputs);
   session.checkpoint = {options.partial, options.checkpoint_every};
-  const Job job = load_again(options, part.manifest, console);
+  Job job = load_again(options, part.manifest, console);
   session.bounded = options.passes > 0;
   check_rules(options, job, session.goal, console);
   const bool open = job.settings.stop.any() && !session.bounded;
   console.note(fmt::format("{} holds passes {}; to render: {}", options.partial, part.sums.passes.text(),
                            open ? "until they are enough" : session.goal.without(part.sums.passes).text()));
   session.done = std::move(part.sums);
-  return run_session(job, std::move(session), interrupt, total, console);
+  return run_session(std::move(job), std::move(session), interrupt, total, console);
 }
 
 void add_pass_options(CLI::App& parser, ResumeOptions& options) {

@@ -13,9 +13,6 @@ namespace kaustik::app {
 
 namespace {
 
-// The radius shrinks so that bias and noise vanish with the passes (Knaus and Zwicker 2011).
-constexpr float kConsistentAlpha = 2.0f / 3;
-
 bool has(const std::vector<std::string>& aov, std::string_view layer) {
   return std::find(aov.begin(), aov.end(), layer) != aov.end();
 }

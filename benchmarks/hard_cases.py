@@ -6,7 +6,7 @@ hard_cases.py KAUSTIK OUT_DIR --make-references [--cpu 300] [--check 60]
 
 Writes the scenes as OUT_DIR/NAME.pbrt. The first form renders each by both methods in turn, ROUNDS times with a seed of
 its own, and prints the median relMSE (`kaustik compare --mask-bright 4`) and the range; --options is added to the calls of
-auto. A render gets as many passes of `--time` as fit into the CPU seconds of --cpu: 20 are 10 s on two threads that nobody else
+auto. A render gets as many passes as fit into the CPU seconds of --cpu: 20 are 10 s on two threads that nobody else
 uses, and stay the same work where somebody does. OUT_DIR keeps the pictures of the last round.
 The second form makes what the first compares with, OUT_DIR/NAME-reference.exr: `mc`, or, where paths hardly meet the lamp,
 photons in many passes whose radius shrinks. An eighth of the size, where noise is small, it renders both ways in the time of --check,
@@ -180,7 +180,7 @@ def small_glass(_):
 SCENES = {"many-lamps": many_lamps, "lamp-in-glass": lamp_in_glass, "mirror-box": mirror_box, "diffuse-only": diffuse_only,
           "sky-window": sky_window, "sky-pane": sky_pane, "small-glass": small_glass}
 BY_PHOTONS = {"lamp-in-glass", "mirror-box", "sky-window", "sky-pane", "small-glass"}  # paths meet these lamps too seldom
-# An eighth of this is a pass, as with --time.
+# An eighth of the photons and samples is a pass.
 PASSES = ["--passes", "8", "--alpha", "0.667"]
 PATHS, PHOTONS = ["--method", "mc", "--spp", "128"], ["--method", "auto", "--photons", "8M", "--spp", "128"]
 

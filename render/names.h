@@ -21,7 +21,6 @@ inline constexpr std::array<std::string_view, 3> kKernelNames = {"constant", "co
 inline constexpr std::array<std::string_view, 2> kLookupNames = {"exact", "leaf"};
 inline constexpr std::array<std::string_view, 2> kEmissionNames = {"cosine", "uniform-angle"};
 inline constexpr std::array<std::string_view, 2> kGuideNames = {"off", "on"};
-inline constexpr std::array<std::string_view, 2> kAdaptiveNames = {"off", "on"};
 
 inline std::string_view name_of(Method m) {
   return kMethodNames[size_t(m)];
@@ -46,9 +45,6 @@ inline std::string_view name_of(EmissionMode m) {
 }
 inline std::string_view name_of(Guide g) {
   return kGuideNames[size_t(g)];
-}
-inline std::string_view name_of(Adaptive a) {
-  return kAdaptiveNames[size_t(a)];
 }
 
 // The enumerator of this name, or nothing.

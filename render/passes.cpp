@@ -19,11 +19,10 @@ PassShare pass_share(uint64_t pass, uint64_t shares, uint64_t photons, int spp) 
 }
 
 PassSamples pass_samples(const PassShare& pass, const RenderSettings& settings, const EstimatorPlan& plan) {
-  constexpr double kFurtherWork = 0.75;  // measured (docs/performance.md)
-  if (settings.adaptive == Adaptive::kOff || pass.shares > 1 || traces_paths(plan))
+  if (settings.adaptive == 0 || pass.shares > 1 || traces_paths(plan))
     return {pass.first_sample, pass.end_sample, 0};
   const uint64_t strata = pass.pass << 32;
-  return {strata, strata + pass.end_sample - pass.first_sample, kFurtherWork};
+  return {strata, strata + pass.end_sample - pass.first_sample, double(settings.adaptive)};
 }
 
 double RadiusShrink::squared(uint64_t pass, float alpha) {

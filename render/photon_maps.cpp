@@ -149,16 +149,6 @@ uint64_t visibility_photons(const Scene& scene, const RenderSettings& settings) 
   return std::min(settings.photons, std::clamp(samples / kSamplesEach, kFewest, kMost));
 }
 
-// Of scene and settings, not of the pass: whatever is foretold, the image is right on average.
-void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
-  if (plan.direct != DirectEstimator::kPredicted || maps->visibility) return;
-  const auto start = std::chrono::steady_clock::now();
-  maps->visibility = std::make_unique<const photon::VisibilityTree>(photon::foretell_visibility(
-      scene, bvh, {settings.seed, visibility_photons(scene, settings), settings.emission}));
-  statistics->photon_trace_s += seconds_since(start);
-}
-
 // Caustic photons that uniform emission leaves on its way to other kinds cost nothing: from so many on,
 // guided ones are not worth their rays (docs/performance.md).
 constexpr double kEnoughCaustics = 1.0 / 64;
@@ -273,6 +263,15 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
   return kinds;
 }
 
+void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                         const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
+  if (plan.direct != DirectEstimator::kPredicted || maps->visibility) return;
+  const auto start = std::chrono::steady_clock::now();
+  maps->visibility = std::make_unique<const photon::VisibilityTree>(photon::foretell_visibility(
+      scene, bvh, {settings.seed, visibility_photons(scene, settings), settings.emission}));
+  statistics->photon_trace_s += seconds_since(start);
+}
+
 uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons) {
   photon::KindMask kinds = kinds_needed(plan);
   if (!kinds.caustic || settings.guide == Guide::kOff) return 0;
@@ -283,7 +282,6 @@ uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& pla
 bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                       const EstimatorPlan& plan, const PassShare& pass, const ProgressCallback& progress,
                       PhotonMaps* maps, std::optional<GatherRadii>* radii, RenderStatistics* statistics) {
-  foretell_visibility(scene, bvh, settings, plan, maps, statistics);
   if (!kinds_needed(plan).any()) return true;
   learn_guides(scene, bvh, settings, plan, maps, statistics);
   free_maps(maps);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "render/error_estimate.h"
+#include "render/pass_trials.h"
 #include "render/photon_maps.h"
 #include "render/sample_counts.h"
 #include "render/tiles.h"
@@ -56,12 +57,14 @@ ProgressCallback serialised(const ProgressCallback& progress, uint64_t passes) {
 class PassRenderer {
  public:
   PassRenderer(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-               const EstimatorPlan& plan, uint64_t shares, ProgressCallback progress)
+               const EstimatorPlan& plan, uint64_t shares, std::shared_ptr<FirstPhotons> photons,
+               ProgressCallback progress)
       : scene_(scene),
         bvh_(bvh),
         settings_(settings),
         plan_(plan),
         shares_(shares),
+        photons_(std::move(photons)),
         progress_(std::move(progress)) {}
 
   // r0 where the first pass is rendered elsewhere: its photons are shot for that alone, and not counted.
@@ -79,8 +82,7 @@ class PassRenderer {
     const RayCone cone = camera_cone(scene_.camera, part.end_sample - part.first_sample);
     const RenderContext ctx{scene_, bvh_, settings_, plan_, maps_, part, pass_samples(part, settings_, plan_),
                             cone};
-    if (!make_photon_maps(scene_, bvh_, settings_, plan_, ctx.pass, progress_, &maps_, radii, statistics))
-      return false;
+    if (!make_maps(part, radii, statistics)) return false;
     const auto start = std::chrono::steady_clock::now();
     const bool finished = render_tiles(ctx, progress_, film, statistics);
     statistics->render_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -89,6 +91,21 @@ class PassRenderer {
   }
 
  private:
+  bool make_maps(const PassShare& pass, std::optional<GatherRadii>* radii, RenderStatistics* statistics) {
+    if (photons_) {
+      if (!photons_->radii) return false;  // cancelled
+      maps_ = std::move(photons_->maps);
+      *radii = photons_->radii;
+      *statistics = photons_->statistics;
+      photons_.reset();
+    } else if (!make_photon_maps(scene_, bvh_, settings_, plan_, pass, progress_, &maps_, radii,
+                                 statistics)) {
+      return false;
+    }
+    foretell_visibility(scene_, bvh_, settings_, plan_, &maps_, statistics);
+    return true;
+  }
+
   PassShare share(uint64_t pass) const { return pass_share(pass, shares_, settings_.photons, settings_.spp); }
 
   const Scene& scene_;
@@ -96,6 +113,7 @@ class PassRenderer {
   const RenderSettings& settings_;
   const EstimatorPlan& plan_;
   uint64_t shares_;
+  std::shared_ptr<FirstPhotons> photons_;
   ProgressCallback progress_;
   PhotonMaps maps_;
 };
@@ -183,7 +201,8 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
               result.sums.totals.units() == units_of(scene, settings, result.plan, shares),
           "the passes that are there are of another scene or of other settings");
 
-  PassRenderer renderer(scene, bvh, settings, result.plan, shares,
+  require(!task.photons || missing == PassSet(0, 1), "the photons that are there are those of a single pass");
+  PassRenderer renderer(scene, bvh, settings, result.plan, shares, std::move(task.photons),
                         serialised(callback, goal.end() < kMostPasses ? std::max(shares, goal.end()) : 0));
   auto tiles = make_window<PixelSum>(settings.crop, scene.camera);
   result.cancelled = !render_passes(renderer, missing, task, &tiles, &result);

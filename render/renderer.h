@@ -2,6 +2,7 @@
 // One render, start to end: pass by pass, shoot, build the maps, render tiles, in fixed order.
 
 #include <functional>
+#include <memory>
 #include <string_view>
 
 #include "accel/bvh.h"
@@ -11,6 +12,8 @@
 #include "render/statistics.h"
 
 namespace kaustik::render {
+
+struct FirstPhotons;  // pass_trials.h
 
 struct Progress {
   std::string_view phase;         // "photons", "build", "render"
@@ -30,6 +33,8 @@ struct RenderTask {
   std::function<bool(const PassSums&)> after_pass{};
   // Without it a render of a single pass leaves no totals in result.sums: it takes half the memory for them.
   bool keep_sums = true;
+  // Of a single pass, with the same settings but for the number of samples: they are taken from here.
+  std::shared_ptr<FirstPhotons> photons{};
 };
 
 // What the film shows.

@@ -70,6 +70,7 @@ Json lecture_json(const LectureCounters& l) {
 Json seconds_json(const RenderStatistics& s, const OuterTimes& t) {
   return {{"load", t.load},
           {"bvh", t.bvh},
+          {"trials", t.trials},
           {"photon_trace", s.photon_trace_s},
           {"photon_build", s.photon_build_s},
           {"render", s.render_s},
@@ -118,6 +119,7 @@ Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
   out["guide"] = name_of(s.guide);
   out["max_bounces"] = s.max_bounces;
   out["spp"] = s.spp;
+  out["adaptive"] = s.adaptive;
   out["seed"] = s.seed;
   return out;
 }

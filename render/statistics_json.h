@@ -11,7 +11,8 @@ namespace kaustik::render {
 
 // Seconds of the phases that the renderer does not see itself.
 struct OuterTimes {
-  double load = 0, bvh = 0, write = 0, total = 0;
+  // trials: what found the size that fills a given time.
+  double load = 0, bvh = 0, trials = 0, write = 0, total = 0;
 };
 
 // Peak resident memory of this process in bytes (VmHWM of /proc/self/status); 0 where it cannot be read.

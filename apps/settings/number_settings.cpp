@@ -84,6 +84,33 @@ Setting alpha_setting() {
   return s;
 }
 
+Setting adaptive_setting() {
+  constexpr float kMost = 100;
+  const float usual = RenderSettings{}.adaptive;
+  Setting s{
+      .name = "adaptive",
+      .kind = ValueKind::kNumber,
+      .value_name = "W",
+      .range = "0 to 100, off, on",
+      .default_text = fmt::format("{}", usual),
+      .doc =
+          "Further samples, for up to W times the work of the others, in those pixels around which "
+          "samples differ most for what they cost. off: 0, on: the default. A crop then has other noise "
+          "than the same part of the whole picture. Renders in several passes and methods that trace "
+          "paths from the camera have none."};
+  s.assign = [usual, kMost](Settings& settings, Texts texts) -> Complaint {
+    std::optional<float> value = parse_number(texts[0]);
+    if (texts[0] == "off") value = 0.0f;
+    if (texts[0] == "on") value = usual;
+    if (!value || !(*value >= 0) || *value > kMost)
+      return fmt::format("`{}`: expected a number, 0 to {}, off or on", texts[0], kMost);
+    settings.render.adaptive = *value;
+    return std::nullopt;
+  };
+  s.show = [](const Settings& settings) { return as_texts(settings.render.adaptive); };
+  return s;
+}
+
 Setting cone_k_setting() {
   Setting s{.name = "cone-k",
             .kind = ValueKind::kNumber,

@@ -21,6 +21,7 @@ std::optional<RadiusChoice> parse_radius(std::string_view text);
 
 Setting radius_setting();
 Setting alpha_setting();
+Setting adaptive_setting();
 Setting cone_k_setting();
 Setting exposure_setting();
 

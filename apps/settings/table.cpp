@@ -239,12 +239,7 @@ void add_photons(std::vector<Setting>& table) {
 
 void add_image(std::vector<Setting>& table) {
   table.push_back(count("spp", "samples", &RenderSettings::spp, 1, kMaxInt, {}, "Camera samples per pixel."));
-  table.push_back(
-      choice("adaptive", &RenderSettings::adaptive, render::kAdaptiveNames,
-             "Further samples, for up to three quarters of the work of the others, in those pixels around "
-             "which samples differ most for what they cost. A crop then has other noise than the same part "
-             "of the whole picture. Renders in several passes and methods that trace paths from the camera "
-             "have none."));
+  table.push_back(adaptive_setting());
   table.push_back(count("seed", {}, &RenderSettings::seed, 0, kMaxUint64, {},
                         "Random seed. The same seed gives the same bits."));
   table.push_back(count("threads", "threads", &RenderSettings::threads, 0, 65535, "0 (every usable core)",

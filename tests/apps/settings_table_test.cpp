@@ -69,6 +69,12 @@ TEST(SettingsTable, ValuesReachTheirFields) {
   EXPECT_EQ(s.tone.exposure, -1.5f);
   EXPECT_EQ(assign(s, "radius", {"auto"}), std::nullopt);
   EXPECT_EQ(s.render.radius, std::nullopt);
+  EXPECT_EQ(assign(s, "adaptive", {"1.25"}), std::nullopt);
+  EXPECT_EQ(s.render.adaptive, 1.25f);
+  EXPECT_EQ(assign(s, "adaptive", {"off"}), std::nullopt);
+  EXPECT_EQ(s.render.adaptive, 0);
+  EXPECT_EQ(assign(s, "adaptive", {"on"}), std::nullopt);
+  EXPECT_EQ(s.render.adaptive, Settings().render.adaptive);
 }
 
 // What one setting shows, another takes; so a render can be gone on with as it was.
@@ -109,6 +115,9 @@ TEST(SettingsTable, ComplaintsNameTheNearestValueAndLeaveTheSettingsAlone) {
   EXPECT_TRUE(assign(s, "radius", {"0"}).has_value());
   EXPECT_TRUE(assign(s, "radius", {"automatic"}).has_value());
   EXPECT_TRUE(assign(s, "cone-k", {"0.9"}).has_value());
+  EXPECT_TRUE(assign(s, "adaptive", {"-1"}).has_value());
+  EXPECT_TRUE(assign(s, "adaptive", {"101"}).has_value());
+  EXPECT_TRUE(assign(s, "adaptive", {"nan"}).has_value());
   EXPECT_TRUE(assign(s, "alpha", {"0"}).has_value());
   EXPECT_TRUE(assign(s, "alpha", {"1.01"}).has_value());
   EXPECT_TRUE(assign(s, "crop", {"5", "5", "0", "9"}).has_value());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
@@ -132,6 +133,67 @@ TEST_F(StopRules, TimeThatIsOverLeavesOnePass) {
   EXPECT_THAT(outcome.err, HasSubstr("stopped by --time 0.001s after 1 pass"));
   EXPECT_EQ(stats("a.json")["photons"]["passes"], 1);
   EXPECT_TRUE(stats("a.json")["error"].is_null());
+}
+
+// Photons and samples of the scene's own: then the time says how many.
+class FilledTime : public testing::ProgramTest {
+ protected:
+  std::vector<float> pixels(const std::string& name) const {
+    const auto file = OIIO::ImageInput::open(path(name));
+    std::vector<float> out(24 * 16 * 3);
+    EXPECT_TRUE(file && file->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, out.data())) << name;
+    return out;
+  }
+  // Of a render of this time, whose statistics are left in NAME.json.
+  Outcome render(const std::string& time, const std::string& name, const Arguments& more = {}) const {
+    Arguments all = {
+        "render", scene_, "--time", time, "-o", path(name + ".exr"), "--stats", path(name + ".json")};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = run_kaustik(all);
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return outcome;
+  }
+  nlohmann::json stats(const std::string& name) const { return nlohmann::json::parse(read(name + ".json")); }
+
+  std::string scene_ = small_scene(film(24, 16));
+};
+
+TEST_F(FilledTime, IsOnePassThatOptionsRepeat) {
+  EXPECT_THAT(render("300ms", "a").err, HasSubstr("--time 0.3s: as with --spp "));
+  const nlohmann::json json = stats("a"), settings = json["settings"];
+  EXPECT_EQ(json["photons"]["passes"], 1);
+  EXPECT_GT(settings["spp"], 16);  // the default takes about a millisecond
+  EXPECT_GE(settings["adaptive"], 0.75);
+  EXPECT_EQ(
+      run_kaustik({"render", scene_, "--spp", settings["spp"].dump(), "--photons", settings["photons"].dump(),
+                   "--adaptive", fmt::format("{}", settings["adaptive"].get<float>()), "-o", path("b.exr")})
+          .code,
+      kDone);
+  EXPECT_EQ(pixels("a.exr"), pixels("b.exr"));
+}
+
+TEST_F(FilledTime, IsManyPassesWhereThatIsLong) {
+  EXPECT_THAT(render("4.5s", "a").err, HasSubstr(" --passes 8, in as many passes as come"));
+  const nlohmann::json json = stats("a");
+  EXPECT_EQ(json["passes_of_settings"], 8);
+  EXPECT_NEAR(json["settings"]["alpha"], 2.0 / 3, 1e-6);
+}
+
+TEST_F(FilledTime, LeavesWhatWasAskedFor) {
+  render("1ms", "spp", {"--spp", "8"});
+  EXPECT_EQ(stats("spp")["passes_of_settings"], 8);
+  EXPECT_EQ(stats("spp")["settings"]["spp"], 8);
+  render("1ms", "photons", {"--photons", "16k"});
+  EXPECT_EQ(stats("photons")["settings"]["photons"], 16000);
+  render("1ms", "error", {"--aov", "error"});
+  EXPECT_EQ(stats("error")["settings"]["spp"], 16);
+  render("1ms", "part", {"-o", path("part.kpart")});
+  EXPECT_EQ(stats("part")["passes_of_settings"], 8);
+  render("1ms", "mc", {"--method", "mc"});
+  EXPECT_EQ(stats("mc")["settings"]["spp"], 16);
+  render("1ms", "off", {"--adaptive", "off"});
+  EXPECT_EQ(stats("off")["settings"]["adaptive"], 0);
+  EXPECT_EQ(stats("off")["passes_of_settings"], 1);
 }
 
 TEST_F(StopRules, LayersHoldTheError) {

@@ -49,7 +49,7 @@ TEST_P(Determinism, CropIsAPartOfTheImage) {
   const Scene scene = cornell(30);
   RenderSettings settings = settings_of(GetParam());
   settings.spp = 6;
-  settings.adaptive = Adaptive::kOff;  // further samples are shared out over the crop alone
+  settings.adaptive = 0;  // further samples are shared out over the crop alone
   const auto whole = render_with_threads(scene, settings);
   settings.crop = {7, 30, 11, 29};
   const auto part = render_with_threads(scene, settings);

@@ -28,7 +28,7 @@ Scene two_lamps(int size) {
 RenderSettings direct_settings(DirectEstimator direct, int spp, uint64_t seed = 1) {
   RenderSettings settings = test::settings_of(Method::kRaytrace, spp, 0.1f, seed);
   settings.direct = direct;
-  settings.adaptive = Adaptive::kOff;  // the same samples, whatever they bring
+  settings.adaptive = 0;  // the same samples, whatever they bring
   return settings;
 }
 

@@ -76,7 +76,7 @@ TEST(Passes, GiveTheSameLight) {
 TEST(Passes, AreAsManyAsMemoryAsksFor) {
   const Scene scene = cornell(kSize);
   RenderSettings settings = settings_of(Method::kPhoton, 8, 0.15f, 1);
-  settings.adaptive = Adaptive::kOff;  // one pass alone would take further samples
+  settings.adaptive = 0;  // one pass alone would take further samples
   const auto one = render_with_threads(scene, settings);
   EXPECT_EQ(one.statistics.passes, 1u);
   settings.photon_memory = one.statistics.photon_bytes / 2;

@@ -33,7 +33,7 @@ TEST(InvalidSamples, AreDroppedCountedAndNamed) {
     RenderSettings settings;
     settings.method = Method::kRaytrace;
     settings.spp = 2;
-    settings.adaptive = Adaptive::kOff;
+    settings.adaptive = 0;
     const auto result = render_with_threads(half_broken(Rgb(value)), settings, 3);
     EXPECT_EQ(result.statistics.dropped_samples, 8u * 4u * 2u) << value;
     ASSERT_EQ(result.statistics.dropped_examples.size(), 10u);
@@ -98,7 +98,7 @@ TEST(Render, ReportsEveryTile) {
   settings.method = Method::kRaytrace;
   settings.spp = 1;
   for (const bool further : {false, true}) {
-    settings.adaptive = further ? Adaptive::kOn : Adaptive::kOff;
+    settings.adaptive = further ? 0.75f : 0;
     const uint64_t tiles = further ? 18 : 9;  // 40 pixels are three tiles of 16, gone through once or twice
     uint64_t last = 0;
     render(scene, accel::Bvh(scene), settings, [&](const Progress& p) {

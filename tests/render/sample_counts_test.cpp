@@ -189,7 +189,7 @@ class SpreadSamples : public ::testing::Test {
  protected:
   static constexpr int kSide = 48, kSeeds = 40, kPart = 16;
 
-  static std::vector<Film> films(Adaptive adaptive, uint64_t seed) {
+  static std::vector<Film> films(float adaptive, uint64_t seed) {
     const Scene scene = cornell(kSide);
     RenderSettings settings;
     settings.photons = 20'000;
@@ -228,7 +228,7 @@ class SpreadSamples : public ::testing::Test {
 };
 
 TEST_F(SpreadSamples, KeepTheMeanAndLowerTheNoise) {
-  const auto even = films(Adaptive::kOff, 1), spread = films(Adaptive::kOn, 1001);
+  const auto even = films(0, 1), spread = films(0.75f, 1001);
   for (int y = 0; y < kSide; y += kPart)
     for (int x = 0; x < kSide; x += kPart) {
       const Estimate a = mean_of(even, x, y), b = mean_of(spread, x, y);

@@ -127,7 +127,7 @@ TEST(Alpha, CutsAShadowInHalf) {
   write_png("halves.png", 2, 1, {0, 255});
   const std::string screen = "-2 -2 2 2 -2 2 2 2 2 -2 2 2";
   RenderSettings settings = settings_of(Method::kRaytrace, 1, 0.1f, 3);
-  settings.adaptive = Adaptive::kOff;  // the same samples of both
+  settings.adaptive = 0;  // the same samples of both
   const Film lit = render_with_threads(screened(""), settings).film;
   const Film cut =
       render_with_threads(screened(rectangle(screen, "\"texture alpha\" \"halves\"")), settings).film;

@@ -1,0 +1,153 @@
+#include "apps/time_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "apps/stop_rules.h"
+#include "render/passes.h"
+#include "render/photon_maps.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// Of the time: what photons get (measured, docs/performance.md); what is left over, since no pass is cut
+// short.
+constexpr double kPhotons = 0.28, kMargin = 0.03;
+// Films, their mean, files.
+constexpr double kSecondsPerPixel = 3e-7;
+// Further samples, of the work of the others: up to so much is hardly worth less than more of the others
+// (measured).
+constexpr double kMostFurther = 3;
+// A pass that takes longer, with more samples, would say nothing for long while more of its samples would
+// hardly be better placed: then so many are to fit.
+constexpr double kLongPass = 4;
+constexpr int kManySamples = 64, kPasses = 10, kMostSamples = 32, kMostOfOne = 4096;
+constexpr double kFewestPhotons = 1.0 / 16;  // of the scene's
+
+// Powers of two are spread best; without further samples to fill what is left, other numbers do, too.
+int next_number(int spp, double adaptive) {
+  if (adaptive > 0) return 2 * spp;
+  return spp + (spp < 4 ? 1 : std::max(2, int(std::bit_floor(unsigned(spp))) / 4));
+}
+
+// The largest of these numbers that takes no longer; at least one.
+int samples_within(const render::SampleCost& cost, double adaptive, double seconds, int most) {
+  int spp = 1;
+  for (int more = 1; more <= most && (more == 1 || cost.of(more, adaptive) <= seconds);
+       more = next_number(more, adaptive))
+    spp = more;
+  return spp;
+}
+
+// Hundredths, so that they can be said. Not less than what was asked for.
+float further_within(const render::SampleCost& cost, int spp, double asked, double seconds) {
+  if (!(asked > 0)) return 0;
+  const double fits = (seconds - cost.of(spp, 0)) / std::max(spp * cost.further, 1e-9);
+  return float(std::clamp(std::floor(100 * fits) / 100, asked, std::max(asked, kMostFurther)));
+}
+
+// Two digits, likewise.
+uint64_t photons_within(const render::PhotonCost& cost, double seconds, double fewest) {
+  const double photons = std::clamp((seconds - cost.fixed) / cost.each, std::max(fewest, 10.0), 1e12);
+  const double unit = std::pow(10.0, std::floor(std::log10(photons)) - 1);
+  return uint64_t(std::floor(photons / unit) * unit);
+}
+
+double pixels_of(const Scene& scene, const render::CropWindow& crop) {
+  if (crop.empty()) return double(scene.camera.width) * double(scene.camera.height);
+  return double(crop.x1 - crop.x0) * double(crop.y1 - crop.y0);
+}
+
+// The choice, at work.
+class TimePlan {
+ public:
+  TimePlan(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
+           const render::ProgressCallback& progress, Settings* settings)
+      : scene_(scene),
+        bvh_(bvh),
+        total_(total),
+        progress_(progress),
+        seconds_(*settings->stop.seconds),
+        render_(settings->render),
+        plan_(render::make_plan(render_, scene.needs)),
+        fewest_(kFewestPhotons * double(render_.photons)) {}
+
+  // Null: in passes.
+  std::shared_ptr<render::FirstPhotons> settle() {
+    render::PhotonTrial trial = render::try_photons(scene_, bvh_, render_, plan_, progress_);
+    if (seconds_ > kLongPass) {
+      const render::SampleCost cost = samples(&trial.photons);
+      if (cost.of(kManySamples, render_.adaptive) < (1 - kPhotons) * left()) {
+        set_passes(trial.cost, cost);
+        return nullptr;
+      }
+    }
+    render_.photons = photons_within(trial.cost, kPhotons * left(), fewest_);
+    render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
+    trial = {};
+    auto photons =
+        std::make_shared<render::FirstPhotons>(render::shoot_first(scene_, bvh_, render_, plan_, progress_));
+    const render::SampleCost cost = samples(photons.get());
+    render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
+    render_.adaptive = further_within(cost, render_.spp, render_.adaptive, left());
+    return photons;
+  }
+
+ private:
+  double left() const {
+    return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * pixels_of(scene_, render_.crop);
+  }
+  render::SampleCost samples(render::FirstPhotons* photons) const {
+    return render::try_samples(scene_, bvh_, render_, plan_, photons);
+  }
+
+  // What eight have is what the settings say. They have no further samples.
+  void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples) {
+    const double each = left() / kPasses;
+    const int spp = samples_within(samples, 0, (1 - kPhotons) * each, kMostSamples);
+    render_.photons = kErrorPasses * photons_within(photons, kPhotons / (1 - kPhotons) * samples.of(spp, 0),
+                                                    fewest_ / kErrorPasses);
+    render_.spp = int(kErrorPasses) * spp;
+    render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
+    if (!render_.alpha) render_.alpha = kConsistentAlpha;
+  }
+
+  const Scene& scene_;
+  const accel::Bvh& bvh_;
+  const Stopwatch& total_;
+  const render::ProgressCallback& progress_;
+  double seconds_;
+  render::RenderSettings& render_;
+  render::EstimatorPlan plan_;
+  double fewest_;  // photons
+};
+
+}  // namespace
+
+bool time_decides(const Settings& settings, const SettingOverrides& given, const SceneNeeds& needs,
+                  bool writes_passes) {
+  const bool said = given.sets("photons") || given.sets("spp") || given.sets("quality");
+  const bool passes = settings.render.passes > 0 || settings.stop.target_error || writes_passes ||
+                      names_error_layer(settings.render.aov);
+  return settings.stop.seconds && !said && !passes &&
+         render::kinds_needed(render::make_plan(settings.render, needs)).any();
+}
+
+std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const accel::Bvh& bvh,
+                                                  const Stopwatch& total,
+                                                  const render::ProgressCallback& progress,
+                                                  const Console& console, Settings* settings) {
+  auto photons = TimePlan(scene, bvh, total, progress, settings).settle();
+  const render::RenderSettings& render = settings->render;
+  console.note(fmt::format("--time {}s: as with --spp {} --photons {}{}", *settings->stop.seconds, render.spp,
+                           render.photons,
+                           photons ? fmt::format(" --adaptive {}", render.adaptive)
+                                   : fmt::format(" --passes {}, in as many passes as come", render.passes)));
+  return photons;
+}
+
+}  // namespace kaustik::app
