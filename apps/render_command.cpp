@@ -70,6 +70,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   session.outputs.files = outputs_of(options, job);
   session.fill_time = options.passes.empty() &&
                       time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
+  check_stop_settings(job.settings.stop);
   if (!session.fill_time) settle_error_settings(console, &job.settings);
   check_passes(options, job);
   note_checkpoint(options, console);

@@ -28,7 +28,7 @@ render::RenderResult render_with_bar(const Job& job, const accel::Bvh& bvh, rend
       std::move(task));
 }
 
-// Photons that are there already, where the time is to be filled.
+// What fills the time: photons of its only pass, or null where there are several.
 std::shared_ptr<render::FirstPhotons> fill_time(const accel::Bvh& bvh, const InterruptGuard& interrupt,
                                                 const Stopwatch& total, const Console& console, Job* job) {
   const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
@@ -121,7 +121,7 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     std::shared_ptr<render::FirstPhotons> photons;
     if (session.fill_time) photons = fill_time(bvh, interrupt, total, console, &job);
     times.trials = watch.seconds() - times.bvh - (photons ? seconds_of(photons->statistics) : 0);
-    session.bounded |= photons != nullptr;
+    if (photons) job.settings.stop.seconds.reset();  // nothing is left to stop
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)

@@ -13,6 +13,9 @@ namespace kaustik::app {
 
 namespace {
 
+// The radius shrinks so that bias and noise vanish with the passes (Knaus and Zwicker 2011).
+constexpr float kConsistentAlpha = 2.0f / 3;
+
 bool has(const std::vector<std::string>& aov, std::string_view layer) {
   return std::find(aov.begin(), aov.end(), layer) != aov.end();
 }
@@ -32,7 +35,6 @@ void check_stop_settings(const StopSettings& stop) {
 void settle_error_settings(const Console& console, Settings* settings) {
   render::RenderSettings& render = settings->render;
   const bool named = names_error_layer(render.aov);
-  check_stop_settings(settings->stop);
   if (named && render.passes == 1 && !settings->stop.any())
     throw ExitError(kBadCommandLine, "the layers error and bias need --passes 2 or more");
   if (render.passes == 0 && (named || settings->stop.any())) {

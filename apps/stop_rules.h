@@ -16,10 +16,6 @@ namespace kaustik::app {
 // given: enough for a standard error, and few enough for maps that hold something.
 inline constexpr uint64_t kErrorPasses = 8;
 
-// alpha of renders that go on until a rule is met, where nobody said it: bias and noise vanish with the
-// passes (Knaus and Zwicker 2011).
-inline constexpr float kConsistentAlpha = 2.0f / 3;
-
 // Whether layers are asked for by name that hold the error.
 bool names_error_layer(const std::vector<std::string>& aov);
 

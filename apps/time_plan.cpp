@@ -17,6 +17,7 @@ namespace {
 // Of the time: what photons get (measured, docs/performance.md); what is left over, since no pass is cut
 // short.
 constexpr double kPhotons = 0.28, kMargin = 0.03;
+constexpr double kTrial = 0.1;  // from so much on a trial is not followed by a larger one
 // Films, their mean, files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Further samples, of the work of the others: up to so much is hardly worth less than more of the others
@@ -25,8 +26,11 @@ constexpr double kMostFurther = 3;
 // A pass that takes longer, with more samples, would say nothing for long while more of its samples would
 // hardly be better placed: then so many are to fit.
 constexpr double kLongPass = 4;
-constexpr int kManySamples = 64, kPasses = 10, kMostSamples = 32, kMostOfOne = 4096;
-constexpr double kFewestPhotons = 1.0 / 16;  // of the scene's
+constexpr int kManySamples = 64;
+constexpr int kPasses = 10, kMostSamples = 32;  // of each of those passes
+constexpr int kMostOfOne = 4096;                // samples of a single pass
+// However short the time: of the scene's, but not more than this.
+constexpr double kFewestPhotons = 1.0 / 16, kEnoughPhotons = 62'500;
 
 // Powers of two are spread best; without further samples to fill what is left, other numbers do, too.
 int next_number(int spp, double adaptive) {
@@ -37,7 +41,7 @@ int next_number(int spp, double adaptive) {
 // The largest of these numbers that takes no longer; at least one.
 int samples_within(const render::SampleCost& cost, double adaptive, double seconds, int most) {
   int spp = 1;
-  for (int more = 1; more <= most && (more == 1 || cost.of(more, adaptive) <= seconds);
+  for (int more = next_number(1, adaptive); more <= most && cost.of(more, adaptive) <= seconds;
        more = next_number(more, adaptive))
     spp = more;
   return spp;
@@ -74,11 +78,13 @@ class TimePlan {
         seconds_(*settings->stop.seconds),
         render_(settings->render),
         plan_(render::make_plan(render_, scene.needs)),
-        fewest_(kFewestPhotons * double(render_.photons)) {}
+        fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)) {}
 
-  // Null: in passes.
+  // Null: in passes. Without radii: cancelled.
   std::shared_ptr<render::FirstPhotons> settle() {
-    render::PhotonTrial trial = render::try_photons(scene_, bvh_, render_, plan_, progress_);
+    render::PhotonTrial trial =
+        render::try_photons(scene_, bvh_, render_, plan_, kTrial * seconds_, progress_);
+    if (!trial.photons.radii) return std::make_shared<render::FirstPhotons>(std::move(trial.photons));
     if (seconds_ > kLongPass) {
       const render::SampleCost cost = samples(&trial.photons);
       if (cost.of(kManySamples, render_.adaptive) < (1 - kPhotons) * left()) {
@@ -102,7 +108,7 @@ class TimePlan {
     return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * pixels_of(scene_, render_.crop);
   }
   render::SampleCost samples(render::FirstPhotons* photons) const {
-    return render::try_samples(scene_, bvh_, render_, plan_, photons);
+    return render::try_samples(scene_, bvh_, render_, plan_, kTrial * seconds_, photons);
   }
 
   // What eight have is what the settings say. They have no further samples.
@@ -113,7 +119,6 @@ class TimePlan {
                                                     fewest_ / kErrorPasses);
     render_.spp = int(kErrorPasses) * spp;
     render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
-    if (!render_.alpha) render_.alpha = kConsistentAlpha;
   }
 
   const Scene& scene_;
@@ -132,7 +137,7 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
                   bool writes_passes) {
   const bool said = given.sets("photons") || given.sets("spp") || given.sets("quality");
   const bool passes = settings.render.passes > 0 || settings.stop.target_error || writes_passes ||
-                      names_error_layer(settings.render.aov);
+                      names_error_layer(settings.render.aov) || settings.render.estimate_bias.value_or(false);
   return settings.stop.seconds && !said && !passes &&
          render::kinds_needed(render::make_plan(settings.render, needs)).any();
 }
@@ -142,11 +147,14 @@ std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const acce
                                                   const render::ProgressCallback& progress,
                                                   const Console& console, Settings* settings) {
   auto photons = TimePlan(scene, bvh, total, progress, settings).settle();
+  if (photons && !photons->radii) return photons;
+  if (!photons) settle_error_settings(console, settings);
   const render::RenderSettings& render = settings->render;
-  console.note(fmt::format("--time {}s: as with --spp {} --photons {}{}", *settings->stop.seconds, render.spp,
-                           render.photons,
-                           photons ? fmt::format(" --adaptive {}", render.adaptive)
-                                   : fmt::format(" --passes {}, in as many passes as come", render.passes)));
+  console.note(fmt::format(
+      "--time {}s: as with --spp {} --photons {}{}", *settings->stop.seconds, render.spp, render.photons,
+      photons
+          ? fmt::format(" --adaptive {}", render.adaptive)
+          : fmt::format(" --passes {} --alpha {}, in as many passes as come", render.passes, *render.alpha)));
   return photons;
 }
 

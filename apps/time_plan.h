@@ -20,8 +20,8 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
                   bool writes_passes);
 
 // Chooses them, by trials; the log says what. One pass, whose samples are placed best, whose photons are then
-// returned; or as many passes as come, where that one would be long. total: started when the command was.
-// Within the render's task arena.
+// returned (without radii: progress cancelled); or as many passes as come, where that one would be long:
+// null. total: started when the command was. Within the render's task arena.
 std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const accel::Bvh& bvh,
                                                   const Stopwatch& total,
                                                   const render::ProgressCallback& progress,

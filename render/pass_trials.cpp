@@ -90,8 +90,16 @@ FirstPhotons shoot_first(const Scene& scene, const accel::Bvh& bvh, const Render
   return shot;
 }
 
+PhotonCost photon_cost(double few, double more) {
+  const double slope = (more - few) / double(kMorePhotons - kFewPhotons);
+  PhotonCost cost;
+  cost.each = std::max(slope, more / double(2 * kMorePhotons));
+  cost.fixed = std::max(few - double(kFewPhotons) * cost.each, 0.0);
+  return cost;
+}
+
 PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                        const EstimatorPlan& plan, const ProgressCallback& progress) {
+                        const EstimatorPlan& plan, double most, const ProgressCallback& progress) {
   PhotonTrial trial;
   const auto shoot = [&](uint64_t photons) {
     const auto start = std::chrono::steady_clock::now();
@@ -100,16 +108,22 @@ PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderS
     trial.photons = shoot_first(scene, bvh, few, plan, progress);
     return seconds_since(start);
   };
-  const double few = shoot(kFewPhotons), more = shoot(kMorePhotons);
-  const double slope = (more - few) / double(kMorePhotons - kFewPhotons);
-  // A line that is flatter than that through nothing at half the height is noise.
-  trial.cost.each = std::max(slope, more / double(2 * kMorePhotons));
-  trial.cost.fixed = std::max(few - double(kFewPhotons) * trial.cost.each, 0.0);
+  const double few = shoot(kFewPhotons);
+  trial.cost = few < most ? photon_cost(few, shoot(kMorePhotons)) : PhotonCost{0, few / double(kFewPhotons)};
   return trial;
 }
 
+SampleCost sample_cost(double one, double four, double four_further, double adaptive) {
+  SampleCost cost;
+  if (adaptive > 0) cost.further = std::max((four_further - four) / (4 * adaptive), 0.0);
+  const double alone = one - adaptive * cost.further;  // of one sample without further ones
+  cost.each = std::max((four - alone) / 3, four / 8);
+  cost.fixed = std::max(alone - cost.each, 0.0);
+  return cost;
+}
+
 SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                       const EstimatorPlan& plan, FirstPhotons* photons) {
+                       const EstimatorPlan& plan, double most, FirstPhotons* photons) {
   if (!photons->radii) return {.each = 1};  // cancelled
   const std::vector<PixelRange> windows = windows_of(range_of(settings.crop, scene.camera));
   RenderStatistics ignored;
@@ -119,15 +133,15 @@ SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSe
     tried.spp = spp, tried.adaptive = adaptive;
     return seconds_of(scene, bvh, tried, plan, photons->maps, windows);
   };
+  const auto start = std::chrono::steady_clock::now();
   const float w = settings.adaptive;
-  const double one = seconds(1, w), four = seconds(4, 0), more = w > 0 ? seconds(4, w) : four;
+  const double one = seconds(1, w);
+  SampleCost cost{0, one / (1 + double(w)), w > 0 ? one / (1 + double(w)) : 0};
+  if (seconds_since(start) < most) {
+    const double four = seconds(4, 0);
+    cost = sample_cost(one, four, w > 0 ? seconds(4, w) : four, double(w));
+  }
   photons->maps.visibility.reset();  // it is of settings.spp
-
-  SampleCost cost;
-  if (w > 0) cost.further = std::max((more - four) / (4 * double(w)), 0.0);
-  const double alone = one - double(w) * cost.further;  // of one sample without further ones
-  cost.each = std::max((four - alone) / 3, four / 8);
-  cost.fixed = std::max(alone - cost.each, 0.0);
   return cost;
 }
 

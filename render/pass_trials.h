@@ -27,21 +27,28 @@ struct SampleCost {
   double of(double spp, double adaptive) const { return fixed + spp * (each + adaptive * further); }
 };
 
+// A line through the seconds of 2^14 and of 2^16 photons, or of one sample with further ones of this much
+// work, of four without, and of four with them. Flatter than half of what the larger trial took for each, it
+// is noise.
+PhotonCost photon_cost(double few, double more);
+SampleCost sample_cost(double one, double four, double four_further, double adaptive);
+
 struct PhotonTrial {
   PhotonCost cost;
   FirstPhotons photons;
 };
 
-// Shoots few.
+// Shoots few, and more where few took less than `most` seconds.
 PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                        const EstimatorPlan& plan, const ProgressCallback& progress);
+                        const EstimatorPlan& plan, double most, const ProgressCallback& progress);
 
 // Those of the only pass of these settings. What is not there when progress cancels is empty.
 FirstPhotons shoot_first(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                          const EstimatorPlan& plan, const ProgressCallback& progress);
 
-// A few samples with these photons. Says nothing where they are not there.
+// One sample with these photons, and four where one took less than `most` seconds. Says nothing where the
+// photons are not there.
 SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                       const EstimatorPlan& plan, FirstPhotons* photons);
+                       const EstimatorPlan& plan, double most, FirstPhotons* photons);
 
 }  // namespace kaustik::render

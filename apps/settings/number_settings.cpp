@@ -69,7 +69,7 @@ Setting alpha_setting() {
             .kind = ValueKind::kNumber,
             .value_name = "A",
             .range = "above 0, at most 1",
-            .default_text = "1; 0.667 with --target-error or --time",
+            .default_text = "1; 0.667 where --target-error or --time bring passes",
             .doc =
                 "How the radius shrinks over the passes: r^2 of pass i + 1 is (i + A) / (i + 1) times that "
                 "of pass i. 1: not at all. 0.667: bias and noise both vanish with the passes."};

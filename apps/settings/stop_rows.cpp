@@ -64,11 +64,10 @@ Setting time_row() {
        .value_name = "TIME",
        .range = "like 60s, 10m or 1.5h; none",
        .default_text = "none",
-       .doc =
-           "How long the render may take, from the start of the program. Where neither photons nor samples "
-           "nor passes are given on the command line, trials choose how many fill it. Else passes until "
-           "the next would end later; a first pass there is always. Of a render that is resumed, the time "
-           "of its earlier passes counts."},
+       .doc = "How long the render may take, from the start of the program. Where no passes are asked for, "
+              "and neither photons nor samples on the command line, trials choose how many fill it. Else "
+              "passes until the next would end later; a first pass there is always. Of a render that is "
+              "resumed, the time of its earlier passes counts."},
       {&StopSettings::seconds, parse_duration, "a time above 0 with its unit, like 60s, 10m or 1.5h", "s"});
 }
 
