@@ -17,7 +17,7 @@ namespace {
 // Of the time: what photons get (measured, docs/performance.md); what is left over, since no pass is cut
 // short.
 constexpr double kPhotons = 0.28, kMargin = 0.03;
-constexpr double kTrial = 0.1;  // from so much on a trial is not followed by a larger one
+constexpr double kTrial = 0.2;  // from so much on a trial is not followed by a larger one
 // Films, their mean, files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Further samples, of the work of the others: up to so much is hardly worth less than more of the others
