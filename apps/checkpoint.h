@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/partial_files.h"
-#include "apps/stopwatch.h"
+#include "core/stopwatch.h"
 
 namespace kaustik::app {
 

@@ -8,7 +8,7 @@
 #include "apps/exit_error.h"
 #include "apps/partial_files.h"
 #include "apps/render_outputs.h"
-#include "apps/stopwatch.h"
+#include "core/stopwatch.h"
 
 namespace kaustik::app {
 

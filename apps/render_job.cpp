@@ -1,6 +1,6 @@
 #include "apps/render_job.h"
 
-#include "apps/stopwatch.h"
+#include "core/stopwatch.h"
 
 namespace kaustik::app {
 

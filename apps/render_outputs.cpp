@@ -8,7 +8,7 @@
 #include "apps/output_files.h"
 #include "apps/scene_loading.h"
 #include "apps/stop_rules.h"
-#include "apps/stopwatch.h"
+#include "core/stopwatch.h"
 #include "render/image_io.h"
 
 namespace kaustik::app {

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "apps/exit_error.h"
 #include "apps/usable_memory.h"
+#include "core/stopwatch.h"
 #include "render/film_totals.h"
+#include "render/pixel_range.h"
 
 namespace kaustik::app {
 
@@ -78,10 +79,7 @@ void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides, 
 
 // Bytes of the film of a pass, of the totals and of the picture.
 uint64_t film_of(const Job& job) {
-  const render::CropWindow& crop = job.settings.render.crop;
-  const Camera& camera = job.scene.camera;
-  const uint64_t pixels = crop.empty() ? uint64_t(camera.width) * uint64_t(camera.height)
-                                       : uint64_t(crop.x1 - crop.x0) * uint64_t(crop.y1 - crop.y0);
+  const uint64_t pixels = render::rendered_range(job.settings.render.crop, job.scene.camera).pixels();
   return pixels * (sizeof(render::PixelSum) + sizeof(render::PixelTotals) + sizeof(render::PixelResult));
 }
 
@@ -110,7 +108,7 @@ std::string scene_summary(const Scene& scene) {
 }
 
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Diagnostics diagnostics;
   std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics);
   if (!loaded) report_broken_scene(path, diagnostics, console);
@@ -129,7 +127,7 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
   job.settings.render.photon_memory = memory_beside(film_of(job));
   job.settings.render.width = job.scene.camera.width;
   job.settings.render.height = job.scene.camera.height;
-  job.load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  job.load_seconds = watch.seconds();
   console.note(fmt::format("{}: {}", path, scene_summary(job.scene)));
   for (const std::string& note : file.notes) console.note(note);
   return job;

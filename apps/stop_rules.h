@@ -7,7 +7,7 @@
 
 #include "apps/console/console.h"
 #include "apps/settings/settings.h"
-#include "apps/stopwatch.h"
+#include "core/stopwatch.h"
 #include "render/pass_sums.h"
 
 namespace kaustik::app {

@@ -9,6 +9,7 @@
 #include "apps/stop_rules.h"
 #include "render/passes.h"
 #include "render/photon_maps.h"
+#include "render/pixel_range.h"
 
 namespace kaustik::app {
 
@@ -61,11 +62,6 @@ uint64_t photons_within(const render::PhotonCost& cost, double seconds, double f
   return uint64_t(std::floor(photons / unit) * unit);
 }
 
-double pixels_of(const Scene& scene, const render::CropWindow& crop) {
-  if (crop.empty()) return double(scene.camera.width) * double(scene.camera.height);
-  return double(crop.x1 - crop.x0) * double(crop.y1 - crop.y0);
-}
-
 // The choice, at work.
 class TimePlan {
  public:
@@ -105,7 +101,8 @@ class TimePlan {
 
  private:
   double left() const {
-    return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * pixels_of(scene_, render_.crop);
+    const uint64_t pixels = render::rendered_range(render_.crop, scene_.camera).pixels();
+    return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels);
   }
   render::SampleCost samples(render::FirstPhotons* photons) const {
     return render::try_samples(scene_, bvh_, render_, plan_, kTrial * seconds_, photons);

@@ -6,8 +6,8 @@
 #include "accel/bvh.h"
 #include "apps/console/console.h"
 #include "apps/setting_options.h"
-#include "apps/stopwatch.h"
 #include "core/scene/scene.h"
+#include "core/stopwatch.h"
 #include "render/pass_trials.h"
 
 namespace kaustik::app {

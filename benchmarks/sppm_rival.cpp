@@ -13,8 +13,8 @@
 
 #include "apps/import/pbrt_importer.h"
 #include "apps/settings/scene_settings.h"
-#include "apps/stopwatch.h"
 #include "benchmarks/sppm_rival/sppm.h"
+#include "core/stopwatch.h"
 #include "render/image_io.h"
 
 namespace kaustik::benchmarks {
@@ -71,7 +71,7 @@ Scene load(Options& o) {
 void run(Options o) {
   std::optional<tbb::global_control> cap;
   if (o.threads > 0) cap.emplace(tbb::global_control::max_allowed_parallelism, o.threads);
-  const app::Stopwatch total;
+  const Stopwatch total;
   const Scene scene = load(o);
   const accel::Bvh bvh(scene);
   const double loaded = total.seconds();

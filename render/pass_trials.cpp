@@ -3,10 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/sampling/sampler.h"
+#include "core/stopwatch.h"
 #include "render/camera_rays.h"
 #include "render/pixel_range.h"
 #include "render/ray_cone.h"
@@ -25,23 +25,11 @@ constexpr int kWindow = 3 * kRayBlock;
 constexpr double kFewWindows = 36, kManyWindows = 120;
 constexpr double kShare = 1.0 / 16;  // of the picture, between these
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-PixelRange range_of(const CropWindow& crop, const Camera& camera) {
-  if (crop.empty()) return {0, camera.width, 0, camera.height};
-  return {crop.x0, crop.x1, crop.y0, crop.y1};
-}
-
-double area_of(const PixelRange& range) {
-  return double(range.x1 - range.x0) * double(range.y1 - range.y0);
-}
-
 // One in each of so many squares, anywhere in it.
 std::vector<PixelRange> windows_of(const PixelRange& whole) {
-  const double wanted = std::clamp(area_of(whole) * kShare / (kWindow * kWindow), kFewWindows, kManyWindows);
-  const int places = std::max(1, int(std::sqrt(area_of(whole) / wanted) / kWindow));
+  const double wanted =
+      std::clamp(double(whole.pixels()) * kShare / (kWindow * kWindow), kFewWindows, kManyWindows);
+  const int places = std::max(1, int(std::sqrt(double(whole.pixels()) / wanted) / kWindow));
   std::vector<PixelRange> windows;
   whole.for_each_square(kWindow * places, [&](const PixelRange& square) {
     const uint64_t place = hash_combine(uint64_t(square.x0), uint64_t(square.y0));
@@ -58,7 +46,7 @@ std::vector<PixelRange> windows_of(const PixelRange& whole) {
 // Of samples of all pixels, from those of the windows.
 double seconds_of(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                   const EstimatorPlan& plan, const PhotonMaps& maps, const std::vector<PixelRange>& windows) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const PassShare pass = pass_share(0, 1, settings.photons, settings.spp);
   const RenderContext ctx{scene,
                           bvh,
@@ -70,14 +58,14 @@ double seconds_of(const Scene& scene, const accel::Bvh& bvh, const RenderSetting
                           camera_cone(scene.camera, pass.end_sample)};
   tbb::parallel_for(size_t(0), windows.size(), [&](size_t i) {
     const PixelRange& w = windows[i];
-    FilmSums film(w.x1 - w.x0, w.y1 - w.y0, w.x0, w.y0, scene.camera.width, scene.camera.height);
+    FilmSums film(w.width(), w.height(), w.x0, w.y0, scene.camera.width, scene.camera.height);
     RenderStatistics ignored;
     render_tiles(ctx, {}, &film, &ignored);
   });
-  const double seconds = seconds_since(start);
-  double area = 0;
-  for (const PixelRange& w : windows) area += area_of(w);
-  return seconds * area_of(range_of(settings.crop, scene.camera)) / area;
+  const double seconds = watch.seconds();
+  uint64_t pixels = 0;
+  for (const PixelRange& w : windows) pixels += w.pixels();
+  return seconds * double(rendered_range(settings.crop, scene.camera).pixels()) / double(pixels);
 }
 
 }  // namespace
@@ -102,11 +90,11 @@ PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderS
                         const EstimatorPlan& plan, double most, const ProgressCallback& progress) {
   PhotonTrial trial;
   const auto shoot = [&](uint64_t photons) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     RenderSettings few = settings;
     few.photons = photons;
     trial.photons = shoot_first(scene, bvh, few, plan, progress);
-    return seconds_since(start);
+    return watch.seconds();
   };
   const double few = shoot(kFewPhotons);
   trial.cost = few < most ? photon_cost(few, shoot(kMorePhotons)) : PhotonCost{0, few / double(kFewPhotons)};
@@ -125,7 +113,7 @@ SampleCost sample_cost(double one, double four, double four_further, double adap
 SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                        const EstimatorPlan& plan, double most, FirstPhotons* photons) {
   if (!photons->radii) return {.each = 1};  // cancelled
-  const std::vector<PixelRange> windows = windows_of(range_of(settings.crop, scene.camera));
+  const std::vector<PixelRange> windows = windows_of(rendered_range(settings.crop, scene.camera));
   RenderStatistics ignored;
   foretell_visibility(scene, bvh, settings, plan, &photons->maps, &ignored);
   const auto seconds = [&](int spp, float adaptive) {
@@ -133,11 +121,11 @@ SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSe
     tried.spp = spp, tried.adaptive = adaptive;
     return seconds_of(scene, bvh, tried, plan, photons->maps, windows);
   };
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const float w = settings.adaptive;
   const double one = seconds(1, w);
   SampleCost cost{0, one / (1 + double(w)), w > 0 ? one / (1 + double(w)) : 0};
-  if (seconds_since(start) < most) {
+  if (watch.seconds() < most) {
     const double four = seconds(4, 0);
     cost = sample_cost(one, four, w > 0 ? seconds(4, w) : four, double(w));
   }

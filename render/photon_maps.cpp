@@ -1,10 +1,10 @@
 #include "render/photon_maps.h"
 
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "core/stopwatch.h"
 #include "photon/visibility_shoot.h"
 #include "render/radius.h"
 #include "render/visible_points.h"
@@ -14,10 +14,6 @@ namespace kaustik::render {
 namespace {
 
 using photon::PhotonKind;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // Of the photons of one pass, where a number of all of them was asked for: rounded, at least one.
 uint32_t share(uint32_t photons, const PassShare& pass) {
@@ -174,7 +170,7 @@ void learn_guides(const Scene& scene, const accel::Bvh& bvh, const RenderSetting
                   const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
   if (settings.guide == Guide::kOff) return;
   const photon::KindMask kinds = kinds_needed(plan);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto learn = [&](PhotonKind kind, bool beside_others, auto* guide) {
     if (!kinds[kind]) return;
     if (!*guide) *guide = learn_guide(scene, bvh, settings, kind, beside_others);
@@ -186,7 +182,7 @@ void learn_guides(const Scene& scene, const accel::Bvh& bvh, const RenderSetting
   learn(PhotonKind::kIndirect, false, &maps->indirect_guide);
   const bool uniform_indirect = kinds.indirect && maps->indirect_guide->guide.empty();
   learn(PhotonKind::kCaustic, uniform_indirect || kinds.direct || kinds.shadow, &maps->caustic_guide);
-  statistics->photon_trace_s += seconds_since(start);
+  statistics->photon_trace_s += watch.seconds();
 }
 
 // A shoot for some kinds.
@@ -266,10 +262,10 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
 void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                          const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
   if (plan.direct != DirectEstimator::kPredicted || maps->visibility) return;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   maps->visibility = std::make_unique<const photon::VisibilityTree>(photon::foretell_visibility(
       scene, bvh, {settings.seed, visibility_photons(scene, settings), settings.emission}));
-  statistics->photon_trace_s += seconds_since(start);
+  statistics->photon_trace_s += watch.seconds();
 }
 
 uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons) {
@@ -285,13 +281,13 @@ bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSet
   if (!kinds_needed(plan).any()) return true;
   learn_guides(scene, bvh, settings, plan, maps, statistics);
   free_maps(maps);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   photon::ShootResult shot;
   const bool finished = shoot_kinds(scene, bvh, settings, plan, pass, progress, *maps, &shot, statistics);
-  statistics->photon_trace_s += seconds_since(start);
+  statistics->photon_trace_s += watch.seconds();
   if (!finished) return false;
 
-  const auto build_start = std::chrono::steady_clock::now();
+  const Stopwatch build_watch;
   build_maps(scene, std::move(shot), maps);
   if (!*radii) *radii = settle_radii(scene, bvh, settings, plan, pass, *maps);
   find_edges(scene, bvh, settings, maps);
@@ -299,7 +295,7 @@ bool make_photon_maps(const Scene& scene, const accel::Bvh& bvh, const RenderSet
   set_areas(scene, maps);
   note_radii(**radii, statistics);
   add_sizes(*maps, statistics);
-  statistics->photon_build_s += seconds_since(build_start);
+  statistics->photon_build_s += build_watch.seconds();
   return !progress || progress({"build", 1, 1, pass.pass, pass.shares});
 }
 

@@ -2,12 +2,20 @@
 // A rectangle of pixels of the full image.
 
 #include <algorithm>
+#include <cstdint>
+
+#include "core/camera/camera.h"
+#include "render/settings.h"
 
 namespace kaustik::render {
 
 // Pixels [x0, x1) x [y0, y1).
 struct PixelRange {
   int x0, x1, y0, y1;
+
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  uint64_t pixels() const { return uint64_t(width()) * uint64_t(height()); }
 
   // Its part within `side` pixels of (x, y) to the right and below.
   PixelRange in_square(int x, int y, int side) const {
@@ -21,5 +29,11 @@ struct PixelRange {
       for (int x = x0 - x0 % side; x < x1; x += side) fn(in_square(x, y, side));
   }
 };
+
+// What is rendered of the camera's image: the crop window, or all of it.
+inline PixelRange rendered_range(const CropWindow& crop, const Camera& camera) {
+  if (crop.empty()) return {0, camera.width, 0, camera.height};
+  return {crop.x0, crop.x1, crop.y0, crop.y1};
+}
 
 }  // namespace kaustik::render

@@ -4,13 +4,14 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <mutex>
 #include <stdexcept>
 
+#include "core/stopwatch.h"
 #include "render/error_estimate.h"
 #include "render/pass_trials.h"
 #include "render/photon_maps.h"
+#include "render/pixel_range.h"
 #include "render/sample_counts.h"
 #include "render/tiles.h"
 
@@ -39,8 +40,8 @@ void check_settings(const RenderSettings& s, const Camera& camera) {
 
 template <class Pixel>
 PixelWindow<Pixel> make_window(const CropWindow& crop, const Camera& camera) {
-  if (crop.empty()) return {camera.width, camera.height};
-  return {crop.x1 - crop.x0, crop.y1 - crop.y0, crop.x0, crop.y0, camera.width, camera.height};
+  const PixelRange range = rendered_range(crop, camera);
+  return {range.width(), range.height(), range.x0, range.y0, camera.width, camera.height};
 }
 
 // One caller at a time, told how many passes there will be.
@@ -83,9 +84,9 @@ class PassRenderer {
     const RenderContext ctx{scene_, bvh_, settings_, plan_, maps_, part, pass_samples(part, settings_, plan_),
                             cone};
     if (!make_maps(part, radii, statistics)) return false;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const bool finished = render_tiles(ctx, progress_, film, statistics);
-    statistics->render_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    statistics->render_s += watch.seconds();
     statistics->passes += finished;
     return finished;
   }

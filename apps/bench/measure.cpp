@@ -6,8 +6,8 @@
 
 #include "apps/bench/peak_memory.h"
 #include "apps/render_job.h"
-#include "apps/stopwatch.h"
 #include "apps/thread_limit.h"
+#include "core/stopwatch.h"
 
 namespace kaustik::app {
 

@@ -10,11 +10,12 @@
 #include "apps/output_files.h"
 #include "apps/partial_files.h"
 #include "apps/render_job.h"
-#include "apps/stopwatch.h"
 #include "apps/sweep/pictures.h"
 #include "core/content_hash.h"
+#include "core/stopwatch.h"
 #include "render/image_io.h"
 #include "render/names.h"
+#include "render/pixel_range.h"
 #include "render/renderer.h"
 
 namespace kaustik::app {
@@ -194,9 +195,8 @@ std::optional<Reference> render_reference(const ReferenceChoice& choice, render:
 }  // namespace
 
 std::pair<int, int> picture_size(const Job& job) {
-  const render::CropWindow& crop = job.settings.render.crop;
-  if (crop.empty()) return {job.scene.camera.width, job.scene.camera.height};
-  return {crop.x1 - crop.x0, crop.y1 - crop.y0};
+  const render::PixelRange range = render::rendered_range(job.settings.render.crop, job.scene.camera);
+  return {range.width(), range.height()};
 }
 
 std::string picture_hash(const render::Image& image) {
