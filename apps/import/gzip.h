@@ -1,6 +1,7 @@
 #pragma once
 // gzip files (RFC 1952), unpacked in memory.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,6 +1,7 @@
 #include "apps/report/html.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 namespace kaustik::app {
