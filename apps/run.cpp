@@ -9,8 +9,8 @@
 #include <new>
 #include <sstream>
 
-#include "apps/commands.h"
-#include "apps/exit_error.h"
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
 #include "core/diagnostics/nearest_name.h"
 #include "core/version.h"
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/import/pbrt_importer.h"
-#include "apps/import/transforms.h"
+#include "apps/import/import_scene.h"
+#include "apps/import/pbrt/transforms.h"
 #include "core/scene/scene.h"
 
 namespace kaustik::benchmarks {

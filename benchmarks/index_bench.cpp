@@ -1,7 +1,7 @@
 // Structures that find photons within a radius, by one benchmark: the photon map, nanoflann's kd-tree, a
 // spatial hash, the lecture's pointer octree, and as the roof a dense grid made for the radius. Same photons,
 // same queries in the order of a picture's tiles, same rule of what counts, same sum; the equality is tested
-// in tests/photon/photon_index_test.cpp. Arguments: photons, photons in reach. nearest: the radius that
+// in tests/photon/map/photon_index_test.cpp. Arguments: photons, photons in reach. nearest: the radius that
 // reaches the k-th photon that counts, of the photon map and of nanoflann.
 //
 //   index_bench --benchmark_enable_random_interleaving=true --benchmark_repetitions=7

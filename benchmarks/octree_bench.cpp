@@ -15,14 +15,14 @@
 #include <nanoflann.hpp>
 #include <optional>
 
-#include "apps/bench/peak_memory.h"
+#include "apps/machine/peak_memory.h"
 #include "benchmarks/kept_memory.h"
 #include "benchmarks/rivals/kd_tree.h"
 #include "benchmarks/rivals/lsd_radix_sort.h"
 #include "benchmarks/rivals/pointer_octree.h"
 #include "benchmarks/take_flag.h"
 #include "benchmarks/wall_photons.h"
-#include "photon/photon_map.h"
+#include "photon/map/photon_map.h"
 #include "render/statistics_json.h"
 
 namespace kaustik::benchmarks {

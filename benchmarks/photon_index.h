@@ -4,8 +4,8 @@
 #include <concepts>
 #include <string_view>
 
-#include "photon/gather.h"
-#include "photon/photon_record.h"
+#include "photon/gather/gather.h"
+#include "photon/record/photon_record.h"
 
 namespace kaustik::benchmarks {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "photon/shoot.h"
+#include "photon/shoot/shoot.h"
 
 namespace kaustik::benchmarks {
 

@@ -11,11 +11,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "apps/import/pbrt_importer.h"
+#include "apps/import/import_scene.h"
 #include "apps/settings/scene_settings.h"
 #include "benchmarks/sppm_rival/sppm.h"
 #include "core/stopwatch.h"
-#include "render/image_io.h"
+#include "render/picture/image_io.h"
 
 namespace kaustik::benchmarks {
 namespace {

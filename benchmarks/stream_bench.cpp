@@ -13,7 +13,7 @@
 #include <tbb/task_arena.h>
 
 #include "benchmarks/cpu_time.h"
-#include "photon/uninitialised_array.h"
+#include "core/memory/uninitialised_array.h"
 
 namespace kaustik::benchmarks {
 namespace {

@@ -23,7 +23,7 @@
 #include "benchmarks/bench_scenes.h"
 #include "benchmarks/cpu_time.h"
 #include "benchmarks/photon_paths.h"
-#include "photon/shoot.h"
+#include "photon/shoot/shoot.h"
 
 namespace kaustik::benchmarks {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <vector>
 
+#include "core/memory/memory_pages.h"
 #include "core/sampling/sampler.h"
-#include "photon/memory_pages.h"
-#include "photon/photon_record.h"
+#include "photon/record/photon_record.h"
 
 namespace kaustik::benchmarks {
 

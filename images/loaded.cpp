@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "render/image_formats.h"
+#include "render/picture/image_formats.h"
 
 namespace kaustik::render {
 

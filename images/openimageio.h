@@ -1,7 +1,7 @@
 #pragma once
 // The image formats by OpenImageIO.
 
-#include "render/image_formats.h"
+#include "render/picture/image_formats.h"
 
 namespace kaustik::images {
 

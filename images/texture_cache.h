@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "images/decoded_image.h"
-#include "render/image_formats.h"
+#include "render/picture/image_formats.h"
 
 namespace kaustik::images {
 

@@ -1,6 +1,6 @@
 #include "render/block_samples.h"
 
-#include "render/photon_integrator.h"
+#include "render/estimators/photon_integrator.h"
 
 namespace kaustik::render {
 

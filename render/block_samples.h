@@ -4,12 +4,12 @@
 #include <array>
 #include <vector>
 
-#include "photon/estimate_batch.h"
-#include "render/camera_rays.h"
-#include "render/film.h"
-#include "render/pixel_range.h"
+#include "photon/estimate/estimate_batch.h"
+#include "render/adaptive/sample_spread.h"
+#include "render/camera/camera_rays.h"
+#include "render/camera/pixel_range.h"
+#include "render/film/film.h"
 #include "render/render_context.h"
-#include "render/sample_spread.h"
 
 namespace kaustik::render {
 

@@ -1,9 +1,9 @@
 #pragma once
 // What every estimator reads (const, shared by all threads) and what it counts (one per tile).
 
-#include "render/passes.h"
-#include "render/photon_maps.h"
-#include "render/ray_cone.h"
+#include "render/camera/ray_cone.h"
+#include "render/maps/photon_maps.h"
+#include "render/passes/passes.h"
 #include "render/renderer.h"
 
 namespace kaustik::render {

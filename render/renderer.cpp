@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "core/stopwatch.h"
-#include "render/error_estimate.h"
-#include "render/pass_trials.h"
-#include "render/photon_maps.h"
-#include "render/pixel_range.h"
-#include "render/sample_counts.h"
+#include "render/adaptive/sample_counts.h"
+#include "render/camera/pixel_range.h"
+#include "render/film/error_estimate.h"
+#include "render/maps/photon_maps.h"
+#include "render/passes/pass_trials.h"
 #include "render/tiles.h"
 
 namespace kaustik::render {

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "accel/bvh.h"
-#include "render/film.h"
-#include "render/pass_sums.h"
+#include "render/film/film.h"
+#include "render/passes/pass_sums.h"
 #include "render/settings.h"
 #include "render/statistics.h"
 

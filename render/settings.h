@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/light/light_types.h"
-#include "photon/kernel.h"
+#include "photon/gather/kernel.h"
 
 namespace kaustik::render {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "photon/tracer.h"
+#include "photon/trace/tracer.h"
 
 namespace kaustik::render {
 

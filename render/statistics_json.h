@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "render/image_io.h"
+#include "render/picture/image_io.h"
 #include "render/renderer.h"
 
 namespace kaustik::render {

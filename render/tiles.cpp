@@ -8,8 +8,8 @@
 #include <mutex>
 #include <optional>
 
+#include "render/adaptive/sample_counts.h"
 #include "render/block_samples.h"
-#include "render/sample_counts.h"
 
 namespace kaustik::render {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/scene_loading.h"
+#include "apps/session/scene_loading.h"
 #include "apps/settings/values.h"
 
 namespace kaustik::app {

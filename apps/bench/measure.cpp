@@ -4,9 +4,9 @@
 
 #include <ctime>
 
-#include "apps/bench/peak_memory.h"
-#include "apps/render_job.h"
-#include "apps/thread_limit.h"
+#include "apps/machine/peak_memory.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/session/render_job.h"
 #include "core/stopwatch.h"
 
 namespace kaustik::app {

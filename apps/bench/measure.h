@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "apps/bench/bench_result.h"
-#include "apps/render_job.h"
+#include "apps/session/render_job.h"
 #include "core/scene/scene.h"
 #include "render/settings.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/scene/description.h"
+#include "core/scene/description/description.h"
 
 namespace kaustik::app {
 

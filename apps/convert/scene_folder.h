@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "core/pending_file.h"
+#include "core/files/pending_file.h"
 
 namespace kaustik::app {
 

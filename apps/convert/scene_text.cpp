@@ -6,8 +6,8 @@
 #include <iterator>
 #include <set>
 
-#include "apps/import/transforms.h"
-#include "core/scene/schema.h"
+#include "apps/import/pbrt/transforms.h"
+#include "core/scene/schema/schema.h"
 
 namespace kaustik::app {
 namespace {

@@ -2,7 +2,7 @@
 // What a scene of another format lacks before it can be rendered.
 
 #include "core/diagnostics/diagnostics.h"
-#include "core/scene/description.h"
+#include "core/scene/description/description.h"
 
 namespace kaustik {
 

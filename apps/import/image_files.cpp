@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "apps/import/scene_files.h"
-#include "core/content_hash.h"
-#include "render/image_io.h"
+#include "core/files/content_hash.h"
+#include "render/picture/image_io.h"
 
 namespace kaustik::pbrt {
 

@@ -5,8 +5,8 @@
 #include <mutex>
 #include <string>
 
-#include "core/scene/builder.h"
-#include "render/image_formats.h"
+#include "core/scene/build/builder.h"
+#include "render/picture/image_formats.h"
 
 namespace kaustik::pbrt {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/description.h"
+#include "core/scene/description/description.h"
 
 namespace kaustik {
 

@@ -8,7 +8,7 @@
 
 #include "apps/import/scene_files.h"
 #include "apps/report/html.h"
-#include "apps/stop_rules.h"
+#include "apps/session/stop_rules.h"
 #include "apps/sweep/sweep_files.h"
 #include "report_assets.h"
 

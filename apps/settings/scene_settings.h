@@ -8,7 +8,7 @@
 
 #include "apps/settings/settings.h"
 #include "core/diagnostics/diagnostics.h"
-#include "core/scene/description.h"
+#include "core/scene/description/description.h"
 
 namespace kaustik::app {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "render/picture/tonemap.h"
 #include "render/settings.h"
-#include "render/tonemap.h"
 
 namespace kaustik::app {
 

@@ -11,7 +11,7 @@
 #include "apps/settings/rows.h"
 #include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
-#include "render/film.h"
+#include "render/film/film.h"
 #include "render/names.h"
 
 namespace kaustik::app {

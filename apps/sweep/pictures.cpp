@@ -1,8 +1,8 @@
 #include "apps/sweep/pictures.h"
 
-#include "render/compare.h"
-#include "render/image_io.h"
-#include "render/shrink.h"
+#include "render/picture/compare.h"
+#include "render/picture/image_io.h"
+#include "render/picture/shrink.h"
 
 namespace kaustik::app {
 

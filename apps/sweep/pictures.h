@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "render/image.h"
-#include "render/tonemap.h"
+#include "render/picture/image.h"
+#include "render/picture/tonemap.h"
 
 namespace kaustik::app {
 
@@ -13,7 +13,8 @@ inline constexpr int kPictureSide = 400;  // pixels of the longer side, at most
 // Tone-mapped PNG.
 void write_picture(const std::string& path, const render::Image& image, const render::ToneSettings& tone);
 
-// Relative squared error per pixel in false colours (render/compare.h); averaged before it is coloured.
+// Relative squared error per pixel in false colours (render/picture/compare.h); averaged before it is
+// coloured.
 void write_error_map(const std::string& path, const render::Image& reference, const render::Image& image);
 
 }  // namespace kaustik::app

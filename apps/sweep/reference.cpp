@@ -6,16 +6,16 @@
 #include <filesystem>
 
 #include "apps/bench/bench_json.h"
-#include "apps/exit_error.h"
-#include "apps/output_files.h"
-#include "apps/partial_files.h"
-#include "apps/render_job.h"
+#include "apps/console/exit_error.h"
+#include "apps/session/output_files.h"
+#include "apps/session/partial_files.h"
+#include "apps/session/render_job.h"
 #include "apps/sweep/pictures.h"
-#include "core/content_hash.h"
+#include "core/files/content_hash.h"
 #include "core/stopwatch.h"
-#include "render/image_io.h"
+#include "render/camera/pixel_range.h"
 #include "render/names.h"
-#include "render/pixel_range.h"
+#include "render/picture/image_io.h"
 #include "render/renderer.h"
 
 namespace kaustik::app {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "apps/scene_loading.h"
+#include "apps/session/scene_loading.h"
 #include "apps/sweep/sweep_folder.h"
-#include "render/image.h"
+#include "render/picture/image.h"
 
 namespace kaustik::app {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "apps/bench/measure.h"
-#include "apps/partial_files.h"
-#include "apps/render_job.h"
+#include "apps/session/partial_files.h"
+#include "apps/session/render_job.h"
 #include "apps/sweep/pictures.h"
-#include "render/error_parts.h"
+#include "render/picture/error_parts.h"
 
 namespace kaustik::app {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "apps/scene_loading.h"
+#include "apps/session/scene_loading.h"
 #include "apps/sweep/reference.h"
 #include "apps/sweep/sweep_folder.h"
 #include "apps/sweep/sweep_grid.h"

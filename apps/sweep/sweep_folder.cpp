@@ -9,10 +9,10 @@
 #include <cstring>
 #include <fstream>
 
-#include "apps/exit_error.h"
-#include "apps/output_files.h"
+#include "apps/console/exit_error.h"
+#include "apps/session/output_files.h"
 #include "apps/sweep/sweep_files.h"
-#include "core/content_hash.h"
+#include "core/files/content_hash.h"
 
 namespace kaustik::app {
 

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "apps/exit_error.h"
-#include "apps/list_options.h"
+#include "apps/console/exit_error.h"
+#include "apps/settings/list_options.h"
 #include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
+#include "render/maps/photon_maps.h"
 #include "render/names.h"
-#include "render/photon_maps.h"
 #include "render/renderer.h"
 
 namespace kaustik::app {

@@ -44,13 +44,13 @@ def change_nothing(_):
 
 def add_unused_code(index):
     """Code that moves other code, and comments that move lines."""
-    edit("photon/morton.cpp", lambda text: text.replace("namespace kaustik::photon {",
+    edit("photon/map/morton.cpp", lambda text: text.replace("namespace kaustik::photon {",
                                                         "namespace kaustik::photon {\n" + UNUSED.format(index=index), 1))
-    edit("photon/octree.cpp", lambda text: f"// Comment {index}.\n" + text)
+    edit("photon/map/octree.cpp", lambda text: f"// Comment {index}.\n" + text)
 
 
 def gather_slower(_):
-    edit("photon/photon_map.cpp", lambda text: re.sub(r"(PhotonMap::gather_flux\([^{]*\{)", r"\1" + TWICE, text, count=1))
+    edit("photon/map/photon_map.cpp", lambda text: re.sub(r"(PhotonMap::gather_flux\([^{]*\{)", r"\1" + TWICE, text, count=1))
 
 
 CHANGES = [("none", change_nothing, 5, 0), ("unused code", add_unused_code, 5, 0),

@@ -16,8 +16,8 @@
 
 #include "benchmarks/perf/kernel_scene.h"
 #include "benchmarks/wall_photons.h"
-#include "photon/photon_map.h"
-#include "photon/shoot.h"
+#include "photon/map/photon_map.h"
+#include "photon/shoot/shoot.h"
 
 // Named for callgrind. The barrier keeps the call from becoming a jump, after which this function would have
 // no end.

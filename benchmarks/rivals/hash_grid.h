@@ -8,7 +8,7 @@
 
 #include "benchmarks/photon_index.h"
 #include "benchmarks/rivals/plain_photon.h"
-#include "photon/uninitialised_array.h"
+#include "core/memory/uninitialised_array.h"
 
 namespace kaustik::benchmarks {
 

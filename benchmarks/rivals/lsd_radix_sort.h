@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "photon/memory_pages.h"
-#include "photon/morton.h"
-#include "photon/photon_record.h"
-#include "photon/uninitialised_array.h"
+#include "core/memory/memory_pages.h"
+#include "core/memory/uninitialised_array.h"
+#include "photon/map/morton.h"
+#include "photon/record/photon_record.h"
 
 namespace kaustik::benchmarks {
 

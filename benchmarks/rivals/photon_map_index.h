@@ -2,7 +2,7 @@
 // The photon map of this program as a PhotonIndex.
 
 #include "benchmarks/photon_index.h"
-#include "photon/photon_map.h"
+#include "photon/map/photon_map.h"
 
 namespace kaustik::benchmarks {
 

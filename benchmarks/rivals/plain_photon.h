@@ -2,9 +2,9 @@
 // The photon of the scalar rivals, with its flux ready to be added, and the test whether it counts.
 
 #include "core/math/bounds.h"
-#include "photon/gather.h"
-#include "photon/packing.h"
-#include "photon/photon_record.h"
+#include "photon/gather/gather.h"
+#include "photon/record/packing.h"
+#include "photon/record/photon_record.h"
 
 namespace kaustik::benchmarks {
 

@@ -17,11 +17,11 @@
 #include "accel/bvh.h"
 #include "benchmarks/sppm_rival/point_grid.h"
 #include "core/sampling/warp.h"
-#include "photon/emission.h"
-#include "photon/shading_correction.h"
-#include "render/camera_rays.h"
-#include "render/image.h"
-#include "render/lighting.h"
+#include "photon/emission/emission.h"
+#include "photon/trace/shading_correction.h"
+#include "render/camera/camera_rays.h"
+#include "render/estimators/lighting.h"
+#include "render/picture/image.h"
 
 namespace kaustik::benchmarks::sppm {
 

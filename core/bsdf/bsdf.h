@@ -1,6 +1,6 @@
 #pragma once
 // The list of all BSDFs. Adding one: (1) a header with the struct, (2) its name here, (3) its row in
-// core/scene/schema.cpp.
+// core/scene/schema/schema.cpp.
 
 #include <variant>
 

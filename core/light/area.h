@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/geometry/interaction.h"
-#include "core/light/emission_image.h"
+#include "core/light/image/emission_image.h"
 #include "core/light/light_types.h"
 #include "core/sampling/discrete.h"
 #include "core/texture/texture.h"

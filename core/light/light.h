@@ -1,6 +1,6 @@
 #pragma once
 // The list of all lights. Adding one: (1) a header with the struct, (2) its name here, (3) its row in
-// core/scene/light_rows.cpp.
+// core/scene/schema/light_rows.cpp.
 
 #include <variant>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "core/light/direction_map.h"
+#include "core/light/image/direction_map.h"
 #include "core/light/light_types.h"
 #include "core/math/frame.h"
 #include "core/sampling/windowed_2d.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "core/light/light_image.h"
+#include "core/light/image/light_image.h"
 #include "core/light/light_types.h"
 #include "core/sampling/piecewise_2d.h"
 

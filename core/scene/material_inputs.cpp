@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/scene/schema.h"
+#include "core/scene/schema/schema.h"
 
 namespace kaustik {
 

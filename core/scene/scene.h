@@ -8,7 +8,7 @@
 #include "core/camera/camera.h"
 #include "core/camera/sensor.h"
 #include "core/geometry/interaction.h"
-#include "core/light/light_sampler.h"
+#include "core/light/choice/light_sampler.h"
 #include "core/scene/material.h"
 #include "core/scene/needs.h"
 
@@ -16,7 +16,7 @@ namespace kaustik {
 
 struct Scene {
   // World coordinates less this, in metres, are what everything below holds. Zero unless the scene lies far
-  // from the world's origin (core/scene/local_origin.h).
+  // from the world's origin (core/scene/build/local_origin.h).
   glm::dvec3 origin{0};
   Camera camera;
   Sensor sensor;

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "tests/render/image_statistics.h"
+#include "tests/render/support/image_statistics.h"
 
 namespace kaustik::render {
 namespace {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/statistics_json.h"
-#include "tests/render/image_statistics.h"
+#include "tests/render/support/image_statistics.h"
 
 namespace kaustik::render {
 namespace {

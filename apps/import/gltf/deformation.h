@@ -6,7 +6,7 @@
 
 #include "apps/import/gltf/document.h"
 #include "apps/import/gltf/nodes.h"
-#include "core/scene/description.h"
+#include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
 

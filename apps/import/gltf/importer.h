@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/diagnostics/diagnostics.h"
-#include "core/scene/description.h"
+#include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "apps/import/make_parameter.h"
-#include "core/scene/schema.h"
+#include "core/scene/schema/schema.h"
 
 namespace kaustik::gltf {
 namespace {

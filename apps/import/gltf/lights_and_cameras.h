@@ -1,7 +1,7 @@
 #pragma once
 #include "apps/import/gltf/document.h"
 #include "apps/import/warnings.h"
-#include "core/scene/description.h"
+#include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
 

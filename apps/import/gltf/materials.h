@@ -8,7 +8,7 @@
 #include "apps/import/gltf/document.h"
 #include "apps/import/gltf/textures.h"
 #include "apps/import/warnings.h"
-#include "core/scene/description.h"
+#include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
 

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "apps/import/gltf/derived_image.h"
+#include "apps/import/derived_image.h"
 #include "apps/import/make_parameter.h"
 #include "apps/import/scene_files.h"
 

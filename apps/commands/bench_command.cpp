@@ -1,0 +1,205 @@
+// kaustik bench: how fast a scene renders, over photon counts and threads.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "apps/bench/bench_json.h"
+#include "apps/bench/bench_table.h"
+#include "apps/bench/measure.h"
+#include "apps/bench/scaling_figures.h"
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
+#include "apps/console/progress_bar.h"
+#include "apps/machine/machine.h"
+#include "apps/machine/peak_memory.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/machine/usable_cores.h"
+#include "apps/session/interrupt.h"
+#include "apps/session/output_files.h"
+#include "apps/session/scene_loading.h"
+#include "apps/settings/list_options.h"
+#include "core/version.h"
+#include "render/statistics_json.h"
+
+namespace kaustik::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Options {
+  std::string scene, from, json, plot;
+  std::vector<std::string> photons = {"1M"}, threads;
+  std::string repeat = "5";
+  SettingOverrides overrides;
+};
+
+constexpr int kMostThreads = 65535;  // as of `render --threads`
+
+// All but photons and threads, which are lists here, and those of files that are not written.
+constexpr std::string_view kSettings[] = {"method",      "passes",       "direct",  "caustics", "indirect",
+                                          "radius",      "alpha",        "nearest", "kernel",   "cone-k",
+                                          "min-photons", "node-photons", "lookup",  "emission", "max-bounces",
+                                          "spp",         "seed",         "width",   "height",   "crop"};
+
+// 1, 2, 4 ... and the usable cores themselves.
+std::vector<int> doubling_threads(int usable) {
+  std::vector<int> threads;
+  for (int t = 1; t < usable; t *= 2) threads.push_back(t);
+  threads.push_back(usable);
+  return threads;
+}
+
+BenchPlan plan_of(const Options& options, const CoreLimits& cores) {
+  BenchPlan plan;
+  plan.photons = whole_numbers("--photons", options.photons);
+  if (options.threads.empty()) plan.threads = doubling_threads(cores.usable());
+  for (const uint64_t threads : whole_numbers("--threads", options.threads, kMostThreads))
+    plan.threads.push_back(static_cast<int>(threads));
+  plan.repeat = whole_number("--repeat", options.repeat, 1'000'000);
+  return plan;
+}
+
+// The folder may be made later, but its own folder must be there.
+void check_plot_folder(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return check_writable((fs::path(path) / "figure.svg").string());
+  if (fs::exists(path, ignored))
+    throw ExitError(kBadCommandLine, fmt::format("cannot write {}: this is not a folder", path));
+  check_writable(path.substr(0, path.find_last_not_of('/') + 1));
+}
+
+void check_options(const Options& options) {
+  if (options.scene.empty() == options.from.empty())
+    throw ExitError(kBadCommandLine, "give a scene to measure, or --from FILE of an earlier result");
+  if (!options.json.empty()) check_writable(options.json);
+  if (!options.plot.empty()) check_plot_folder(options.plot);
+}
+
+Json settings_of(const render::RenderSettings& settings, const render::EstimatorPlan& plan) {
+  Json out = render::settings_json(settings, plan);
+  out.erase("photons");  // each point has its own
+  out["width"] = settings.width;
+  out["height"] = settings.height;
+  const render::CropWindow& crop = settings.crop;
+  if (!crop.empty()) out["crop"] = {crop.x0, crop.x1, crop.y0, crop.y1};
+  return out;
+}
+
+void warn_of_noise(const BenchPlan& plan, const CoreLimits& cores, const Console& console) {
+  const int most = *std::max_element(plan.threads.begin(), plan.threads.end());
+  if (most > cores.usable())
+    console.warning(fmt::format("{} threads share {} usable core{}", most, cores.usable(),
+                                cores.usable() == 1 ? "" : "s"));
+  if (!restart_peak_memory())
+    console.warning("the peak of memory cannot be restarted here: it is that of all runs so far");
+}
+
+std::vector<BenchPoint> measure_job(const Job& job, const BenchPlan& plan, const InterruptGuard& interrupt,
+                                    const Console& console) {
+  ProgressBar bar(console);
+  uint64_t shown = plan.runs();
+  const auto progress = [&](uint64_t done) {
+    if (done != shown) bar.update({"runs", shown = done, plan.runs()});
+    return !interrupt.requested();
+  };
+  std::optional<std::vector<BenchPoint>> points = measure(job.scene, job.settings.render, plan, progress);
+  if (points) return std::move(*points);
+  bar.clear();
+  throw ExitError(kInterrupted, "interrupted; nothing was written");
+}
+
+BenchResult run_scene(const Options& options, const Console& console) {
+  const CoreLimits cores = core_limits();
+  const BenchPlan plan = plan_of(options, cores);
+  const InterruptGuard interrupt;
+  Job job;
+  with_thread_limit(*std::max_element(plan.threads.begin(), plan.threads.end()),
+                    [&] { job = load_job(options.scene, options.overrides, console); });
+  const render::EstimatorPlan estimators = render::make_plan(job.settings.render, job.scene.needs);
+  for (const std::string& note : estimators.notes) console.note(note);
+  warn_of_noise(plan, cores, console);
+  BenchResult result{.scene = utf8(options.scene),
+                     .version = std::string(version()),
+                     .build = std::string(build_id()),
+                     .machine = machine_json(),
+                     .settings = settings_of(job.settings.render, estimators),
+                     .repeat = plan.repeat,
+                     .points = {}};
+  result.points = measure_job(job, plan, interrupt, console);
+  return result;
+}
+
+BenchResult read_result(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, std::strerror(errno)));
+  try {
+    return bench_from_json(text.str());
+  } catch (const std::exception& error) {
+    throw ExitError(kBadCommandLine, fmt::format("{} is no result of kaustik bench: {}", path, error.what()));
+  }
+}
+
+void write_figures(const BenchResult& result, const std::string& folder, const Console& console) {
+  fs::create_directory(folder);
+  for (const Figure& figure : scaling_figures(result)) {
+    const std::string path = (fs::path(folder) / figure.file_name).string();
+    write_text_file(path, draw_svg(figure.chart));
+    console.note("wrote " + path);
+  }
+}
+
+int run_bench(const Options& options, const Console& console) {
+  check_options(options);
+  const BenchResult result = options.from.empty() ? run_scene(options, console) : read_result(options.from);
+  console.out << bench_table(result);
+  if (!options.json.empty()) {
+    write_text_file(options.json, bench_json(result));
+    console.note("wrote " + options.json);
+  }
+  if (!options.plot.empty()) write_figures(result, options.plot, console);
+  return kDone;
+}
+
+void add_options(CLI::App& parser, Options& options) {
+  parser.add_option("SCENE", options.scene, "Scene file")->option_text(" ");
+  add_list_option(parser, "--photons", options.photons, "COUNTS",
+                  "Photon counts, separated by commas: 1M,10M. Default: 1M");
+  add_list_option(parser, "--threads", options.threads, "COUNTS",
+                  "Numbers of threads, separated by commas; speed-ups are over the first. Each bounds all "
+                  "threads of the process. Default: 1, 2, 4 ... up to the usable cores");
+  parser.add_option("--repeat", options.repeat, "Runs of each point. Default: 5")->option_text("COUNT");
+  parser.add_option("--json", options.json, "Write the result as JSON")->option_text("FILE");
+  parser.add_option("--plot", options.plot, "Draw scaling curves into this folder, as SVG")
+      ->option_text("FOLDER");
+  CLI::Option* from = parser
+                          .add_option("--from", options.from,
+                                      "Print and plot the JSON of an earlier run; nothing is measured")
+                          ->option_text("FILE");
+  add_setting_options(parser, options.overrides, kSettings);
+  for (CLI::Option* option : parser.get_options())
+    if (option != from && option->get_name() != "--help" && option->get_name() != "--plot" &&
+        option->get_name() != "SCENE")
+      from->excludes(option);
+}
+
+}  // namespace
+
+Command make_bench_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand("bench", "Measure speed, memory and scaling on a scene");
+  const auto options = std::make_shared<Options>();
+  add_options(*command.parser, *options);
+  command.parser->add_flag("-q,--quiet", *command.quiet,
+                           "No log and no progress; warnings and errors still come");
+  command.run = [options](const Console& console) { return run_bench(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,122 @@
+// kaustik compare: how far a picture is from a reference.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
+#include "apps/session/output_files.h"
+#include "render/picture/compare.h"
+#include "render/picture/image_io.h"
+
+namespace kaustik::app {
+
+namespace {
+
+struct Options {
+  std::string reference, image, heatmap;
+  bool json = false;
+  std::optional<double> max_relmse;
+  std::optional<float> mask_bright;
+};
+
+// JSON has no infinity: equal pictures have no PSNR to print.
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string as_json(const render::CompareResult& r, bool within_limit) {
+  nlohmann::ordered_json out;
+  out["rmse"] = r.rmse;
+  out["relmse"] = r.relmse;
+  out["psnr"] = number_or_null(r.psnr);
+  out["max_difference"] = {
+      {"value", r.max_difference}, {"x", r.max_x}, {"y", r.max_y}, {"channel", r.max_channel}};
+  out["mean"] = r.mean_image;
+  out["reference_mean"] = r.mean_reference;
+  out["pixels"] = {{"compared", r.compared},
+                   {"masked", r.masked},
+                   {"not_finite", r.nan_image},
+                   {"reference_not_finite", r.nan_reference}};
+  out["within_limit"] = within_limit;
+  return out.dump(2);
+}
+
+std::string as_text(const render::CompareResult& r) {
+  std::string text = fmt::format(
+      "RMSE            {:.6g}\nrelMSE          {:.6g}\nPSNR            {:.2f} dB\n"
+      "largest error   {:.6g} at x {} y {}, channel {}\nmean            {:.6g}, reference {:.6g}\n"
+      "pixels          {} compared, {} masked",
+      r.rmse, r.relmse, r.psnr, r.max_difference, r.max_x, r.max_y, "RGB"[r.max_channel % 3], r.mean_image,
+      r.mean_reference, r.compared, r.masked);
+  if (r.nan_image + r.nan_reference > 0) {
+    text += fmt::format("\nnot finite      {} pixels of the image, {} of the reference", r.nan_image,
+                        r.nan_reference);
+  }
+  return text;
+}
+
+// Pictures that cannot be read or do not match are a bad command line: nothing was compared.
+render::CompareResult compare_files(const Options& options) {
+  try {
+    const render::Image reference = render::read_image(options.reference);
+    const render::Image image = render::read_image(options.image);
+    const render::CompareResult result =
+        render::compare(reference, image, {.mask_bright = options.mask_bright});
+    if (!options.heatmap.empty()) render::write_image(options.heatmap, render::heatmap(reference, image));
+    return result;
+  } catch (const render::ImageError& error) {
+    throw ExitError(kBadCommandLine, error.what());
+  } catch (const std::invalid_argument& error) {
+    throw ExitError(kBadCommandLine, error.what());
+  }
+}
+
+int run_compare(const Options& options, const Console& console) {
+  if (!options.heatmap.empty()) check_image_output(options.heatmap);
+  const render::CompareResult result = compare_files(options);
+  if (result.compared == 0) throw ExitError(kBadCommandLine, "no pixel is left to compare");
+  // A pixel that is not finite in the image alone is an error without bound.
+  const bool finite = result.nan_image == 0;
+  const bool within = !options.max_relmse || (finite && result.relmse <= *options.max_relmse);
+  console.out << (options.json ? as_json(result, within) : as_text(result)) << '\n';
+  if (!within) {
+    console.error(finite ? fmt::format("relMSE {:.6g} is above {:.6g}", result.relmse, *options.max_relmse)
+                         : fmt::format("{} pixels of the image are not finite", result.nan_image));
+  }
+  return within ? kDone : kFailed;
+}
+
+}  // namespace
+
+Command make_compare_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand("compare", "Measure how far a picture is from a reference");
+  const auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("REF", options->reference, "Reference picture")->required()->option_text(" ");
+  parser.add_option("IMG", options->image, "Picture to judge, of the same size")
+      ->required()
+      ->option_text(" ");
+  parser.add_flag("--json", options->json, "Print JSON");
+  parser.add_option("--heatmap", options->heatmap, "Write the relative squared error per pixel as a picture")
+      ->option_text("FILE");
+  parser
+      .add_option(
+          "--max-relmse", options->max_relmse,
+          "Exit with 1 when relMSE, the mean of (I - R)^2 / (R^2 + 0.01), is above X. Default: no limit")
+      ->option_text("X")
+      ->check(CLI::NonNegativeNumber);
+  parser
+      .add_option("--mask-bright", options->mask_bright,
+                  "Leave out 2 pixels around reference pixels brighter than L [W/(m^2 sr)]: edges of lamps. "
+                  "Default: nothing is left out")
+      ->option_text("L")
+      ->check(CLI::NonNegativeNumber);
+  command.run = [options](const Console& console) { return run_compare(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

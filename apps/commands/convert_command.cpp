@@ -1,0 +1,107 @@
+// kaustik convert: any scene that is read, as pbrt-v4 text with its meshes and images beside it.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
+#include "apps/convert/ply_bytes.h"
+#include "apps/convert/scene_folder.h"
+#include "apps/convert/scene_text.h"
+#include "apps/import/scene_files.h"
+#include "apps/session/output_files.h"
+#include "apps/session/scene_loading.h"
+
+namespace kaustik::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string scene, output;
+};
+
+// Meshes of fewer corners are easier to edit as text.
+constexpr size_t kFewCorners = 36;
+
+void check_names(const Options& options) {
+  if (!options.output.ends_with(".pbrt"))
+    throw ExitError(kBadCommandLine, fmt::format("{}: scenes are written as .pbrt", options.output));
+  check_writable(options.output);
+  std::error_code ignored;
+  if (fs::equivalent(options.scene, options.output, ignored))
+    throw ExitError(kBadCommandLine, fmt::format("{} would replace what it is made from", options.output));
+}
+
+std::string text_of(const Options& options, const SceneDescription& scene, const SourceFiles& files,
+                    SceneFolder& folder) {
+  SceneTextFiles beside;
+  beside.file = [&](const std::string& name, const SourceLocation& where) {
+    const fs::path naming(where.valid() ? files.name(where.file) : options.scene);
+    const fs::path path = pbrt::resolve_path(name, naming, options.scene);
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored) ? folder.copy(path) : name;
+  };
+  beside.mesh = [&](const ShapeDescription& shape) {
+    const Parameter* indices = shape.find("indices");
+    const bool small = !indices || indices->numbers.size() <= kFewCorners;
+    const auto bytes = small ? std::nullopt : ply_bytes(shape);
+    return bytes ? folder.add_mesh(*bytes) : std::string();
+  };
+  return fmt::format("# Converted by kaustik from {}.\n", fs::path(options.scene).filename().string()) +
+         scene_text(scene, beside);
+}
+
+// Words that pbrt does not know.
+void note_our_own(const SceneDescription& scene, const Console& console) {
+  std::set<std::string> own;
+  for (const MaterialDescription& m : scene.materials) {
+    if (m.type == "mirror" || m.type == "orennayar") own.insert(fmt::format("material \"{}\"", m.type));
+  }
+  if (scene.integrator && scene.integrator->type == "photonmap") own.insert("integrator \"photonmap\"");
+  if (!own.empty())
+    console.note(fmt::format("kaustik's own, which pbrt does not know: {}", fmt::join(own, ", ")));
+}
+
+int run_convert(const Options& options, const Console& console) {
+  check_names(options);
+  Diagnostics diagnostics;
+  const auto loaded = pbrt::load_scene(options.scene, diagnostics);
+  console.err << diagnostics.format_all();
+  if (!loaded)
+    throw ExitError(kBadScene,
+                    fmt::format("{}: {}", options.scene, counted(diagnostics.error_count(), "error")));
+  SceneFolder folder(options.output);
+  const std::string text = text_of(options, loaded->description, diagnostics.files, folder);
+  folder.commit(text);
+  note_our_own(loaded->description, console);
+  console.note(fmt::format("wrote {}: {}", options.output, scene_summary(loaded->scene)));
+  if (folder.meshes() + folder.copies() > 0)
+    console.note(fmt::format("  beside it {}: {}, {}", folder.folder().string(),
+                             counted(folder.meshes(), "mesh file"), counted(folder.copies(), "copied file")));
+  return kDone;
+}
+
+}  // namespace
+
+Command make_convert_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand("convert", "Write a scene (glTF, OBJ, pbrt) as pbrt-v4 text");
+  const auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("SCENE", options->scene, "Scene file: .gltf, .glb, .obj or .pbrt")
+      ->required()
+      ->option_text(" ");
+  parser
+      .add_option("OUTPUT", options->output,
+                  "Scene to write, .pbrt; meshes and images go to the folder NAME-files beside it")
+      ->required()
+      ->option_text(" ");
+  parser.add_flag("-q,--quiet", *command.quiet, "No log; warnings and errors still come");
+  command.run = [options](const Console& console) { return run_convert(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

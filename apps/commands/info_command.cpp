@@ -1,0 +1,200 @@
+// kaustik info: what is in a scene file.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/commands.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/session/scene_loading.h"
+#include "render/names.h"
+#include "render/renderer.h"
+
+namespace kaustik::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string scene;
+  bool json = false;
+};
+
+Json triple(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+glm::dvec3 in_world(const Scene& scene, const Point3& p) {
+  return scene.origin + glm::dvec3(p);
+}
+
+std::string_view type_name(const Bsdf& bsdf) {
+  return std::visit([](const auto& b) { return std::decay_t<decltype(b)>::kName; }, bsdf);
+}
+std::string_view type_name(const Material& material) {
+  return material.mixed() ? "mix" : type_name(material.typical());
+}
+std::string_view type_name(const Light& light) {
+  return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kName; }, light);
+}
+std::string_view type_name(const Shape& shape) {
+  constexpr std::string_view kNames[] = {"trianglemesh", "sphere", "disk", "instance", "quadric"};
+  return kNames[shape.geometry.index()];
+}
+
+// How many shapes use each material or group, by index.
+template <class Field>
+std::vector<uint64_t> uses_of(const Scene& scene, size_t size, Field Shape::*field) {
+  std::vector<uint64_t> uses(size, 0);
+  for (const Shape& shape : scene.shapes) {
+    if (shape.*field < size) ++uses[shape.*field];
+  }
+  return uses;
+}
+
+Json shapes_json(const Scene& scene) {
+  std::map<std::string, std::pair<uint64_t, uint64_t>> counts;  // shapes and primitives by type
+  for (const Shape& shape : scene.shapes) {
+    auto& [shapes, primitives] = counts[std::string(type_name(shape))];
+    ++shapes;
+    primitives += primitive_count(shape);
+  }
+  Json out = Json::array();
+  for (const auto& [type, count] : counts) {
+    out.push_back({{"type", type}, {"shapes", count.first}, {"primitives", count.second}});
+  }
+  return out;
+}
+
+Json materials_json(const Scene& scene) {
+  const std::vector<uint64_t> uses = uses_of(scene, scene.materials.size(), &Shape::material);
+  Json out = Json::array();
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
+    out.push_back({{"name", name},
+                   {"type", type_name(scene.materials[i])},
+                   {"albedo", triple(albedo(scene.materials[i].typical()))},
+                   {"shapes", uses[i]}});
+  }
+  return out;
+}
+
+Json lights_json(const Scene& scene) {
+  Json out = Json::array();
+  for (const Light& light : scene.lights)
+    out.push_back({{"type", type_name(light)}, {"power", triple(power(light))}});
+  return out;
+}
+
+Json groups_json(const Scene& scene) {
+  const std::vector<uint64_t> uses = uses_of(scene, scene.surface_group_names.size(), &Shape::surface_group);
+  Json out = Json::array();
+  for (size_t i = 0; i < uses.size(); ++i)
+    out.push_back({{"name", scene.surface_group_names[i]}, {"shapes", uses[i]}});
+  return out;
+}
+
+Json info_json(const std::string& path, const Job& job) {
+  const Scene& scene = job.scene;
+  const render::EstimatorPlan plan = render::make_plan(job.settings.render, scene.needs);
+  Json out;
+  out["scene"] = path;
+  out["image"] = {
+      {"width", scene.camera.width}, {"height", scene.camera.height}, {"spp", job.settings.render.spp}};
+  out["shapes"] = shapes_json(scene);
+  out["bounds"] = {{"min", triple(in_world(scene, scene.bounds.min))},
+                   {"max", triple(in_world(scene, scene.bounds.max))}};
+  out["origin"] = triple(scene.origin);
+  out["materials"] = materials_json(scene);
+  out["lights"] = lights_json(scene);
+  out["surface_groups"] = groups_json(scene);
+  out["needs"] = {{"specular", scene.needs.specular},
+                  {"delta", scene.needs.delta},
+                  {"diffuse", scene.needs.diffuse},
+                  {"only_delta_lights", scene.needs.only_delta_lights},
+                  {"infinite_light", scene.needs.infinite_light},
+                  {"sky_alone", scene.needs.sky_alone},
+                  {"any_light", scene.needs.any_light},
+                  {"left_out", scene.needs.left_out()}};
+  out["plan"] = {{"direct", render::name_of(plan.direct)},
+                 {"caustics", render::name_of(plan.caustics)},
+                 {"indirect", render::name_of(plan.indirect)},
+                 {"notes", plan.notes}};
+  return out;
+}
+
+std::string triple_text(const glm::dvec3& v, int digits = 5) {
+  return fmt::format("({:.{}g}, {:.{}g}, {:.{}g})", v.x, digits, v.y, digits, v.z, digits);
+}
+
+std::string bounds_text(const Scene& scene) {
+  const bool far = scene.origin != glm::dvec3(0);
+  const int digits = far ? 12 : 5;
+  std::string text =
+      fmt::format("bounds     {} to {} m\n", triple_text(in_world(scene, scene.bounds.min), digits),
+                  triple_text(in_world(scene, scene.bounds.max), digits));
+  if (far)
+    text += fmt::format("origin     {} m: the scene is far from the world's and has its own\n",
+                        triple_text(scene.origin, digits));
+  return text;
+}
+
+std::string info_text(const std::string& path, const Job& job) {
+  const Scene& scene = job.scene;
+  std::string text =
+      fmt::format("{}: {}\nimage      {} x {}, {} samples per pixel\n", path, scene_summary(scene),
+                  scene.camera.width, scene.camera.height, job.settings.render.spp);
+  for (const Json& s : shapes_json(scene)) {
+    text += fmt::format("shape      {} x {}, {}\n", s["shapes"].get<uint64_t>(), s["type"].get<std::string>(),
+                        counted(s["primitives"].get<uint64_t>(), "primitive"));
+  }
+  text += bounds_text(scene);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
+    text += fmt::format("material   {}: {}, albedo {}\n", name.empty() ? fmt::format("#{}", i) : name,
+                        type_name(scene.materials[i]), triple_text(albedo(scene.materials[i].typical())));
+  }
+  for (const Light& light : scene.lights) {
+    text += fmt::format("light      {}, power {} W\n", type_name(light), triple_text(power(light)));
+  }
+  for (const Json& g : groups_json(scene)) {
+    const uint64_t shapes = g["shapes"].get<uint64_t>();
+    text += fmt::format("surface    {}: {}{}\n", g["name"].get<std::string>(), counted(shapes, "shape"),
+                        shapes > 1 ? " that share their photons" : "");
+  }
+  for (const std::string& line : scene.needs.left_out()) text += fmt::format("left out   {}\n", line);
+  for (const std::string& note : render::make_plan(job.settings.render, scene.needs).notes) {
+    text += fmt::format("plan       {}\n", note);
+  }
+  return text;
+}
+
+int run_info(const Options& options, const Console& console) {
+  Console quiet = console;
+  quiet.quiet = true;  // the report says it all
+  Job job;
+  with_thread_limit(0, [&] { job = load_job(options.scene, {}, quiet); });
+  if (options.json) {
+    console.out << info_json(options.scene, job).dump(2) << '\n';
+  } else {
+    console.out << info_text(options.scene, job);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command make_info_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand("info", "Show what is in a scene and what it needs");
+  const auto options = std::make_shared<Options>();
+  command.parser->add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
+  command.parser->add_flag("--json", options->json, "Print JSON");
+  command.run = [options](const Console& console) { return run_info(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

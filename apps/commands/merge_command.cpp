@@ -1,0 +1,113 @@
+// kaustik merge: partial results to a picture, or to one partial result.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
+#include "apps/session/partial_files.h"
+#include "apps/session/render_outputs.h"
+#include "core/stopwatch.h"
+
+namespace kaustik::app {
+
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> parts;
+  OutputOptions outputs;
+  bool allow_gaps = false;
+  SettingOverrides overrides;
+};
+
+constexpr std::string_view kSettings[] = {"aov", "exposure", "tonemap"};
+
+// A file whose sums are in the total.
+struct MergedPart {
+  std::string path;
+  render::PassSet passes;
+};
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw ExitError(kBadCommandLine, message);
+}
+
+void add_part(const std::string& path, const render::PartialResult& part, std::vector<MergedPart>& merged,
+              render::PartialResult& total) {
+  const std::string why = render::difference(total, part);
+  if (!why.empty()) refuse(fmt::format("{} and {} cannot be merged: {}", merged.front().path, path, why));
+  for (const MergedPart& other : merged) {
+    const render::PassSet common = other.passes.common(part.sums.passes);
+    if (!common.empty())
+      refuse(fmt::format("{} and {} both hold passes {}", other.path, path, common.text()));
+  }
+  total.sums.add(part.sums);
+  total.manifest.goal.add(part.manifest.goal);
+  if (total.manifest.stopped_by.empty()) total.manifest.stopped_by = part.manifest.stopped_by;
+  merged.push_back({path, part.sums.passes});
+}
+
+render::PartialResult merge_files(const MergeOptions& options) {
+  render::PartialResult total = load_partial(options.parts.front());
+  std::vector<MergedPart> merged = {{options.parts.front(), total.sums.passes}};
+  for (size_t i = 1; i < options.parts.size(); ++i)
+    add_part(options.parts[i], load_partial(options.parts[i]), merged, total);
+  const uint64_t asked_for = total.manifest.stopped_by.empty() ? total.sums.shares : 0;
+  total.manifest.goal =
+      render::PassSet(0, std::max(asked_for, std::max(total.manifest.goal.end(), total.sums.passes.end())));
+  total.manifest.outputs.clear();
+  return total;
+}
+
+// Passes are missing where the settings ask for them, unless a rule found fewer enough, or where there are
+// later ones.
+void check_gaps(const MergeOptions& options, const render::PartialResult& total, const Console& console) {
+  const render::PassSums& sums = total.sums;
+  const uint64_t end = std::max(total.manifest.stopped_by.empty() ? sums.shares : 0, sums.passes.end());
+  const render::PassSet missing = render::PassSet(0, end).without(sums.passes);
+  if (missing.empty()) return;
+  const std::string message = fmt::format("passes {} of {} are missing", missing.text(), end);
+  if (!options.allow_gaps) refuse(message + "; --allow-gaps merges what there is");
+  console.note(message);
+}
+
+int run_merge(const MergeOptions& options, const Console& console) {
+  const Stopwatch watch;
+  if (options.outputs.files.empty()) refuse("-o names the file to write; there is no default");
+  check_outputs(options.outputs);
+  render::PartialResult total = merge_files(options);
+  check_gaps(options, total, console);
+  SettingOverrides overrides = settings_of(total.manifest, options.parts.front());
+  overrides.append(options.overrides);
+  const Settings settings = overrides.alone();
+  render::RenderResult result;
+  result.plan = render::make_plan(settings.render, total.manifest.needs);
+  result.sums = std::move(total.sums);
+  render::show_passes(&result);
+  console.note(fmt::format("passes {}", result.sums.passes.text()));
+  render::OuterTimes times;
+  times.total = watch.seconds();
+  write_outputs(options.outputs, {result, settings, total.manifest}, times, console);
+  return kDone;
+}
+
+}  // namespace
+
+Command make_merge_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand("merge", "Join partial results to a picture");
+  const auto options = std::make_shared<MergeOptions>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("PARTS", options->parts, "Partial results (.kpart) of one render, in any order")
+      ->required()
+      ->option_text(" ");
+  add_output_options(parser, options->outputs, "none");
+  parser.add_flag("--allow-gaps", options->allow_gaps, "Merge although passes are missing");
+  parser.add_flag("-q,--quiet", *command.quiet, "No log; warnings and errors still come");
+  add_setting_options(parser, options->overrides, kSettings);
+  command.run = [options](const Console& console) { return run_merge(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,155 @@
+// kaustik photons: the photons themselves, as a point cloud and as a picture.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
+#include "apps/console/progress_bar.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/session/interrupt.h"
+#include "apps/session/output_files.h"
+#include "apps/session/scene_loading.h"
+#include "core/diagnostics/nearest_name.h"
+#include "photon/record/ply_export.h"
+#include "photon/shoot/memory_forecast.h"
+#include "photon/shoot/shoot.h"
+#include "render/picture/image_io.h"
+#include "render/picture/photon_view.h"
+
+namespace kaustik::app {
+
+namespace {
+
+using photon::PhotonKind;
+
+struct Options {
+  std::string scene, cloud, image;
+  std::vector<std::string> kinds;
+  SettingOverrides overrides;
+};
+
+constexpr std::string_view kSettings[] = {"photons", "emission", "max-bounces", "seed",
+                                          "threads", "width",    "height"};
+
+photon::KindMask mask_of(const std::vector<std::string>& kinds) {
+  if (kinds.empty()) return {true, true, true, true};
+  photon::KindMask mask;
+  const std::array<bool*, photon::kPhotonKinds> fields = {&mask.direct, &mask.shadow, &mask.caustic,
+                                                          &mask.indirect};
+  for (const std::string& kind : kinds) {
+    const auto& names = photon::kPhotonKindNames;
+    const auto found = std::find(names.begin(), names.end(), kind);
+    if (found == names.end()) {
+      throw ExitError(kBadCommandLine,
+                      fmt::format("--kinds: `{}` is no kind of photon{}", kind, name_hint(kind, names)));
+    }
+    *fields[static_cast<size_t>(found - names.begin())] = true;
+  }
+  return mask;
+}
+
+void check_outputs(const Options& options) {
+  if (options.cloud.empty() && options.image.empty()) {
+    throw ExitError(kBadCommandLine, "nothing to write: give -o map.ply, --image view.png, or both");
+  }
+  if (!options.cloud.empty()) {
+    if (!options.cloud.ends_with(".ply")) {
+      throw ExitError(kBadCommandLine, fmt::format("{}: photons are written as .ply", options.cloud));
+    }
+    check_writable(options.cloud);
+  }
+  if (!options.image.empty()) check_image_output(options.image);
+}
+
+std::vector<photon::PlyPhotons> wanted_photons(const photon::ShootResult& shot,
+                                               const photon::KindMask& mask) {
+  std::vector<photon::PlyPhotons> photons;
+  for (int k = 0; k < photon::kPhotonKinds; ++k) {
+    const auto kind = static_cast<PhotonKind>(k);
+    if (mask[kind]) photons.push_back({kind, &shot.buffers[static_cast<size_t>(k)]});
+  }
+  return photons;
+}
+
+int shoot_and_write(const Options& options, const photon::KindMask& mask, const Job& job,
+                    const InterruptGuard& interrupt, const Console& console) {
+  const accel::Bvh bvh(job.scene, job.settings.render.threads);
+  const render::RenderSettings& settings = job.settings.render;
+  const photon::TraceSettings trace{.seed = settings.seed,
+                                    .photons = settings.photons,
+                                    .max_bounces = settings.max_bounces,
+                                    .emission = settings.emission,
+                                    .kinds = mask};
+  photon::check_memory(job.scene, bvh, trace, photon::PhotonUse::kRecords, settings.photon_memory);
+  photon::ShootResult shot;
+  {
+    ProgressBar bar(console);
+    std::mutex mutex;  // shoot() reports from its workers
+    shot = photon::shoot(job.scene, bvh, trace, [&](uint64_t done, uint64_t total) {
+      const std::lock_guard lock(mutex);
+      bar.update({"photons", done, total});
+      return !interrupt.requested();
+    });
+  }
+  if (interrupt.requested()) {
+    console.error("interrupted; nothing was written");
+    return kInterrupted;
+  }
+  const std::vector<photon::PlyPhotons> photons = wanted_photons(shot, mask);
+  console.note(fmt::format("photons: {} emitted", grouped(shot.counters.emitted)));
+  for (const photon::PlyPhotons& kind : photons) {
+    console.note(fmt::format("  {}: {} stored", photon::kPhotonKindNames[static_cast<size_t>(kind.kind)],
+                             grouped(kind.buffer->records.size())));
+  }
+  if (!options.cloud.empty()) {
+    photon::write_photons_ply(options.cloud, photons, job.scene.origin);
+    console.note("wrote " + options.cloud);
+  }
+  if (!options.image.empty()) {
+    render::write_image(options.image, render::draw_photons(bvh, photons));
+    console.note("wrote " + options.image);
+  }
+  return kDone;
+}
+
+int run_photons(const Options& options, const Console& console) {
+  const photon::KindMask mask = mask_of(options.kinds);
+  check_outputs(options);
+  const InterruptGuard interrupt;
+  Job job;
+  with_thread_limit(options.overrides.alone().render.threads,
+                    [&] { job = load_job(options.scene, options.overrides, console); });
+  int code = kDone;
+  with_thread_limit(job.settings.render.threads,
+                    [&] { code = shoot_and_write(options, mask, job, interrupt, console); });
+  return code;
+}
+
+}  // namespace
+
+Command make_photons_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand("photons", "Shoot photons and write them as coloured points");
+  const auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
+  parser.add_option("-o,--output", options->cloud, "Point cloud to write: binary .ply")->option_text("FILE");
+  parser.add_option("--image", options->image, "Picture of the same points from the scene's camera")
+      ->option_text("FILE");
+  parser
+      .add_option("--kinds", options->kinds,
+                  "Kinds of photons, separated by commas: direct, shadow, caustic, indirect. Default: all")
+      ->option_text("NAMES")
+      ->delimiter(',')
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
+  add_setting_options(parser, options->overrides, kSettings);
+  command.run = [options](const Console& console) { return run_photons(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

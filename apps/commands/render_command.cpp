@@ -1,0 +1,127 @@
+// kaustik render: a scene file to pictures.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/session/output_files.h"
+#include "apps/session/render_session.h"
+#include "apps/session/stop_rules.h"
+#include "apps/session/time_plan.h"
+#include "render/maps/photon_maps.h"
+
+namespace kaustik::app {
+
+namespace {
+
+struct RenderOptions {
+  std::string scene;
+  OutputOptions outputs;
+  CheckpointSettings checkpoint;
+  render::PassSet passes;
+  SettingOverrides overrides;
+};
+
+// What -o says, or the scene's Film "filename", or the scene's name as EXR in the working directory.
+std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job) {
+  if (!options.outputs.files.empty()) return options.outputs.files;
+  const std::string name = job.scene_output.empty()
+                               ? std::filesystem::path(options.scene).stem().string() + ".exr"
+                               : job.scene_output;
+  check_image_output(name);
+  return {name};
+}
+
+void check_passes(const RenderOptions& options, const Job& job) {
+  const render::RenderSettings& settings = job.settings.render;
+  if (settings.passes > settings.photons &&
+      render::kinds_needed(render::make_plan(settings, job.scene.needs)).any())
+    throw ExitError(kBadCommandLine,
+                    fmt::format("--passes {}: there must be at least as many photons, not {}",
+                                settings.passes, settings.photons));
+  if (!options.passes.empty() && job.settings.render.passes == 0)
+    throw ExitError(
+        kBadCommandLine,
+        "--pass-range needs --passes, the number of passes that photons and samples are shared over");
+  if (!options.passes.empty() && job.settings.stop.any())
+    throw ExitError(kBadCommandLine,
+                    "--pass-range says which passes to render: no --target-error, no --time");
+}
+
+void note_checkpoint(const RenderOptions& options, const Console& console) {
+  if (!options.checkpoint.path.empty() && std::filesystem::exists(options.checkpoint.path))
+    console.warning(fmt::format("{} is there and will be replaced; `kaustik resume` would go on with it",
+                                options.checkpoint.path));
+}
+
+int run_render(const RenderOptions& options, const Console& console) {
+  const Stopwatch total;
+  check_outputs(options.outputs);
+  if (!options.checkpoint.path.empty()) check_writable(options.checkpoint.path);
+  const InterruptGuard interrupt;
+  const int load_threads = options.overrides.alone().render.threads;
+  Job job;
+  with_thread_limit(load_threads, [&] { job = load_job(options.scene, options.overrides, console); });
+  RenderSession session{options.outputs, options.checkpoint, options.passes, false, {}};
+  session.outputs.files = outputs_of(options, job);
+  session.fill_time = options.passes.empty() &&
+                      time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
+  check_stop_settings(job.settings.stop);
+  if (!session.fill_time) settle_error_settings(console, &job.settings);
+  check_passes(options, job);
+  note_checkpoint(options, console);
+  return run_session(std::move(job), std::move(session), interrupt, total, console);
+}
+
+void add_pass_options(CLI::App& parser, RenderOptions& options) {
+  CLI::Option* checkpoint =
+      parser
+          .add_option("--checkpoint", options.checkpoint.path,
+                      "Write complete passes to a partial result (.kpart) now and then, and at the end: "
+                      "`kaustik resume` goes on with it")
+          ->option_text("FILE");
+  parser
+      .add_option_function<std::string>(
+          "--checkpoint-every",
+          [&options](const std::string& text) { options.checkpoint.every = checkpoint_interval(text); },
+          "Time between checkpoints, which come at the end of a pass, like 60s, 10m or 1.5h. Default: 60s")
+      ->option_text("TIME")
+      ->needs(checkpoint);
+  parser
+      .add_option_function<std::string>(
+          "--pass-range",
+          [&options](const std::string& text) {
+            const auto passes = render::PassSet::parse(text);
+            if (!passes)
+              throw CLI::ValidationError(
+                  "--pass-range",
+                  fmt::format("`{}`: expected passes BEGIN:END, like 0:16 or 0:4,8:12", text));
+            options.passes = *passes;
+          },
+          "Render only passes A to B - 1; needs --passes. `kaustik merge` joins the parts. Default: all")
+      ->option_text("A:B");
+}
+
+}  // namespace
+
+Command make_render_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand("render", "Render a scene to EXR, PNG or JPEG files");
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("SCENE", options->scene, "Scene file in pbrt-v4's text format")
+      ->required()
+      ->option_text(" ");
+  add_output_options(parser, options->outputs, "the scene's Film \"filename\"");
+  add_pass_options(parser, *options);
+  parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
+  add_setting_options(parser, options->overrides);
+  command.run = [options](const Console& console) { return run_render(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

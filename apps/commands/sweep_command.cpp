@@ -1,0 +1,288 @@
+// kaustik sweep: error against time, over photon counts, radii, methods and samples, with a report.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cctype>
+#include <filesystem>
+
+#include "apps/bench/bench_json.h"
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
+#include "apps/console/progress_bar.h"
+#include "apps/import/scene_files.h"
+#include "apps/machine/instruction_set.h"
+#include "apps/machine/machine.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/machine/usable_cores.h"
+#include "apps/report/sweep_report.h"
+#include "apps/session/interrupt.h"
+#include "apps/session/output_files.h"
+#include "apps/session/partial_files.h"
+#include "apps/settings/list_options.h"
+#include "apps/settings/values.h"
+#include "apps/sweep/reference.h"
+#include "apps/sweep/run_cells.h"
+#include "apps/sweep/sweep_files.h"
+#include "core/diagnostics/nearest_name.h"
+#include "core/files/content_hash.h"
+#include "core/version.h"
+#include "render/names.h"
+
+namespace kaustik::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Options {
+  std::string scene, folder;
+  GridTexts grid;
+  ReferenceChoice reference;
+  std::optional<float> mask_bright;
+  SettingOverrides overrides;
+};
+
+// All but those that are lists here, and those of files that are not written.
+constexpr std::string_view kSettings[] = {"direct",  "caustics", "indirect",    "passes",      "alpha",
+                                          "nearest", "kernel",   "cone-k",      "min-photons", "node-photons",
+                                          "lookup",  "emission", "max-bounces", "seed",        "threads",
+                                          "width",   "height",   "crop",        "exposure",    "tonemap"};
+
+// Those that differ from cell to cell.
+constexpr std::string_view kVaried[] = {"method",  "direct", "caustics", "indirect",
+                                        "photons", "radius", "spp"};
+
+// Those that do nothing here: threads are told apart, layers are not written, and every point and the
+// reference have their own rule for when they are done.
+constexpr std::string_view kIdle[] = {"threads", "aov", "target-error", "target-quantile", "time"};
+
+template <size_t Size>
+bool among(const std::string_view (&names)[Size], std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+// The settings that all cells have in common.
+Json common_settings(const Settings& settings) {
+  Json out = Json::object();
+  for (const bool sums : {true, false})
+    for (const auto& [name, texts] : setting_texts(settings, sums))
+      if (!among(kVaried, name) && !among(kIdle, name)) out[name] = fmt::format("{}", fmt::join(texts, " "));
+  return out;
+}
+
+std::string hash_of_file(const std::string& path) {
+  std::string error;
+  const auto bytes = pbrt::read_bytes(path, uint64_t{1} << 36, error);
+  if (!bytes) throw ExitError(kBadCommandLine, fmt::format("--reference: {}: {}", path, error));
+  ContentHash hash;
+  hash.add(*bytes);
+  return hash.text();
+}
+
+// Pictures that can hold any radiance.
+constexpr std::string_view kFloatPictures[] = {".exr", ".hdr", ".pfm", ".tif", ".tiff"};
+
+Json reference_mark(const Options& options, const Job& job) {
+  if (!options.reference.file.empty()) return {{"file", hash_of_file(options.reference.file)}};
+  const render::Method method = options.reference.method.value_or(reference_method(job.scene.needs));
+  return {{"method", render::name_of(method)}, {"seconds", options.reference.seconds}};
+}
+
+// What the cells of one folder have in common: errors and seconds of one table must belong together.
+Json common_of(const Options& options, const Job& job, int threads) {
+  Json out;
+  out["kaustik_sweep_of"] = 1;
+  out["scene"] = job.content_hash;
+  out["build"] = program_build();
+  out["instruction_set"] = instruction_set();
+  out["threads"] = threads;
+  out["settings"] = common_settings(job.settings);
+  out["mask_bright"] = options.mask_bright ? Json(*options.mask_bright) : Json(nullptr);
+  out["reference"] = reference_mark(options, job);
+  return out;
+}
+
+void warn_of_reference(const Options& options, const Job& job, const Console& console) {
+  std::string extension = fs::path(options.reference.file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!extension.empty() && !among(kFloatPictures, extension))
+    console.warning(
+        fmt::format("the reference {} is in a format of whole numbers: radiance above 1 is cut off, and "
+                    "its steps count as errors",
+                    options.reference.file));
+  if (options.reference.method == render::Method::kMc && job.scene.needs.specular)
+    console.warning(
+        "the reference `mc` finds no light of point lamps through glass or by mirrors, and that of small "
+        "lamps "
+        "rarely");
+}
+
+// The reference, with its progress bar. Ends the command when interrupted.
+Reference reference_of(const Options& options, Job& job, const SweepFolder& folder,
+                       const InterruptGuard& interrupt, const Console& console) {
+  ProgressBar bar(console);
+  const auto progress = [&](uint64_t done, uint64_t total) {
+    bar.update({"reference", done, std::max<uint64_t>(total, 1)});
+    return !interrupt.requested();
+  };
+  std::optional<Reference> reference = make_reference(options.reference, job, folder, progress, console);
+  bar.clear();
+  if (!reference) throw ExitError(kInterrupted, "interrupted; the same command goes on with the reference");
+  const SweepReference& about = reference->about;
+  console.note(fmt::format("reference: {}{}", about.source,
+                           about.noise ? fmt::format(", noise {:.2g} in relMSE", *about.noise) : ""));
+  return std::move(*reference);
+}
+
+std::vector<SweepCell> cells_of(const SweepJob& sweep, const std::vector<SweepPoint>& points,
+                                const SweepFolder& folder, const InterruptGuard& interrupt,
+                                const Console& console) {
+  console.note(
+      fmt::format("{}, each with {}", counted(points.size(), "point"), counted(sweep.grid.seeds, "seed")));
+  ProgressBar bar(console);
+  RunCells run = run_cells(
+      sweep, points, folder,
+      [&](uint64_t done, uint64_t total) {
+        bar.update({"sweep", done, total});
+        return !interrupt.requested();
+      },
+      console);
+  bar.clear();
+  if (run.reused > 0) console.note(fmt::format("{} of an earlier run", counted(run.reused, "point")));
+  if (run.cancelled)
+    throw ExitError(kInterrupted, fmt::format("interrupted with {} of {} points finished; the same command "
+                                              "goes on with the others",
+                                              run.cells.size(), points.size()));
+  return std::move(run.cells);
+}
+
+void write_result(const SweepResult& result, const SweepFolder& folder, const Console& console) {
+  write_text_file(folder.path("sweep.json"), sweep_json(result).dump(2) + "\n");
+  write_text_file(folder.path("sweep.csv"), sweep_csv(result));
+  write_text_file(folder.path("report.html"), sweep_report(result, folder.path("")));
+  for (const char* name : {"sweep.json", "sweep.csv", "report.html"})
+    console.note("wrote " + folder.path(name));
+  for (const Advice& advice : advice_of(result.cells)) console.out << advice.text << '\n';
+}
+
+void warn_of_noise(const SweepResult& result, const Console& console) {
+  for (const SweepCell& cell : result.cells)
+    if (result.reference.noise && cell.error.relmse < 4 * *result.reference.noise)
+      return console.warning(
+          "the reference's own noise is more than a quarter of the smallest error: give it more time");
+}
+
+int run_sweep(const Options& options, const Console& console) {
+  const SweepGrid grid = parse_grid(options.grid);
+  const InterruptGuard interrupt;
+  const int asked = options.overrides.alone().render.threads;
+  const int threads = asked > 0 ? asked : core_limits().usable();
+  program_build();  // asks Embree for its version, now that it is not at work
+  with_thread_limit(threads, [&] {
+    Job job = load_job(options.scene, options.overrides, console);
+    const auto points = points_of(grid, job.settings, options.overrides, job.scene.needs);
+    const SweepFolder folder(options.folder, common_of(options, job, threads));
+    warn_of_reference(options, job, console);
+    const Reference reference = reference_of(options, job, folder, interrupt, console);
+    SweepResult result{.scene = utf8(options.scene),
+                       .version = std::string(version()),
+                       .build = std::string(build_id()),
+                       .machine = machine_json(),
+                       .settings = common_settings(job.settings),
+                       .width = picture_size(job).first,
+                       .height = picture_size(job).second,
+                       .threads = threads,
+                       .seeds = grid.seeds,
+                       .mask_bright = options.mask_bright,
+                       .reference = reference.about,
+                       .cells = {}};
+    const SweepJob sweep{job, grid, options.overrides, reference, {.mask_bright = options.mask_bright}};
+    result.cells = cells_of(sweep, points, folder, interrupt, console);
+    warn_of_noise(result, console);
+    write_result(result, folder, console);
+  });
+  return kDone;
+}
+
+double reference_time(const std::string& text) {
+  const std::optional<double> seconds = parse_duration(text);
+  if (seconds && *seconds > 0) return *seconds;
+  throw CLI::ValidationError(
+      "--reference-time",
+      fmt::format("`{}`: expected a time above 0 with its unit, like 90s, 10m or 1.5h", text));
+}
+
+render::Method method_named(const std::string& text) {
+  if (const auto method = render::from_name<render::Method>(render::kMethodNames, text)) return *method;
+  throw CLI::ValidationError("--reference-method",
+                             fmt::format("`{}` is no method{}", text, name_hint(text, render::kMethodNames)));
+}
+
+void add_reference_options(CLI::App& parser, Options& options) {
+  CLI::Option* file =
+      parser
+          .add_option(
+              "--reference", options.reference.file,
+              "Picture to measure against, linear, of the size that is rendered. Default: one is rendered")
+          ->option_text("FILE");
+  parser
+      .add_option_function<std::string>(
+          "--reference-time",
+          [&options](const std::string& text) { options.reference.seconds = reference_time(text); },
+          "Time for rendering the reference, like 90s or 10m. Default: 60s")
+      ->option_text("TIME")
+      ->excludes(file);
+  parser
+      .add_option_function<std::string>(
+          "--reference-method",
+          [&options](const std::string& text) { options.reference.method = method_named(text); },
+          "Method of the reference: mc, auto ... Default: mc where the scene has no mirror or glass, else "
+          "auto")
+      ->option_text("NAME")
+      ->excludes(file);
+  parser
+      .add_option("--mask-bright", options.mask_bright,
+                  "Leave out 2 pixels around reference pixels brighter than L [W/(m^2 sr)]: edges of lamps. "
+                  "Default: nothing is left out")
+      ->option_text("L")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void add_grid_options(CLI::App& parser, GridTexts& grid) {
+  add_list_option(parser, "--photons", grid.photons, "COUNTS",
+                  "Photon counts, separated by commas. Default: 100k,1M");
+  add_list_option(parser, "--radius", grid.radii, "RADII",
+                  "Gather radii: auto, multiples of it like 0.5x, or metres. Default: 0.5x,auto,2x");
+  add_list_option(parser, "--methods", grid.methods, "NAMES",
+                  "Methods, as of `render --method`. Default: what the scene says");
+  add_list_option(parser, "--spp", grid.spp, "COUNTS", "Samples per pixel. Default: what the scene says");
+  parser
+      .add_option("--seeds", grid.seeds, "Renders of each point, with seeds that follow --seed. Default: 5")
+      ->option_text("COUNT");
+}
+
+}  // namespace
+
+Command make_sweep_command(CLI::App& program) {
+  Command command;
+  command.parser = program.add_subcommand(
+      "sweep", "Measure error against time over photons, radii and methods, with a report");
+  const auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
+  parser
+      .add_option(
+          "-o,--output", options->folder,
+          "Folder for the results; made when it is missing. One of an interrupted sweep is gone on with")
+      ->required()
+      ->option_text("FOLDER");
+  add_grid_options(parser, options->grid);
+  add_reference_options(parser, *options);
+  add_setting_options(parser, options->overrides, kSettings);
+  parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
+  command.run = [options](const Console& console) { return run_sweep(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

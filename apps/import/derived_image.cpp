@@ -1,0 +1,82 @@
+#include "apps/import/derived_image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/picture/image_formats.h"
+
+namespace kaustik::gltf {
+namespace {
+
+constexpr uint64_t kMostPixels = uint64_t{1} << 28;
+
+using render::ImageNumbers;
+
+// Grey images have their one channel as red, green and blue, and alpha last.
+double at(const ImageNumbers& image, size_t pixel, int channel) {
+  const int channels = image.channels;
+  const bool grey = channels < 3;
+  if (channel == 3 && channels != 2 && channels != 4) return 1;
+  const int c = channel == 3 ? channels - 1 : grey ? 0 : channel;
+  return double(image.values[pixel * static_cast<size_t>(channels) + static_cast<size_t>(c)]);
+}
+
+std::optional<ImageNumbers> read(const std::filesystem::path& path, std::string& error) {
+  std::string why;
+  auto image = render::image_formats().read(path.string(), render::Channels::kAll, kMostPixels, why);
+  if (!image) error = fmt::format("cannot read \"{}\": {}", path.string(), why);
+  return image;
+}
+
+std::optional<std::string> write(const std::filesystem::path& path, const ImageNumbers& image, int bits) {
+  const std::string why = render::image_formats().write_numbers(path.string(), image, bits);
+  if (why.empty()) return std::nullopt;
+  return fmt::format("cannot write \"{}\": {}", path.string(), why);
+}
+
+double linear(double v) {
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+double encoded(double v) {
+  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
+}  // namespace
+
+std::optional<std::string> write_tinted(const std::filesystem::path& from, const std::filesystem::path& to,
+                                        const glm::dvec3& factor) {
+  std::string error;
+  const auto image = read(from, error);
+  if (!image) return error;
+  ImageNumbers out{image->width, image->height, 3, true, {}};
+  for (size_t i = 0; i < image->count(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      out.values.push_back(static_cast<float>(encoded(factor[c] * linear(at(*image, i, c)))));
+  }
+  return write(to, out, 8);
+}
+
+std::optional<std::string> write_channel(const std::filesystem::path& from, const std::filesystem::path& to,
+                                         int channel, const std::function<double(double)>& map) {
+  std::string error;
+  const auto image = read(from, error);
+  if (!image) return error;
+  ImageNumbers out{image->width, image->height, 1, true, {}};
+  for (size_t i = 0; i < image->count(); ++i)
+    out.values.push_back(static_cast<float>(std::clamp(map(at(*image, i, channel)), 0.0, 1.0)));
+  return write(to, out, 16);
+}
+
+std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error) {
+  const auto image = read(from, error);
+  if (!image) return std::nullopt;
+  glm::dvec3 sum(0);
+  for (size_t i = 0; i < image->count(); ++i) {
+    for (int c = 0; c < 3; ++c) sum[c] += srgb ? linear(at(*image, i, c)) : at(*image, i, c);
+  }
+  return sum / double(image->count());
+}
+
+}  // namespace kaustik::gltf

@@ -1,0 +1,89 @@
+#include "apps/import/import_scene.h"
+
+#include <mutex>
+#include <set>
+
+#include "apps/import/gltf/importer.h"
+#include "apps/import/image_files.h"
+#include "apps/import/obj/obj_importer.h"
+#include "apps/import/pbrt/scene_parser.h"
+#include "apps/import/ply/ply.h"
+#include "core/files/content_hash.h"
+#include "core/scene/build/builder.h"
+
+namespace kaustik::pbrt {
+
+namespace {
+
+// What the meshes and images that a scene names hold, by name; filled from several threads.
+class NamedContents {
+ public:
+  void add(const std::string& name, std::string content) {
+    const std::lock_guard lock(mutex_);
+    contents_.emplace(name, std::move(content));
+  }
+  const std::set<std::pair<std::string, std::string>>& all() const { return contents_; }
+
+ private:
+  std::mutex mutex_;
+  std::set<std::pair<std::string, std::string>> contents_;
+};
+
+// Of the texts in the order in which they were opened, then of the other files in the order of their names.
+std::string content_hash(const SourceFiles& files, const NamedContents& named) {
+  ContentHash hash;
+  const auto add = [&hash](std::string_view text) {
+    const uint64_t size = text.size();
+    hash.add(&size, sizeof size);  // so that no end of one is taken for the beginning of the next
+    hash.add(text);
+  };
+  for (uint32_t i = 0; i < files.size(); ++i) add(files.text(i));
+  for (const auto& [name, content] : named.all()) add(name), add(content);
+  return hash.text();
+}
+
+}  // namespace
+
+std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics);
+  if (is_obj(path)) return import_obj(path, diagnostics);
+  SceneFiles files(diagnostics.files);
+  std::string error;
+  const auto file = files.open(path, error);
+  if (!file) {
+    diagnostics.error({}, error);
+    return std::nullopt;
+  }
+  return SceneParser(path, files, diagnostics).parse(*file);
+}
+
+std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  auto description = import_scene(path, diagnostics);
+  if (!description) return std::nullopt;
+  NamedContents named;
+  const auto load_with = [&](auto load) {
+    return [&, load](const std::string& name, const SourceLocation& where) {
+      const std::filesystem::path naming(where.valid() ? diagnostics.files.name(where.file) : path.string());
+      std::string content;
+      auto result = load(resolve_path(name, naming, path), &content);
+      named.add(name, std::move(content));
+      return result;
+    };
+  };
+  SceneTextures textures;
+  const auto load_texture = [&](const std::string& name, const SourceLocation& where,
+                                const ImageEncoding& encoding) {
+    const auto load = [&](const std::filesystem::path& file, std::string* content) {
+      return textures.load(file, encoding, content);
+    };
+    return load_with(load)(name, where);
+  };
+  auto scene = build_scene(*description, load_with(load_ply), diagnostics, load_with(load_light_image),
+                           {load_texture, [&] { return textures.library(); }});
+  diagnostics.sort_by_location();
+  if (!scene || diagnostics.has_errors()) return std::nullopt;
+  scene->keeps = description->keeps;
+  return LoadedScene{std::move(*scene), std::move(*description), content_hash(diagnostics.files, named)};
+}
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,205 @@
+#include "apps/import/pbrt/colours.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "apps/import/pbrt/parameter_parser.h"
+#include "core/diagnostics/nearest_name.h"
+#include "core/spectrum/named_spectra.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+constexpr double kSodiumLine = 587.6;  // nm: where indices of refraction are given
+
+bool takes(const ParameterSpec& spec, ParameterType type) {
+  return std::find(spec.types.begin(), spec.types.end(), type) != spec.types.end();
+}
+
+bool is_spectral(const Parameter& p) {
+  return p.type == ParameterType::kSpectrum || p.type == ParameterType::kBlackbody;
+}
+
+const TypeSpec* type_of(std::string_view directive, std::string_view name) {
+  for (const TypeSpec* type : category(directive).types) {
+    if (type->name == name) return type;
+  }
+  return nullptr;
+}
+
+void set_rgb(Parameter& p, const glm::dvec3& c) {
+  p.type = ParameterType::kRgb;
+  p.strings.clear();
+  p.numbers = {c.x, c.y, c.z};
+  // What later checks have to say is said of the first value.
+  p.value_places.resize(std::min<size_t>(p.value_places.size(), 1));
+}
+
+// Into the gamut, and no brighter or darker: a lamp of luminance 1 keeps it.
+glm::dvec3 cut_lamp(const glm::dvec3& c) {
+  const glm::dvec3 cut = glm::max(c, 0.0);
+  const auto y = [](const glm::dvec3& v) { return 0.2126 * v.x + 0.7152 * v.y + 0.0722 * v.z; };
+  return cut == c || !(y(cut) > 0) ? cut : cut * (y(c) / y(cut));
+}
+
+// Into what the schema takes: shares end at 1.
+glm::dvec3 cut_surface(const glm::dvec3& c, const ParameterSpec& spec) {
+  return glm::clamp(c, std::max(0.0, spec.range.low), spec.range.high);
+}
+
+void change_space(Parameter& p, const ParameterSpec& spec, const ColourSpace& space, bool light) {
+  const glm::dmat3 m = light ? space.light_to_ours() : space.surface_to_ours();
+  for (size_t i = 0; i + 2 < p.numbers.size(); i += 3) {
+    const glm::dvec3 c = m * glm::dvec3(p.numbers[i], p.numbers[i + 1], p.numbers[i + 2]);
+    const glm::dvec3 cut = light ? cut_lamp(c) : cut_surface(c, spec);
+    for (int k = 0; k < 3; ++k) p.numbers[i + static_cast<size_t>(k)] = cut[k];
+  }
+}
+
+// A metal's eta and k belong together: what they give in common is its colour.
+void join_metal(const std::map<std::string, Spectrum>& spectra, Directive& directive) {
+  for (Parameter& eta : directive.parameters) {
+    if (!eta.name.ends_with("eta") || eta.type != ParameterType::kRgb) continue;
+    const std::string k_name = eta.name.substr(0, eta.name.size() - 3) + "k";
+    const auto k = std::find_if(directive.parameters.begin(), directive.parameters.end(),
+                                [&](const Parameter& p) { return p.name == k_name; });
+    const auto eta_spectrum = spectra.find(eta.name);
+    const auto k_spectrum = spectra.find(k_name);
+    if (k == directive.parameters.end() || eta_spectrum == spectra.end() || k_spectrum == spectra.end())
+      continue;
+    const MetalColour metal = metal_colour(eta_spectrum->second, k_spectrum->second);
+    set_rgb(eta, metal.eta);
+    set_rgb(*k, metal.k);
+  }
+}
+
+}  // namespace
+
+void ColourReducer::reduce(std::string_view directive, const ColourSpace& space, Directive& out) {
+  const TypeSpec* type = type_of(directive, out.type);
+  if (!type) return;
+  const bool light = directive == "LightSource" || directive == "AreaLightSource";
+  std::map<std::string, Spectrum> spectra;
+  std::erase_if(out.parameters, [&](Parameter& p) {
+    const ParameterSpec* spec = type->find(p.name);
+    if (!spec || spec->state != ParameterState::kUsed) return false;
+    if (p.type == ParameterType::kRgb && !space.is_ours()) change_space(p, *spec, space, light);
+    if (!is_spectral(p)) return false;
+    const bool index = takes(*spec, ParameterType::kFloat) && p.name.ends_with("eta");
+    if (!takes(*spec, ParameterType::kRgb) && !index) return false;
+    const auto s = spectrum_of(p);
+    if (!s) return true;
+    spectra.emplace(p.name, *s);
+    reduce_spectrum(p, *spec, *s, light);
+    return false;
+  });
+  join_metal(spectra, out);
+}
+
+void ColourReducer::reduce_spectrum(Parameter& p, const ParameterSpec& spec, const Spectrum& s, bool light) {
+  if (!takes(spec, ParameterType::kRgb)) {
+    p.type = ParameterType::kFloat;
+    p.strings.clear();
+    p.numbers = {s.at(kSodiumLine)};
+    p.value_places.resize(std::min<size_t>(p.value_places.size(), 1));
+    if (!warned_of_dispersion_)
+      diagnostics_.warning(
+          p.location, fmt::format("dispersion is not rendered: `{}` is its value at {} nm, {:.5g}", p.name,
+                                  kSodiumLine, p.numbers[0]));
+    warned_of_dispersion_ = true;
+    return;
+  }
+  // Two numbers are pbrt-v3's blackbody: temperature and factor.
+  const double factor = p.type == ParameterType::kBlackbody && p.numbers.size() == 2 ? p.numbers[1] : 1;
+  if (!light) return set_rgb(p, cut_surface(factor * reflected_colour(s), spec));
+  const glm::dvec3 c = emitted_colour(s);
+  if (!std::isfinite(c.x + c.y + c.z)) {
+    diagnostics_.error(p.value_location(0), fmt::format("nobody sees the light of `{}`: its spectrum is zero "
+                                                        "from 360 nm to 830 nm",
+                                                        p.name));
+    return set_rgb(p, glm::dvec3(1));
+  }
+  set_rgb(p, factor * cut_lamp(c));
+}
+
+std::optional<Spectrum> ColourReducer::spectrum_of(const Parameter& p) {
+  if (p.type == ParameterType::kSpectrum) return p.strings.empty() ? from_pairs(p) : from_name(p);
+  constexpr double kLeast = 100, kMost = 1e7;
+  const bool good = p.numbers.size() == 1 || p.numbers.size() == 2;
+  if (good && p.numbers[0] >= kLeast && p.numbers[0] <= kMost && p.numbers.back() >= 0)
+    return blackbody(p.numbers[0]);
+  diagnostics_.error(
+      good ? p.value_location(0) : p.location,
+      fmt::format("`{}` takes a temperature of {} to {:.0f} kelvin, and after it a factor at most", p.name,
+                  kLeast, kMost));
+  return std::nullopt;
+}
+
+std::optional<Spectrum> ColourReducer::from_pairs(const Parameter& p) {
+  return from_samples(p.numbers, p.location, [&](size_t i) { return p.value_location(i); });
+}
+
+std::optional<Spectrum> ColourReducer::from_samples(const std::vector<double>& pairs,
+                                                    const SourceLocation& where,
+                                                    const std::function<SourceLocation(size_t)>& place) {
+  if (pairs.empty() || pairs.size() % 2 != 0) {
+    diagnostics_.error(where, fmt::format("a spectrum is pairs of wavelength and value, not {} number{}",
+                                          pairs.size(), pairs.size() == 1 ? "" : "s"));
+    return std::nullopt;
+  }
+  std::vector<double> wavelengths, values;
+  for (size_t i = 0; i < pairs.size(); i += 2) {
+    if (!wavelengths.empty() && pairs[i] <= wavelengths.back()) {
+      diagnostics_.error(place(i), fmt::format("wavelengths must increase: {} nm follows {} nm", pairs[i],
+                                               wavelengths.back()));
+      return std::nullopt;
+    }
+    if (pairs[i + 1] < 0) {
+      diagnostics_.error(place(i + 1), fmt::format("a spectrum is not negative: {}", pairs[i + 1]));
+      return std::nullopt;
+    }
+    wavelengths.push_back(pairs[i]);
+    values.push_back(pairs[i + 1]);
+  }
+  return sampled_spectrum(wavelengths, values);
+}
+
+std::optional<Spectrum> ColourReducer::from_name(const Parameter& p) {
+  const std::string& name = p.strings[0];
+  if (p.strings.size() > 1) {
+    diagnostics_.error(p.value_location(1), fmt::format("`{}` takes the name of one spectrum", p.name));
+    return std::nullopt;
+  }
+  if (auto s = named_spectrum(name)) return s;
+  if (const auto nearest = nearest_to_missing_spectrum(name)) {
+    const std::string instead = nearest->empty() ? "" : fmt::format("; \"{}\" is the nearest", *nearest);
+    diagnostics_.error(p.value_location(0),
+                       fmt::format("there are no numbers here for pbrt's spectrum \"{}\": give a file of "
+                                   "wavelengths and values{}",
+                                   name, instead));
+    return std::nullopt;
+  }
+  std::string error;
+  if (const auto file = open_(name, error)) return from_file(p, *file);
+  const std::string hint = name_hint(name, spectrum_names());
+  diagnostics_.error(p.value_location(0), fmt::format("no spectrum is named \"{}\"{} As a file: {}", name,
+                                                      hint.empty() ? "." : hint, error));
+  return std::nullopt;
+}
+
+std::optional<Spectrum> ColourReducer::from_file(const Parameter& p, uint32_t file) {
+  Tokenizer tokens(file, diagnostics_.files.text(file), diagnostics_);
+  std::vector<double> pairs;
+  std::vector<SourceLocation> places;
+  for (Token token = tokens.next(); !token.is(TokenKind::kEnd); token = tokens.next()) {
+    const auto value = parse_number(token, diagnostics_);
+    if (!value) return std::nullopt;
+    pairs.push_back(*value);
+    places.push_back(token.location);
+  }
+  return from_samples(pairs, p.value_location(0), [&](size_t i) { return places[i]; });
+}
+
+}  // namespace kaustik::pbrt

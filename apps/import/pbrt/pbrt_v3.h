@@ -1,0 +1,41 @@
+#pragma once
+// What pbrt-v3 wrote otherwise than pbrt-v4, put into the words of v4: what comes after knows nothing of v3.
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "core/diagnostics/diagnostics.h"
+#include "core/scene/description/description.h"
+
+namespace kaustik::pbrt {
+
+class V3Upgrader {
+ public:
+  explicit V3Upgrader(DiagnosticList& diagnostics) : diagnostics_(diagnostics) {}
+
+  // Materials (matte, plastic, glass, metal, uber, substrate, translucent, disney, kdsubsurface, fourier, mix
+  // of two names, none) become the nearest ones of v4, types and parameters get their new names, and what v4
+  // has no more is left out: each with one warning that says so. Directives of v4 are left as they are. word:
+  // "Material", ...
+  void upgrade(std::string_view word, Directive& directive);
+
+ private:
+  void upgrade_material(Directive& m);
+  void upgrade_film(Directive& film);
+  void upgrade_camera(Directive& camera);
+  void upgrade_shape(Directive& shape);
+  void upgrade_light(Directive& light);
+  void fold_intensity(Directive& light);
+  void upgrade_uv(Directive& texture);
+  void upgrade_texture(Directive& texture);
+  void rename_type(std::string_view word, std::string_view from, std::string_view to, Directive& d);
+  void rename(std::string_view word, std::string_view from, std::string_view to, Directive& d);
+  void drop(std::string_view word, std::string_view name, std::string_view why, Directive& d);
+  void warn_once(const std::string& key, const SourceLocation& where, std::string message);
+
+  DiagnosticList& diagnostics_;
+  std::set<std::string> warned_;
+};
+
+}  // namespace kaustik::pbrt

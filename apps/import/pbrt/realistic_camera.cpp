@@ -1,0 +1,99 @@
+#include "apps/import/pbrt/realistic_camera.h"
+
+#include <fmt/format.h>
+
+#include <glm/glm.hpp>
+
+#include "apps/import/make_parameter.h"
+#include "apps/import/pbrt/parameter_parser.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+// Millimetres; the front comes first. A radius of zero is a plane or the stop.
+struct Element {
+  double radius, thickness, eta;
+};
+
+std::optional<std::vector<Element>> read_lens(uint32_t file, const SourceLocation& where,
+                                              Diagnostics& diagnostics) {
+  Tokenizer tokens(file, diagnostics.files.text(file), diagnostics);
+  std::vector<double> numbers;
+  for (Token token = tokens.next(); !token.is(TokenKind::kEnd); token = tokens.next()) {
+    const auto value = parse_number(token, diagnostics);
+    if (!value) return std::nullopt;
+    numbers.push_back(*value);
+  }
+  if (numbers.empty() || numbers.size() % 4 != 0) {
+    diagnostics.error(where,
+                      fmt::format("a lens is rows of radius, thickness, index and diameter, not {} numbers",
+                                  numbers.size()));
+    return std::nullopt;
+  }
+  std::vector<Element> lens;
+  for (size_t i = 0; i < numbers.size(); i += 4) lens.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+  return lens;
+}
+
+// From where a ray that comes in along the axis leaves (Hecht 2016, section 6.2): its height over its slope.
+double focal_length(const std::vector<Element>& lens) {
+  double y = 1, slope = 0, eta = 1;  // slope times index
+  for (const Element& e : lens) {
+    const double behind = e.eta > 0 ? e.eta : 1;
+    if (e.radius != 0) {
+      slope -= y * (behind - eta) / e.radius;
+      eta = behind;
+    }
+    y += e.thickness * slope / eta;
+  }
+  return -1 / slope;
+}
+
+double number(const Directive* d, std::string_view name, double otherwise) {
+  const Parameter* p = d ? d->find(name) : nullptr;
+  return p && p->numbers.size() == 1 && p->numbers[0] > 0 ? p->numbers[0] : otherwise;
+}
+
+// Of the film's shorter side, at that distance from the lens; millimetres, degrees.
+double field_of_view(const Directive* film, double distance) {
+  const double x = number(film, "xresolution", 1280), y = number(film, "yresolution", 720);
+  const double shorter = number(film, "diagonal", 35) * std::min(x, y) / std::hypot(x, y);
+  return glm::degrees(2 * std::atan(shorter / 2 / distance));
+}
+
+}  // namespace
+
+void replace_realistic_camera(CameraDescription& replaced, const Directive* film, const OpenFile& open,
+                              Diagnostics& diagnostics) {
+  const CameraDescription camera = replaced;
+  replaced.type = "perspective";
+  replaced.parameters.clear();
+  const Parameter* name = camera.find("lensfile");
+  if (!name || name->strings.size() != 1)
+    return diagnostics.error(camera.type_location, "camera \"realistic\" needs `lensfile`");
+  std::string error;
+  const auto file = open(name->strings[0], error);
+  if (!file) return diagnostics.error(name->value_location(0), error);
+  const auto lens = read_lens(*file, name->value_location(0), diagnostics);
+  if (!lens) return;
+  const double focus = number(&camera, "focusdistance", 10), f = focal_length(*lens);
+  const double distance = 1 / (1 / f - 1 / (1000 * focus));
+  if (!(f > 0 && distance > 0 && std::isfinite(distance)))
+    return diagnostics.error(name->value_location(0),
+                             "this lens has no picture: its focal length is not positive, or "
+                             "beyond `focusdistance`");
+  const double radius = number(&camera, "aperturediameter", 1) / 2000, fov = field_of_view(film, distance);
+  diagnostics.warning(
+      camera.type_location,
+      fmt::format("camera \"realistic\" becomes \"perspective\" with a thin lens of the same focal "
+                  "length, {:.4g} mm: fov {:.4g}, lensradius {:.4g}, focaldistance {:.4g}",
+                  f, fov, radius, focus));
+  for (const auto& [to, value] : {std::pair{"fov", fov}, {"lensradius", radius}, {"focaldistance", focus}})
+    replaced.parameters.push_back(
+        make_parameter(ParameterType::kFloat, to, std::vector<double>{value}, camera.type_location));
+  for (const char* kept : {"shutteropen", "shutterclose"}) {
+    if (const Parameter* p = camera.find(kept)) replaced.parameters.push_back(*p);
+  }
+}
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,58 @@
+// Names of textures and materials that are used twice.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/import/pbrt/scene_parser.h"
+#include "core/scene/schema/schema.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+bool takes_number(std::string_view word, const Directive& directive, std::string_view parameter) {
+  for (const TypeSpec* type : category(word).types) {
+    if (type->name != directive.type) continue;
+    const ParameterSpec* spec = type->find(parameter);
+    return spec && !spec->types.empty() && spec->types.front() == ParameterType::kFloat;
+  }
+  return false;
+}
+
+void replace(const LaterNames& later, std::string& name) {
+  if (const auto found = later.find(name); found != later.end()) name = found->second;
+}
+
+}  // namespace
+
+// The name itself, or another where it is taken: what follows in this block means the new definition.
+std::string SceneParser::define(std::string_view what, const std::string& name, const SourceLocation& where,
+                                std::set<std::string>& known, LaterNames& later) {
+  if (known.insert(name).second) return name;
+  std::string own;
+  for (size_t n = 2; own.empty() || !known.insert(own).second; ++n) own = fmt::format("{} ({})", name, n);
+  later[name] = own;
+  if (warned_.insert(std::string(what)).second)
+    diagnostics_.warning(where,
+                         fmt::format("{} `{}` is defined again, as in pbrt-v3: this one holds up to the end "
+                                     "of the block",
+                                     what, name));
+  return own;
+}
+
+// A texture's own operands have its type, but for shares; elsewhere the schema says what is asked for.
+// Textures of the other type are taken where there are no others, for a better message.
+void SceneParser::resolve_names(std::string_view word, Directive& directive, bool of_float_texture) const {
+  if (state_.float_textures.empty() && state_.spectrum_textures.empty() && state_.materials.empty()) return;
+  for (Parameter& p : directive.parameters) {
+    if (p.type == ParameterType::kTexture && p.strings.size() == 1) {
+      const bool number = of_float_texture || takes_number(word, directive, p.name);
+      const bool only_float = !spectrum_textures_.contains(p.strings[0]);
+      replace(number || only_float ? state_.float_textures : state_.spectrum_textures, p.strings[0]);
+    } else if (word == "Material" && p.name == "materials") {
+      for (std::string& name : p.strings) replace(state_.materials, name);
+    }
+  }
+}
+
+}  // namespace kaustik::pbrt

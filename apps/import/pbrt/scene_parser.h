@@ -1,0 +1,136 @@
+#pragma once
+// The directives of a pbrt scene, executed into a description.
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "apps/import/pbrt/colours.h"
+#include "apps/import/pbrt/graphics_state.h"
+#include "apps/import/pbrt/pbrt_v3.h"
+#include "apps/import/pbrt/tokenizer.h"
+#include "apps/import/scene_files.h"
+#include "core/scene/description/description.h"
+
+namespace kaustik::pbrt {
+
+class SceneParser {
+ public:
+  SceneParser(std::filesystem::path main_file, SceneFiles& files, Diagnostics& diagnostics)
+      : main_file_(std::move(main_file)),
+        files_(files),
+        diagnostics_(diagnostics),
+        colours_([this](const std::string& name, std::string& error) { return open_beside(name, error); },
+                 diagnostics),
+        v3_(diagnostics) {}
+
+  // Reads a whole scene. After an error it goes on at the next directive.
+  SceneDescription parse(uint32_t file);
+
+ private:
+  using Handler = void (SceneParser::*)(const Token& word);
+  enum class Block { kOptions, kWorld, kAny };
+  struct Entry {
+    Handler handler;
+    Block block;
+  };
+  struct Open {
+    bool object;
+    SourceLocation location;
+    GraphicsState state;
+  };
+  static const std::map<std::string_view, Entry>& directives();
+
+  void parse_file(uint32_t file);
+  void run(const Token& word);
+  void skip_arguments();
+  void report_unknown(const Token& word);
+  void finish(const SourceLocation& end);
+
+  // Arguments.
+  std::optional<Token> quoted(std::string_view what, const Token& word);
+  bool read_directive(const Token& word, std::string_view target, Directive& out);
+  void add_defaults(std::string_view target, std::vector<Parameter>& parameters);
+  std::optional<uint32_t> open_beside(const std::string& name, std::string& error);
+  void concat(const glm::dmat4& m) { set_transform(state_.ctm * m); }
+  void set_transform(const glm::dmat4& m) {
+    if (!state_.at_end_time) state_.ctm = m;
+  }
+  void warn_once(const Token& word, std::string message);
+
+  // Names (scene_names.cpp).
+  std::string define(std::string_view what, const std::string& name, const SourceLocation& where,
+                     std::set<std::string>& known, LaterNames& later);
+  void resolve_names(std::string_view word, Directive& directive, bool of_float_texture = false) const;
+
+  // Transforms (scene_parser_transforms.cpp).
+  void on_identity(const Token& word);
+  void on_translate(const Token& word);
+  void on_scale(const Token& word);
+  void on_rotate(const Token& word);
+  void on_look_at(const Token& word);
+  void on_transform(const Token& word);
+  void on_concat_transform(const Token& word);
+  void on_coordinate_system(const Token& word);
+  void on_coord_sys_transform(const Token& word);
+  void on_active_transform(const Token& word);
+  void on_transform_times(const Token& word);
+
+  // Settings of the whole scene.
+  void on_camera(const Token& word);
+  void on_setting(const Token& word);
+  void on_option(const Token& word);
+  void on_color_space(const Token& word);
+  void on_world_begin(const Token& word);
+  void on_world_end(const Token& word);
+
+  // Blocks and state.
+  void on_attribute_begin(const Token& word);
+  void on_attribute_end(const Token& word);
+  void on_attribute(const Token& word);
+  void on_reverse_orientation(const Token& word);
+  void on_object_begin(const Token& word);
+  void on_object_end(const Token& word);
+  void on_object_instance(const Token& word);
+  void push(bool object, const SourceLocation& where);
+  void pop(bool object, const Token& word);
+
+  // The world (scene_parser_world.cpp).
+  void on_texture(const Token& word);
+  void on_material(const Token& word);
+  void on_make_named_material(const Token& word);
+  void on_named_material(const Token& word);
+  void on_area_light(const Token& word);
+  void on_light(const Token& word);
+  void on_shape(const Token& word);
+  void on_include(const Token& word);
+  void on_import(const Token& word);
+  void on_medium(const Token& word);
+  void include(const Token& word, bool keep_state);
+
+  std::filesystem::path main_file_;
+  SceneFiles& files_;
+  Diagnostics& diagnostics_;
+  ColourReducer colours_;
+  V3Upgrader v3_;
+  SceneDescription scene_;
+  GraphicsState state_;
+  std::vector<Open> stack_;
+  std::map<std::string, glm::dmat4, std::less<>> coordinate_systems_;
+  std::map<std::string, size_t, std::less<>> objects_;                    // into scene_.objects
+  std::set<std::string> float_textures_, spectrum_textures_, materials_;  // defined so far
+  std::set<std::string> warned_;
+  std::optional<size_t> open_object_;
+  bool in_world_ = false;
+  bool misses_world_begin_ = false;  // reported
+  bool stopped_ = false;             // too many errors
+  uint64_t ignored_pushes_ = 0;      // blocks opened beyond the limit
+  uint64_t bytes_read_ = 0;
+  uint64_t files_included_ = 0;
+  std::vector<uint32_t> open_files_;
+  Tokenizer* tokens_ = nullptr;  // of the innermost open file
+};
+
+}  // namespace kaustik::pbrt

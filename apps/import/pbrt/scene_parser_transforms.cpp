@@ -1,0 +1,175 @@
+// Transforms, and the settings of the whole scene.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/import/pbrt/parameter_parser.h"
+#include "apps/import/pbrt/realistic_camera.h"
+#include "apps/import/pbrt/scene_parser.h"
+#include "apps/import/pbrt/transforms.h"
+#include "core/diagnostics/nearest_name.h"
+#include "core/scene/schema/schema.h"
+
+namespace kaustik::pbrt {
+
+void SceneParser::on_identity(const Token&) {
+  set_transform(glm::dmat4(1));
+}
+
+void SceneParser::on_translate(const Token& word) {
+  const auto v = parse_numbers(*tokens_, 3, word.text, diagnostics_);
+  v ? concat(translate(*v)) : skip_arguments();
+}
+
+void SceneParser::on_scale(const Token& word) {
+  const auto v = parse_numbers(*tokens_, 3, word.text, diagnostics_);
+  v ? concat(scale(*v)) : skip_arguments();
+}
+
+void SceneParser::on_rotate(const Token& word) {
+  const auto v = parse_numbers(*tokens_, 4, word.text, diagnostics_);
+  if (!v) return skip_arguments();
+  const auto m = rotate(*v);
+  if (!m) return diagnostics_.error(word.location, "the axis of `Rotate` has length zero");
+  concat(*m);
+}
+
+void SceneParser::on_look_at(const Token& word) {
+  const auto v = parse_numbers(*tokens_, 9, word.text, diagnostics_);
+  if (!v) return skip_arguments();
+  const auto m = look_at(*v);
+  if (!m) {
+    return diagnostics_.error(
+        word.location,
+        "`LookAt` needs an eye, another point to look at, and an up vector that does not "
+        "point along the view");
+  }
+  concat(*m);
+}
+
+void SceneParser::on_transform(const Token& word) {
+  const auto v = parse_numbers(*tokens_, 16, word.text, diagnostics_);
+  v ? set_transform(matrix(*v)) : skip_arguments();
+}
+
+void SceneParser::on_concat_transform(const Token& word) {
+  const auto v = parse_numbers(*tokens_, 16, word.text, diagnostics_);
+  v ? concat(matrix(*v)) : skip_arguments();
+}
+
+void SceneParser::on_coordinate_system(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (name) coordinate_systems_[unescape(name->text)] = state_.ctm;
+}
+
+void SceneParser::on_coord_sys_transform(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  const auto found = coordinate_systems_.find(name->text);
+  if (found != coordinate_systems_.end()) {
+    set_transform(found->second);
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const auto& [known, m] : coordinate_systems_) names.push_back(known);
+  diagnostics_.error(name->location, fmt::format("no coordinate system is named `{}`{}", name->text,
+                                                 name_hint(name->text, names)));
+}
+
+void SceneParser::on_active_transform(const Token& word) {
+  const Token which = tokens_->peek();
+  const bool known = which.text == "All" || which.text == "StartTime" || which.text == "EndTime";
+  if (which.is(TokenKind::kWord) && known) tokens_->next();
+  if (!known) {
+    diagnostics_.error(word.location, "`ActiveTransform` needs All, StartTime or EndTime");
+    return skip_arguments();
+  }
+  state_.at_end_time = which.text == "EndTime";
+  if (which.text != "All") warn_once(word, "nothing moves: things stand as they do when the shutter opens");
+}
+
+void SceneParser::on_transform_times(const Token& word) {
+  if (!parse_numbers(*tokens_, 2, word.text, diagnostics_)) return skip_arguments();
+  diagnostics_.warning(word.location, "`TransformTimes` is ignored: nothing moves");
+}
+
+void SceneParser::on_camera(const Token& word) {
+  CameraDescription camera;
+  if (!read_directive(word, "camera", camera)) return;
+  camera.camera_to_world = inverse_transform(state_.ctm);
+  coordinate_systems_["camera"] = camera.camera_to_world;
+  if (scene_.camera) {
+    diagnostics_.warning(word.location, "this `Camera` replaces an earlier one",
+                         {{scene_.camera->location, "the earlier one"}});
+  }
+  scene_.camera = std::move(camera);
+}
+
+void SceneParser::on_setting(const Token& word) {
+  Directive setting;
+  if (!read_directive(word, word.text, setting)) return;
+  std::optional<Directive>& slot = word.text == "Film"          ? scene_.film
+                                   : word.text == "Sampler"     ? scene_.sampler
+                                   : word.text == "PixelFilter" ? scene_.filter
+                                   : word.text == "Integrator"  ? scene_.integrator
+                                                                : scene_.accelerator;
+  if (slot) {
+    diagnostics_.warning(word.location, fmt::format("this `{}` replaces an earlier one", word.text),
+                         {{slot->location, "the earlier one"}});
+  }
+  slot = std::move(setting);
+}
+
+// Option "seed" 3, or with its type, Option "integer seed" 3. Dashes, underscores and capitals do not count.
+void SceneParser::on_option(const Token& word) {
+  const auto declaration = quoted("a name", word);
+  if (!declaration) return;
+  Parameter p;
+  p.location = declaration->location;
+  const std::string text = unescape(declaration->text);
+  const size_t blank = text.find_first_of(" \t");
+  for (const char c : blank == text.npos ? text : text.substr(text.find_last_of(" \t") + 1)) {
+    if (c != '-' && c != '_') p.name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  const ParameterSpec* spec = option_type().find(p.name);
+  if (spec) p.type = spec->types.front();
+  if (blank != text.npos) p.type = parameter_type(std::string_view(text).substr(0, blank)).value_or(p.type);
+  if (!spec) {
+    scene_.options.push_back(std::move(p));  // for the schema to complain about
+    return skip_arguments();
+  }
+  if (parse_values(*tokens_, p, diagnostics_)) scene_.options.push_back(std::move(p));
+}
+
+void SceneParser::on_color_space(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  if (const ColourSpace* space = find_colour_space(unescape(name->text))) {
+    state_.colour_space = space;
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const ColourSpace& space : colour_spaces()) names.push_back(space.name);
+  diagnostics_.error(name->location,
+                     fmt::format("unknown color space \"{}\"{}", name->text, name_hint(name->text, names)));
+}
+
+void SceneParser::on_world_end(const Token& word) {
+  diagnostics_.warning(word.location, "`WorldEnd` is of pbrt-v3: the scene ends with the file");
+}
+
+void SceneParser::on_world_begin(const Token& word) {
+  if (in_world_) return diagnostics_.error(word.location, "a second `WorldBegin`");
+  if (scene_.camera && scene_.camera->type == "realistic") {
+    const auto open = [this](const std::string& name, std::string& error) {
+      return open_beside(name, error);
+    };
+    replace_realistic_camera(*scene_.camera, scene_.film ? &*scene_.film : nullptr, open, diagnostics_);
+  }
+  in_world_ = true;
+  state_.ctm = glm::dmat4(1);
+  coordinate_systems_["world"] = state_.ctm;
+}
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,196 @@
+// Materials, lights, shapes, objects and included files.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/import/pbrt/parameter_parser.h"
+#include "apps/import/pbrt/scene_parser.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+constexpr size_t kDeepestInclude = 64;
+// Files that include others twice each grow without end long before they are deep.
+constexpr uint64_t kMostBytes = uint64_t{8} << 30;
+constexpr uint64_t kMostIncludes = 100'000;
+
+}  // namespace
+
+void SceneParser::on_texture(const Token& word) {
+  TextureDescription texture;
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  const auto value_type = quoted("its type, \"float\" or \"spectrum\",", word);
+  if (!value_type || !read_directive(word, "texture", texture)) return;
+  texture.value_type = unescape(value_type->text);
+  if (texture.value_type == "color") texture.value_type = "spectrum";  // pbrt-v3's word
+  const bool is_float = texture.value_type == "float";
+  resolve_names("Texture", texture, is_float);
+  texture.name =
+      define("texture", unescape(name->text), name->location, is_float ? float_textures_ : spectrum_textures_,
+             is_float ? state_.float_textures : state_.spectrum_textures);
+  texture.name_location = name->location;
+  texture.value_type_location = value_type->location;
+  colours_.reduce("Texture", *state_.colour_space, texture);
+  texture.texture_to_world = state_.ctm;
+  scene_.textures.push_back(std::move(texture));
+}
+
+void SceneParser::on_material(const Token& word) {
+  MaterialDescription material;
+  if (!read_directive(word, "material", material)) return;
+  colours_.reduce("Material", *state_.colour_space, material);
+  state_.material = {static_cast<uint32_t>(scene_.materials.size()), {}, material.location};
+  scene_.materials.push_back(std::move(material));
+}
+
+void SceneParser::on_make_named_material(const Token& word) {
+  MaterialDescription material;
+  if (!read_directive(word, "material", material)) return;
+  material.name = std::exchange(material.type, {});
+  material.name_location = material.type_location;
+  const Parameter* type = material.find("type");
+  if (!type || type->strings.size() != 1) {
+    diagnostics_.error(
+        material.name_location,
+        fmt::format("material `{}` needs its type: \"string type\" \"diffuse\"", material.name));
+    return;
+  }
+  material.type = type->strings[0];
+  material.type_location = type->value_location(0);
+  std::erase_if(material.parameters, [](const Parameter& p) { return p.name == "type"; });
+  v3_.upgrade("Material", material);
+  resolve_names("Material", material);
+  material.name = define("material", material.name, material.name_location, materials_, state_.materials);
+  colours_.reduce("Material", *state_.colour_space, material);
+  scene_.materials.push_back(std::move(material));
+}
+
+void SceneParser::on_named_material(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  std::string text = unescape(name->text);
+  if (const auto later = state_.materials.find(text); later != state_.materials.end()) text = later->second;
+  state_.material = {std::nullopt, std::move(text), name->location};
+}
+
+void SceneParser::on_area_light(const Token& word) {
+  Directive light;
+  if (!read_directive(word, "light", light)) return;
+  colours_.reduce(word.text, *state_.colour_space, light);
+  state_.area_light = static_cast<uint32_t>(scene_.area_lights.size());
+  scene_.area_lights.push_back(std::move(light));
+}
+
+void SceneParser::on_light(const Token& word) {
+  LightDescription light;
+  if (!read_directive(word, "light", light)) return;
+  colours_.reduce(word.text, *state_.colour_space, light);
+  light.light_to_world = state_.ctm;
+  // Of these it only turns directions, so that pbrt takes whatever else stands in it.
+  if (light.type == "infinite" || light.type == "distant")
+    light.light_to_world = glm::dmat4(glm::dmat3(state_.ctm));
+  scene_.lights.push_back(std::move(light));
+}
+
+void SceneParser::on_shape(const Token& word) {
+  ShapeDescription shape;
+  if (!read_directive(word, "shape", shape)) return;
+  shape.object_to_world = state_.ctm;
+  shape.reverse_orientation = state_.reverse_orientation;
+  shape.material = state_.material;
+  shape.area_light = state_.area_light;
+  (open_object_ ? scene_.objects[*open_object_].shapes : scene_.shapes).push_back(std::move(shape));
+}
+
+void SceneParser::on_object_begin(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  push(true, word.location);
+  if (open_object_) {
+    diagnostics_.error(word.location, "an object inside another one",
+                       {{scene_.objects[*open_object_].location, "the outer one"}});
+    return;
+  }
+  const std::string text = unescape(name->text);
+  const auto [found, is_new] = objects_.emplace(text, scene_.objects.size());
+  if (!is_new) {
+    diagnostics_.error(name->location, fmt::format("object `{}` is defined twice", text),
+                       {{scene_.objects[found->second].location, "first defined here"}});
+  }
+  open_object_ = scene_.objects.size();
+  scene_.objects.push_back({text, name->location, {}});
+}
+
+void SceneParser::on_object_end(const Token& word) {
+  const size_t open = stack_.size();
+  pop(true, word);
+  const bool inside_another =
+      std::any_of(stack_.begin(), stack_.end(), [](const Open& o) { return o.object; });
+  if (stack_.size() < open && !inside_another) open_object_.reset();
+}
+
+void SceneParser::on_object_instance(const Token& word) {
+  const auto name = quoted("a name", word);
+  if (!name) return;
+  if (open_object_) {
+    return diagnostics_.error(word.location, "an instance inside an object",
+                              {{scene_.objects[*open_object_].location, "the object"}});
+  }
+  scene_.instances.push_back({unescape(name->text), name->location, state_.ctm});
+}
+
+void SceneParser::on_include(const Token& word) {
+  include(word, true);
+}
+
+void SceneParser::on_import(const Token& word) {
+  include(word, false);
+}
+
+std::optional<uint32_t> SceneParser::open_beside(const std::string& name, std::string& error) {
+  const std::filesystem::path naming(diagnostics_.files.name(open_files_.back()));
+  return files_.open(resolve_path(name, naming, main_file_), error);
+}
+
+void SceneParser::include(const Token& word, bool keep_state) {
+  const auto name = quoted("a file name", word);
+  if (!name) return;
+  if (open_files_.size() >= kDeepestInclude) {
+    return diagnostics_.error(name->location,
+                              fmt::format("more than {} files included inside each other", kDeepestInclude));
+  }
+  std::string error;
+  const auto file = open_beside(unescape(name->text), error);
+  if (!file) return diagnostics_.error(name->location, error);
+  if (std::find(open_files_.begin(), open_files_.end(), *file) != open_files_.end()) {
+    return diagnostics_.error(name->location,
+                              fmt::format("\"{}\" includes itself", diagnostics_.files.name(*file)));
+  }
+  bytes_read_ += diagnostics_.files.text(*file).size() + 1;
+  if (bytes_read_ > kMostBytes || ++files_included_ > kMostIncludes) {
+    if (!stopped_)
+      diagnostics_.error(name->location,
+                         "the included files are too many or too long in all: reading stops here");
+    stopped_ = true;
+    return;
+  }
+  const GraphicsState before = state_;
+  parse_file(*file);
+  if (!keep_state) state_ = before;
+}
+
+// A name and parameters, or two names.
+void SceneParser::on_medium(const Token& word) {
+  warn_once(
+      word,
+      word.text == "MediumInterface"
+          ? "`MediumInterface` is ignored: there is nothing between surfaces, glass does not absorb, and "
+            "media within material \"interface\" are not seen"
+          : "`MakeNamedMedium` is ignored: there is nothing between surfaces");
+  skip_arguments();
+}
+
+}  // namespace kaustik::pbrt

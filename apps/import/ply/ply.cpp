@@ -1,0 +1,171 @@
+#include "apps/import/ply/ply.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+
+#include "apps/import/gzip.h"
+#include "apps/import/ply/ply_body.h"
+#include "apps/import/ply/polygon.h"
+#include "apps/import/scene_files.h"
+#include "core/files/content_hash.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+constexpr uint64_t kLargestMeshFile = uint64_t{1} << 38;
+
+// What pbrt takes for uv where the file has none: a triangle's (0, 0), (1, 0), (1, 1) and a quad's with (0,
+// 1) as well. They are kept where faces have no corners in common. Any number of threads may add faces.
+class BareFaces {
+ public:
+  explicit BareFaces(size_t vertices) : uv_(vertices), taken_(vertices) {}
+
+  void add(std::span<const uint32_t> corners) {
+    static const std::array<Point2, 4> kUv{Point2(0, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1)};
+    bool kept = corners.size() <= kUv.size();
+    for (size_t i = 0; kept && i < corners.size(); ++i) {
+      kept = !taken_[corners[i]].exchange(true, std::memory_order_relaxed);
+      if (kept) uv_[corners[i]] = kUv[i];
+    }
+    if (!kept) shared_.store(true, std::memory_order_relaxed);
+  }
+  std::vector<Point2> take() { return shared_ ? std::vector<Point2>() : std::move(uv_); }
+
+ private:
+  std::vector<Point2> uv_;
+  std::vector<std::atomic<bool>> taken_;
+  std::atomic<bool> shared_ = false;
+};
+
+class MeshReader {
+ public:
+  MeshReader(std::string_view bytes, const PlyHeader& header) : bytes_(bytes), header_(header) {}
+
+  MeshResult read() {
+    std::vector<PlyExtent> extents;
+    for (size_t e = 0, begin = header_.body; e < header_.elements.size(); ++e) {
+      auto extent = walk_ply(bytes_, header_, e, begin, error_);
+      if (!extent) return {{}, std::move(error_)};
+      begin = extent->end;
+      extents.push_back(std::move(*extent));
+    }
+    if (read_vertices(extents[header_.vertex]) && read_faces(extents[header_.face]))
+      return {std::move(mesh_), {}};
+    return {{}, std::move(error_)};
+  }
+
+ private:
+  const PlyElement& vertex() const { return header_.elements[header_.vertex]; }
+
+  // Calls fn(block) for all, in parallel; keeps the error of the first block that has one.
+  template <class Fn>
+  bool for_each_block(const PlyExtent& extent, const Fn& fn) {
+    std::vector<std::string> errors(extent.blocks.size());
+    tbb::parallel_for(size_t{0}, extent.blocks.size(), [&](size_t i) { errors[i] = fn(extent.blocks[i]); });
+    const auto found = std::find_if(errors.begin(), errors.end(), [](const auto& e) { return !e.empty(); });
+    if (found != errors.end()) error_ = std::move(*found);
+    return error_.empty();
+  }
+
+  // Indices of properties that all are there, or nothing.
+  std::optional<std::vector<size_t>> columns(std::initializer_list<std::string_view> names) const {
+    std::vector<size_t> found;
+    for (const std::string_view name : names) {
+      const auto i = vertex().find(name);
+      if (!i) return std::nullopt;
+      found.push_back(*i);
+    }
+    return found;
+  }
+
+  bool read_vertices(const PlyExtent& extent) {
+    const auto P = *columns({"x", "y", "z"});
+    const auto N = columns({"nx", "ny", "nz"});
+    auto uv = columns({"u", "v"});
+    for (const auto& [u, v] : {std::pair{"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}})
+      if (!uv) uv = columns({u, v});
+    mesh_.P.resize(vertex().count);
+    if (N) mesh_.N.resize(vertex().count);
+    if (uv) mesh_.uv.resize(vertex().count);
+    return for_each_block(extent, [&](const PlyBlock& block) {
+      return read_ply_block(bytes_, header_, header_.vertex, block, std::nullopt, [&](const PlyValues& v) {
+        const auto at = [&](size_t column) { return static_cast<float>(v.scalars[column]); };
+        Point3& p = mesh_.P[v.number];
+        p = {at(P[0]), at(P[1]), at(P[2])};
+        if (N) mesh_.N[v.number] = {at((*N)[0]), at((*N)[1]), at((*N)[2])};
+        if (uv) mesh_.uv[v.number] = {at((*uv)[0]), at((*uv)[1])};
+        if (is_finite(p)) return std::string();
+        return ply_error(v.position, fmt::format("the position of vertex {} is not finite", v.number));
+      });
+    });
+  }
+
+  bool read_faces(const PlyExtent& extent) {
+    const auto list = header_.elements[header_.face].find_indices();
+    mesh_.indices.resize(extent.triangles);
+    const uint64_t faces = header_.elements[header_.face].count;
+    const bool may_be_bare =
+        mesh_.uv.empty() && extent.triangles > faces && extent.triangles + 2 * faces <= mesh_.P.size();
+    BareFaces bare(may_be_bare ? mesh_.P.size() : 0);
+    const bool read = for_each_block(extent, [&](const PlyBlock& block) {
+      std::array<uint32_t, 3>* out = mesh_.indices.data() + block.triangles;
+      std::vector<uint32_t> corners;
+      return read_ply_block(bytes_, header_, header_.face, block, list, [&](const PlyValues& face) {
+        corners.clear();
+        for (const int64_t i : face.indices) {
+          if (i < 0 || static_cast<uint64_t>(i) >= mesh_.P.size()) {
+            return ply_error(face.position, fmt::format("face {} has vertex {}: there are {} vertices",
+                                                        face.number, i, mesh_.P.size()));
+          }
+          corners.push_back(static_cast<uint32_t>(i));
+        }
+        triangulate(corners, mesh_.P, out);
+        out += corners.size() - 2;
+        if (may_be_bare) bare.add(corners);
+        return std::string();
+      });
+    });
+    if (read && may_be_bare) mesh_.uv = bare.take();
+    return read;
+  }
+
+  std::string_view bytes_;
+  const PlyHeader& header_;
+  TriangleMesh mesh_;
+  std::string error_;
+};
+
+MeshResult read_mesh(std::string_view bytes) {
+  std::string error;
+  const auto header = read_ply_header(bytes, error);
+  return header ? MeshReader(bytes, *header).read() : MeshResult{{}, std::move(error)};
+}
+
+MeshResult read_packed(std::string_view bytes) {
+  std::string error;
+  const auto unpacked = unpack_gzip(bytes, error);
+  return unpacked ? read_mesh(*unpacked) : MeshResult{{}, std::move(error)};
+}
+
+}  // namespace
+
+MeshResult load_ply(const std::filesystem::path& path, std::string* content) {
+  std::string error;
+  const auto bytes = read_bytes(path, kLargestMeshFile, error);
+  if (!bytes) return {{}, std::move(error)};
+  if (content) {
+    ContentHash hash;
+    hash.add(*bytes);
+    *content = hash.text();
+  }
+  MeshResult result = is_gzip(*bytes) ? read_packed(*bytes) : read_mesh(*bytes);
+  if (!result.error.empty())
+    result.error = fmt::format("cannot read \"{}\": {}", path.string(), result.error);
+  return result;
+}
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,64 @@
+#include "apps/session/output_files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "apps/console/exit_error.h"
+#include "core/files/pending_file.h"
+#include "render/picture/image_io.h"
+
+namespace kaustik::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+  throw ExitError(kBadCommandLine, fmt::format("cannot write {}: {}", path, reason));
+}
+
+}  // namespace
+
+void check_writable(const std::string& path) {
+  std::error_code ignored;
+  const fs::path folder = folder_of(path);
+  if (path.empty() || !fs::path(path).has_filename()) refuse(path, "expected a file name");
+  if (!fs::exists(folder, ignored)) refuse(path, fmt::format("there is no folder {}", folder.string()));
+  if (!fs::is_directory(folder, ignored)) refuse(path, fmt::format("{} is not a folder", folder.string()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(path, std::strerror(errno));
+  if (fs::is_directory(path, ignored)) refuse(path, "this is a folder");
+}
+
+void check_image_output(const std::string& path) {
+  try {
+    render::check_output_name(path);
+  } catch (const std::invalid_argument& error) {
+    throw ExitError(kBadCommandLine, error.what());
+  }
+  check_writable(path);
+  if (!render::is_exr(path)) render::image_formats();
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  const auto fail = [&](const std::string& reason) {
+    throw std::runtime_error(fmt::format("{}: {}", path, reason));
+  };
+  PendingFile pending(path, unique_temporary_name(path));
+  std::ofstream file(pending.temporary(), std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) fail(std::strerror(errno));
+  if (const std::string error = pending.commit(); !error.empty()) fail(error);
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,107 @@
+#include "apps/session/partial_files.h"
+
+#include <fmt/format.h>
+#ifdef __GLIBC__
+#include <gnu/libc-version.h>
+#endif
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "accel/embree_version.h"
+#include "apps/console/exit_error.h"
+#include "apps/machine/instruction_set.h"
+#include "core/version.h"
+#include "render/picture/image_formats.h"
+
+namespace kaustik::app {
+
+namespace {
+
+std::string absolute(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+std::string program_and_libraries() {
+  std::string build = fmt::format("{} ({}), Embree {}, OpenImageIO {}", version(), build_id(),
+                                  accel::embree_version(), render::image_formats().version());
+#ifdef __GLIBC__
+  build += fmt::format(", C library {}", gnu_get_libc_version());
+#endif
+  return build;
+}
+
+}  // namespace
+
+std::string program_build() {
+  static const std::string build = program_and_libraries();
+  return build;
+}
+
+render::SettingTexts setting_texts(const Settings& settings, bool that_decide_sums) {
+  render::SettingTexts out;
+  for (const Setting& setting : settings_table()) {
+    std::vector<std::string> texts = setting.show(settings);
+    if (setting.decides_sums == that_decide_sums && !texts.empty())
+      out.emplace_back(setting.name, std::move(texts));
+  }
+  return out;
+}
+
+render::PartialManifest manifest_of(const Job& job, const std::vector<std::string>& outputs,
+                                    const render::PassSet& goal, const render::PassSums& sums,
+                                    const std::string& stopped_by) {
+  Settings settings = job.settings;
+  settings.render.passes = sums.shares;  // as many as memory asked for stay as many
+  render::PartialManifest manifest;
+  manifest.build = program_build();
+  manifest.isa = instruction_set();
+  manifest.scene_path = absolute(job.path);
+  manifest.scene_hash = job.content_hash;
+  manifest.settings = setting_texts(settings, true);
+  manifest.presentation = setting_texts(settings, false);
+  for (const std::string& output : outputs) manifest.outputs.push_back(absolute(output));
+  manifest.goal = goal.empty() ? render::PassSet(0, sums.shares) : goal;
+  if (!stopped_by.empty()) manifest.goal = sums.passes;
+  manifest.stopped_by = stopped_by;
+  manifest.needs = job.scene.needs;
+  return manifest;
+}
+
+render::PartialResult load_partial(const std::string& path) {
+  try {
+    return render::read_partial(path);
+  } catch (const render::PartialError& error) {
+    throw ExitError(kBadCommandLine, error.what());
+  }
+}
+
+SettingOverrides settings_of(const render::PartialManifest& manifest, const std::string& path) {
+  SettingOverrides overrides;
+  for (const render::SettingTexts* settings : {&manifest.settings, &manifest.presentation}) {
+    for (const auto& [name, texts] : *settings) {
+      const Setting* setting = find_setting(name);
+      if (!setting)
+        throw ExitError(kBadCommandLine, fmt::format("{}: it names an unknown setting `{}`", path, name));
+      try {
+        overrides.add(*setting, texts);
+      } catch (const CLI::ValidationError& error) {
+        throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, error.what()));
+      }
+    }
+  }
+  return overrides;
+}
+
+void check_program(const render::PartialManifest& manifest, const std::string& path) {
+  const auto require = [&](const std::string& there, const std::string& here, std::string_view what) {
+    if (there == here) return;
+    throw ExitError(kBadCommandLine,
+                    fmt::format("{}: made by {} {}, this is {}: the passes would not fit together", path,
+                                what, there, here));
+  };
+  require(manifest.build, program_build(), "kaustik");
+  require(manifest.isa, instruction_set(), "the instruction set");
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,17 @@
+#include "apps/session/render_job.h"
+
+#include "core/stopwatch.h"
+
+namespace kaustik::app {
+
+RenderOutcome render_job(const Scene& scene, const render::RenderSettings& settings,
+                         const render::ProgressCallback& progress, render::RenderTask task) {
+  RenderOutcome outcome;
+  const Stopwatch watch;
+  const accel::Bvh bvh(scene, settings.threads);
+  outcome.times.bvh = watch.seconds();
+  outcome.result = render::render(scene, bvh, settings, progress, std::move(task));
+  return outcome;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,167 @@
+#include "apps/session/render_outputs.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "apps/session/output_files.h"
+#include "apps/session/scene_loading.h"
+#include "apps/session/stop_rules.h"
+#include "core/stopwatch.h"
+#include "render/picture/image_io.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// Where the photons' flux went, in shares of what the lamps emitted.
+void report_energy(const render::RenderStatistics& s, const Console& console) {
+  const photon::EnergyLedger& e = s.photons.energy;
+  if (e.emitted == 0) return;
+  const auto share = [&](int64_t units) { return 100 * double(units) / double(e.emitted); };
+  console.note(
+      fmt::format("energy: {:.5g} W emitted (R + G + B); absorbed {:.2f} %, escaped {:.2f} %, not followed "
+                  "further {:.2f} %, "
+                  "lost by roulette {:.2f} %",
+                  e.watts(e.emitted) / double(std::max<uint64_t>(1, s.passes)), share(e.absorbed),
+                  share(e.escaped), share(e.terminated), share(e.roulette)));
+  if (e.unaccounted() != 0)
+    console.warning(
+        fmt::format("energy: {:.3g} % of the photons' flux is unaccounted for", share(e.unaccounted())));
+}
+
+std::string by_kind(const std::array<uint64_t, photon::kPhotonKinds>& counts) {
+  std::string text;
+  for (size_t k = 0; k < counts.size(); ++k)
+    text += fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(counts[k]));
+  return text;
+}
+
+void report_photons(const render::RenderResult& result, const Console& console) {
+  const render::RenderStatistics& s = result.statistics;
+  if (!s.any_photons()) return;
+  if (s.photons.emitted > 0)
+    console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted),
+                             by_kind(s.photons.stored)));
+  if (s.guided.emitted > 0)
+    console.note(fmt::format("guided photons: {} emitted; stored: {}; learned from {}, of which {} served",
+                             grouped(s.guided.emitted), by_kind(s.guided.stored), grouped(s.guide_photons),
+                             grouped(s.guide_hits)));
+  report_energy(s, console);
+  if (s.radius > 0) console.note(fmt::format("gather radius: {:.4g} m", s.radius));
+  if (result.plan.direct == render::DirectEstimator::kLecture) {
+    console.note(fmt::format(
+        "lecture: {} points from photons ({} after climbing); shadow rays at {} with too few photons, "
+        "{} with shadow photons, {} near a cell's face",
+        grouped(s.lecture.from_photons), grouped(s.lecture.climbed), grouped(s.lecture.fallback_few),
+        grouped(s.lecture.fallback_shadow), grouped(s.lecture.fallback_face)));
+  }
+}
+
+// One pass alone tells no error.
+std::vector<render::Layer> layers_of(const Outcome& outcome, const Console& console) {
+  const std::vector<std::string>& names = outcome.settings.render.aov;
+  std::vector<render::Layer> layers = render::layers_from_names(names);
+  const bool bias_known =
+      !outcome.result.statistics.any_photons() || outcome.settings.render.estimate_bias.value_or(false);
+  if (!bias_known && std::erase(layers, render::Layer::kBias) > 0 && names_error_layer(names))
+    console.warning("the layer bias is left out: these passes have not measured it");
+  if (std::isfinite(outcome.result.error)) return layers;
+  std::erase(layers, render::Layer::kError);
+  std::erase(layers, render::Layer::kBias);
+  if (names_error_layer(names))
+    console.warning("the layers error and bias are left out: they need two passes");
+  return layers;
+}
+
+// Of several passes.
+void report_error(const render::RenderResult& result, const render::RenderSettings& settings,
+                  const Console& console) {
+  if (!std::isfinite(result.error)) return;
+  console.note(fmt::format("error: {} of the radiance at 90 % confidence, mean over pixels; {}",
+                           percent(result.error),
+                           settings.estimate_bias.value_or(false) ? "noise and kernel bias" : "noise alone"));
+}
+
+}  // namespace
+
+void add_output_options(CLI::App& parser, OutputOptions& options, const std::string& by_default) {
+  parser
+      .add_option(
+          "-o,--output", options.files,
+          "File to write: .exr (float, with layers), .png, .jpg, or .kpart (a partial result). Give it "
+          "again for more files. Default: " +
+              by_default)
+      ->option_text("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  parser.add_option("--stats", options.statistics, "Write counts, times and settings as JSON")
+      ->option_text("FILE");
+}
+
+void check_outputs(const OutputOptions& options) {
+  for (const std::string& path : options.files) {
+    if (render::is_partial_name(path))
+      check_writable(path);
+    else
+      check_image_output(path);
+  }
+  if (!options.statistics.empty()) check_writable(options.statistics);
+}
+
+void write_outputs(const OutputOptions& options, const Outcome& outcome, render::OuterTimes times,
+                   const Console& console) {
+  const Stopwatch watch;
+  const render::RenderResult& result = outcome.result;
+  render::WriteOptions write;
+  write.layers = layers_of(outcome, console);
+  write.metadata = render::metadata_of(result, outcome.settings.render);
+  if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
+    write.metadata.emplace_back("kaustik:stopped_by", rule);
+  write.tone = outcome.settings.tone;
+  std::vector<std::string> written;
+  std::exception_ptr trouble;  // with one file must not cost the others
+  for (const std::string& path : options.files) {
+    const bool partial = render::is_partial_name(path);
+    if (partial && result.sums.passes.empty()) continue;
+    try {
+      if (partial)
+        render::write_partial(path, outcome.manifest, result.sums);
+      else
+        render::write_film(path, result.film, write);
+      written.push_back(path);
+    } catch (const std::exception&) {
+      if (!trouble) trouble = std::current_exception();
+    }
+  }
+  times.write = watch.seconds();
+  times.total += times.write;
+  if (!options.statistics.empty()) {
+    write_text_file(options.statistics,
+                    render::statistics_json(result, outcome.settings.render, outcome.manifest.needs, times));
+    written.push_back(options.statistics);
+  }
+  report(result, times, console);
+  report_error(result, outcome.settings.render, console);
+  for (const std::string& path : written) console.note("wrote " + path);
+  if (trouble) std::rethrow_exception(trouble);
+}
+
+void report(const render::RenderResult& result, const render::OuterTimes& times, const Console& console) {
+  const render::RenderStatistics& s = result.statistics;
+  report_photons(result, console);
+  console.note(fmt::format(
+      "seconds: load {:.2f}, bvh {:.2f}, photon trace {:.2f}, photon build {:.2f}, render {:.2f}, "
+      "write {:.2f}, total {:.2f}",
+      times.load, times.bvh, s.photon_trace_s, s.photon_build_s, s.render_s, times.write, times.total));
+  if (s.dropped_samples > 0) {
+    console.warning(
+        fmt::format("{} samples were not finite or negative and were left out", s.dropped_samples));
+    for (const render::DroppedSample& example : s.dropped_examples) console.note("  " + example.text());
+  }
+  if (s.clamped_sums > 0)
+    console.warning(fmt::format("{} sums of a pixel over a pass were out of range", s.clamped_sums));
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,155 @@
+#include "apps/session/render_session.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "apps/console/progress_bar.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/run.h"
+#include "apps/session/render_job.h"
+#include "apps/session/stop_rules.h"
+#include "apps/session/time_plan.h"
+#include "apps/settings/values.h"
+
+namespace kaustik::app {
+
+namespace {
+
+render::RenderResult render_with_bar(const Job& job, const accel::Bvh& bvh, render::RenderTask task,
+                                     ProgressBar& bar, const InterruptGuard& interrupt) {
+  return render::render(
+      job.scene, bvh, job.settings.render,
+      [&](const render::Progress& progress) {
+        bar.update(progress);
+        return !interrupt.requested();
+      },
+      std::move(task));
+}
+
+// What fills the time: photons of its only pass, or null where there are several.
+std::shared_ptr<render::FirstPhotons> fill_time(const accel::Bvh& bvh, const InterruptGuard& interrupt,
+                                                const Stopwatch& total, const Console& console, Job* job) {
+  const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
+  return settle_time(job->scene, bvh, total, go_on, console, &job->settings);
+}
+
+// Open where a rule says when to stop; what there is, where it has already.
+render::PassSet goal_of(const Job& job, const RenderSession& session, StopRule& rule) {
+  if (rule.met_by(session.done)) return session.done.passes;
+  const bool open = job.settings.stop.any() && !session.bounded;
+  return open ? render::PassSet(0, render::kMostPasses) : session.goal;
+}
+
+double seconds_of(const render::RenderStatistics& s) {
+  return s.photon_trace_s + s.photon_build_s + s.render_s;
+}
+
+// What an interrupted render leaves.
+std::string interruption(const render::RenderResult& result) {
+  switch (result.shown) {
+    case render::Shown::kPasses:
+      return fmt::format("interrupted: the picture shows passes {}", result.sums.passes.text());
+    case render::Shown::kTiles:
+      return "interrupted in the first pass: the picture shows the tiles that were finished, black "
+             "elsewhere; "
+             "there is no pass to go on from";
+    case render::Shown::kNothing:
+      break;
+  }
+  return "interrupted before a tile was finished: nothing was written";
+}
+
+// How the rule ended the render, if it did.
+void report_stop(const StopRule& rule, const render::RenderResult& result, const Console& console) {
+  if (rule.reason().empty()) return;
+  const std::string error = rule.progress();
+  const uint64_t passes = result.sums.passes.count();
+  console.note(fmt::format("stopped by --{} after {} pass{}{}{}", rule.reason(), passes,
+                           passes == 1 ? "" : "es", error.empty() ? "" : ": ", error));
+}
+
+// Pictures take little from the manifest; all of it names the versions of libraries that they may not need.
+render::PartialManifest manifest_for_outputs(const Job& job, const RenderSession& session,
+                                             const render::PassSums& sums, const std::string& stopped_by) {
+  if (writes_sums(session)) return manifest_of(job, session.outputs.files, session.goal, sums, stopped_by);
+  render::PartialManifest manifest;
+  manifest.needs = job.scene.needs;
+  manifest.stopped_by = stopped_by;
+  return manifest;
+}
+
+int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, Checkpoint& checkpoint,
+           const StopRule& rule, const Console& console) {
+  const render::RenderResult& result = outcome.result;
+  if (result.cancelled) console.error(interruption(result));
+  if (result.shown == render::Shown::kNothing) return kInterrupted;
+  // A checkpoint that cannot be written must not cost the pictures, nor the other way round.
+  bool checkpoint_written = false;
+  std::string trouble;
+  try {
+    checkpoint_written = checkpoint.finish(result.sums, rule.reason());
+  } catch (const std::exception& error) {
+    trouble = fmt::format("no checkpoint: {}", error.what());
+  }
+  const render::PartialManifest manifest = manifest_for_outputs(job, session, result.sums, rule.reason());
+  report_stop(rule, result, console);
+  write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
+  if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
+  if (!trouble.empty()) console.error(trouble);
+  if (result.cancelled) return kInterrupted;
+  return trouble.empty() ? kDone : kFailed;
+}
+
+}  // namespace
+
+bool writes_sums(const RenderSession& session) {
+  const std::vector<std::string>& files = session.outputs.files;
+  return !session.checkpoint.path.empty() || std::any_of(files.begin(), files.end(), render::is_partial_name);
+}
+
+int run_session(Job job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
+                const Console& console) {
+  int code = kDone;
+  if (writes_sums(session)) program_build();  // asks Embree for its version, now that it is not at work
+  with_thread_limit(job.settings.render.threads, [&] {
+    render::OuterTimes times{.load = job.load_seconds};
+    const Stopwatch watch;
+    const accel::Bvh bvh(job.scene, job.settings.render.threads);
+    times.bvh = watch.seconds();
+    std::shared_ptr<render::FirstPhotons> photons;
+    if (session.fill_time) photons = fill_time(bvh, interrupt, total, console, &job);
+    times.trials = watch.seconds() - times.bvh - (photons ? seconds_of(photons->statistics) : 0);
+    if (photons) job.settings.stop.seconds.reset();  // nothing is left to stop
+    Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
+    StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
+    for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
+      console.note(note);
+    ProgressBar bar(console);
+    const auto after_pass = [&](const render::PassSums& sums) {
+      const bool enough = rule.enough(sums);
+      bar.remark(rule.progress());
+      if (!enough) checkpoint.after_pass(sums);
+      return !enough;
+    };
+    render::RenderTask task{.passes = goal_of(job, session, rule),
+                            .done = std::move(session.done),
+                            .after_pass = after_pass,
+                            .keep_sums = writes_sums(session),
+                            .photons = std::move(photons)};
+    RenderOutcome outcome{render_with_bar(job, bvh, std::move(task), bar, interrupt), times};
+    bar.clear();
+    outcome.times.total = total.seconds();
+    code = finish(job, session, std::move(outcome), checkpoint, rule, console);
+  });
+  return code;
+}
+
+double checkpoint_interval(const std::string& text) {
+  if (const std::optional<double> seconds = parse_duration(text)) return *seconds;
+  throw CLI::ValidationError("--checkpoint-every",
+                             fmt::format("`{}`: expected a time with its unit, like 60s, 10m or 1.5h", text));
+}
+
+}  // namespace kaustik::app

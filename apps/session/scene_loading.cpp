@@ -1,0 +1,136 @@
+#include "apps/session/scene_loading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/console/exit_error.h"
+#include "apps/machine/usable_memory.h"
+#include "core/stopwatch.h"
+#include "render/camera/pixel_range.h"
+#include "render/film/film_totals.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// Prints all that was found. Scene and settings are reported together, so that one run shows every error of a
+// file.
+void print_diagnostics(const Diagnostics& diagnostics, const Console& console) {
+  console.err << diagnostics.format_all();
+}
+
+[[noreturn]] void refuse_scene(const std::string& path, size_t errors) {
+  throw ExitError(kBadScene, fmt::format("{}: {}", path, counted(errors, "error")));
+}
+
+bool names_place(const DiagnosticList& diagnostics, const SourceLocation& place) {
+  return std::any_of(diagnostics.entries().begin(), diagnostics.entries().end(), [&](const Diagnostic& d) {
+    return d.location.file == place.file && d.location.line == place.line &&
+           d.location.column == place.column;
+  });
+}
+
+// The scene could not be built: look at its settings too before giving up. What is out of range for the
+// scene's schema and for the setting that it becomes is said once.
+[[noreturn]] void report_broken_scene(const std::string& path, const Diagnostics& diagnostics,
+                                      const Console& console) {
+  print_diagnostics(diagnostics, console);
+  Diagnostics again;
+  DiagnosticList settings_only;
+  if (const auto description = pbrt::import_scene(path, again))
+    settings_from_scene(*description, settings_only);
+  size_t errors = diagnostics.error_count();
+  for (const Diagnostic& diagnostic : settings_only.entries()) {
+    if (names_place(diagnostics, diagnostic.location)) continue;
+    console.err << again.format(diagnostic);
+    errors += diagnostic.severity == Severity::kError;
+  }
+  refuse_scene(path, errors);
+}
+
+// The image's size: the scene's, or the command line's with the missing side in proportion.
+void resolve_size(const SceneSettings& file, const render::RenderSettings& settings, Camera& camera) {
+  int width = settings.width, height = settings.height;
+  const double aspect = double(file.width) / double(file.height);
+  if (width == 0 && height == 0) width = file.width, height = file.height;
+  if (height == 0) height = std::max(1, static_cast<int>(std::lround(width / aspect)));
+  if (width == 0) width = std::max(1, static_cast<int>(std::lround(height * aspect)));
+  camera.width = width;
+  camera.height = height;
+  if (!file.fixed_screen_window) camera.set_default_screen_window();
+}
+
+void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides, const Camera& camera,
+                  render::RenderSettings& settings, const Console& console) {
+  const bool same_size = camera.width == file.width && camera.height == file.height;
+  if (!overrides.sets("crop") && !settings.crop.empty() && !same_size) {
+    settings.crop = {};
+    console.note("the scene's crop window is for another image size: the whole image is rendered");
+  }
+  const render::CropWindow& crop = settings.crop;
+  if (!crop.empty() && (crop.x1 > camera.width || crop.y1 > camera.height)) {
+    throw ExitError(kBadCommandLine,
+                    fmt::format("--crop {} {} {} {} reaches out of the {} x {} image", crop.x0, crop.x1,
+                                crop.y0, crop.y1, camera.width, camera.height));
+  }
+}
+
+// Bytes of the film of a pass, of the totals and of the picture.
+uint64_t film_of(const Job& job) {
+  const uint64_t pixels = render::rendered_range(job.settings.render.crop, job.scene.camera).pixels();
+  return pixels * (sizeof(render::PixelSum) + sizeof(render::PixelTotals) + sizeof(render::PixelResult));
+}
+
+uint64_t memory_beside(uint64_t bytes) {
+  const uint64_t usable = usable_memory();
+  return usable - std::min(usable, bytes);
+}
+
+}  // namespace
+
+std::string grouped(uint64_t n) {
+  if (n < 1000) return fmt::format("{}", n);
+  return fmt::format("{},{:03}", grouped(n / 1000), n % 1000);
+}
+
+std::string counted(uint64_t n, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(n), noun, n == 1 ? "" : "s");
+}
+
+std::string scene_summary(const Scene& scene) {
+  uint64_t primitives = 0;
+  for (const Shape& shape : scene.shapes) primitives += primitive_count(shape);
+  return fmt::format("{}, {}, {}, {}", counted(scene.shapes.size(), "shape"),
+                     counted(primitives, "primitive"), counted(scene.materials.size(), "material"),
+                     counted(scene.lights.size(), "light"));
+}
+
+Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console) {
+  const Stopwatch watch;
+  Diagnostics diagnostics;
+  std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics);
+  if (!loaded) report_broken_scene(path, diagnostics, console);
+  const SceneSettings file = settings_from_scene(loaded->description, diagnostics);
+  print_diagnostics(diagnostics, console);
+  if (diagnostics.has_errors()) refuse_scene(path, diagnostics.error_count());
+
+  Job job{.scene = std::move(loaded->scene),
+          .settings = file.settings,
+          .path = path,
+          .content_hash = std::move(loaded->content_hash),
+          .scene_output = file.output};
+  overrides.apply(job.settings);
+  resolve_size(file, job.settings.render, job.scene.camera);
+  resolve_crop(file, overrides, job.scene.camera, job.settings.render, console);
+  job.settings.render.photon_memory = memory_beside(film_of(job));
+  job.settings.render.width = job.scene.camera.width;
+  job.settings.render.height = job.scene.camera.height;
+  job.load_seconds = watch.seconds();
+  console.note(fmt::format("{}: {}", path, scene_summary(job.scene)));
+  for (const std::string& note : file.notes) console.note(note);
+  return job;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,84 @@
+#include "apps/session/stop_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/console/exit_error.h"
+#include "render/film/error_estimate.h"
+#include "render/passes/passes.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// The radius shrinks so that bias and noise vanish with the passes (Knaus and Zwicker 2011).
+constexpr float kConsistentAlpha = 2.0f / 3;
+
+bool has(const std::vector<std::string>& aov, std::string_view layer) {
+  return std::find(aov.begin(), aov.end(), layer) != aov.end();
+}
+
+}  // namespace
+
+bool names_error_layer(const std::vector<std::string>& aov) {
+  return std::any_of(aov.begin(), aov.end(),
+                     [](const std::string& name) { return name == "error" || name == "bias"; });
+}
+
+void check_stop_settings(const StopSettings& stop) {
+  if (stop.target_quantile && !stop.target_error)
+    throw ExitError(kBadCommandLine, "--target-quantile needs --target-error");
+}
+
+void settle_error_settings(const Console& console, Settings* settings) {
+  render::RenderSettings& render = settings->render;
+  const bool named = names_error_layer(render.aov);
+  if (named && render.passes == 1 && !settings->stop.any())
+    throw ExitError(kBadCommandLine, "the layers error and bias need --passes 2 or more");
+  if (render.passes == 0 && (named || settings->stop.any())) {
+    render.passes = std::min(kErrorPasses, render.photons);
+    const render::PassShare each = render::pass_share(0, render.passes, render.photons, render.spp);
+    console.note(fmt::format("each pass takes {} of the {} samples, and as large a part of the photons",
+                             each.end_sample, render.spp));
+  }
+  const bool shown = named || (has(render.aov, "all") && render.passes > 1);
+  if (!render.estimate_bias && (shown || settings->stop.target_error)) render.estimate_bias = true;
+  if (!render.alpha && settings->stop.any()) render.alpha = kConsistentAlpha;
+}
+
+bool StopRule::reaches_target(const render::PassSums& sums) {
+  if (!settings_.target_error) return false;
+  error_ = render::relative_error(render::estimate_errors(sums.totals), sums.passes.count(),
+                                  settings_.target_quantile);
+  if (*error_ > *settings_.target_error) return false;
+  reason_ = fmt::format("target-error {}", *settings_.target_error);
+  return true;
+}
+
+bool StopRule::met_by(const render::PassSums& sums) {
+  if (sums.passes.empty() || reaches_target(sums)) return !reason_.empty();
+  if (settings_.seconds && seconds_before_ >= *settings_.seconds)
+    reason_ = fmt::format("time {}s", *settings_.seconds);
+  return !reason_.empty();
+}
+
+bool StopRule::enough(const render::PassSums& sums) {
+  const double now = seconds(), pass = now - last_;
+  last_ = now;
+  if (!reaches_target(sums) && settings_.seconds && now + pass > *settings_.seconds)
+    reason_ = fmt::format("time {}s", *settings_.seconds);
+  return !reason_.empty();
+}
+
+std::string StopRule::progress() const {
+  if (!error_) return {};
+  return fmt::format("error {}, target {}", percent(*error_), percent(*settings_.target_error));
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : std::string("unknown");
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,158 @@
+#include "apps/session/time_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "apps/session/stop_rules.h"
+#include "render/camera/pixel_range.h"
+#include "render/maps/photon_maps.h"
+#include "render/passes/passes.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// Of the time: what photons get (measured, docs/performance.md); what is left over, since no pass is cut
+// short.
+constexpr double kPhotons = 0.28, kMargin = 0.03;
+constexpr double kTrial = 0.2;  // from so much on a trial is not followed by a larger one
+// Films, their mean, files.
+constexpr double kSecondsPerPixel = 3e-7;
+// Further samples, of the work of the others: up to so much is hardly worth less than more of the others
+// (measured).
+constexpr double kMostFurther = 3;
+// A pass that takes longer, with more samples, would say nothing for long while more of its samples would
+// hardly be better placed: then so many are to fit.
+constexpr double kLongPass = 4;
+constexpr int kManySamples = 64;
+constexpr int kPasses = 10, kMostSamples = 32;  // of each of those passes
+constexpr int kMostOfOne = 4096;                // samples of a single pass
+// However short the time: of the scene's, but not more than this.
+constexpr double kFewestPhotons = 1.0 / 16, kEnoughPhotons = 62'500;
+
+// Powers of two are spread best; without further samples to fill what is left, other numbers do, too.
+int next_number(int spp, double adaptive) {
+  if (adaptive > 0) return 2 * spp;
+  return spp + (spp < 4 ? 1 : std::max(2, int(std::bit_floor(unsigned(spp))) / 4));
+}
+
+// The largest of these numbers that takes no longer; at least one.
+int samples_within(const render::SampleCost& cost, double adaptive, double seconds, int most) {
+  int spp = 1;
+  for (int more = next_number(1, adaptive); more <= most && cost.of(more, adaptive) <= seconds;
+       more = next_number(more, adaptive))
+    spp = more;
+  return spp;
+}
+
+// Hundredths, so that they can be said. Not less than what was asked for.
+float further_within(const render::SampleCost& cost, int spp, double asked, double seconds) {
+  if (!(asked > 0)) return 0;
+  const double fits = (seconds - cost.of(spp, 0)) / std::max(spp * cost.further, 1e-9);
+  return float(std::clamp(std::floor(100 * fits) / 100, asked, std::max(asked, kMostFurther)));
+}
+
+// Two digits, likewise.
+uint64_t photons_within(const render::PhotonCost& cost, double seconds, double fewest) {
+  const double photons = std::clamp((seconds - cost.fixed) / cost.each, std::max(fewest, 10.0), 1e12);
+  const double unit = std::pow(10.0, std::floor(std::log10(photons)) - 1);
+  return uint64_t(std::floor(photons / unit) * unit);
+}
+
+// The choice, at work.
+class TimePlan {
+ public:
+  TimePlan(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
+           const render::ProgressCallback& progress, Settings* settings)
+      : scene_(scene),
+        bvh_(bvh),
+        total_(total),
+        progress_(progress),
+        seconds_(*settings->stop.seconds),
+        render_(settings->render),
+        plan_(render::make_plan(render_, scene.needs)),
+        fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)) {}
+
+  // Null: in passes. Without radii: cancelled.
+  std::shared_ptr<render::FirstPhotons> settle() {
+    render::PhotonTrial trial =
+        render::try_photons(scene_, bvh_, render_, plan_, kTrial * seconds_, progress_);
+    if (!trial.photons.radii) return std::make_shared<render::FirstPhotons>(std::move(trial.photons));
+    if (seconds_ > kLongPass) {
+      const render::SampleCost cost = samples(&trial.photons);
+      if (cost.of(kManySamples, render_.adaptive) < (1 - kPhotons) * left()) {
+        set_passes(trial.cost, cost);
+        return nullptr;
+      }
+    }
+    render_.photons = photons_within(trial.cost, kPhotons * left(), fewest_);
+    render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
+    trial = {};
+    auto photons =
+        std::make_shared<render::FirstPhotons>(render::shoot_first(scene_, bvh_, render_, plan_, progress_));
+    const render::SampleCost cost = samples(photons.get());
+    render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
+    render_.adaptive = further_within(cost, render_.spp, render_.adaptive, left());
+    return photons;
+  }
+
+ private:
+  double left() const {
+    const uint64_t pixels = render::rendered_range(render_.crop, scene_.camera).pixels();
+    return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels);
+  }
+  render::SampleCost samples(render::FirstPhotons* photons) const {
+    return render::try_samples(scene_, bvh_, render_, plan_, kTrial * seconds_, photons);
+  }
+
+  // What eight have is what the settings say. They have no further samples.
+  void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples) {
+    const double each = left() / kPasses;
+    const int spp = samples_within(samples, 0, (1 - kPhotons) * each, kMostSamples);
+    render_.photons = kErrorPasses * photons_within(photons, kPhotons / (1 - kPhotons) * samples.of(spp, 0),
+                                                    fewest_ / kErrorPasses);
+    render_.spp = int(kErrorPasses) * spp;
+    render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
+  }
+
+  const Scene& scene_;
+  const accel::Bvh& bvh_;
+  const Stopwatch& total_;
+  const render::ProgressCallback& progress_;
+  double seconds_;
+  render::RenderSettings& render_;
+  render::EstimatorPlan plan_;
+  double fewest_;  // photons
+};
+
+}  // namespace
+
+bool time_decides(const Settings& settings, const SettingOverrides& given, const SceneNeeds& needs,
+                  bool writes_passes) {
+  const bool said = given.sets("photons") || given.sets("spp") || given.sets("quality");
+  const bool passes = settings.render.passes > 0 || settings.stop.target_error || writes_passes ||
+                      names_error_layer(settings.render.aov) || settings.render.estimate_bias.value_or(false);
+  return settings.stop.seconds && !said && !passes &&
+         render::kinds_needed(render::make_plan(settings.render, needs)).any();
+}
+
+std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const accel::Bvh& bvh,
+                                                  const Stopwatch& total,
+                                                  const render::ProgressCallback& progress,
+                                                  const Console& console, Settings* settings) {
+  auto photons = TimePlan(scene, bvh, total, progress, settings).settle();
+  if (photons && !photons->radii) return photons;
+  if (!photons) settle_error_settings(console, settings);
+  const render::RenderSettings& render = settings->render;
+  console.note(fmt::format(
+      "--time {}s: as with --spp {} --photons {}{}", *settings->stop.seconds, render.spp, render.photons,
+      photons
+          ? fmt::format(" --adaptive {}", render.adaptive)
+          : fmt::format(" --passes {} --alpha {}, in as many passes as come", render.passes, *render.alpha)));
+  return photons;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/geometry/interaction.h"
+#include "core/light/image/light_image.h"
+#include "core/sampling/discrete.h"
+#include "core/sampling/piecewise_2d.h"
+
+namespace kaustik {
+
+// The image that a textured area lamp emits, over the uv of its surface: bilinear between pixels, clamped at
+// the edges, (0, 0) the lower left corner, as in pbrt-v4. And points of the surface in proportion to its
+// luminance: a part of the surface is chosen by its power, then a cell of a table over the square that is
+// spread evenly over the part. Cells are about half a pixel wide, up to 2^19 in all; a share of 1/32 is
+// spread evenly over the surface, so that nothing which shines is missed and weights are bounded. Immutable;
+// thread-safe.
+class EmissionImage {
+ public:
+  // Of a mesh: of its triangle of this number, with the uv of its corners.
+  struct Triangle {
+    double area;  // m^2
+    std::array<Point2, 3> uv;
+  };
+  EmissionImage(std::shared_ptr<const LightImage> image, std::vector<Triangle> triangles);
+  // Of a whole sphere, cylinder or disk, or a part of one; area in m^2.
+  EmissionImage(std::shared_ptr<const LightImage> image, const Quadric& quadric, double area);
+
+  // Where on the surface: a triangle (zero for quadrics), and the point of the square that
+  // sample_uniform_triangle() or sample_uniform() take to the surface.
+  struct Place {
+    uint32_t part = 0;
+    Point2 u{0};
+  };
+  struct Sample {
+    Place place;
+    float area;  // m^2: one over the density
+  };
+  // u in [0, 1)^2.
+  Sample sample(const Point2& u) const;
+  float area(const Place& place) const;  // as in Sample
+  Place place_of(const SurfaceInteraction& on_surface) const;
+
+  Point2 uv(const Place& place) const;
+  Rgb value(const Point2& uv) const;
+  Rgb mean() const { return mean_; }              // over the surface
+  Rgb mean_of_pixels() const { return pixels_; }  // whatever the surface shows of them
+  Rgb brightest() const { return brightest_; }    // of all pixels, per channel
+
+ private:
+  // Root mean square luminance of the cells of a part's table, row by row, and the mean of these numbers.
+  struct Cells {
+    int n = 1;
+    std::vector<double> luminance;
+    double mean = 0;
+  };
+  void summarise_pixels();
+  void make_tables(const std::vector<double>& areas);
+  std::vector<int> resolutions() const;
+  int wanted_resolution(const Triangle& triangle) const;
+  Cells cells_of(uint32_t part, int n, glm::dvec3* mean) const;
+
+  std::shared_ptr<const LightImage> image_;
+  std::vector<Triangle> triangles_;  // none: the quadric
+  Quadric quadric_;
+  DiscreteDistribution parts_;
+  std::vector<PiecewiseConstant2D> tables_;  // of each part; of none where there is but one cell
+  std::vector<float> areas_;                 // of each part over its probability
+  Rgb mean_{0}, pixels_{0}, brightest_{0};
+};
+
+}  // namespace kaustik

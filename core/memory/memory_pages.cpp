@@ -1,0 +1,42 @@
+// madvise, where it exists.
+
+#include "core/memory/memory_pages.h"
+
+#ifdef __linux__
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#endif
+
+namespace kaustik::photon {
+
+#ifdef __linux__
+
+namespace {
+
+void advise(void* data, size_t bytes, int advice) {
+  const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
+  const uintptr_t begin = (reinterpret_cast<uintptr_t>(data) + page - 1) / page * page;
+  const uintptr_t end = (reinterpret_cast<uintptr_t>(data) + bytes) / page * page;
+  // A refusal leaves the pages as they are.
+  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, advice);
+}
+
+}  // namespace
+
+void prefer_large_pages(void* data, size_t bytes) {
+  advise(data, bytes, MADV_HUGEPAGE);
+}
+void give_back_pages(void* data, size_t bytes) {
+  advise(data, bytes, MADV_DONTNEED);
+}
+
+#else
+
+void prefer_large_pages(void*, size_t) {}
+void give_back_pages(void*, size_t) {}
+
+#endif
+
+}  // namespace kaustik::photon

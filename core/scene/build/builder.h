@@ -1,0 +1,41 @@
+#pragma once
+// From a located description to the scene that is rendered.
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/diagnostics/diagnostics.h"
+#include "core/scene/description/description.h"
+#include "core/scene/scene.h"
+#include "core/texture/image_lookup.h"
+
+namespace kaustik {
+
+// What a mesh file gave: a mesh in object space, or why not.
+struct MeshResult {
+  TriangleMesh mesh;
+  std::string error;  // one sentence that names the file; empty on success
+};
+// Reads the mesh that the parameter at `where` names. Called from several threads at once.
+using MeshLoader = std::function<MeshResult(const std::string& filename, const SourceLocation& where)>;
+
+// What an image file gave: a picture, linear Rec. 709, or why not.
+struct LightImageResult {
+  LightImage image;
+  std::string error;  // one sentence that names the file; empty on success
+};
+// Reads the image of a lamp that the parameter at `where` names.
+using LightImageLoader =
+    std::function<LightImageResult(const std::string& filename, const SourceLocation& where)>;
+
+// Resolves names, checks every parameter against the schema, loads meshes and images in parallel, bakes
+// object instances and transforms into world space and joins shapes to surface groups. Nothing after any
+// error; all errors and warnings are added to diagnostics, in an order that does not depend on the threads.
+// Shapes are in file order, those of instances after the others; lights: LightSource lines in file order,
+// then emitting shapes.
+std::optional<Scene> build_scene(const SceneDescription& description, const MeshLoader& load_mesh,
+                                 Diagnostics& diagnostics, const LightImageLoader& load_light_image = {},
+                                 const ImageLoader& images = {});
+
+}  // namespace kaustik

@@ -1,0 +1,85 @@
+#include "core/scene/build/lamp_table.h"
+
+namespace kaustik {
+namespace {
+
+std::shared_ptr<const LightImage> white_pixel() {
+  static const auto white = std::make_shared<const LightImage>(LightImage{1, 1, {Rgb(1)}});
+  return white;
+}
+
+// Alpha zero everywhere is pbrt's way to hide a lamp, which shines as if it were there.
+bool is_hidden(const Shape& shape) {
+  return shape.alpha_texture == kNoIndex && shape.alpha == 0;
+}
+
+}  // namespace
+
+bool is_power(const Rgb& power, const SourceLocation& where, DiagnosticList& diagnostics) {
+  if (is_finite(power)) return true;
+  diagnostics.error(where, "the power of this lamp is beyond the range of floats");
+  return false;
+}
+
+LampTable::LampTable(const SceneDescription& description, LightImages& images, const TextureTable& textures,
+                     WarnedOnce& warned, DiagnosticList& diagnostics)
+    : description_(description), textures_(textures), diagnostics_(diagnostics) {
+  for (const Directive& light : description.area_lights) area_lights_.push_back(check(light, images, warned));
+}
+
+LampTable::AreaLight LampTable::check(const Directive& directive, LightImages& images, WarnedOnce& warned) {
+  const TypeSpec* spec = find_type(category("AreaLightSource"), directive, diagnostics_);
+  if (!spec || !check_parameters("area light", *spec, directive, warned, diagnostics_)) return {};
+  const ParameterReader parameters(directive, *spec);
+  if (!parameters.has("filename")) return {spec, nullptr};
+  if (parameters.has("L")) {
+    diagnostics_.error(parameters.location("L"), "an area light has `L` or `filename`, not both");
+    return {};
+  }
+  return {spec, images.get(parameters, "filename")};
+}
+
+// By the luminance of what a white lamp emits, as in pbrt: an image's is the mean of its pixels, whatever of
+// them the surface shows.
+bool LampTable::scale(const ParameterReader& parameters, DiffuseAreaLight& light) const {
+  if (parameters.has("power")) {
+    const Rgb white = light.image ? light.image->mean_of_pixels() : Rgb(1);
+    const float emitted = luminance(light.flux_of(light.area, white));
+    if (!(emitted > 0) || is_black(light.L)) {
+      diagnostics_.error(parameters.location("power"), "`power` of a light that emits nothing");
+      return false;
+    }
+    light.L *= static_cast<float>(parameters.number("power")) / emitted;
+  }
+  light.L *= static_cast<float>(parameters.number("scale"));
+  return true;
+}
+
+bool LampTable::make(const ShapeDescription& description, Shape& shape, std::vector<Light>& lights) const {
+  const Directive& directive = description_.area_lights[*description.area_light];
+  const auto& [spec, image] = area_lights_[*description.area_light];
+  const ParameterReader parameters(directive, *spec);
+  const bool partly = shape.has_alpha() && !is_hidden(shape);
+  auto light = DiffuseAreaLight::make(shape, image ? Rgb(1) : parameters.rgb("L"),
+                                      parameters.flag("twosided"), partly && !image ? white_pixel() : image);
+  if (!light) {
+    const bool sphere =
+        std::holds_alternative<Sphere>(shape.geometry) || std::holds_alternative<Quadric>(shape.geometry);
+    diagnostics_.error(description.location,
+                       sphere ? "a sphere or cylinder that is scaled unevenly cannot be a lamp"
+                              : "the area of this lamp is zero or not finite",
+                       {{directive.location, "the area light"}});
+    return false;
+  }
+  if (!scale(parameters, *light) || !is_power(light->power(), directive.location, diagnostics_)) return false;
+  light->invisible = is_hidden(shape);
+  if (partly) {
+    light->alpha = std::make_shared<const EmitterAlpha>(
+        EmitterAlpha{shape.alpha, shape.alpha_texture, textures_.shared_set()});
+  }
+  shape.light = static_cast<uint32_t>(lights.size());
+  lights.push_back(std::move(*light));
+  return true;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,132 @@
+#include "core/scene/build/material_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/diagnostics/nearest_name.h"
+
+namespace kaustik {
+
+namespace {
+
+TextureValue value_of(const ParameterSpec& spec) {
+  return spec.types.front() == ParameterType::kRgb ? TextureValue::kSpectrum : TextureValue::kFloat;
+}
+
+}  // namespace
+
+MaterialTable::MaterialTable(const SceneDescription& description, const TextureTable& textures,
+                             WarnedOnce& warned, DiagnosticList& diagnostics)
+    : textures_(textures) {
+  std::map<std::string_view, SourceLocation> first_place;
+  for (const MaterialDescription& material : description.materials) {
+    const uint32_t index = make(material, warned, diagnostics);
+    of_description_.push_back(index);
+    if (material.name.empty()) continue;
+    const auto [first, is_new] = first_place.emplace(material.name, material.name_location);
+    if (!is_new) {
+      diagnostics.error(material.name_location, fmt::format("material `{}` is defined twice", material.name),
+                        {{first->second, "first defined here"}});
+    }
+    by_name_.emplace(material.name, index);
+  }
+}
+
+uint32_t MaterialTable::add(Material made, std::string name) {
+  materials_.push_back(std::move(made));
+  names_.push_back(std::move(name));
+  return static_cast<uint32_t>(materials_.size() - 1);
+}
+
+uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& warned,
+                             DiagnosticList& diagnostics) {
+  const TypeSpec* spec = find_type(category("Material"), material, diagnostics);
+  if (!spec || !check_parameters("material", *spec, material, warned, diagnostics)) return default_material();
+  const auto row = std::find_if(material_rows().begin(), material_rows().end(),
+                                [&](const MaterialRow& r) { return &r.spec == spec; });
+  if (spec->name == "mix") return mix(material, *spec, diagnostics);
+  if (!row->make) return kInterface;
+  return add(make(*row, material, diagnostics), material.name.empty() ? material.type : material.name);
+}
+
+// A bump map of one height everywhere is none. After an error: without the texture.
+Material MaterialTable::make(const MaterialRow& row, const MaterialDescription& material,
+                             DiagnosticList& diagnostics) {
+  TexturedMaterial made;
+  made.make = row.make;
+  made.inputs = material_inputs(ParameterReader(material, row.spec));
+  for (MaterialInput& input : made.inputs) {
+    const Parameter* given = material.find(input.name);
+    if (!given) continue;
+    const bool named = given->type == ParameterType::kTexture;
+    const uint32_t texture =
+        named ? textures_.find(*given, value_of(*row.spec.find(input.name)), diagnostics) : kNoIndex;
+    if (input.name == "displacement") {
+      made.displacement = texture;
+    } else if (input.name == "normalmap") {
+      made.normal_map =
+          textures_.load_linear_image(input.text, given->value_location(0), diagnostics).value_or(kNoIndex);
+    } else {
+      input.texture = texture;
+    }
+  }
+  const bool has_map = made.displacement != kNoIndex || made.normal_map != kNoIndex;
+  if (!has_map && !made.makes_bsdf()) return made.make(MaterialInputs(made.inputs));
+  return Material(std::move(made), textures_.set());
+}
+
+// Only what was defined before, as in pbrt: so no mixture holds itself.
+uint32_t MaterialTable::mix(const MaterialDescription& material, const TypeSpec& spec,
+                            DiagnosticList& diagnostics) {
+  const Parameter* names = material.find("materials");
+  if (!names) {
+    diagnostics.error(material.type_location, "material \"mix\" needs `materials`: the names of two");
+    return default_material();
+  }
+  uint32_t found[2];
+  for (size_t i = 0; i < 2; ++i) {
+    found[i] = resolve({std::nullopt, names->strings[i], names->value_location(i)}, diagnostics);
+    if (found[i] == kInterface) {
+      diagnostics.error(names->value_location(i), "material \"interface\" is no surface and cannot be mixed");
+      return default_material();
+    }
+  }
+  const Material &first = materials_[found[0]], &second = materials_[found[1]];
+  MixedMaterial mixed{found[0], found[1], 0.5f, first.lobes()};
+  const Parameter* amount = material.find("amount");
+  if (amount && amount->type == ParameterType::kTexture) {
+    mixed.amount_texture = textures_.find(*amount, TextureValue::kFloat, diagnostics);
+  } else {
+    mixed.amount = static_cast<float>(ParameterReader(material, spec).number("amount"));
+  }
+  mixed.lobes.broad |= second.lobes().broad;
+  mixed.lobes.specular |= second.lobes().specular;
+  mixed.lobes.glossy &= second.lobes().glossy;
+  return add(Material(mixed, first.typical()), material.name.empty() ? material.type : material.name);
+}
+
+uint32_t MaterialTable::default_material() {
+  if (default_ == kNoIndex) default_ = add(Lambertian{}, "default");
+  return default_;
+}
+
+uint32_t MaterialTable::resolve(const MaterialReference& reference, DiagnosticList& diagnostics) {
+  if (reference.index) return of_description_[*reference.index];
+  if (reference.name.empty()) return default_material();
+  const auto found = by_name_.find(reference.name);
+  if (found != by_name_.end()) return found->second;
+  const SourceLocation& at = reference.location;
+  if (reported_.insert({at.file, at.line, at.column}).second) {
+    const std::vector<std::string_view> names = [&] {
+      std::vector<std::string_view> all;
+      for (const auto& [name, index] : by_name_) all.push_back(name);
+      return all;
+    }();
+    diagnostics.error(
+        at, fmt::format("no material is named `{}`{}", reference.name, name_hint(reference.name, names)));
+  }
+  return default_material();
+}
+
+}  // namespace kaustik

@@ -1,0 +1,137 @@
+#include "core/scene/build/surface_groups.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <numeric>
+
+namespace kaustik {
+namespace {
+
+constexpr float kSameSurfaceCosine = 0.9f;
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  uint32_t find(uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  // The smaller index stays the representative, so that the result does not depend on the order of joining.
+  void join(uint32_t a, uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<uint32_t> parent_;
+};
+
+using PointBits = std::array<uint32_t, 3>;
+struct BoundaryEdge {
+  std::array<PointBits, 2> ends;  // sorted
+  Normal3 n;                      // unit, of the triangle that ends there
+  uint32_t shape;
+};
+
+PointBits bits_of(const Point3& p) {
+  // Adding zero makes -0 and 0 one position.
+  return {std::bit_cast<uint32_t>(p.x + 0.0f), std::bit_cast<uint32_t>(p.y + 0.0f),
+          std::bit_cast<uint32_t>(p.z + 0.0f)};
+}
+
+Normal3 normal_of(const TriangleMesh& mesh, const std::array<uint32_t, 3>& triangle) {
+  const glm::dvec3 p0(mesh.P[triangle[0]]);
+  const glm::dvec3 n = glm::cross(glm::dvec3(mesh.P[triangle[1]]) - p0, glm::dvec3(mesh.P[triangle[2]]) - p0);
+  const double length = glm::length(n);
+  return length > 0 ? Normal3(n / length) : Normal3(0);
+}
+
+// Edges that one triangle only has, by vertex index: those that meshes with doubled vertices have inside as
+// well do no harm, they only join a shape to itself.
+std::vector<BoundaryEdge> boundary_edges(const TriangleMesh& mesh, uint32_t shape) {
+  struct Edge {
+    uint64_t vertices;
+    uint32_t triangle;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(mesh.indices.size() * 3);
+  for (size_t t = 0; t < mesh.indices.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({mesh.indices[t][k], mesh.indices[t][(k + 1) % 3]});
+      edges.push_back({(uint64_t{low} << 32) | high, static_cast<uint32_t>(t)});
+    }
+  }
+  tbb::parallel_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.triangle < b.triangle;
+  });
+  std::vector<BoundaryEdge> boundary;
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const bool shared = (i > 0 && edges[i - 1].vertices == edges[i].vertices) ||
+                        (i + 1 < edges.size() && edges[i + 1].vertices == edges[i].vertices);
+    if (shared) continue;
+    std::array<PointBits, 2> ends = {bits_of(mesh.P[edges[i].vertices >> 32]),
+                                     bits_of(mesh.P[edges[i].vertices & 0xffffffffu])};
+    std::sort(ends.begin(), ends.end());
+    boundary.push_back({ends, normal_of(mesh, mesh.indices[edges[i].triangle]), shape});
+  }
+  return boundary;
+}
+
+std::vector<BoundaryEdge> all_boundary_edges(const std::vector<Shape>& shapes,
+                                             const std::vector<std::string>& names) {
+  const auto is_candidate = [&](size_t i) {
+    return names[i].empty() && std::holds_alternative<TriangleMesh>(shapes[i].geometry);
+  };
+  size_t candidates = 0;
+  for (size_t i = 0; i < shapes.size(); ++i) candidates += is_candidate(i) ? 1 : 0;
+  if (candidates < 2) return {};
+  std::vector<std::vector<BoundaryEdge>> of_shape(shapes.size());
+  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
+    if (!is_candidate(i)) return;
+    of_shape[i] = boundary_edges(std::get<TriangleMesh>(shapes[i].geometry), static_cast<uint32_t>(i));
+  });
+  std::vector<BoundaryEdge> edges;
+  for (auto& part : of_shape) edges.insert(edges.end(), part.begin(), part.end());
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.ends < b.ends; });
+  return edges;
+}
+
+void join_by_edges(const std::vector<BoundaryEdge>& edges, DisjointSets& sets) {
+  for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && edges[end].ends == edges[begin].ends) ++end;
+    for (size_t i = begin; i < end; ++i) {
+      for (size_t j = begin; j < i; ++j) {
+        if (sets.find(edges[i].shape) == sets.find(edges[j].shape)) continue;
+        if (abs_dot(edges[i].n, edges[j].n) > kSameSurfaceCosine) sets.join(edges[i].shape, edges[j].shape);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+uint32_t assign_surface_groups(std::vector<Shape>& shapes, const std::vector<std::string>& names) {
+  DisjointSets sets(shapes.size());
+  std::map<std::string, uint32_t> first_of_name;
+  for (uint32_t i = 0; i < shapes.size(); ++i) {
+    if (!names[i].empty()) sets.join(i, first_of_name.emplace(names[i], i).first->second);
+  }
+  join_by_edges(all_boundary_edges(shapes, names), sets);
+
+  std::vector<uint32_t> group_of_root(shapes.size(), kNoIndex);
+  uint32_t groups = 0;
+  for (uint32_t i = 0; i < shapes.size(); ++i) {
+    uint32_t& group = group_of_root[sets.find(i)];
+    if (group == kNoIndex) group = groups++;
+    shapes[i].surface_group = group;
+  }
+  return groups;
+}
+
+}  // namespace kaustik

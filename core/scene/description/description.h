@@ -1,0 +1,131 @@
+#pragma once
+// A scene as it was written: plain data, independent of any file format, every value with its place. Nothing
+// is checked or interpreted here; build_scene does that against core/scene/schema/schema.h.
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostics/source_location.h"
+
+namespace kaustik {
+
+enum class ParameterType {
+  kFloat,
+  kInteger,
+  kBool,
+  kString,
+  kPoint2,
+  kVector2,
+  kPoint3,
+  kVector3,
+  kNormal,
+  kRgb,
+  kSpectrum,
+  kBlackbody,
+  kTexture
+};
+// The word of the scene file: "float", "point3", ...
+std::string_view parameter_type_name(ParameterType type);
+
+// One typed parameter, e.g. "rgb L" [ 17 12 4 ].
+struct Parameter {
+  ParameterType type = ParameterType::kFloat;
+  std::string name;
+  SourceLocation location;  // of the declaration "type name"
+  // Values: numbers of float, integer (exact up to 2^53), bool (0, 1), points, vectors, normals, rgb,
+  // blackbody, sampled spectra; strings of string, texture and named spectra. One of the two is empty.
+  std::vector<double> numbers;
+  std::vector<std::string> strings;
+  std::vector<LineColumn> value_places;  // one per value
+  // A default from an enclosing block: shapes that do not know it leave it alone.
+  bool inherited = false;
+
+  size_t count() const { return numbers.size() + strings.size(); }
+  // Of value i; of the declaration when there is no such value.
+  SourceLocation value_location(size_t i) const;
+};
+
+// A directive with a type and parameters: Shape "sphere" "float radius" 2.
+struct Directive {
+  std::string type;
+  SourceLocation location;       // of the directive's word
+  SourceLocation type_location;  // of the quoted type
+  std::vector<Parameter> parameters;
+
+  // Nothing when absent.
+  const Parameter* find(std::string_view name) const;
+};
+
+struct CameraDescription : Directive {
+  glm::dmat4 camera_to_world{1};
+};
+
+// Directive::type is the class, "imagemap".
+struct TextureDescription : Directive {
+  std::string name;
+  SourceLocation name_location;
+  std::string value_type;  // "float" or "spectrum"
+  SourceLocation value_type_location;
+  glm::dmat4 texture_to_world{1};
+};
+
+struct MaterialDescription : Directive {
+  std::string name;  // empty when it was set in place
+  SourceLocation name_location;
+};
+
+// How a shape names its material: in place (index), by name (may be defined later), or not at all (the
+// default).
+struct MaterialReference {
+  std::optional<uint32_t> index;  // into SceneDescription::materials
+  std::string name;
+  SourceLocation location;
+};
+
+struct ShapeDescription : Directive {
+  glm::dmat4 object_to_world{1};
+  bool reverse_orientation = false;
+  MaterialReference material;
+  std::optional<uint32_t> area_light;  // into SceneDescription::area_lights
+};
+
+struct LightDescription : Directive {
+  glm::dmat4 light_to_world{1};
+};
+
+// Shapes that are placed by instances instead of where they stand.
+struct ObjectDescription {
+  std::string name;
+  SourceLocation location;
+  std::vector<ShapeDescription> shapes;
+};
+
+struct InstanceDescription {
+  std::string object;
+  SourceLocation location;  // of the name
+  // Applied after the shapes' own transforms.
+  glm::dmat4 instance_to_world{1};
+};
+
+// Matrices take column vectors. Order is that of the files.
+struct SceneDescription {
+  SourceLocation location;  // the main file
+  std::optional<CameraDescription> camera;
+  std::optional<Directive> film, sampler, filter, integrator, accelerator;
+  std::vector<Parameter> options;
+  std::vector<TextureDescription> textures;
+  std::vector<MaterialDescription> materials;
+  std::vector<Directive> area_lights;
+  std::vector<ShapeDescription> shapes;
+  std::vector<LightDescription> lights;
+  std::vector<ObjectDescription> objects;
+  std::vector<InstanceDescription> instances;
+  // Files that the description names and that go with it, such as images that lay within a scene file.
+  std::shared_ptr<const void> keeps;
+};
+
+}  // namespace kaustik

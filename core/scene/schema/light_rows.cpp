@@ -1,0 +1,307 @@
+// The rows of lights: parameters, and how each is made from them.
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "core/scene/build/light_images.h"
+#include "core/scene/build/local_origin.h"
+#include "core/scene/schema/parameter_spec.h"
+
+namespace kaustik {
+namespace {
+
+using namespace spec;
+
+ParameterSpec scale() {
+  return number("scale", 1, "", kNotNegative, "multiplies the light");
+}
+ParameterSpec power_spec() {
+  return without_default(number("power", 0, "W", kPositive,
+                                "total power of a white lamp: the luminance of that of a coloured one is as "
+                                "many times as much as its colour's, as in pbrt. `scale` multiplies it"),
+                         "none");
+}
+ParameterSpec image(std::string_view doc) {
+  return text("filename", "none", doc);
+}
+
+bool is_dark(const Rgb& emission) {
+  return is_black(emission);
+}
+bool is_dark(float scale) {
+  return scale == 0;
+}
+
+// Scales `emission` by the parameter's value over `of_white` (luminance of what it gives where it is one),
+// where that is given, and by `scale`. So do pbrt's lamps: of colours it divides by the luminance of the
+// white alone. False, with an error, when there is nothing to scale.
+template <class Emission>
+bool scale_to(const LightInputs& in, std::string_view name, double of_white, Emission& emission) {
+  const ParameterReader& p = in.parameters;
+  if (p.has(name)) {
+    if (!(of_white > 0) || is_dark(emission)) {
+      in.diagnostics.error(p.location(name), fmt::format("`{}` of a light that emits nothing", name));
+      return false;
+    }
+    emission *= static_cast<float>(p.number(name)) / static_cast<float>(of_white);
+  }
+  emission *= static_cast<float>(p.number("scale"));
+  return true;
+}
+
+// Of a lamp of intensity I.
+template <class L>
+double white_power(L light) {
+  light.I = Rgb(1);
+  return double(luminance(light.power()));
+}
+
+bool has_image(const LightInputs& in) {
+  if (in.parameters.has("filename")) return true;
+  in.diagnostics.error(
+      in.parameters.directive().location,
+      fmt::format("light \"{}\" needs an image: \"string filename\"", in.parameters.directive().type));
+  return false;
+}
+
+glm::dmat4 to_scene(const LightInputs& in) {
+  return relative_to(in.origin, in.light_to_world);
+}
+
+std::optional<glm::dvec3> direction(const LightInputs& in, const glm::dvec3& d) {
+  const glm::dvec3 world = glm::dmat3(in.light_to_world) * d;
+  const double length = glm::length(world);
+  if (length > 0 && std::isfinite(length)) return world / length;
+  in.diagnostics.error(in.parameters.location("to"), "`from` and `to` must be two points");
+  return std::nullopt;
+}
+
+// The orthogonal part of a map that scales evenly, up to the rounding of what a scene file says.
+std::optional<glm::mat3> rotation(const LightInputs& in) {
+  constexpr double kTolerance = 1e-3;
+  const glm::dmat3 m(in.light_to_world);
+  const glm::dvec3 x = glm::normalize(m[0]), y = glm::normalize(m[1] - glm::dot(m[1], x) * x);
+  const double side = glm::dot(glm::cross(x, y), m[2]) < 0 ? -1 : 1;
+  const glm::dmat3 orthogonal(x, y, side * glm::cross(x, y));
+  const double size = glm::length(m[0]);
+  for (int c = 0; c < 3; ++c) {
+    if (glm::length(m[c] - size * orthogonal[c]) <= kTolerance * size) continue;
+    in.diagnostics.error(in.parameters.directive().location,
+                         "the transform of this light scales unevenly or shears: expected a rotation, with "
+                         "mirroring or even scaling");
+    return std::nullopt;
+  }
+  return glm::mat3(orthogonal);
+}
+
+std::optional<Light> make_point(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  PointLight light{Point3(to_scene(in) * glm::dvec4(p.vec3("from"), 1)), p.rgb("I")};
+  if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_spot(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  const auto axis = direction(in, p.vec3("to") - p.vec3("from"));
+  if (!axis) return std::nullopt;
+  const double cone = glm::radians(p.number("coneangle"));
+  const double start = std::max(0.0, cone - glm::radians(p.number("conedeltaangle")));
+  SpotLight light;
+  light.position = Point3(to_scene(in) * glm::dvec4(p.vec3("from"), 1));
+  light.frame = Frame::from_z(Vector3(*axis));
+  light.I = p.rgb("I");
+  light.cos_falloff_start = static_cast<float>(std::cos(start));
+  light.cos_total_width = static_cast<float>(std::cos(cone));
+  if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_goniometric(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  const auto map_to_world = rotation(in);
+  if (!has_image(in) || !map_to_world) return std::nullopt;
+  GoniometricLight light;
+  light.map = in.images.directions(p, "filename", LightImages::Around::kLamp);
+  if (!light.map) return std::nullopt;
+  light.position = Point3(to_scene(in)[3]);
+  // The map's +z is the lamp's +y, as in pbrt.
+  light.to_world = *map_to_world * glm::mat3(1, 0, 0, 0, 0, 1, 0, 1, 0);
+  light.I = p.rgb("I");
+  if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_projection(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  const auto axes = rotation(in);
+  if (!has_image(in) || !axes) return std::nullopt;
+  const auto image = in.images.get(p, "filename");
+  if (!image) return std::nullopt;
+  ProjectionLight light;
+  light.position = Point3(to_scene(in)[3]);
+  light.to_world = *axes;
+  light.image = std::make_shared<const ProjectedImage>(image, p.number("fov"));
+  if (!scale_to(in, "power", luminance(light.power()), light.scale)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_distant(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  const auto to_light = direction(in, p.vec3("from") - p.vec3("to"));
+  if (!to_light) return std::nullopt;
+  DistantLight light;
+  light.to_light = Vector3(*to_light);
+  light.L = p.rgb("L");
+  if (!scale_to(in, "illuminance", 1, light.L)) return std::nullopt;
+  return light;
+}
+
+// The corners of a rectangle, in order, as pbrt has it.
+bool is_rectangle(const std::array<glm::dvec3, 4>& p) {
+  constexpr double kTolerance = 1e-3;
+  const glm::dvec3 a = p[1] - p[0], b = p[3] - p[0], beyond = p[2] - (p[0] + a + b);
+  const double la = glm::length(a), lb = glm::length(b);
+  return la > 0 && lb > 0 && std::isfinite(la * lb) && glm::length(beyond) <= kTolerance * std::min(la, lb) &&
+         std::abs(glm::dot(a, b)) <= kTolerance * la * lb;
+}
+
+// Its corners lie in the world, whatever the light's transform, as in pbrt; that turns the sky. make_sky:
+// from the map that takes directions of the portal to those of the light. irradiance: the luminance of what
+// the whole sky gives to a plane that faces the light's +z.
+template <class MakeSky>
+std::optional<Light> make_portal(const LightInputs& in, double irradiance, const MakeSky& make_sky) {
+  const ParameterReader& p = in.parameters;
+  std::array<glm::dvec3, 4> corner;
+  for (size_t i = 0; i < 4; ++i) corner[i] = p.vec3("portal", i);
+  const auto light_to_world = rotation(in);
+  if (!is_rectangle(corner)) {
+    in.diagnostics.error(p.location("portal"), "`portal` must be the four corners of a rectangle, in order");
+    return std::nullopt;
+  }
+  if (!light_to_world) return std::nullopt;
+  PortalInfiniteLight light;
+  light.corner = Point3(corner[0] - in.origin);
+  light.along_x = Vector3(corner[3] - corner[0]);
+  light.along_y = Vector3(corner[1] - corner[0]);
+  const glm::dvec3 x = glm::normalize(corner[3] - corner[0]);
+  const glm::dvec3 z = glm::normalize(glm::cross(x, corner[1] - corner[0]));
+  light.to_world = glm::mat3(glm::dmat3(x, glm::cross(z, x), z));
+  light.sky = make_sky(glm::transpose(*light_to_world) * light.to_world);
+  if (!scale_to(in, "illuminance", irradiance, light.scale)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_image_infinite(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  if (p.has("L")) {
+    in.diagnostics.error(p.location("L"), "an infinite light has `L` or `filename`, not both");
+    return std::nullopt;
+  }
+  const auto map_to_world = rotation(in);
+  ImageInfiniteLight light;
+  light.map = in.images.directions(p, "filename", LightImages::Around::kSky);
+  if (!light.map || !map_to_world) return std::nullopt;
+  if (p.has("portal")) {
+    return make_portal(in, light.map->irradiance(), [&](const glm::mat3& to_map) {
+      return std::make_shared<const PortalSky>(*light.map, to_map);
+    });
+  }
+  light.to_world = *map_to_world;
+  if (!scale_to(in, "illuminance", light.map->irradiance(), light.scale)) return std::nullopt;
+  return light;
+}
+
+std::optional<Light> make_infinite(const LightInputs& in) {
+  const ParameterReader& p = in.parameters;
+  if (p.has("filename")) return make_image_infinite(in);
+  InfiniteLight light;
+  light.L = p.rgb("L");
+  if (p.has("portal")) {
+    return make_portal(in, double(kPi * luminance(light.L)),
+                       [&](const glm::mat3&) { return std::make_shared<const PortalSky>(light.L); });
+  }
+  if (!scale_to(in, "illuminance", double(kPi), light.L)) return std::nullopt;
+  return light;
+}
+
+ParameterSpec illuminance(std::string_view doc) {
+  return without_default(number("illuminance", 0, "W/m^2", kPositive, doc), "none");
+}
+
+ParameterSpec portal() {
+  ParameterSpec p =
+      list(ParameterType::kPoint3, "portal", 4, "none", "m",
+           "corners of a rectangle, in the world, through which alone the light comes; the sky is "
+           "on the side of cross(p3 - p0, p1 - p0)");
+  p.max_items = 4;
+  return p;
+}
+
+std::vector<LightRow> make_light_rows() {
+  const ParameterSpec intensity = rgb("I", 1, "W/sr", kNotNegative, "radiant intensity");
+  const ParameterSpec from = point("from", {0, 0, 0}, "where it stands");
+  const ParameterSpec to = point("to", {0, 0, 1}, "where it points");
+  return {
+      {{"point", "Shines alike in all directions.", {intensity, scale(), power_spec(), from}}, make_point},
+      {{"spot",
+        "Shines in a cone; falls off smoothly over its last `conedeltaangle` degrees.",
+        {intensity, scale(), power_spec(), from, to,
+         number("coneangle", 30, "degrees", {0, 180, true, false}, "from the axis to the cone's edge"),
+         number("conedeltaangle", 5, "degrees", {0, 180}, "width of the fall-off inside that edge")}},
+       make_spot},
+      {{"goniometric",
+        "Shines from a point, by an image of all directions whose +z is the lamp's +y.",
+        {intensity, scale(), power_spec(),
+         image(
+             "factor of `I`, the mean of R, G and B: a square equal-area map, or a latitude-longitude map of "
+             "2:1 (not in pbrt-v4)")}},
+       make_goniometric},
+      {{"projection",
+        "Shines from a point, through an image before it: along +z, its upper edge towards +y.",
+        {scale(), power_spec(), image("radiant intensity, R G B"),
+         number("fov", 90, "degrees", {0, 180, true, true}, "full angle of the image's shorter side")}},
+       make_projection},
+      {{"distant",
+        "Parallel light from `from` towards `to`.",
+        {rgb("L", 1, "W/m^2", kNotNegative, "irradiance on a plane that faces it"), scale(),
+         illuminance("irradiance of white light, which `L` and `scale` multiply"), from, to}},
+       make_distant},
+      {{"infinite",
+        "Radiance from every direction: the same, or by an image.",
+        {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(),
+         illuminance("irradiance of a plane that faces the light's +z, of white light, which `L` and `scale` "
+                     "multiply; "
+                     "of images and portals the luminance of that irradiance, which `scale` multiplies"),
+         image("radiance: a square equal-area map as in pbrt-v4, or a latitude-longitude map of 2:1 as in "
+               "pbrt-v3, both about +z"),
+         portal()}},
+       make_infinite},
+  };
+}
+
+std::vector<TypeSpec> make_area_light_types() {
+  return {{"diffuse",
+           "Makes the shapes that follow emit the same radiance in all directions, on their outside. Where a "
+           "shape's `alpha` is 0 everywhere it shines, but no ray meets it.",
+           {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(), power_spec(),
+            flag("twosided", false, "emits on both sides"),
+            text("filename", "none",
+                 "radiance instead of `L`: an image over the uv of the shape, (0, 0) its lower left corner; "
+                 "bilinear, clamped at the edges")}}};
+}
+
+}  // namespace
+
+const std::vector<LightRow>& light_rows() {
+  static const std::vector<LightRow> rows = make_light_rows();
+  return rows;
+}
+
+const std::vector<TypeSpec>& area_light_types() {
+  static const std::vector<TypeSpec> types = make_area_light_types();
+  return types;
+}
+
+}  // namespace kaustik

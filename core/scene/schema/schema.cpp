@@ -1,0 +1,107 @@
+// The rows of materials: parameters, and how each is made from them.
+
+#include "core/scene/schema/schema.h"
+#include "core/bsdf/rough_coat.h"
+
+#include "core/scene/schema/material_spec.h"
+
+namespace kaustik {
+namespace {
+
+using namespace spec;
+
+// A coat without a medium in it.
+std::vector<ParameterSpec> coat(std::vector<ParameterSpec> own) {
+  for (ParameterSpec& p : medium_of_coat()) own.push_back(std::move(p));
+  return rough_material(std::move(own));
+}
+
+ParameterSpec two_names(std::string_view name, std::string_view doc) {
+  ParameterSpec p = text(name, "none", doc);
+  p.min_items = p.max_items = 2;
+  return p;
+}
+
+Bsdf make_diffuse_transmission(const MaterialInputs& p) {
+  const auto scale = static_cast<float>(p.number("scale"));
+  DiffuseTransmission sheet{glm::min(scale * p.rgb("reflectance"), Rgb(1)),
+                            glm::min(scale * p.rgb("transmittance"), Rgb(1))};
+  const Rgb both = sheet.reflectance + sheet.transmittance, too_much = glm::max(both, Rgb(1));
+  sheet.reflectance /= too_much;
+  sheet.transmittance /= too_much;
+  return sheet;
+}
+
+Bsdf make_dielectric(const MaterialInputs& p) {
+  const auto eta = static_cast<float>(p.number("eta"));
+  return Dielectric{eta, eta == 1 ? Ggx{} : facets_of(p)};
+}
+
+std::vector<MaterialRow> make_material_rows() {
+  const ParameterSpec reflectance =
+      rgb("reflectance", 0.5, "", kUnit, "share of the light that is reflected");
+  std::vector<MaterialRow> rows = {
+      {{"diffuse", "Ideal diffuse reflection, both sides.", material({reflectance})},
+       [](const MaterialInputs& p) -> Bsdf { return Lambertian{p.rgb("reflectance")}; }},
+      {{"orennayar", "Rough diffuse reflection (Oren and Nayar 1994), both sides. Not in pbrt.",
+        material({reflectance, number("sigma", 0, "degrees", {0, 90},
+                                      "standard deviation of the facets' slope angle; 0: as diffuse")})},
+       [](const MaterialInputs& p) -> Bsdf {
+         return OrenNayar::from_sigma_degrees(p.rgb("reflectance"), static_cast<float>(p.number("sigma")));
+       }},
+      {{"dielectric", "Glass or water, smooth or rough: Fresnel reflection and refraction.",
+        rough_material({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")})},
+       make_dielectric},
+      {{"conductor", "Metal, smooth or rough: give `reflectance`, or `eta` and `k`.",
+        rough_material(
+            {without_default(rgb("reflectance", 0, "", kUnit, "reflectance at normal incidence"), "none"),
+             metal_index("eta", "real part of the index of refraction"),
+             metal_index("k", "imaginary part")})},
+       [](const MaterialInputs& p) -> Bsdf { return metal_of(p); }},
+      {{"mirror", "Ideal mirror of constant reflectance, both sides. Not in pbrt.",
+        material({rgb("reflectance", 1, "", kUnit, "share of the light that is reflected")})},
+       [](const MaterialInputs& p) -> Bsdf { return Mirror{p.rgb("reflectance")}; }},
+      {{"thindielectric",
+        "A pane of glass without thickness: all reflections in it, and straight transmission.",
+        material(
+            {number("eta", 1.5, "", kPositive, "index of refraction of the pane over its surroundings")})},
+       [](const MaterialInputs& p) -> Bsdf { return ThinDielectric{static_cast<float>(p.number("eta"))}; }},
+      {{"diffusetransmission",
+        "A sheet that scatters light evenly to both sides. Where both shares add up to more than one, they "
+        "are "
+        "scaled to one; pbrt lets such a sheet make light.",
+        material({rgb("reflectance", 0.25, "", kUnit, "share of the light that is reflected"),
+                  rgb("transmittance", 0.25, "", kUnit, "share that comes through"),
+                  number("scale", 1, "", kNotNegative, "multiplies both shares, up to one each")})},
+       make_diffuse_transmission},
+      {{"coateddiffuse",
+        "Diffuse under a coat of glass or varnish, both sides. All reflections between coat and base, in "
+        "closed "
+        "form; pbrt walks at random and stops after `maxdepth`, so that it is darker by a little.",
+        coat({reflectance,
+              number("eta", 1.5, "", {kLeastCoatEta, kLargestCoatEta}, "index of refraction of the coat")})},
+       [](const MaterialInputs& p) -> Bsdf {
+         return CoatedDiffuse::from_reflectance(p.rgb("reflectance"), static_cast<float>(p.number("eta")),
+                                                facets_of(p));
+       }},
+      {{"mix",
+        "At each hit one of two materials, the second as often as `amount` says. Both are named materials "
+        "defined "
+        "before it; mixtures may be mixed.",
+        {two_names("materials", "names of the first and the second material"),
+         textured(number("amount", 0.5, "", kUnit, "share of the second material"))}},
+       nullptr},
+      {{"interface", "No surface at all: its shapes are left out.", {}}, nullptr},
+  };
+  for (MaterialRow& row : approximated_material_rows()) rows.push_back(std::move(row));
+  return rows;
+}
+
+}  // namespace
+
+const std::vector<MaterialRow>& material_rows() {
+  static const std::vector<MaterialRow> rows = make_material_rows();
+  return rows;
+}
+
+}  // namespace kaustik

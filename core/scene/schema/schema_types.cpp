@@ -1,0 +1,213 @@
+// The rows of shapes, film, sampler, accelerator and options, and the list of all categories.
+
+#include <algorithm>
+
+#include "core/scene/schema/parameter_spec.h"
+
+namespace kaustik {
+namespace {
+
+using namespace spec;
+using Type = ParameterType;
+
+// Every shape's.
+std::vector<ParameterSpec> shape(std::vector<ParameterSpec> own) {
+  own.push_back(
+      text("surfacegroup", "found from shared edges",
+           "name of the surface that the shape is a part of: photons count across all shapes of one "
+           "name, and of no other. Not in pbrt"));
+  own.push_back(textured(number("alpha", 1, "", kUnit,
+                                "share of the surface that is there: rays meet it with this probability")));
+  return own;
+}
+
+std::vector<TypeSpec> make_shape_types() {
+  const ParameterSpec P = list(Type::kPoint3, "P", 3, "required", "m", "vertices");
+  const ParameterSpec N =
+      list(Type::kNormal, "N", 1, "none", "", "normals, one per vertex; they also choose the outside");
+  const ParameterSpec uv = list(Type::kPoint2, "uv", 1, "none", "", "texture coordinates, one per vertex");
+  const ParameterSpec face_indices =
+      ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
+  const Range turn{0, 360, true, false};
+  const ParameterSpec phimax =
+      number("phimax", 360, "degrees", turn, "how far it reaches about the axis, from +x");
+  return {
+      {"trianglemesh", "Triangles. Without `N`, the outside is the side of cross(p1 - p0, p2 - p0).",
+       shape({P,
+              list(Type::kInteger, "indices", 3, "0 1 2 when there are three vertices", "",
+                   "three vertices per triangle, from zero"),
+              N, uv, ignored("S", {Type::kVector3}, "tangents"), face_indices})},
+      {"plymesh", "Triangles, quads and polygons of a PLY file (ascii or binary), with normals and uv.",
+       shape({text("filename", "required", "beside the scene file, unless absolute"),
+              ignored("displacement", {Type::kTexture, Type::kFloat}, "displaced geometry", 0),
+              ignored("edgelength", {Type::kFloat}, "of displaced geometry")})},
+      {"sphere", "About the origin, exact; an ellipsoid under a transform that does not scale evenly.",
+       shape({number("radius", 1, "m", kPositive, "radius"),
+              without_default(number("zmin", 0, "m", kAnyNumber, "where it is cut off below"), "-radius"),
+              without_default(number("zmax", 0, "m", kAnyNumber, "where it is cut off above"), "radius"),
+              phimax})},
+      {"cylinder", "About the z axis, without caps; the outside is away from the axis.",
+       shape({number("radius", 1, "m", kPositive, "radius"), number("zmin", -1, "m", kAnyNumber, "lower end"),
+              number("zmax", 1, "m", kAnyNumber, "upper end"), phimax})},
+      {"disk", "In the plane z = height; the outside is the side of +z.",
+       shape({number("radius", 1, "m", kPositive, "outer radius"),
+              number("innerradius", 0, "m", kNotNegative, "radius of the hole"),
+              number("height", 0, "m", kAnyNumber, "where it lies along z"), phimax})},
+      {"bilinearmesh",
+       "Patches of four corners p00 p10 p01 p11. Flat convex ones become two triangles, others a grid.",
+       shape({list(Type::kPoint3, "P", 4, "required", "m", "corners"),
+              list(Type::kInteger, "indices", 4, "0 1 2 3 when there are four corners", "",
+                   "four corners per patch, from zero"),
+              N, uv, face_indices,
+              ignored("emissionfilename", {Type::kString}, "lamps are sampled by their own image")})},
+      {"loopsubdiv", "The limit surface of Loop's subdivision (Loop 1987), as triangles with its normals.",
+       shape({P, list(Type::kInteger, "indices", 3, "required", "", "three vertices per triangle, from zero"),
+              integer("levels", 3, "", {0, 12}, "how often each triangle is cut into four"),
+              ignored("scheme", {Type::kString}, "there is one scheme")})},
+  };
+}
+
+std::vector<TypeSpec> make_film_types() {
+  ParameterSpec crop = list(Type::kFloat, "cropwindow", 4, "0 1 0 1", "",
+                            "x min, x max, y min, y max, as shares of the image");
+  crop.max_items = 4;
+  crop.range = kUnit;
+  ParameterSpec bounds =
+      list(Type::kInteger, "pixelbounds", 4, "all", "pixels", "x min, x max, y min, y max, half open");
+  bounds.max_items = 4;
+  bounds.range = kNotNegative;
+  const Range side{1, 1 << 20};
+  TypeSpec rgb{
+      "rgb",
+      "The image.",
+      {integer("xresolution", 1280, "pixels", side, "width"),
+       integer("yresolution", 720, "pixels", side, "height"),
+       text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop, bounds,
+       number("diagonal", 35, "mm", kPositive, "of pbrt's realistic camera; without effect on the others"),
+       text("sensor", "cie1931", "colours are those of this one, in linear Rec. 709"),
+       number("iso", 100, "", kPositive, "radiance is multiplied by iso / 100"),
+       without_default(number("exposuretime", 1, "s", kPositive, "radiance is multiplied by it"),
+                       "shutterclose - shutteropen"),
+       number("whitebalance", 0, "K", {0, 25000}, "daylight of this colour becomes white; 0: as it is"),
+       ignored("maxcomponentvalue", {Type::kFloat}, "samples are not clamped"),
+       ignored("savefp16", {Type::kBool}, "layers are 32-bit floats")}};
+  TypeSpec gbuffer = rgb, spectral = rgb;
+  gbuffer.name = "gbuffer";
+  gbuffer.approximated = "as \"rgb\"; `--aov` chooses layers";
+  gbuffer.parameters.push_back(
+      ignored("coordinatesystem", {Type::kString}, "layers are in the world's coordinates"));
+  spectral.name = "spectral";
+  spectral.approximated = "as \"rgb\": there are three colours";
+  spectral.parameters.push_back(ignored("nbuckets", {Type::kInteger}, "there are three colours"));
+  for (const std::string_view name : {"lambdamin", "lambdamax"})
+    spectral.parameters.push_back(ignored(name, {Type::kFloat}, "there are three colours"));
+  return {std::move(rgb), std::move(gbuffer), std::move(spectral)};
+}
+
+std::vector<TypeSpec> make_sampler_types() {
+  const ParameterSpec seed = ignored("seed", {Type::kInteger}, "use `--seed`");
+  const ParameterSpec scrambling =
+      ignored("randomization", {Type::kString}, "always Owen-scrambled Sobol points");
+  const ParameterSpec samples = integer("pixelsamples", 16, "", {1, 1 << 30}, "samples per pixel");
+  std::vector<TypeSpec> types;
+  for (const std::string_view name : {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "zsobol"}) {
+    types.push_back({name,
+                     "Gives the samples per pixel; the points are always Owen-scrambled Sobol points.",
+                     {samples, seed, scrambling}});
+  }
+  types.push_back({"stratified",
+                   "Gives xsamples times ysamples samples per pixel.",
+                   {integer("xsamples", 4, "", {1, 1 << 15}, "columns of strata"),
+                    integer("ysamples", 4, "", {1, 1 << 15}, "rows of strata"), seed,
+                    ignored("jitter", {Type::kBool}, "always jittered")}});
+  return types;
+}
+
+std::vector<TypeSpec> make_accelerator_types() {
+  return {{"bvh",
+           "Accepted; Embree builds its own.",
+           {ignored("maxnodeprims", {Type::kInteger}, "of pbrt's own tree"),
+            ignored("splitmethod", {Type::kString}, "of pbrt's own tree")}},
+          {"kdtree",
+           "Accepted; Embree builds its own.",
+           {ignored("intersectcost", {Type::kInteger}, "of pbrt's own tree"),
+            ignored("traversalcost", {Type::kInteger}, "of pbrt's own tree"),
+            ignored("emptybonus", {Type::kFloat}, "of pbrt's own tree"),
+            ignored("maxprims", {Type::kInteger}, "of pbrt's own tree"),
+            ignored("maxdepth", {Type::kInteger}, "of pbrt's own tree")}}};
+}
+
+TypeSpec make_option_type() {
+  TypeSpec type{"", "Settings of the program pbrt.", {}};
+  for (const std::string_view name : {"disablepixeljitter", "disabletexturefiltering",
+                                      "disablewavelengthjitter", "forcediffuse", "pixelstats", "wavefront"}) {
+    type.parameters.push_back(ignored(name, {Type::kBool}, "of the program pbrt", 0));
+  }
+  type.parameters.push_back(ignored("displacementedgescale", {Type::kFloat}, "of the program pbrt", 1));
+  for (const std::string_view name : {"msereferenceimage", "msereferenceout", "rendercoordsys"}) {
+    type.parameters.push_back(ignored(name, {Type::kString}, "of the program pbrt"));
+  }
+  type.parameters.push_back(ignored("seed", {Type::kInteger}, "use `--seed`"));
+  return type;
+}
+
+template <class Row>
+std::vector<const TypeSpec*> specs_of(const std::vector<Row>& rows) {
+  std::vector<const TypeSpec*> specs;
+  for (const Row& row : rows) {
+    if constexpr (std::is_same_v<Row, TypeSpec>) {
+      specs.push_back(&row);
+    } else {
+      specs.push_back(&row.spec);
+    }
+  }
+  return specs;
+}
+
+std::vector<Category> make_categories() {
+  return {
+      {"Camera", "camera", specs_of(camera_types()), {}},
+      {"Film", "film", specs_of(film_types()), {}},
+      {"Sampler", "sampler", specs_of(sampler_types()), {}},
+      {"PixelFilter", "pixel filter", specs_of(filter_types()), {}},
+      {"Accelerator", "accelerator", specs_of(accelerator_types()), {}},
+      {"Material", "material", specs_of(material_rows()), {"hair"}},
+      {"Texture", "texture", specs_of(texture_types()), {"ptex"}},
+      {"Shape", "shape", specs_of(shape_types()), {"curve"}},
+      {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
+      {"LightSource", "light", specs_of(light_rows()), {}},
+  };
+}
+
+}  // namespace
+
+const std::vector<TypeSpec>& shape_types() {
+  static const std::vector<TypeSpec> types = make_shape_types();
+  return types;
+}
+const std::vector<TypeSpec>& film_types() {
+  static const std::vector<TypeSpec> types = make_film_types();
+  return types;
+}
+const std::vector<TypeSpec>& sampler_types() {
+  static const std::vector<TypeSpec> types = make_sampler_types();
+  return types;
+}
+const std::vector<TypeSpec>& accelerator_types() {
+  static const std::vector<TypeSpec> types = make_accelerator_types();
+  return types;
+}
+const TypeSpec& option_type() {
+  static const TypeSpec type = make_option_type();
+  return type;
+}
+const std::vector<Category>& categories() {
+  static const std::vector<Category> all = make_categories();
+  return all;
+}
+const Category& category(std::string_view directive) {
+  return *std::find_if(categories().begin(), categories().end(),
+                       [&](const Category& c) { return c.directive == directive; });
+}
+
+}  // namespace kaustik

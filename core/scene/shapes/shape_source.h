@@ -1,0 +1,58 @@
+#pragma once
+// A shape in its own space: what the parameters of a Shape line say, before any transform. Instances share
+// it.
+
+#include <optional>
+#include <variant>
+
+#include "core/geometry/shape.h"
+#include "core/scene/build/builder.h"
+#include "core/scene/schema/schema.h"
+
+namespace kaustik {
+
+struct SphereSource {};
+struct DiskSource {
+  float inner = 0;
+};
+
+struct ShapeSource {
+  // The quadric's own map is not used.
+  std::variant<TriangleMesh, SphereSource, DiskSource, Quadric> geometry;
+  // To the shape's space: from the unit sphere or disk, or from a mesh's own origin.
+  glm::dmat4 local{1};
+};
+
+// Nothing, with errors added, when the parameters contradict each other or the mesh is bad: indices out of
+// range, positions or normals that are not finite. The directive must have passed check_parameters.
+// mesh_origin: in the shape's space; vertices that are written in the scene file are rounded to float
+// relative to it. Thread-safe.
+std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
+                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics,
+                                             const glm::dvec3& mesh_origin = glm::dvec3(0));
+
+struct PlacedShape {
+  Shape shape;
+  size_t without_area = 0;  // triangles that were left out because their corners lie on one line
+  bool finite = true;       // false: the transform takes the shape beyond the range of floats
+};
+
+// Bakes the transform. Triangles keep their order.
+PlacedShape place_shape(ShapeSource source, const glm::dmat4& object_to_world, bool reverse_orientation);
+
+// A mesh that its instances share.
+struct SharedMesh {
+  InstancedMesh instance;  // not placed yet
+  glm::dmat4 local{1};     // as of ShapeSource
+  size_t without_area = 0;
+  bool finite = true;
+};
+
+// Whether so many placements of the shape share its mesh, rather than being copied: copies are faster to
+// trace while they are few and small.
+bool pays_to_share(const ShapeSource& source, size_t placements);
+SharedMesh share_mesh(ShapeSource source, bool reverse_orientation);
+PlacedShape place_instance(const SharedMesh& shared, const glm::dmat4& object_to_world,
+                           bool reverse_orientation);
+
+}  // namespace kaustik

@@ -1,0 +1,119 @@
+#include "photon/estimate/boundary_correction.h"
+
+#include <array>
+#include <numbers>
+
+#include "photon/gather/gather.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+// Heights over si's plane up to this part of the radius lie in it.
+constexpr double kInPlane = 1e-3;
+
+double cube(double x) {
+  return x * x * x;
+}
+
+// Integrals over theta from 0 to atan(t / d), as they stand in M: rho = d sec(theta).
+double angle(double d, double t) {
+  return std::atan2(t, d);
+}
+double rho_squared(double d, double t) {
+  return d * t;
+}
+double rho_cubed(double d, double t) {
+  if (d == 0) return 0;
+  return 0.5 * (d * t * std::sqrt(t * t + d * d) + cube(d) * std::asinh(t / d));
+}
+double rho_fourth(double d, double t) {
+  return cube(d) * t + d * cube(t) / 3;
+}
+
+double cone_slope(const KernelSpec& kernel) {
+  return 2 / (3 * std::max(double(kernel.cone_k), 1.0));
+}
+
+// The kernel's mass on a plane at height h (in radii) over the centre: such photons count by their distance.
+double mass_at_height(const KernelSpec& kernel, double h) {
+  const double inside = 1 - h * h;
+  switch (kernel.type) {
+    case KernelType::kEpanechnikov:
+      return inside * inside;
+    case KernelType::kCone:
+      return (inside - cone_slope(kernel) * (1 - cube(h))) / (1 - cone_slope(kernel));
+    case KernelType::kConstant:
+      break;
+  }
+  return inside;
+}
+
+bool counts(const Normal3& facet, const Normal3& n) {
+  return glm::dot(facet, n) > kNormalCosine;
+}
+bool ends_here(const BoundaryEdge& edge, const Normal3& n) {
+  return counts(edge.n, n) && !counts(edge.beyond, n);
+}
+
+// Mass off the surface by this edge: positive where the surface ends, negative where it begins.
+double missing_mass(const BoundaryEdge& edge, const SurfaceInteraction& si, const KernelSpec& kernel,
+                    double radius) {
+  const bool same_side = ends_here(edge, si.n);
+  if (!same_side && !ends_here(edge, -si.n)) return 0;
+  const glm::dvec3 n(si.n), a = glm::dvec3(edge.a) - glm::dvec3(si.p);
+  const glm::dvec3 along = glm::dvec3(edge.b) - glm::dvec3(edge.a);
+  const double nearest = std::clamp(-glm::dot(a, along) / glm::dot(along, along), 0.0, 1.0);
+  const double height = std::abs(glm::dot(a + nearest * along, n)) / radius;
+  if (height >= 1 || (!same_side && height > kInPlane)) return 0;
+
+  // In the tangent plane.
+  const glm::dvec3 flat_along = along - glm::dot(along, n) * n;
+  const double length = glm::length(flat_along);
+  if (!(length > 0)) return 0;
+  const glm::dvec3 u = flat_along / length;
+  const double t1 = glm::dot(a, u);
+  const glm::dvec3 foot = a - glm::dot(a, n) * n - t1 * u;
+  // si itself is on the surface: beyond an edge by no more than rounding, it is in front of it.
+  const bool leaves = glm::dot(foot, glm::dvec3(edge.outward)) >= -2 * double(si.p_error);
+  const double unit = 1 / (radius * std::sqrt(1 - height * height));  // of the disc cut out at that height
+  const double mass = mass_behind_edge(kernel, glm::length(foot) * unit, t1 * unit, (t1 + length) * unit);
+  return (leaves ? 1 : -1) * mass_at_height(kernel, height) * mass;
+}
+
+}  // namespace
+
+double mass_behind_edge(const KernelSpec& kernel, double d, double t1, double t2) {
+  if (!(d < 1)) return 0;
+  const double rim = std::sqrt(1 - d * d);
+  t1 = std::max(t1, -rim);
+  t2 = std::min(t2, rim);
+  if (!(t1 < t2)) return 0;
+  const auto over = [&](auto integral) { return integral(d, t2) - integral(d, t1); };
+  switch (kernel.type) {
+    case KernelType::kEpanechnikov:
+      return (over(angle) - 2 * over(rho_squared) + over(rho_fourth)) / kTwoPi;
+    case KernelType::kCone: {
+      const double s = cone_slope(kernel);
+      return (over(angle) - over(rho_squared) - s * (over(angle) - over(rho_cubed))) / (kTwoPi * (1 - s));
+    }
+    case KernelType::kConstant:
+      break;
+  }
+  return (over(angle) - over(rho_squared)) / kTwoPi;
+}
+
+double surface_share(const accel::EdgeIndex& edges, const SurfaceInteraction& si, const KernelSpec& kernel,
+                     float radius) {
+  if (!(radius > 0) || !std::isfinite(radius)) return 1;
+  std::array<uint32_t, kMaxEdgesInReach> found;
+  const size_t count = edges.find(si.p, radius, si.surface_group, found);
+  if (count > found.size()) return 1;
+  double missing = 0;
+  for (size_t i = 0; i < count; ++i) missing += missing_mass(edges[found[i]], si, kernel, double(radius));
+  return std::clamp(1 - missing, kLeastShare, 1.0);
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,118 @@
+// The sum over photons, one visit of the BSDF outside it.
+
+#include "photon/estimate/radiance_estimate.h"
+
+#include <variant>
+
+#include "photon/estimate/boundary_correction.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+// What depends on wo alone is computed once, by BSDFs that offer it.
+template <class AnyBsdf>
+auto seen_from(const AnyBsdf& bsdf, const Vector3& wo) {
+  if constexpr (requires { bsdf.seen_from(wo); }) {
+    return bsdf.seen_from(wo);
+  } else {
+    struct Seen {
+      const AnyBsdf& bsdf;
+      const Vector3& wo;
+      Rgb f(const Vector3& wi) const { return bsdf.f(wo, wi); }
+    };
+    return Seen{bsdf, wo};
+  }
+}
+
+// Lr = sum of f_r(x, wo, wi_p) flux_p K(|x - x_p|), with f_r taken out of the sum where it is constant.
+struct ReflectedRadiance {
+  const PhotonMap& map;
+  const GatherQuery& query;
+  const KernelSpec& kernel;
+  const Frame& frame;
+  const Vector3& wo;  // local
+  GatherCounters& counters;
+
+  Rgb operator()(const Lambertian& bsdf) const {
+    return bsdf.reflectance * kInvPi * map.gather_flux(query, kernel, counters);
+  }
+
+  Rgb operator()(const DiffuseTransmission& bsdf) const {
+    const bool through = glm::dot(query.n, frame.z) * wo.z < 0;
+    return (through ? bsdf.transmittance : bsdf.reflectance) * kInvPi *
+           map.gather_flux(query, kernel, counters);
+  }
+
+  template <class AnyBsdf>
+  Rgb operator()(const AnyBsdf& bsdf) const {
+    if (!bsdf.lobes().broad) return Rgb(0);
+    const KernelTerms terms = kernel_terms(kernel, query.radius);
+    const auto seen = seen_from(bsdf, wo);
+    Rgb Lr(0);
+    map.for_each(
+        query,
+        [&](const Photon& photon, float distance_squared) {
+          const Vector3 wi = frame.to_local(photon.wi);
+          Lr += seen.f(wi) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
+        },
+        counters);
+    return Lr;
+  }
+};
+
+// A point of the surface, how it scatters, and who looks at it.
+struct SeenPoint {
+  const SurfaceInteraction& si;
+  const Vector3& wo;
+  const Bsdf& bsdf;
+};
+
+Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery& disc,
+                     const EstimateSettings& settings, GatherCounters& counters) {
+  const Frame frame = x.si.shading_frame();
+  const Vector3 wo = frame.to_local(x.wo);
+  const Rgb Lr = std::visit(ReflectedRadiance{map, disc, settings.kernel, frame, wo, counters}, x.bsdf);
+  if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
+  return Lr / float(share_of_disc(settings, x.si, disc.radius));
+}
+
+// Of the photons that arrived on the side of n.
+Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& n,
+                       const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
+  const SurfaceInteraction& si = x.si;
+  GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
+  if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters);
+  if (settings.leaf) query.within = map.find_cell(si.p, settings.node_photons, query.radius).range;
+  const Rgb Lr = radiance_of_disc(map, x, query, settings, counters);
+  if (bias) {
+    query.radius /= 2;
+    bias->bias += (Lr - radiance_of_disc(map, x, query, settings, bias->counters)) * (4 / 3.0f);
+  }
+  return Lr;
+}
+
+}  // namespace
+
+double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction& si, float radius) {
+  if (settings.areas && settings.areas->covers(si.surface_group))
+    return settings.areas->share(si, settings.kernel, radius);
+  return surface_share(*settings.edges, si, settings.kernel, radius);
+}
+
+float disc_of_nearest(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
+  const float radius = map.nearest_radius(query, k, counters);
+  return radius < query.radius ? std::nextafter(radius, 0.0f) : radius;
+}
+
+Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
+                      const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
+  if (map.empty()) return Rgb(0);
+  const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
+  const SeenPoint x{si, wo, bsdf};
+  const Rgb Lr = radiance_from_side(map, x, n, settings, counters, bias);
+  if (!transmits(bsdf)) return Lr;
+  return Lr + radiance_from_side(map, x, -n, settings, counters, bias);
+}
+
+}  // namespace kaustik::photon

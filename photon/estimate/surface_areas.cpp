@@ -1,0 +1,183 @@
+// Triangles are cut into cells no longer than a voxel; what then lies in one voxel with nearly the
+// same normal is one piece.
+
+#include "photon/estimate/surface_areas.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <utility>
+
+#include "core/geometry/surface_bounds.h"
+#include "core/geometry/tessellate.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+constexpr int kVoxelBits = 21;
+
+// Where a piece belongs: pieces of one place become one.
+struct Place {
+  uint64_t voxel = 0;
+  uint32_t group = 0, normals = 0;
+  auto operator<=>(const Place&) const = default;
+};
+
+struct Piece {
+  Place place;
+  float area;  // m^2
+  Point3 p;
+  Normal3 n;
+};
+
+// Cuts the triangles of one shape into pieces.
+class Cutter {
+ public:
+  Cutter(const Bounds3& bounds, float voxel, std::vector<Piece>* pieces)
+      : origin_(bounds.min), voxel_(voxel), pieces_(pieces) {}
+
+  void cut(const Shape& shape) {
+    const TriangleMesh quadric = tessellated(shape);
+    const auto* const instance = std::get_if<InstancedMesh>(&shape.geometry);
+    const TriangleMesh& mesh = shape.mesh() ? *shape.mesh() : quadric;
+    group_ = shape.surface_group;
+    for (const auto& triangle : mesh.indices) {
+      Corners c{mesh.P[triangle[0]], mesh.P[triangle[1]], mesh.P[triangle[2]]};
+      n_ = triangle_normal(c[1] - c[0], c[2] - c[0]);
+      if (n_ == Normal3(0)) continue;
+      n_ *= outside_of(mesh, triangle, n_, shape.flip_normal);
+      if (instance) place(instance->to_world, &c);
+      cut(c);
+    }
+  }
+
+ private:
+  using Corners = std::array<Point3, 3>;
+
+  // As SurfaceInteraction::n is placed: also where the map mirrors, the outside stays outside.
+  void place(const Transform& to_world, Corners* c) {
+    for (Point3& p : *c) p = to_world.point(p);
+    n_ = glm::normalize(to_world.normal(n_));
+  }
+
+  // Into strips along the shortest side, and those into cells: needles stay few.
+  void cut(const Corners& c) {
+    size_t k = 0;
+    for (size_t i = 1; i < 3; ++i)
+      if (side(c, i) < side(c, k)) k = i;
+    const glm::dvec3 apex(c[(k + 2) % 3]), q = glm::dvec3(c[k]) - apex, r = glm::dvec3(c[(k + 1) % 3]) - apex;
+    const double area = 0.5 * glm::length(glm::cross(q, r)), base = side(c, k);
+    const int strips = parts(std::max(glm::length(q), glm::length(r)));
+    for (int i = 0; i < strips; ++i) {
+      const double t0 = i / double(strips), t1 = (i + 1) / double(strips);
+      const double squares = t1 * t1 - t0 * t0, middle = (t1 * t1 * t1 - t0 * t0 * t0) / squares * 2 / 3;
+      const int cells = parts(base * t1);
+      for (int j = 0; j < cells; ++j)
+        add(apex + middle * glm::mix(q, r, (j + 0.5) / cells), area * squares / cells);
+    }
+  }
+
+  static double side(const Corners& c, size_t i) {
+    return glm::length(glm::dvec3(c[(i + 1) % 3]) - glm::dvec3(c[i]));
+  }
+  int parts(double length) const {
+    return static_cast<int>(std::clamp(std::ceil(length / double(voxel_)), 1.0, 1e6));
+  }
+
+  void add(const glm::dvec3& p, double area) {
+    uint64_t voxel = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double at = (p[k] - double(origin_[k])) / double(voxel_);
+      voxel = voxel << kVoxelBits | static_cast<uint64_t>(std::clamp(at, 0.0, double((1 << kVoxelBits) - 1)));
+    }
+    pieces_->push_back({{voxel, group_, bin_of(n_)}, float(area), Point3(p), n_});
+  }
+
+  // Some four degrees wide: along a tube or fold all pieces at the limit of near normals count or do not.
+  static uint32_t bin_of(const Normal3& n) { return pack_surface(n, 0) & 0xfcfcu; }
+
+  Point3 origin_;
+  float voxel_;
+  std::vector<Piece>* pieces_;
+  uint32_t group_ = 0;
+  Normal3 n_{0};
+};
+
+// The order of pieces by place, and of those of one place as they came.
+std::vector<std::pair<Place, uint32_t>> order_of(const std::vector<Piece>& pieces) {
+  std::vector<std::pair<Place, uint32_t>> order(pieces.size());
+  for (uint32_t i = 0; i < pieces.size(); ++i) order[i] = {pieces[i].place, i};
+  tbb::parallel_sort(order.begin(), order.end());
+  return order;
+}
+
+// Pieces of one place become a photon whose flux is their area.
+PhotonBuffer joined(const std::vector<Piece>& pieces, float unit) {
+  const auto order = order_of(pieces);
+  PhotonBuffer buffer;
+  buffer.flux_unit = unit;
+  for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    const Place place = order[begin].first;
+    double area = 0;
+    glm::dvec3 p(0), n(0);
+    for (; end < order.size() && order[end].first == place; ++end) {
+      const Piece& piece = pieces[order[end].second];
+      area += double(piece.area);
+      p += double(piece.area) * glm::dvec3(piece.p);
+      n += double(piece.area) * glm::dvec3(piece.n);
+    }
+    if (!(area > 0) || n == glm::dvec3(0)) continue;
+    const Normal3 normal(glm::normalize(n));
+    buffer.records.push_back(pack({Point3(p / area), normal, Rgb(float(area)), normal, place.group}, unit));
+  }
+  return buffer;
+}
+
+// Those that are worth the sum, while there is room for their pieces.
+std::vector<bool> curved_groups(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius) {
+  std::vector<double> pieces(bends.size());
+  std::vector<bool> curved(bends.size());
+  for (const Shape& shape : scene.shapes) {
+    pieces[shape.surface_group] += double(primitive_count(shape));
+    if (scene.materials[shape.material].lobes().broad) curved[shape.surface_group] = true;
+  }
+  const double voxel = double(radius) / SurfaceAreas::kFineness;
+  double total = 0;
+  for (size_t g = 0; g < bends.size(); ++g) {
+    const SurfaceBend& bend = bends[g];
+    pieces[g] += 4 * bend.area / (voxel * voxel);
+    curved[g] = curved[g] && bend.oriented && bend.bend * double(radius) > SurfaceAreas::kFlat * bend.area &&
+                total + pieces[g] <= double(SurfaceAreas::kMostPieces);
+    if (curved[g]) total += pieces[g];
+  }
+  return curved;
+}
+
+}  // namespace
+
+SurfaceAreas::SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius)
+    : radius_(radius) {
+  const float voxel = radius / kFineness;
+  if (!(voxel > 0) || !std::isfinite(voxel)) return;
+  covered_ = curved_groups(scene, bends, radius);
+  std::vector<std::vector<Piece>> of_shape(scene.shapes.size());
+  tbb::parallel_for(size_t{0}, scene.shapes.size(), [&](size_t i) {
+    const Shape& shape = scene.shapes[i];
+    if (covers(shape.surface_group)) Cutter(scene.bounds, voxel, &of_shape[i]).cut(shape);
+  });
+  std::vector<Piece> pieces;
+  for (auto& some : of_shape) pieces.insert(pieces.end(), some.begin(), some.end());
+  pieces_ = PhotonMap::build(joined(pieces, std::ldexp(1.0f, std::ilogb(voxel * voxel))), {scene.bounds});
+}
+
+double SurfaceAreas::share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius) const {
+  GatherCounters ignored;
+  const GatherQuery query{si.p, si.n, si.surface_group, radius, kAllPhotons};
+  return std::clamp(double(pieces_.gather_flux(query, kernel, ignored).x), kLeastShare, 1.0);
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,250 @@
+// The parts of the searches that foreach_target.h compiles once per instruction set: which blocks of photons
+// a sphere meets, and which of a block's photons count. Nothing is fused, so every instruction set decides
+// alike.
+
+#if defined(KAUSTIK_BLOCK_LANES) == defined(HWY_TARGET_TOGGLE)
+#ifdef KAUSTIK_BLOCK_LANES
+#undef KAUSTIK_BLOCK_LANES
+#else
+#define KAUSTIK_BLOCK_LANES
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "photon/map/box_tree.h"
+#include "photon/record/packing.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace kaustik::photon::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, BoxTree::kBlockPhotons>;
+using Words = hn::RebindToUnsigned<Floats>;
+using Vf = hn::Vec<Floats>;
+using Vu = hn::Vec<Words>;
+using Mask = hn::Mask<Floats>;
+
+// The query's sphere, spread over the lanes. Passed by value: what is passed by reference leaves the
+// registers.
+struct Sphere {
+  Vf x, y, z, radius_squared;
+};
+HWY_INLINE Sphere MakeSphere(const Point3& p, float radius_squared) {
+  const Floats d;
+  return {hn::Set(d, p.x), hn::Set(d, p.y), hn::Set(d, p.z), hn::Set(d, radius_squared)};
+}
+
+HWY_INLINE Vf LengthSquared(Vf x, Vf y, Vf z) {
+  return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+}
+
+// Of photons i ...
+HWY_INLINE Vf DistanceSquared(Sphere q, const PhotonColumns& c, uint64_t i) {
+  const Floats d;
+  return LengthSquared(hn::Sub(hn::LoadU(d, c.x + i), q.x), hn::Sub(hn::LoadU(d, c.y + i), q.y),
+                       hn::Sub(hn::LoadU(d, c.z + i), q.z));
+}
+
+// first, first + 1, ... hn::Iota of what the compiler does not know goes through memory, and stalls there.
+HWY_INLINE Vu Numbers(uint32_t first) {
+  return hn::Add(hn::Iota(Words(), 0), hn::Set(Words(), first));
+}
+
+// To boxes b ...: no farther than any computed distance to a point in them, since rounding is monotone.
+HWY_INLINE Vf DistanceSquared(Sphere q, const BoxNode& node, uint32_t b) {
+  const Floats d;
+  const auto gap = [&](Vf p, int axis) HWY_ATTR {
+    return hn::Sub(p, hn::Min(hn::Max(p, hn::Load(d, node.lo[axis] + b)), hn::Load(d, node.hi[axis] + b)));
+  };
+  return LengthSquared(gap(q.x, 0), gap(q.y, 1), gap(q.z, 2));
+}
+
+// Which boxes the sphere meets. An infinite sphere meets none that is empty, for which the distance is
+// infinite.
+HWY_INLINE Mask Meets(Sphere q, const BoxNode& node, uint32_t b) {
+  const Vf reach = hn::Min(q.radius_squared, hn::Set(Floats(), std::numeric_limits<float>::max()));
+  return hn::Le(DistanceSquared(q, node, b), reach);
+}
+
+// Places of the set bits of a byte, in ascending order.
+struct BitPlaces {
+  uint8_t place[256][8];
+};
+inline constexpr BitPlaces kBitPlaces = [] {
+  BitPlaces places{};
+  for (uint32_t bits = 0; bits < 256; ++bits) {
+    for (uint32_t i = 0, n = 0; i < 8; ++i)
+      if (bits >> i & 1) places.place[bits][n++] = uint8_t(i);
+  }
+  return places;
+}();
+
+// Stores the lanes of the mask one after the other, and as many elements as lanes; returns how many. Where
+// there is no instruction for it, Highway's own table is copied to the stack at every call (version 1.0.3,
+// gcc 12).
+template <class D>
+HWY_INLINE size_t StoreLanes(D d, hn::Vec<D> v, Mask mask, hn::TFromD<D>* to) {
+  if constexpr (hn::MaxLanes(D()) > 8) {
+    hn::StoreU(hn::Compress(v, hn::RebindMask(d, mask)), d, to);
+  } else {
+    uint8_t bits[8];
+    hn::StoreMaskBits(Floats(), mask, bits);
+    const hn::Rebind<uint8_t, Words> bytes;
+    const Vu places = hn::PromoteTo(Words(), hn::LoadU(bytes, kBitPlaces.place[bits[0]]));
+    hn::StoreU(hn::TableLookupLanes(v, hn::IndicesFromVec(d, places)), d, to);
+  }
+  return hn::CountTrue(Floats(), mask);
+}
+
+// A query for the lanes.
+struct LaneQuery {
+  Sphere sphere;
+  uint32_t surface;  // packed
+  float nx, ny, nz;
+  uint32_t begin, end;  // photons that may count
+  bool all;             // every photon may
+
+  HWY_INLINE LaneQuery(const GatherQuery& q, uint64_t size)
+      : sphere(MakeSphere(q.p, q.radius_squared())),
+        surface(pack_surface(q.n, q.surface_group)),
+        nx(q.n.x),
+        ny(q.n.y),
+        nz(q.n.z),
+        begin(uint32_t(std::min(q.within.begin, size))),
+        end(uint32_t(std::min(q.within.end, size))),
+        all(begin == 0 && end == size) {}
+};
+
+// normal_counts() and the same group, per lane.
+HWY_INLINE Mask SurfaceCounts(Vu surface, const LaneQuery& q) {
+  const Floats d;
+  const Words u;
+  const hn::RebindToSigned<Floats> s;
+  const auto coordinate = [&](Vu bits) HWY_ATTR {
+    return hn::ConvertTo(d, hn::Sub(hn::BitCast(s, hn::And(bits, hn::Set(u, 255u))), hn::Set(s, 127)));
+  };
+  Vf a = coordinate(surface), b = coordinate(hn::ShiftRight<8>(surface));
+  const Vf c = hn::Sub(hn::Sub(hn::Set(d, 127.0f), hn::Abs(a)), hn::Abs(b));
+  const Vf fold = hn::Max(hn::Neg(c), hn::Zero(d));
+  a = hn::Sub(a, hn::CopySign(fold, a));
+  b = hn::Sub(b, hn::CopySign(fold, b));
+  const Vf dot = hn::Add(hn::Add(hn::Mul(a, hn::Set(d, q.nx)), hn::Mul(b, hn::Set(d, q.ny))),
+                         hn::Mul(c, hn::Set(d, q.nz)));
+  const Vf bound = hn::Mul(hn::Set(d, kNormalCosine * kNormalCosine), LengthSquared(a, b, c));
+  const Mask near = hn::And(hn::Gt(dot, hn::Zero(d)), hn::Gt(hn::Mul(dot, dot), bound));
+  const auto same_group = hn::Eq(hn::ShiftRight<16>(surface), hn::Set(u, q.surface >> 16));
+  return hn::And(near, hn::RebindMask(d, same_group));
+}
+
+// Lanes of `inside` whose photon, i + lane, lies on the query's surface. The very same packed surface needs
+// no decoding.
+HWY_INLINE Mask OnSurface(const LaneQuery& q, const PhotonColumns& c, uint64_t i, Mask inside) {
+  const Floats d;
+  const Words u;
+  const Vu surface = hn::LoadU(u, c.surface + i);
+  const Mask same = hn::RebindMask(d, hn::Eq(surface, hn::Set(u, q.surface)));
+  if (HWY_LIKELY(hn::AllFalse(d, hn::AndNot(same, inside)))) return inside;
+  return hn::And(inside, hn::Or(same, SurfaceCounts(surface, q)));
+}
+
+// Lanes whose number is in [begin, end).
+HWY_INLINE Mask LanesWithin(Vu number, uint32_t begin, uint32_t end) {
+  const Words u;
+  const auto within = hn::AndNot(hn::Lt(number, hn::Set(u, begin)), hn::Lt(number, hn::Set(u, end)));
+  return hn::RebindMask(Floats(), within);
+}
+
+// Which of photons i ... count.
+HWY_INLINE Mask Counts(const LaneQuery& q, const PhotonColumns& c, uint64_t i, Vf distance_squared) {
+  Mask inside = hn::Le(distance_squared, q.sphere.radius_squared);
+  if (!q.all) inside = hn::And(inside, LanesWithin(Numbers(uint32_t(i)), q.begin, q.end));
+  return OnSurface(q, c, i, inside);
+}
+
+// First photons of blocks that a sphere meets. Those in `same` have all the query's own packed surface and
+// lie in its range: there, only the distance decides. The others may hold photons that count.
+struct FoundBlocks {
+  static constexpr size_t kNodes = 16;  // at most so many are looked through for one list
+  static constexpr size_t kRoom = (kNodes + 1) * BoxNode::kBoxes;
+  uint32_t same[kRoom], other[kRoom];
+  size_t same_size, other_size;
+};
+
+// Those of nodes of the lowest level, at most FoundBlocks::kNodes.
+HWY_INLINE void FindBlocks(const BoxTree& tree, const LaneQuery& q, const uint32_t* nodes, size_t size,
+                           FoundBlocks& found) {
+  const Floats d;
+  const Words u;
+  const BoxNode* const boxes = tree.level(0).data();
+  const BoxTree::Surfaces* const surfaces = tree.surfaces().data();
+  const Sphere sphere = q.sphere;
+  const Vu packed = hn::Set(u, q.surface), group = hn::Set(u, q.surface >> 16);
+  size_t same_size = 0, other_size = 0;
+  for (const uint32_t* node = nodes; node < nodes + size; ++node) {
+    for (uint32_t b = 0; b < BoxNode::kBoxes; b += uint32_t(hn::Lanes(d))) {
+      const uint32_t block = *node * BoxNode::kBoxes + b;
+      const Vu first = hn::ShiftLeft<4>(Numbers(block));
+      static_assert(BoxTree::kBlockPhotons == 1 << 4);
+      const Vu surface = hn::Load(u, surfaces[*node].of_block + b);
+      Mask meets = Meets(sphere, boxes[*node], b);
+      Mask is_same = hn::RebindMask(d, hn::Eq(surface, packed));
+      if (HWY_UNLIKELY(!q.all)) {
+        const Vu last = hn::Add(first, hn::Set(u, BoxTree::kBlockPhotons - 1));
+        is_same =
+            hn::And(is_same, hn::And(LanesWithin(first, q.begin, q.end), LanesWithin(last, q.begin, q.end)));
+        meets = hn::And(meets, hn::And(LanesWithin(last, q.begin, ~0u), LanesWithin(first, 0, q.end)));
+      }
+      same_size += StoreLanes(u, first, hn::And(meets, is_same), found.same + same_size);
+      const auto any = hn::Eq(surface, hn::Set(u, BoxTree::kAnySurface));
+      const auto may = hn::RebindMask(d, hn::Or(hn::Eq(hn::ShiftRight<16>(surface), group), any));
+      const Mask is_other = hn::AndNot(is_same, hn::And(meets, may));
+      if (HWY_UNLIKELY(!hn::AllFalse(d, is_other)))
+        other_size += StoreLanes(u, first, is_other, found.other + other_size);
+    }
+  }
+  found.same_size = same_size;
+  found.other_size = other_size;
+}
+
+// visit(FoundBlocks) for the blocks below nodes of a level, whose numbers ascend, as do those of the blocks
+// from one call to the next.
+template <class Fn>
+void VisitBlocks(const BoxTree& tree, const LaneQuery& q, int level, const uint32_t* nodes, size_t size,
+                 const Fn& visit) {
+  const Floats d;
+  const Words u;
+  for (; size > 0;
+       nodes += std::min(size, FoundBlocks::kNodes), size -= std::min(size, FoundBlocks::kNodes)) {
+    const size_t some = std::min(size, FoundBlocks::kNodes);
+    if (level == 0) {
+      FoundBlocks found;
+      FindBlocks(tree, q, nodes, some, found);
+      visit(found);
+      continue;
+    }
+    uint32_t below[FoundBlocks::kRoom];
+    size_t found = 0;
+    for (size_t i = 0; i < some; ++i) {
+      for (uint32_t b = 0; b < BoxNode::kBoxes; b += uint32_t(hn::Lanes(d))) {
+        const Mask meets = Meets(q.sphere, tree.level(level)[nodes[i]], b);
+        found += StoreLanes(u, Numbers(nodes[i] * BoxNode::kBoxes + b), meets, below + found);
+      }
+    }
+    VisitBlocks(tree, q, level - 1, below, found, visit);
+  }
+}
+
+template <class Fn>
+HWY_INLINE void VisitBlocks(const BoxTree& tree, const BoxTree::Start& start, const LaneQuery& q,
+                            const Fn& visit) {
+  VisitBlocks(tree, q, start.level, start.nodes, start.size, visit);
+}
+
+}  // namespace kaustik::photon::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

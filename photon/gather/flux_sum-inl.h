@@ -1,0 +1,138 @@
+// Sums of the photons' flux in SIMD lanes, compiled once per instruction set by foreach_target.h.
+
+#if defined(KAUSTIK_FLUX_SUM) == defined(HWY_TARGET_TOGGLE)
+#ifdef KAUSTIK_FLUX_SUM
+#undef KAUSTIK_FLUX_SUM
+#else
+#define KAUSTIK_FLUX_SUM
+#endif
+
+#include <bit>
+
+#include "photon/gather/block_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace kaustik::photon::HWY_NAMESPACE {
+
+// Power of photons i ... as components times scale. Beyond the photons they may be anything, also NaN.
+// RGB9E5 is taken apart with few operations: components two and three stay 2^9 and 2^18 times too large, and
+// scale is 2^-39 of what it should be (2^(e - 63) for the format's 2^(e - 24)). kUnit mends the sums.
+struct Rgb9e5Power {
+  static constexpr float kUnit[3] = {0x1p39f, 0x1p30f, 0x1p21f};
+  Vf component[3], scale;
+
+  HWY_INLINE Rgb9e5Power(const PhotonColumns& c, uint64_t i) {
+    const Floats d;
+    const Words u;
+    const hn::RebindToSigned<Floats> s;
+    const Vu bits = hn::LoadU(u, c.power + i);
+    const Vu exponent = hn::OrAnd(hn::Set(u, 64u << 23), hn::ShiftRight<4>(bits), hn::Set(u, 31u << 23));
+    scale = hn::BitCast(d, exponent);
+    for (int k = 0; k < 3; ++k)
+      component[k] = hn::ConvertTo(d, hn::BitCast(s, hn::And(bits, hn::Set(u, 511u << (9 * k)))));
+  }
+};
+
+struct F32Power {
+  static constexpr float kUnit[3] = {1, 1, 1};
+  Vf component[3], scale;
+
+  HWY_INLINE F32Power(const PhotonColumns& c, uint64_t i) : scale(hn::Set(Floats(), 1.0f)) {
+    for (int k = 0; k < 3; ++k) component[k] = hn::LoadU(Floats(), c.power_f32[k] + i);
+  }
+};
+
+template <KernelType kType>
+HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
+  const Vf one = hn::Set(Floats(), 1.0f);
+  if constexpr (kType == KernelType::kCone) return hn::NegMulAdd(slope, hn::Sqrt(distance_squared), one);
+  if constexpr (kType == KernelType::kEpanechnikov) return hn::NegMulAdd(slope, distance_squared, one);
+  return one;
+}
+
+// In runs of 1024 vectors of photon indices, then of 1024 such runs, then in double: so that float does for
+// many terms, and which terms are added together depends on the photons alone, not on what else was read.
+// Blocks that hold no photon in reach add zeros, and change no bit. The constructor is written out: what the
+// compiler generates is not compiled for the target.
+template <class Power, KernelType kType>
+struct FluxSum {
+  static constexpr int kRunBits = 10, kShift = kRunBits + std::bit_width(hn::MaxLanes(Floats())) - 1;
+
+  Vf x, y, z;                 // of this run
+  Vf runs_x, runs_y, runs_z;  // of those before
+  glm::dvec3 total;
+  uint64_t run = 0, accepted = 0;
+
+  HWY_INLINE FluxSum() : x(hn::Zero(Floats())), y(x), z(x), runs_x(x), runs_y(x), runs_z(x), total(0) {}
+
+  // Before photons i ... are added: i ascends.
+  HWY_INLINE void Reach(uint64_t i) {
+    if (HWY_UNLIKELY(i >> kShift != run)) Fold(i >> kShift);
+  }
+  HWY_INLINE void Add(const Power& power, Vf weight, Mask counts) {
+    accepted += hn::CountTrue(Floats(), counts);
+    const Vf factor = hn::IfThenElseZero(counts, weight);
+    x = hn::MulAdd(power.component[0], factor, x);
+    y = hn::MulAdd(power.component[1], factor, y);
+    z = hn::MulAdd(power.component[2], factor, z);
+  }
+  HWY_INLINE void Add(const PhotonColumns& c, uint64_t i, Vf distance_squared, Mask counts, Vf slope) {
+    const Power power(c, i);
+    Add(power, hn::Mul(Weight<kType>(distance_squared, slope), power.scale), counts);
+  }
+  HWY_INLINE void AddTo(GatherSum& sum) {
+    Fold(run);
+    MoveRuns();
+    sum.flux += total;
+    sum.accepted += accepted;
+  }
+
+ private:
+  HWY_INLINE void Fold(uint64_t next) {
+    runs_x = hn::Add(runs_x, x);
+    runs_y = hn::Add(runs_y, y);
+    runs_z = hn::Add(runs_z, z);
+    x = y = z = hn::Zero(Floats());
+    if (HWY_UNLIKELY(next >> kRunBits != run >> kRunBits)) MoveRuns();
+    run = next;
+  }
+  HWY_INLINE void MoveRuns() {
+    const auto moved = [](Vf sum, float unit)
+                           HWY_ATTR { return double(hn::GetLane(hn::SumOfLanes(Floats(), sum)) * unit); };
+    total += glm::dvec3(moved(runs_x, Power::kUnit[0]), moved(runs_y, Power::kUnit[1]),
+                        moved(runs_z, Power::kUnit[2]));
+    runs_x = runs_y = runs_z = hn::Zero(Floats());
+  }
+};
+
+// Of blocks that need a look at each photon's surface.
+template <class Sum>
+HWY_INLINE void AddOthers(const PhotonColumns& c, const LaneQuery& q, const uint32_t* blocks, size_t size,
+                          Vf slope, Sum& sum) {
+  for (size_t b = 0; b < size; ++b) {
+    sum.Reach(blocks[b]);
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(Floats()))) {
+      const uint64_t i = uint64_t(blocks[b]) + j;
+      const Vf distance_squared = DistanceSquared(q.sphere, c, i);
+      sum.Add(c, i, distance_squared, Counts(q, c, i, distance_squared), slope);
+    }
+  }
+}
+
+// Calls fn.operator()<Power, kType>().
+template <class Fn>
+HWY_INLINE auto WithTypes(const PhotonColumns& c, KernelType kernel, const Fn& fn) {
+  const auto with_kernel = [&]<class Power>() HWY_ATTR {
+    if (kernel == KernelType::kCone) return fn.template operator()<Power, KernelType::kCone>();
+    if (kernel == KernelType::kEpanechnikov)
+      return fn.template operator()<Power, KernelType::kEpanechnikov>();
+    return fn.template operator()<Power, KernelType::kConstant>();
+  };
+  return c.power ? with_kernel.template operator()<Rgb9e5Power>()
+                 : with_kernel.template operator()<F32Power>();
+}
+
+}  // namespace kaustik::photon::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,139 @@
+// The sums over blocks of photons, compiled once per instruction set (Google Highway) and chosen at run time.
+
+#include "photon/gather/gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "photon/gather/gather.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "photon/gather/flux_sum-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace kaustik::photon::HWY_NAMESPACE {
+
+// No branch for vectors without a photon inside: at the rim of the disc it would be mispredicted.
+template <class Sum>
+HWY_INLINE void AddSame(const PhotonColumns& c, Sphere sphere, const uint32_t* blocks, size_t size, Vf slope,
+                        Sum& total) {
+  Sum sum = total;  // in registers
+  for (size_t b = 0; b < size; ++b) {
+    sum.Reach(blocks[b]);
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(Floats()))) {
+      const Vf distance_squared = DistanceSquared(sphere, c, blocks[b] + j);
+      sum.Add(c, blocks[b] + j, distance_squared, hn::Le(distance_squared, sphere.radius_squared), slope);
+    }
+  }
+  total = sum;
+}
+
+GatherSum GatherPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
+                        KernelType kernel, float slope) {
+  const PhotonColumns& c = photons.columns;
+  const LaneQuery q(query, photons.size);
+  return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
+    const Vf slopes = hn::Set(Floats(), slope);
+    FluxSum<Power, kType> same, others;
+    GatherSum sum;
+    VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
+      AddSame(c, q.sphere, found.same, found.same_size, slopes, same);
+      AddOthers(c, q, found.other, found.other_size, slopes, others);
+      sum.candidates += (found.same_size + found.other_size) * BoxTree::kBlockPhotons;
+    });
+    same.AddTo(sum);
+    others.AddTo(sum);
+    return sum;
+  });
+}
+
+template <class Power, KernelType kType>
+GatherSum GatherRangeLoop(const PhotonColumns& c, std::span<const PhotonRange> ranges, const LaneQuery& q,
+                          float slope) {
+  const Floats d;
+  const uint64_t lanes = hn::Lanes(d);
+  FluxSum<Power, kType> flux;
+  const auto add = [&](uint64_t i, Mask valid) HWY_ATTR {
+    const Vf distance_squared = DistanceSquared(q.sphere, c, i);
+    const Mask inside = hn::And(valid, hn::Le(distance_squared, q.sphere.radius_squared));
+    flux.Reach(i);
+    flux.Add(c, i, distance_squared, OnSurface(q, c, i, inside), hn::Set(d, slope));
+  };
+  const Mask all = hn::FirstN(d, lanes);
+  for (const PhotonRange& range : ranges) {
+    uint64_t i = range.begin;
+    for (; i + lanes <= range.end; i += lanes) add(i, all);
+    if (i < range.end) add(i, hn::FirstN(d, range.end - i));
+  }
+  GatherSum sum;
+  flux.AddTo(sum);
+  return sum;
+}
+
+GatherSum GatherRanges(const PhotonColumns& c, std::span<const PhotonRange> ranges, const GatherQuery& query,
+                       KernelType kernel, float slope) {
+  const LaneQuery q(query, 0);
+  return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
+    return GatherRangeLoop<Power, kType>(c, ranges, q, slope);
+  });
+}
+
+void SelectPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
+                   GatherCounters& counters, TakePhotons take, void* to) {
+  const Floats d;
+  const Words u;
+  const PhotonColumns& c = photons.columns;
+  const LaneQuery q(query, photons.size);
+  uint32_t index[2 * BoxTree::kBlockPhotons];
+  float distances_squared[2 * BoxTree::kBlockPhotons];
+  const auto select = [&](uint32_t block) HWY_ATTR {
+    size_t count = 0;
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(d))) {
+      const Vf distance_squared = DistanceSquared(q.sphere, c, block + j);
+      const Mask counts = Counts(q, c, block + j, distance_squared);
+      StoreLanes(d, distance_squared, counts, distances_squared + count);
+      count += StoreLanes(u, Numbers(block + j), counts, index + count);
+    }
+    counters.accepted += count;
+    counters.candidates += BoxTree::kBlockPhotons;
+    take(to, index, distances_squared, count);
+  };
+  VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
+    const uint32_t *same = found.same, *other = found.other;
+    const uint32_t *const same_end = same + found.same_size, *const other_end = other + found.other_size;
+    while (same < same_end || other < other_end) {
+      const bool next_same = other == other_end || (same < same_end && *same < *other);
+      select(next_same ? *same++ : *other++);
+    }
+  });
+}
+
+}  // namespace kaustik::photon::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace kaustik::photon {
+
+HWY_EXPORT(GatherPhotons);
+HWY_EXPORT(GatherRanges);
+HWY_EXPORT(SelectPhotons);
+
+GatherSum gather_photons(const IndexedPhotons& photons, const GatherQuery& query, KernelType kernel,
+                         float slope) {
+  return HWY_DYNAMIC_DISPATCH(GatherPhotons)(photons, start_of(photons, query), query, kernel, slope);
+}
+
+GatherSum gather_ranges(const PhotonColumns& columns, std::span<const PhotonRange> ranges,
+                        const GatherQuery& query, KernelType kernel, float slope) {
+  return HWY_DYNAMIC_DISPATCH(GatherRanges)(columns, ranges, query, kernel, slope);
+}
+
+void select_photons(const IndexedPhotons& photons, const GatherQuery& query, GatherCounters& counters,
+                    TakePhotons take, void* to) {
+  HWY_DYNAMIC_DISPATCH(SelectPhotons)(photons, start_of(photons, query), query, counters, take, to);
+}
+
+}  // namespace kaustik::photon
+#endif

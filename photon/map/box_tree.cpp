@@ -1,0 +1,129 @@
+#include "photon/map/box_tree.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace kaustik::photon {
+
+namespace {
+
+constexpr uint32_t kBoxes = BoxNode::kBoxes, kBlock = BoxTree::kBlockPhotons;
+constexpr float kNone = std::numeric_limits<float>::infinity();
+
+// Of a block's coordinates along one axis. Eight intervals side by side, which the compiler puts into
+// vectors.
+void find_interval(const float* column, uint64_t photons, float* lo, float* hi) {
+  constexpr uint32_t kSide = 8;
+  float low[kSide], high[kSide];
+  std::fill_n(low, kSide, kNone);
+  std::fill_n(high, kSide, -kNone);
+  const auto add = [&](uint64_t i, uint32_t s) {
+    low[s] = column[i] < low[s] ? column[i] : low[s];
+    high[s] = column[i] > high[s] ? column[i] : high[s];
+  };
+  if (photons == kBlock) {
+    for (uint32_t i = 0; i < kBlock; i += kSide)
+      for (uint32_t s = 0; s < kSide; ++s) add(i + s, s);
+  } else {
+    for (uint64_t i = 0; i < photons; ++i) add(i, 0);
+  }
+  *lo = *std::min_element(low, low + kSide);
+  *hi = *std::max_element(high, high + kSide);
+}
+
+// Along one axis, of a node whose photons begin with column[0].
+void find_intervals(const float* column, uint64_t photons, float* lo, float* hi) {
+  for (uint64_t b = 0; b < kBoxes; ++b) {
+    const uint64_t first = std::min(photons, b * kBlock);
+    find_interval(column + first, std::min<uint64_t>(kBlock, photons - first), lo + b, hi + b);
+  }
+}
+
+// Around the boxes of each of the children, along one axis.
+void join_intervals(std::span<const BoxNode> children, int axis, BoxNode& node) {
+  std::fill_n(node.lo[axis], kBoxes, kNone);
+  std::fill_n(node.hi[axis], kBoxes, -kNone);
+  for (size_t b = 0; b < children.size(); ++b) {
+    node.lo[axis][b] = *std::min_element(children[b].lo[axis], children[b].lo[axis] + kBoxes);
+    node.hi[axis][b] = *std::max_element(children[b].hi[axis], children[b].hi[axis] + kBoxes);
+  }
+}
+
+uint32_t common_surface(const uint32_t* surface, uint64_t photons) {
+  uint32_t differ = 0;
+  for (uint64_t i = 1; i < photons; ++i) differ |= surface[i] ^ surface[0];
+  if (differ == 0) return surface[0];
+  return differ >> 16 == 0 ? surface[0] | BoxTree::kAnyNormal : BoxTree::kAnySurface;
+}
+
+template <class Fn>
+void for_each_index(size_t size, const Fn& fn) {
+  constexpr size_t kGrain = 64;
+  using Indices = tbb::blocked_range<size_t>;
+  tbb::parallel_for(Indices(0, size, kGrain), [&](const Indices& indices) {
+    for (size_t i = indices.begin(); i < indices.end(); ++i) fn(i);
+  });
+}
+
+}  // namespace
+
+BoxTree::BoxTree(const PhotonColumns& columns, uint64_t size) {
+  for (uint64_t boxes = (size + kBlock - 1) / kBlock; boxes > 1 || (boxes == 1 && levels_ == 0); ++levels_) {
+    boxes = (boxes + kBoxes - 1) / kBoxes;  // of the next level
+    first_[levels_ + 1] = first_[levels_] + boxes;
+  }
+  if (levels_ == 0) return;
+  nodes_ = UninitialisedArray<BoxNode>(first_[levels_]);
+  surfaces_ = UninitialisedArray<Surfaces>(first_[1]);
+  for_each_index(first_[1], [&](size_t i) {
+    const uint64_t begin = i * kNodePhotons, photons = std::min<uint64_t>(kNodePhotons, size - begin);
+    const float* const axes[] = {columns.x + begin, columns.y + begin, columns.z + begin};
+    for (int axis = 0; axis < 3; ++axis)
+      find_intervals(axes[axis], photons, nodes_[i].lo[axis], nodes_[i].hi[axis]);
+    for (uint64_t b = 0; b < kBoxes; ++b) {
+      const uint64_t first = std::min(photons, b * kBlock);
+      surfaces_[i].of_block[b] =
+          common_surface(columns.surface + begin + first, std::min<uint64_t>(kBlock, photons - first));
+    }
+  });
+  for (int l = 1; l < levels_; ++l) {
+    const std::span<const BoxNode> below = level(l - 1);
+    for_each_index(level(l).size(), [&](size_t i) {
+      const size_t count = std::min<size_t>(kBoxes, below.size() - i * kBoxes);
+      for (int axis = 0; axis < 3; ++axis)
+        join_intervals(below.subspan(i * kBoxes, count), axis, nodes_[first_[l] + i]);
+    });
+  }
+}
+
+bool BoxTree::Start::list(const CellRanges& ranges, int shift) {
+  size_t listed = 0;  // a node may lie in several ranges
+  uint32_t next = 0;
+  size = 0;
+  for (size_t r = 0; r < ranges.size; ++r) {
+    const uint32_t begin = ranges.first[r] >> shift, end = (ranges.last[r] >> shift) + 1;
+    if ((listed += end - begin) > kMost) return false;
+    // Mostly none, one or two are new, which a branch could not foretell.
+    const uint32_t first = std::max(next, begin);
+    nodes[size] = first;
+    size += first < end;
+    nodes[size] = first + 1;
+    size += first + 1 < end;
+    for (uint32_t node = first + 2; node < end; ++node) nodes[size++] = node;
+    next = std::max(next, end);
+  }
+  return true;
+}
+
+BoxTree::Start BoxTree::start_at(const CellRanges& ranges) const {
+  Start start;
+  int shift = std::bit_width(kNodePhotons) - 1;
+  for (; !start.list(ranges, shift); ++start.level) shift += std::bit_width(BoxNode::kBoxes) - 1;
+  return start;
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,195 @@
+// Blocks arranged by buckets, then buckets sorted.
+
+#include "photon/map/morton_sort.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/memory/memory_pages.h"
+#include "core/memory/uninitialised_array.h"
+#include "core/sampling/sampler.h"
+#include "photon/map/key_buckets.h"
+#include "photon/map/key_order.h"
+#include "photon/map/morton_lanes.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+constexpr size_t kBlock = size_t(1) << 16;  // records; fixed, so that blocks do not depend on the threads
+constexpr size_t kBucketPhotons = 16384;    // on average: with their keys, most of a megabyte
+constexpr size_t kMaxBuckets = 2048;        // asked for: a block must not be spread too thin
+constexpr size_t kSamplesPerBucket = 16;
+
+// What a thread works with; grows as needed.
+struct Scratch {
+  UninitialisedArray<PhotonRecord> records;
+  UninitialisedArray<uint64_t> keys;
+  KeyOrder order;
+
+  void reserve(size_t size) {
+    if (keys.size() >= size) return;
+    records = UninitialisedArray<PhotonRecord>(size);
+    keys = UninitialisedArray<uint64_t>(size);
+  }
+};
+
+// The sample is spread by a hash: no order of the records can hide from it.
+KeyBuckets find_buckets(std::span<const PhotonRecord> records, const MortonCube& cube) {
+  const size_t wanted = std::min(records.size() / kBucketPhotons, kMaxBuckets);
+  if (wanted < 2) return KeyBuckets({}, 1);
+  std::vector<uint64_t> keys(wanted * kSamplesPerBucket), sample(keys.size());
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, keys.size(), 256), [&](const auto& range) {
+    for (size_t i = range.begin(); i < range.end(); ++i) {
+      const PhotonRecord& record = records[mix64(i) % records.size()];
+      keys[i] = morton_key(cube.cell({record.x, record.y, record.z}));
+    }
+  });
+  KeyOrder order;
+  std::ranges::transform(order.sort(keys), sample.begin(), [&](uint64_t i) { return keys[uint32_t(i)]; });
+  return KeyBuckets(sample, wanted);
+}
+
+class MortonSort {
+ public:
+  MortonSort(std::span<PhotonRecord> records, const MortonCube& cube, const RecordColumns& to)
+      : records_(records), cube_(cube), to_(to), buckets_(find_buckets(records, cube)) {}
+
+  void arrange_blocks();
+  void write_columns();
+
+ private:
+  size_t blocks() const { return (records_.size() + kBlock - 1) / kBlock; }
+  std::span<PhotonRecord> block(size_t b) const {
+    return records_.subspan(b * kBlock, std::min(kBlock, records_.size() - b * kBlock));
+  }
+  // Where in block b the buckets begin, and the last one ends.
+  std::span<uint32_t> offsets(size_t b) {
+    return {offsets_.data() + b * (buckets_.size() + 1), buckets_.size() + 1};
+  }
+  // Of block b, the records of buckets [begin, end).
+  std::span<PhotonRecord> piece(size_t b, size_t begin, size_t end) {
+    const std::span<const uint32_t> at = offsets(b);
+    return block(b).subspan(at[begin], at[end] - at[begin]);
+  }
+
+  void arrange_block(size_t b, Scratch& scratch);
+  std::vector<uint64_t> find_starts();
+  std::span<const PhotonRecord> collect(size_t bucket, Scratch& scratch);
+  void write_bucket(size_t bucket, uint64_t start, Scratch& scratch);
+  void write_single_key(size_t bucket, uint64_t start);
+  void write_buckets(size_t begin, size_t end, std::span<const uint64_t> starts);
+
+  std::span<PhotonRecord> records_;
+  MortonCube cube_;
+  RecordColumns to_;
+  KeyBuckets buckets_;
+  UninitialisedArray<uint32_t> offsets_;
+  tbb::enumerable_thread_specific<Scratch> scratch_;
+};
+
+void MortonSort::arrange_blocks() {
+  offsets_ = UninitialisedArray<uint32_t>(blocks() * (buckets_.size() + 1));
+  tbb::parallel_for(size_t(0), blocks(), [&](size_t b) {
+    if (buckets_.size() > 1) return arrange_block(b, scratch_.local());
+    offsets(b)[0] = 0;
+    offsets(b)[1] = uint32_t(block(b).size());
+  });
+}
+
+void MortonSort::arrange_block(size_t b, Scratch& scratch) {
+  const std::span<PhotonRecord> records = block(b);
+  scratch.reserve(records.size());
+  const std::span<uint64_t> keys{scratch.keys.data(), records.size()};
+  morton_keys(cube_, records.data(), keys);
+  // place[bucket + 1] counts, then is where the bucket begins.
+  std::vector<uint32_t> place(buckets_.size() + 1);
+  for (uint64_t& key : keys) {
+    key = buckets_.of(key);
+    ++place[key + 1];
+  }
+  std::inclusive_scan(place.begin(), place.end(), place.begin());
+  std::ranges::copy(place, offsets(b).begin());
+  for (size_t i = 0; i < records.size(); ++i) scratch.records[place[keys[i]]++] = records[i];
+  std::copy_n(scratch.records.data(), records.size(), records.data());
+}
+
+// Of the buckets in the columns.
+std::vector<uint64_t> MortonSort::find_starts() {
+  std::vector<uint64_t> starts(buckets_.size() + 1);
+  for (size_t b = 0; b < blocks(); ++b) {
+    const std::span<const uint32_t> at = offsets(b);
+    for (size_t i = 0; i < starts.size(); ++i) starts[i] += at[i];
+  }
+  return starts;
+}
+
+// The bucket's records from all blocks, in the order of the blocks.
+std::span<const PhotonRecord> MortonSort::collect(size_t bucket, Scratch& scratch) {
+  constexpr size_t kAhead = 4;  // pieces are too short for the hardware to foresee the next one
+  size_t count = 0;
+  for (size_t b = 0; b < blocks(); ++b) count += piece(b, bucket, bucket + 1).size();
+  scratch.reserve(count);
+  PhotonRecord* to = scratch.records.data();
+  for (size_t b = 0; b < blocks(); ++b) {
+    if (b + kAhead < blocks()) {
+      const auto next = std::as_bytes(piece(b + kAhead, bucket, bucket + 1));
+      for (size_t i = 0; i < next.size(); i += 64) __builtin_prefetch(&next[i]);
+    }
+    to = std::ranges::copy(piece(b, bucket, bucket + 1), to).out;
+  }
+  return {scratch.records.data(), count};
+}
+
+void MortonSort::write_bucket(size_t bucket, uint64_t start, Scratch& scratch) {
+  const std::span<const PhotonRecord> records = collect(bucket, scratch);
+  const std::span<uint64_t> keys{scratch.keys.data(), records.size()};
+  morton_keys(cube_, records.data(), keys);
+  for (const uint64_t item : scratch.order.sort(keys)) to_.write(start++, records[uint32_t(item)]);
+}
+
+// Nothing to sort, however many.
+void MortonSort::write_single_key(size_t bucket, uint64_t start) {
+  std::vector<uint64_t> place(blocks() + 1, start);
+  for (size_t b = 0; b < blocks(); ++b) place[b + 1] = place[b] + piece(b, bucket, bucket + 1).size();
+  tbb::parallel_for(size_t(0), blocks(), [&](size_t b) {
+    uint64_t at = place[b];
+    for (const PhotonRecord& record : piece(b, bucket, bucket + 1)) to_.write(at++, record);
+  });
+}
+
+void MortonSort::write_buckets(size_t begin, size_t end, std::span<const uint64_t> starts) {
+  tbb::parallel_for(begin, end, [&](size_t bucket) {
+    if (buckets_.single_key(bucket)) return write_single_key(bucket, starts[bucket]);
+    write_bucket(bucket, starts[bucket], scratch_.local());
+  });
+}
+
+// When the first photons are written, the memory of their records is given back: more than the sort needs for
+// itself, so records, columns and the rest together stay below twice the records. By one thread: several
+// would wait for each other.
+void MortonSort::write_columns() {
+  constexpr size_t kFirstPart = 8;
+  const std::vector<uint64_t> starts = find_starts();
+  const auto first = std::ranges::lower_bound(starts, records_.size() / kFirstPart) - starts.begin();
+  const size_t middle = std::min(size_t(first), buckets_.size());
+  write_buckets(0, middle, starts);
+  for (size_t b = 0; b < blocks(); ++b) {
+    const auto bytes = std::as_writable_bytes(piece(b, 0, middle));
+    give_back_pages(bytes.data(), bytes.size());
+  }
+  write_buckets(middle, buckets_.size(), starts);
+}
+
+}  // namespace
+
+void sort_into_columns(std::span<PhotonRecord> records, const MortonCube& cube, const RecordColumns& to) {
+  MortonSort sort(records, cube, to);
+  sort.arrange_blocks();
+  sort.write_columns();
+}
+
+}  // namespace kaustik::photon

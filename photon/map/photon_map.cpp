@@ -1,0 +1,151 @@
+// Building the columns of a map, and its searches.
+
+#include "photon/map/photon_map.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "core/memory/memory_pages.h"
+#include "photon/gather/nearest.h"
+#include "photon/record/packing.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+using IndexBlock = tbb::blocked_range<size_t>;
+constexpr size_t kGrain = 1 << 14;
+
+template <class Fn>
+void for_each_index(size_t size, const Fn& fn) {
+  tbb::parallel_for(IndexBlock(0, size, kGrain), [&](const IndexBlock& block) {
+    for (size_t i = block.begin(); i < block.end(); ++i) fn(i);
+  });
+}
+
+// Minima and maxima do not depend on the order in which they are joined.
+Bounds3 bounds_of(std::span<const PhotonRecord> records) {
+  return tbb::parallel_reduce(
+      IndexBlock(0, records.size(), kGrain), Bounds3{},
+      [&](const IndexBlock& block, Bounds3 bounds) {
+        for (size_t i = block.begin(); i < block.end(); ++i) {
+          bounds.add(Point3(records[i].x, records[i].y, records[i].z));
+        }
+        return bounds;
+      },
+      [](Bounds3 a, const Bounds3& b) {
+        a.add(b);
+        return a;
+      });
+}
+
+void check_size(uint64_t size) {
+  if (size > std::numeric_limits<uint32_t>::max()) {
+    throw std::length_error("a photon map holds at most 2^32 - 1 photons: shoot fewer per pass");
+  }
+}
+
+}  // namespace
+
+RecordColumns PhotonMap::allocate(uint64_t size, bool f32_power) {
+  const uint64_t lines = (size + kGatherPadding) / BoxTree::kBlockPhotons + 1, columns = f32_power ? 8 : 6;
+  size_ = size;
+  storage_ = UninitialisedArray<Line>(lines * columns);
+  prefer_large_pages(storage_.data(), storage_.size() * sizeof(Line));
+  const auto words = [&](uint64_t c) { return storage_[c * lines].words; };
+  const auto floats = [&](uint64_t c) { return reinterpret_cast<float*>(words(c)); };
+  for (uint64_t c = 0; c < columns; ++c)
+    std::fill(words(c) + size, words(c) + lines * BoxTree::kBlockPhotons, c == 0 ? ~0u : 0u);
+  const RecordColumns to{floats(0), floats(1), floats(2), words(3), words(5), words(4)};
+  columns_ = {to.x, to.y, to.z, to.direction, to.surface, f32_power ? nullptr : to.power, {}};
+  for (uint64_t c = 0; f32_power && c < 3; ++c) columns_.power_f32[c] = floats(5 + c);
+  return to;
+}
+
+RecordColumns PhotonMap::fill(PhotonRecords&& records, const MapSettings& settings, bool f32_power) {
+  const MortonCube cube = MortonCube::around(settings.bounds.value_or(bounds_of(records)));
+  const RecordColumns to = allocate(records.size(), f32_power);
+  sort_into_columns(records, cube, to);
+  tbb::parallel_invoke([&] { octree_ = Octree(cube, positions(), size_); },
+                       [&] { boxes_ = BoxTree(columns_, size_); }, [&] { PhotonRecords().swap(records); });
+  return to;
+}
+
+PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
+  check_size(buffer.records.size());
+  PhotonBuffer taken = std::exchange(buffer, {});
+  PhotonMap map;
+  map.flux_unit_ = taken.flux_unit;
+  map.fill(std::move(taken.records), settings, false);
+  return map;
+}
+
+PhotonMap PhotonMap::build_f32(std::span<const Photon> photons, float flux_unit,
+                               const MapSettings& settings) {
+  check_size(photons.size());
+  PhotonRecords records(photons.size());
+  for_each_index(photons.size(), [&](size_t i) {
+    records[i] = pack(photons[i], flux_unit);
+    records[i].power = uint32_t(i);  // stands for the power until the order is known
+  });
+  PhotonMap map;
+  map.flux_unit_ = flux_unit;
+  const RecordColumns filled = map.fill(std::move(records), settings, true);
+  auto* const power = reinterpret_cast<float*>(filled.power);  // and the two columns after it
+  const uint64_t stride = uint64_t(map.columns_.power_f32[1] - map.columns_.power_f32[0]);
+  for_each_index(photons.size(), [&](size_t i) {
+    const Rgb flux = photons[filled.power[i]].flux;
+    for (size_t c = 0; c < 3; ++c) power[c * stride + i] = flux[int(c)] / flux_unit;
+  });
+  return map;
+}
+
+uint64_t PhotonMap::memory_bytes() const {
+  return storage_.size() * sizeof(Line) + octree_.memory_bytes() + boxes_.memory_bytes();
+}
+
+Rgb PhotonMap::gather_flux(const GatherQuery& query, const KernelSpec& kernel,
+                           GatherCounters& counters) const {
+  const KernelTerms terms = kernel_terms(kernel, query.radius);
+  const GatherSum sum = gather_photons(indexed(), query, kernel.type, terms.slope);
+  counters += {1, sum.candidates, sum.accepted};
+  return Rgb(sum.flux * double(terms.scale) * double(flux_unit_));
+}
+
+void PhotonMap::gather_flux(std::span<const GatherQuery> queries, const KernelSpec& kernel,
+                            Gathered* results) const {
+  constexpr size_t kSome = 128;
+  for (size_t first = 0; first < queries.size(); first += kSome) {
+    const std::span<const GatherQuery> some = queries.subspan(first, std::min(kSome, queries.size() - first));
+    float scales[kSome], slopes[kSome];
+    GatherSum sums[kSome];
+    for (size_t i = 0; i < some.size(); ++i) {
+      const KernelTerms terms = kernel_terms(kernel, some[i].radius);
+      scales[i] = terms.scale;
+      slopes[i] = terms.slope;
+    }
+    gather_photons(indexed(), some, kernel.type, slopes, sums);
+    for (size_t i = 0; i < some.size(); ++i)
+      results[first + i] = {Rgb(sums[i].flux * double(scales[i]) * double(flux_unit_)),
+                            {1, sums[i].candidates, sums[i].accepted}};
+  }
+}
+
+float PhotonMap::nearest_radius(const GatherQuery& query, uint32_t k, GatherCounters& counters) const {
+  if (k == 0 || size_ < k) return query.radius;
+  const auto nearest =
+      nearest_distance_squared(indexed(), query, k, octree_.guess_radius(query.p, k), counters);
+  if (!nearest) return query.radius;
+  float radius = std::sqrt(*nearest);
+  // The root is rounded; its square must still reach the photon.
+  if (radius * radius < *nearest) radius = std::nextafter(radius, kInfinity);
+  return std::min(radius, query.radius);
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,118 @@
+#pragma once
+// Photons of one kind in Morton order, with the octree that finds those near a point.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "photon/gather/gather.h"
+#include "photon/map/box_tree.h"
+#include "photon/map/morton_sort.h"
+#include "photon/map/octree.h"
+#include "photon/record/photon_record.h"
+
+namespace kaustik::photon {
+
+struct MapSettings {
+  // Maps with the same bounds share one cube, so that a cell is a key range in each. Unset: the photons' own
+  // bounds. Photons outside are kept, in the nearest cells.
+  std::optional<Bounds3> bounds;
+};
+
+// Immutable after the build; const members may be called from any thread. Structure of arrays, 24 bytes per
+// photon and at most a tenth of that for the octree and the boxes.
+class PhotonMap {
+ public:
+  PhotonMap() = default;
+
+  // Takes the buffer's memory and frees it. The result does not depend on the number of threads. Peak memory:
+  // 51 bytes per photon, the buffer included, and a few megabytes per thread. At most 2^32 - 1 photons
+  // (std::length_error beyond).
+  static PhotonMap build(PhotonBuffer&& buffer, const MapSettings& settings = {});
+  // The same with the power kept as 3 x f32 instead of RGB9E5 (32 bytes per photon): the reference for what
+  // the packed power loses.
+  static PhotonMap build_f32(std::span<const Photon> photons, float flux_unit,
+                             const MapSettings& settings = {});
+
+  uint64_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  float flux_unit() const { return flux_unit_; }
+  const MortonCube& cube() const { return octree_.cube(); }
+  const Octree& octree() const { return octree_; }
+  const BoxTree& boxes() const { return boxes_; }
+  uint64_t memory_bytes() const;
+
+  // Photon i of the Morton order, decoded.
+  Photon photon(uint64_t i) const;
+
+  // Sum of flux K(d) over the photons that count, in W/m^2. The order of the sum is fixed.
+  Rgb gather_flux(const GatherQuery& query, const KernelSpec& kernel, GatherCounters& counters) const;
+
+  // The same for many queries, to the last bit: neighbours that follow one another share the work.
+  struct Gathered {
+    Rgb flux{0};  // W/m^2
+    GatherCounters counters;
+  };
+  void gather_flux(std::span<const GatherQuery> queries, const KernelSpec& kernel, Gathered* results) const;
+
+  // fn(const Photon&, float distance_squared) for each photon that counts, in Morton order.
+  template <class Fn>
+  void for_each(const GatherQuery& query, Fn&& fn, GatherCounters& counters) const;
+
+  // The smallest radius in metres that reaches the k-th nearest photon that counts; query.radius when fewer
+  // than k are within it.
+  float nearest_radius(const GatherQuery& query, uint32_t k, GatherCounters& counters) const;
+
+  // The lecture's cell of p: see Octree::find_cell.
+  OctreeCell find_cell(const Point3& p, uint32_t node_photons, float radius) const {
+    return octree_.find_cell(positions(), p, node_photons, radius);
+  }
+
+  const PhotonColumns& columns() const { return columns_; }
+  PhotonPositions positions() const { return {columns_.x, columns_.y, columns_.z}; }
+
+ private:
+  // The columns to fill. Where the power is kept as f32, the first of its columns takes the records' words.
+  RecordColumns allocate(uint64_t size, bool f32_power);
+  // Columns, octree and boxes of the records, whose memory is freed.
+  RecordColumns fill(PhotonRecords&& records, const MapSettings& settings, bool f32_power);
+
+  IndexedPhotons indexed() const { return {columns_, &octree_, &boxes_, size_}; }
+
+  Octree octree_;
+  BoxTree boxes_;
+  // A block of a column is a cache line.
+  struct alignas(64) Line {
+    uint32_t words[BoxTree::kBlockPhotons];
+  };
+  UninitialisedArray<Line> storage_;  // all columns, one after the other
+  PhotonColumns columns_;
+  uint64_t size_ = 0;
+  float flux_unit_ = 1;
+};
+
+inline Photon PhotonMap::photon(uint64_t i) const {
+  const PhotonColumns& c = columns_;
+  const uint32_t power = c.power ? c.power[i] : 0;
+  Photon photon = unpack({c.x[i], c.y[i], c.z[i], c.direction[i], power, c.surface[i]}, flux_unit_);
+  if (!c.power) photon.flux = Rgb(c.power_f32[0][i], c.power_f32[1][i], c.power_f32[2][i]) * flux_unit_;
+  return photon;
+}
+
+template <class Fn>
+void PhotonMap::for_each(const GatherQuery& query, Fn&& fn, GatherCounters& counters) const {
+  ++counters.queries;
+  const auto take = [&](const uint32_t* index, const float* distance_squared, size_t count) {
+    for (size_t i = 0; i < count; ++i) fn(photon(index[i]), distance_squared[i]);
+  };
+  using Take = decltype(take);
+  select_photons(
+      indexed(), query, counters,
+      [](void* to, const uint32_t* index, const float* distance_squared, size_t count) {
+        (*static_cast<const Take*>(to))(index, distance_squared, count);
+      },
+      const_cast<void*>(static_cast<const void*>(&take)));
+}
+
+}  // namespace kaustik::photon

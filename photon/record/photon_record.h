@@ -1,0 +1,45 @@
+#pragma once
+// The 24-byte photon record, as it is shot and stored.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/memory/uninitialised_array.h"
+#include "photon/record/packing.h"
+#include "photon/record/photon.h"
+
+namespace kaustik::photon {
+
+// direction: octahedral 2 x u16 (towards where the photon came from); power: RGB9E5 of flux / flux_unit;
+// surface: octahedral normal 2 x u8 (low half) and surface group (high half, modulo 2^16).
+struct PhotonRecord {
+  float x, y, z;
+  uint32_t direction;
+  uint32_t power;
+  uint32_t surface;
+};
+static_assert(sizeof(PhotonRecord) == 24);
+
+// resize() leaves new records unwritten, for the threads that fill them.
+using PhotonRecords = std::vector<PhotonRecord, UninitialisedAllocator<PhotonRecord>>;
+
+// Photons of one kind before the build, as shoot() left them. flux_unit is a power of two near the mean flux
+// of one photon, so that the shared-exponent format keeps its range at any scale of scene and any photon
+// count.
+struct PhotonBuffer {
+  PhotonRecords records;
+  float flux_unit = 1;
+};
+
+PhotonRecord pack(const Photon& photon, float flux_unit);
+inline Photon unpack(const PhotonRecord& record, float flux_unit) {
+  Photon photon;
+  photon.p = {record.x, record.y, record.z};
+  photon.wi = unpack_direction(record.direction);
+  photon.flux = unpack_rgb9e5(record.power) * flux_unit;
+  photon.n = unpack_surface_normal(record.surface);
+  photon.surface_group = record.surface >> 16;
+  return photon;
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,100 @@
+// Binary PLY of photons.
+
+#include "photon/record/ply_export.h"
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <vector>
+
+#include "core/files/pending_file.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "vertices are written as they lie in memory");
+
+// x y z nx ny nz, then red green blue kind.
+template <class Coordinate>
+constexpr size_t kVertexBytes = 3 * sizeof(Coordinate) + 3 * sizeof(float) + 4;
+
+void write_header(std::ofstream& out, uint64_t vertices, std::string_view coordinate) {
+  out << "ply\nformat binary_little_endian 1.0\ncomment photons; kind:";
+  for (size_t kind = 0; kind < size_t(kPhotonKinds); ++kind)
+    out << ' ' << kind << ' ' << kPhotonKindNames[kind];
+  out << "\nelement vertex " << vertices << '\n';
+  for (const char* name : {"x", "y", "z"}) out << "property " << coordinate << ' ' << name << '\n';
+  for (const char* name : {"nx", "ny", "nz"}) out << "property float " << name << '\n';
+  for (const char* name : {"red", "green", "blue", "kind"}) out << "property uchar " << name << '\n';
+  out << "end_header\n";
+}
+
+float mean_luminance(const PhotonBuffer& buffer) {
+  double sum = 0;
+  for (const PhotonRecord& record : buffer.records)
+    sum += double(luminance(unpack(record, buffer.flux_unit).flux));
+  return buffer.records.empty() ? 0 : float(sum / double(buffer.records.size()));
+}
+
+template <class Coordinate>
+void write_vertices(std::ofstream& out, const PlyPhotons& photons, const glm::dvec3& origin) {
+  constexpr size_t kBlock = 1 << 16, kBytes = kVertexBytes<Coordinate>;
+  const PhotonBuffer& buffer = *photons.buffer;
+  const float mean = mean_luminance(buffer);
+  std::vector<char> bytes;
+  for (size_t begin = 0; begin < buffer.records.size(); begin += kBlock) {
+    const size_t end = std::min(buffer.records.size(), begin + kBlock);
+    bytes.resize((end - begin) * kBytes);
+    char* at = bytes.data();
+    for (size_t i = begin; i < end; ++i, at += kBytes) {
+      const Photon photon = unpack(buffer.records[i], buffer.flux_unit);
+      glm::vec<3, Coordinate> p(photon.p);
+      if constexpr (std::is_same_v<Coordinate, double>) p += origin;
+      const glm::u8vec3 c = photon_colour(photons.kind, photon.flux, mean);
+      const uint8_t tail[] = {c.x, c.y, c.z, uint8_t(photons.kind)};
+      std::memcpy(at, &p, sizeof(p));
+      std::memcpy(at + sizeof(p), &photon.n, sizeof(photon.n));
+      std::memcpy(at + sizeof(p) + sizeof(photon.n), tail, sizeof(tail));
+    }
+    out.write(bytes.data(), std::streamsize(bytes.size()));
+  }
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+  throw std::runtime_error("cannot write " + path.string() + ": " + reason);
+}
+
+}  // namespace
+
+glm::u8vec3 photon_colour(PhotonKind kind, const Rgb& flux, float mean_flux) {
+  if (kind == PhotonKind::kShadow) return kShadowColour;
+  glm::u8vec3 colour(0);
+  for (int c = 0; c < 3; ++c) {
+    // Reinhard's curve, the mean at one half, with a display gamma of 2.2.
+    const float v = mean_flux > 0 ? flux[c] / mean_flux : 0;
+    colour[c] = uint8_t(std::lround(255 * std::pow(v / (1 + v), 1 / 2.2f)));
+  }
+  return colour;
+}
+
+void write_photons_ply(const std::filesystem::path& path, std::span<const PlyPhotons> photons,
+                       const glm::dvec3& origin) {
+  uint64_t vertices = 0;
+  for (const PlyPhotons& part : photons) vertices += part.buffer->records.size();
+  PendingFile file(path, unique_temporary_name(path));
+  std::ofstream out(file.temporary(), std::ios::binary | std::ios::trunc);
+  if (!out) fail(path, std::strerror(errno));
+  const bool far = origin != glm::dvec3(0);
+  write_header(out, vertices, far ? "double" : "float");
+  for (const PlyPhotons& part : photons)
+    far ? write_vertices<double>(out, part, origin) : write_vertices<float>(out, part, origin);
+  out.close();
+  if (!out) fail(path, std::strerror(errno));
+  if (const std::string error = file.commit(); !error.empty()) fail(path, error);
+}
+
+}  // namespace kaustik::photon

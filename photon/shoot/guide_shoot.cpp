@@ -1,0 +1,146 @@
+#include "photon/shoot/guide_shoot.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "photon/shoot/shoot.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+// Keeps these photons apart from those of any pass that can be.
+constexpr uint64_t kGuidePass = 0x6775696465640000;
+constexpr uint64_t kRounds = 5, kMostRounds = 12;  // more, each twice as large, where few have served yet
+// A guide is of use where the variance falls to so much of it, by light that is not guided well, too.
+constexpr double kMostVariance = 0.75;
+
+// A start that served, and what its photons are worth: the sum of importance times flux^2, were it the only
+// one.
+struct Start {
+  EmissionPoint u{};
+  double square = 0;
+};
+
+KindMask only(PhotonKind kind) {
+  return {.caustic = kind == PhotonKind::kCaustic, .indirect = kind == PhotonKind::kIndirect};
+}
+
+class GuideLearner {
+ public:
+  GuideLearner(const Scene& scene, const accel::Bvh& bvh, const GuideSettings& settings)
+      : scene_(scene), bvh_(bvh), settings_(settings) {}
+
+  LearnedGuide learn() {
+    LearnedGuide learned;
+    for (uint64_t round = 0; round < kRounds || (round < kMostRounds && found_few()); ++round) {
+      const TraceSettings trace = settings_of(round, learned.guide);
+      shoot(trace);
+      learned.emitted += trace.photons;
+      rounds_.push_back({double(trace.photons), std::move(learned.guide)});
+      learned.guide = EmissionGuide(weighted(), scene_.lights.size() > 1 ? 5 : 4);
+      if (is_vain(learned.guide) || serves_enough()) break;
+    }
+    learned.hits = starts_.size();
+    if (learned.guide.variance() > kMostVariance || serves_enough()) learned.guide = {};
+    return learned;
+  }
+
+ private:
+  // Many photons have served, and nearly evenly.
+  bool is_vain(const EmissionGuide& guide) const {
+    return starts_.size() >= (1u << 12) && guide.variance() > 0.9;
+  }
+  // In the first round, the uniform one.
+  bool serves_enough() const { return double(uniform_hits_) >= settings_.enough * rounds_[0].photons; }
+
+  struct Round {
+    double photons = 0;
+    EmissionGuide guide;  // empty: uniform
+  };
+
+  // A small target is found step by step: each round knows it better, and meets it more often. Photons that
+  // miss it end soon, so that they cost little.
+  bool found_few() const {
+    return !starts_.empty() && starts_.size() < (1u << 14) && rays_ < settings_.photons / 2;
+  }
+
+  TraceSettings settings_of(uint64_t round, const EmissionGuide& guide) const {
+    constexpr uint64_t kFewest = 1u << 11, kMost = 1u << 15;
+    TraceSettings trace;
+    trace.seed = settings_.seed;
+    trace.pass = kGuidePass + round + (uint64_t(settings_.kind) << 8);
+    trace.photons = std::clamp(settings_.photons / 64, kFewest, kMost)
+                    << (round < kRounds ? 0 : round - kRounds + 1);
+    trace.max_bounces = settings_.max_bounces;
+    trace.emission = settings_.emission;
+    trace.kinds = only(settings_.kind);
+    trace.guide = guide.empty() ? nullptr : &guide;
+    return trace;
+  }
+
+  // Adds the starts of one round that served, by photon.
+  void shoot(const TraceSettings& trace) {
+    const uint64_t blocks = (trace.photons + kShootBlock - 1) / kShootBlock;
+    std::vector<std::vector<Start>> of_block(blocks);
+    std::vector<TraceCounters> counters(blocks);
+    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t block) {
+      const uint64_t first = block * kShootBlock, end = std::min(trace.photons, first + kShootBlock);
+      std::vector<double> squares(end - first);
+      const auto sink = [&](PhotonKind, const Photon& photon, uint64_t index) {
+        const double flux = double(photon.flux.x) + double(photon.flux.y) + double(photon.flux.z);
+        squares[index - first] += importance(photon) * flux * flux;
+      };
+      trace_photons(scene_, surfaces_, bvh_, trace, first, end, sink, counters[block]);
+      for (uint64_t i = first; i < end; ++i)
+        if (squares[i - first] > 0) of_block[block].push_back(start_of(trace, i, squares[i - first]));
+    });
+    for (const auto& found : of_block) starts_.insert(starts_.end(), found.begin(), found.end());
+    for (const TraceCounters& of : counters) rays_ += of.rays;
+    if (rounds_.empty()) uniform_hits_ = starts_.size();
+  }
+
+  double importance(const Photon& photon) const {
+    return settings_.importance ? double(settings_.importance(photon)) : 1;
+  }
+
+  Start start_of(const TraceSettings& trace, uint64_t index, double square) const {
+    Sampler sampler(photon_stream(trace), index);
+    const EmissionNumbers n = emission_numbers(scene_, sampler);
+    Start start{{n.position.x, n.position.y, n.direction.x, n.direction.y, n.lamp}};
+    const double weight = trace.guide ? double(trace.guide->warp(start.u)) : 1;
+    const double to_one = double(trace.photons) / weight;
+    start.square = square * to_one * to_one;
+    return start;
+  }
+
+  // The starts of all rounds, as of one density: the sum of all photons' (the balance heuristic, Veach 1997).
+  std::vector<GuideHit> weighted() const {
+    std::vector<GuideHit> hits(starts_.size());
+    tbb::parallel_for(size_t{0}, hits.size(), [&](size_t i) {
+      double density = 0;
+      for (const Round& round : rounds_)
+        density += round.photons * (round.guide.empty() ? 1 : double(round.guide.density(starts_[i].u)));
+      hits[i] = {starts_[i].u, starts_[i].square / density};
+    });
+    return hits;
+  }
+
+  const Scene& scene_;
+  const accel::Bvh& bvh_;
+  const GuideSettings& settings_;
+  SurfaceTable surfaces_{scene_};
+  uint64_t rays_ = 0, uniform_hits_ = 0;
+  std::vector<Round> rounds_;
+  std::vector<Start> starts_;
+};
+
+}  // namespace
+
+LearnedGuide learn_guide(const Scene& scene, const accel::Bvh& bvh, const GuideSettings& settings) {
+  if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return {};
+  return GuideLearner(scene, bvh, settings).learn();
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,111 @@
+#include "photon/shoot/memory_forecast.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace kaustik::photon {
+
+namespace {
+
+// A map's indices have 32 bits.
+constexpr double kMostInMap = std::numeric_limits<uint32_t>::max() - 1.0;
+
+// Of one emitted photon. Shadow photons: as many as the surfaces behind one another; 64 is more than in any
+// scene in use.
+double most_stored(const TraceSettings& settings) {
+  return (settings.kinds.indirect ? settings.max_bounces : 1) + (settings.kinds.shadow ? 64 : 0);
+}
+
+// With those of guided emission: one each, but for few that a coat reflects.
+std::array<double, kPhotonKinds> forecast_all(const Scene& scene, const accel::Bvh& bvh,
+                                              const TraceSettings& settings, uint64_t guided) {
+  auto stored = forecast_stored(scene, bvh, settings);
+  double& caustic = stored[static_cast<size_t>(PhotonKind::kCaustic)];
+  caustic = std::max(caustic, static_cast<double>(guided));
+  return stored;
+}
+
+// "3.4M", rounded down to two digits: a count as --photons takes it.
+std::string rounded_count(double count) {
+  if (count < 1000) return fmt::format("{:.0f}", std::floor(count));
+  const double digit = std::pow(10.0, std::floor(std::log10(count)) - 1);
+  const double value = std::floor(count / digit) * digit;
+  if (value < 1e6) return fmt::format("{:g}k", value / 1e3);
+  if (value < 1e9) return fmt::format("{:g}M", value / 1e6);
+  return fmt::format("{:g}G", value / 1e9);
+}
+
+std::string size_text(double bytes) {
+  return bytes < 1e12 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} TB", bytes / 1e12);
+}
+
+}  // namespace
+
+std::array<double, kPhotonKinds> forecast_stored(const Scene& scene, const accel::Bvh& bvh,
+                                                 const TraceSettings& settings) {
+  TraceSettings few = settings;
+  few.photons = std::min(settings.photons, kForecastPhotons);
+  const TraceCounters counted = shoot(scene, bvh, few).counters;
+  std::array<double, kPhotonKinds> stored{};
+  for (size_t k = 0; k < stored.size(); ++k) {
+    stored[k] = static_cast<double>(counted.stored[k]) * static_cast<double>(settings.photons) /
+                static_cast<double>(std::max<uint64_t>(1, few.photons));
+  }
+  return stored;
+}
+
+double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use) {
+  // Beside the records of the other kinds, or their maps, one map is built from its records: see
+  // PhotonMap::build.
+  constexpr double kRecord = sizeof(PhotonRecord), kMap = 1.1 * kRecord, kBuilt = 52;
+  const double all = std::reduce(stored.begin(), stored.end());
+  if (use == PhotonUse::kRecords) return kRecord * all;
+  const double largest = *std::max_element(stored.begin(), stored.end());
+  return kMap * (all - largest) + kBuilt * largest;
+}
+
+void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,
+                  uint64_t limit, uint64_t guided) {
+  const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
+  const double most = photons * most_stored(settings) + static_cast<double>(guided);
+  if (most <= kMostInMap && peak_bytes({most}, use) <= bytes_limit) return;
+
+  const auto stored = forecast_all(scene, bvh, settings, guided);
+  const double bytes = peak_bytes(stored, use), largest = *std::max_element(stored.begin(), stored.end());
+  if (bytes > bytes_limit) {
+    throw std::runtime_error(fmt::format(
+        "{} photons would need about {} of memory, but {} are available: emit at most about {} at a time, or "
+        "store fewer kinds",
+        settings.photons, size_text(bytes), size_text(bytes_limit),
+        rounded_count(photons * bytes_limit / bytes)));
+  }
+  if (use == PhotonUse::kMaps && largest > kMostInMap) {
+    throw std::runtime_error(
+        fmt::format("{} photons would leave about {:.3g} in one map, which holds {:.0f} at most: emit at "
+                    "most about {} at a time",
+                    settings.photons, largest, kMostInMap, rounded_count(photons * kMostInMap / largest)));
+  }
+}
+
+uint64_t shoots_that_fit(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
+                         uint64_t limit, uint64_t guided) {
+  const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
+  const double most = photons * most_stored(settings) + static_cast<double>(guided);
+  if (most <= kMostInMap && peak_bytes({most}, PhotonUse::kMaps) <= bytes_limit) return 1;
+  // A pass may store somewhat more than its share of the forecast.
+  constexpr double kMargin = 1.05;
+  const auto stored = forecast_all(scene, bvh, settings, guided);
+  const double largest = *std::max_element(stored.begin(), stored.end());
+  const double shoots =
+      std::ceil(kMargin * std::max(peak_bytes(stored, PhotonUse::kMaps) / bytes_limit, largest / kMostInMap));
+  if (shoots > photons) throw std::runtime_error("there is not enough memory for a single photon's map");
+  return std::max<uint64_t>(1, static_cast<uint64_t>(shoots));
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,156 @@
+#include "photon/shoot/shoot.h"
+
+#include <tbb/concurrent_queue.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <shared_mutex>
+
+#include "core/memory/memory_pages.h"
+#include "photon/record/record_sink.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+struct Block {
+  uint64_t first = 0, end = 0;  // photon indices
+  RecordsByKind records;
+  TraceCounters counters;
+  std::array<size_t, kPhotonKinds> place{};  // where its records go
+  bool placed = false;
+};
+
+void trace_block(const Scene& scene, const SurfaceTable& surfaces, const accel::Bvh& bvh,
+                 const TraceSettings& settings, float flux_unit, Block& block) {
+  for (auto& records : block.records) records.clear();
+  TraceCounters counters;
+  RecordSink sink(flux_unit, block.records);
+  trace_photons(scene, surfaces, bvh, settings, block.first, block.end, sink, counters);
+  sink.flush();
+  block.counters = counters;
+  block.placed = false;
+}
+
+// Blocks of photon indices, in order.
+class BlockSource {
+ public:
+  explicit BlockSource(uint64_t photons)
+      : photons_(photons), blocks_(4 * size_t(std::max(1, tbb::this_task_arena::max_concurrency()))) {
+    for (Block& block : blocks_) free_.push(&block);
+  }
+
+  // How many may be under way.
+  size_t most() const { return blocks_.size(); }
+  // Null behind the last; one call at a time.
+  Block* next() {
+    Block* block = nullptr;
+    if (first_ >= photons_ || !free_.try_pop(block)) return nullptr;
+    block->first = first_;
+    block->end = first_ = std::min(photons_, first_ + kShootBlock);
+    return block;
+  }
+  void give_back(Block* block) { free_.push(block); }
+
+ private:
+  uint64_t photons_, first_ = 0;
+  std::vector<Block> blocks_;
+  tbb::concurrent_queue<Block*> free_;
+};
+
+// Where blocks are joined: one thread says in order where each goes, then any thread copies it there.
+class Join {
+ public:
+  Join(ShootResult& result, uint64_t photons) : result_(result), photons_(photons) {}
+
+  // One block at a time, in order.
+  void place(Block& block) {
+    for (size_t k = 0; k < kPhotonKinds; ++k) {
+      PhotonRecords& all = result_.buffers[k].records;
+      block.place[k] = all.size();
+      make_room(all, all.size() + block.records[k].size(), double(block.end) / double(photons_));
+      all.resize(all.size() + block.records[k].size());
+    }
+    result_.counters += block.counters;
+    block.placed = true;
+  }
+
+  // Any thread, at any time after place().
+  void copy(const Block& block) {
+    const std::shared_lock lock(moving_);
+    for (size_t k = 0; k < kPhotonKinds; ++k)
+      std::ranges::copy(block.records[k], result_.buffers[k].records.data() + block.place[k]);
+  }
+
+ private:
+  // Room for what is still to come, as the photons so far foretell, so that the array is hardly ever moved: a
+  // move would hold it twice. Memory that is reserved and never written costs nothing.
+  void make_room(PhotonRecords& all, size_t size, double done_share) {
+    if (size <= all.capacity()) return;
+    const std::unique_lock lock(moving_);
+    const double expected = double(size) / done_share;
+    all.reserve(std::max(size, size_t(1.03 * expected + 5 * std::sqrt(expected))));
+    prefer_large_pages(all.data(), all.capacity() * sizeof(PhotonRecord));
+  }
+
+  ShootResult& result_;
+  uint64_t photons_;
+  std::shared_mutex moving_;  // held alone while arrays move
+};
+
+}  // namespace
+
+float flux_unit_of(const Scene& scene, uint64_t photons) {
+  Rgb total(0);
+  for (const Light& light : scene.lights) total += power(light);
+  const double mean =
+      static_cast<double>(max_component(total)) / static_cast<double>(std::max<uint64_t>(1, photons));
+  if (!(mean > 0) || !std::isfinite(mean)) return 1;
+  // The ends leave room for the shared exponents within float's range.
+  return std::ldexp(1.0f, std::clamp(std::ilogb(mean), -100, 100));
+}
+
+ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
+                  const ShootProgress& progress) {
+  ShootResult result;
+  const float flux_unit = std::ldexp(flux_unit_of(scene, settings.photons),
+                                     settings.guide ? settings.guide->middle_exponent() : 0);
+  for (PhotonBuffer& buffer : result.buffers) buffer.flux_unit = flux_unit;
+  if (!settings.kinds.any()) return result;
+
+  const SurfaceTable surfaces(scene);
+  BlockSource source(settings.photons);
+  std::atomic<bool> cancelled{false};
+  const auto start = [&](tbb::flow_control& control) -> Block* {
+    Block* const block = cancelled ? nullptr : source.next();
+    if (!block) control.stop();
+    return block;
+  };
+  const auto trace = [&](Block* block) {
+    trace_block(scene, surfaces, bvh, settings, flux_unit, *block);
+    return block;
+  };
+  Join join(result, settings.photons);
+  const auto place = [&](Block* block) {
+    if (cancelled) return block;
+    join.place(*block);
+    if (progress && !progress(block->end, settings.photons)) cancelled = true;
+    return block;
+  };
+  const auto copy = [&](Block* block) {
+    if (block->placed) join.copy(*block);
+    source.give_back(block);
+  };
+  using tbb::filter_mode;
+  tbb::parallel_pipeline(source.most(),
+                         tbb::make_filter<void, Block*>(filter_mode::serial_in_order, start) &
+                             tbb::make_filter<Block*, Block*>(filter_mode::parallel, trace) &
+                             tbb::make_filter<Block*, Block*>(filter_mode::serial_in_order, place) &
+                             tbb::make_filter<Block*, void>(filter_mode::parallel, copy));
+  return result;
+}
+
+}  // namespace kaustik::photon

@@ -1,0 +1,417 @@
+#pragma once
+// How photons walk. Included by tracer.h only.
+//
+// Photons wait in eight queues, one for each octant of ray directions. A group from one queue takes a step
+// together: its rays are traced in packets, what can be computed side by side is (random numbers, and all of
+// the commonest vertices: VertexLanes), each leaves its record, and those that go on join the queues again.
+// New photons are emitted when no queue holds a whole group, so packets are full and their rays alike until
+// the last photons are under way.
+
+#include <cmath>
+#include <memory>
+#include <type_traits>
+#include <variant>
+
+#include "core/scene/bsdf_at.h"
+#include "photon/trace/shading_correction.h"
+#include "photon/trace/tracer.h"
+#include "photon/trace/walker_queue.h"
+
+namespace kaustik::photon {
+
+namespace detail {
+
+// Diffuse reflection has one lobe and needs no number to choose it.
+template <class B>
+inline constexpr bool kChoosesLobe = !std::is_same_v<B, Lambertian> && !std::is_same_v<B, OrenNayar>;
+
+// One Newton step towards length 1, for directions whose length is off by rounding: keeps long specular
+// chains from drifting, without a division.
+inline Vector3 unit(const Vector3& w) {
+  return (1.5f - 0.5f * length_squared(w)) * w;
+}
+
+// A photon at a vertex, for what is not computed in lanes.
+struct Arrival {
+  Ray ray;
+  Rgb flux;
+};
+
+// A hit names a triangle; its vertices lie two dependent loads away, often out of cache. Asking for all of a
+// group's before any is needed hides most of that wait. Inlined always: GCC 12 takes a function that only
+// prefetches for one without effects, and drops the call.
+[[gnu::always_inline]] inline void prefetch_triangles(const SurfaceTable& surfaces,
+                                                      const accel::HitLanes& hits, size_t count) {
+  const auto triangle = [&](size_t k, const SurfaceRow& surface) {
+    return &surface.indices[hits.primitive[k] & surface.primitives];
+  };
+  for (size_t k = 0; k < count; ++k) __builtin_prefetch(triangle(k, surfaces.row(hits.shape[k])));
+  for (size_t k = 0; k < count; ++k) {
+    const SurfaceRow& surface = surfaces.row(hits.shape[k]);
+    for (uint32_t vertex : *triangle(k, surface)) __builtin_prefetch(&surface.P[vertex]);
+  }
+}
+
+// In packets, where the tree knows them.
+template <class Accel>
+void intersect_lanes(const Accel& bvh, const accel::RayLanes& rays, size_t count, accel::HitLanes* hits) {
+  if constexpr (requires { bvh.intersect(rays, count, hits); }) {
+    bvh.intersect(rays, count, hits);
+  } else {
+    for (size_t k = 0; k < count; ++k) hits->set(k, bvh.intersect(rays.get(k)));
+  }
+}
+
+// Walks photons whose indices agree in their upper halves.
+template <class Accel, class Sink>
+class Tracer {
+ public:
+  Tracer(const Scene& scene, const SurfaceTable& surfaces, const Accel& bvh, const TraceSettings& settings,
+         uint64_t upper_half, Sink& sink, TraceCounters& counters)
+      : scene_(scene),
+        surfaces_(surfaces),
+        bvh_(bvh),
+        settings_(settings),
+        sink_(sink),
+        counters_(counters),
+        unit_exponent_(energy_unit_exponent(scene, settings.photons)),
+        keys_(photon_stream(settings), upper_half) {
+    counters_.energy.unit_exponent = unit_exponent_;
+  }
+
+  void trace(uint64_t first, uint64_t end) {
+    if (settings_.max_bounces < 1) {
+      counters_.emitted += end - first;
+      return;
+    }
+    for (;;) {
+      WalkerQueue& queue = fullest();
+      if (queue.size() >= kGroupSize) {
+        step(queue, kGroupSize);
+      } else if (first < end) {
+        const uint64_t count = std::min(kGroupSize, end - first);
+        emit(first, static_cast<size_t>(count));
+        first += count;
+      } else if (queue.size() > 0) {
+        step(queue, queue.size());
+      } else {
+        return;
+      }
+    }
+  }
+
+ private:
+  static constexpr uint32_t kFirstVertexSet = kEmissionDimensions / 4;
+  static_assert(kVertexDimensions == 4 && kEmissionDimensions % 4 == 0, "a vertex has one Sobol set");
+  static constexpr uint8_t kNothing = kPhotonKinds;  // left at a vertex
+
+  WalkerQueue& fullest() {
+    WalkerQueue* best = &queues_[0];
+    for (WalkerQueue* q = best + 1; q < &queues_[8]; ++q) best = q->size() > best->size() ? q : best;
+    return *best;
+  }
+  WalkerQueue& queue_of(const Vector3& d) { return queues_[WalkerQueue::octant(d)]; }
+
+  // From one Sobol set for all of the first `count` lanes.
+  void draw_from(uint32_t set, size_t count, int dimensions, SobolLanes& numbers) {
+    sets_.fill(set);
+    keys_.make(set);
+    draw_sobol_lanes(keys_, sets_.data(), walkers_.reversed_index, count, dimensions, &numbers);
+  }
+
+  void emit(uint64_t first, size_t count) {
+    counters_.emitted += count;
+    for (size_t k = 0; k < count; ++k)
+      walkers_.reversed_index[k] = reverse_bits(static_cast<uint32_t>(first + k));
+    if (scene_.lights.size() > 1 && !settings_.lamp) {
+      draw_from(1, count, 3, numbers_);
+      std::copy_n(numbers_.u[0], count, starts_.u_lamp);
+    }
+    draw_from(0, count, 4, starts_.position_direction);
+    if (settings_.guide) settings_.guide->warp(starts_, count, weights_);
+    emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_, settings_.lamp);
+    if (settings_.guide) weigh_starts(count);
+    std::fill_n(walkers_.state, count, WalkState());
+    to_energy_lanes(starts_.flux, count, units_per_watt_, walkers_.energy);
+    for (size_t k = 0; k < count; ++k) {
+      const Rgb flux = VertexLanes::get(starts_.flux, k);
+      goes_on_[k] = starts_.emitted[k] && !is_black(flux) && valid(flux) && !sky_hidden(bvh_, starts_, k);
+      if (goes_on_[k]) counters_.energy.emitted += walkers_.energy[k];
+    }
+    push(starts_.ray, starts_.flux, count);
+  }
+
+  void weigh_starts(size_t count) {
+    for (auto& channel : starts_.flux)
+      for (size_t k = 0; k < count; ++k) channel[k] *= weights_[k];
+  }
+
+  // Those that go on join the queues.
+  void push(const accel::RayLanes& rays, const VertexLanes::Column (&flux)[3], size_t count) {
+    to_rows(rays, flux, walkers_, count, &rows_);
+    for (size_t k = 0; k < count; ++k) queues_[rows_.octant[k]].push(rows_, k, goes_on_[k]);
+  }
+
+  void step(WalkerQueue& queue, size_t count) {
+    queue.take(count, lanes_, walkers_);
+    intersect_lanes(bvh_, lanes_.ray, count, &lanes_.hit);
+    if (surfaces_.many_triangles()) prefetch_triangles(surfaces_, lanes_.hit, count);
+    const uint32_t traits = fill_lanes(count);
+    locate_lanes(lanes_, surfaces_.shapes(), count);
+    const bool chooses_lobes = traits & (kSpecularTrait | kScalarTrait);
+    if (settings_.kinds.indirect || (settings_.kinds.caustic && chooses_lobes)) {
+      // Diffuse reflection does without the fourth number.
+      draw_vertex_numbers(count, chooses_lobes ? 4 : 3);
+      scatter_lanes(lanes_, numbers_, units_per_watt_, count);
+    }
+    const uint64_t dropped_before = counters_.dropped_invalid;
+    for (size_t k = 0; k < count; ++k) arrive(k);
+    leave_photons_of_lanes(count);
+    if (counters_.dropped_invalid != dropped_before) book_dropped(count);
+    book(count);
+    push(lanes_.next, lanes_.next_flux, count);
+  }
+
+  void draw_vertex_numbers(size_t count, int dimensions) {
+    uint32_t last = 0;
+    for (size_t k = 0; k < count; ++k) {
+      // Straight rays use none.
+      sets_[k] = kFirstVertexSet + (walkers_.state[k].is_straight() ? 0 : walkers_.state[k].rays());
+      last = std::max(last, sets_[k]);
+    }
+    std::fill(sets_.begin() + static_cast<std::ptrdiff_t>(count), sets_.end(), kFirstVertexSet);
+    keys_.make(last);
+    draw_sobol_lanes(keys_, sets_.data(), walkers_.reversed_index, count, dimensions, &numbers_);
+  }
+
+  // Hands the vertices over to lanes_; returns what their surfaces have for traits together.
+  uint32_t fill_lanes(size_t count) {
+    uint32_t traits = 0;
+    for (size_t k = 0; k < count; ++k) {
+      const SurfaceRow& surface = surfaces_.row(lanes_.hit.shape[k]);
+      lanes_.set_vertex(k, surface);
+      traits |= surface.traits;
+    }
+    return traits;
+  }
+
+  // Where the energy of the group went.
+  void book(size_t count) {
+    std::fill(walkers_.energy + count, walkers_.energy + kGroupSize, 0);
+    std::fill(scatters_ + count, scatters_ + kGroupSize, uint8_t{0});
+    book_lanes(lanes_, scatters_, walkers_, counters_.energy);
+  }
+  void book_dropped(size_t count) {
+    for (size_t k = 0; k < count; ++k) {
+      if (!scatters_[k] || lanes_.fate[k] != VertexLanes::kInvalid) continue;
+      counters_.energy.invalid += walkers_.energy[k];
+      walkers_.energy[k] = scatters_[k] = 0;
+    }
+  }
+
+  // Photon k at its vertex: what it leaves, and whether and how it goes on, in goes_on_, walkers_ and the
+  // next segment of lanes_.
+  void arrive(size_t k) {
+    ++(walkers_.state[k].is_straight() ? counters_.shadow_rays : counters_.rays);
+    if (lanes_.traits[k] & kScalarTrait) return arrive_alone(k);
+    const WalkState before = walkers_.state[k];
+    arrive_in_lane(k);
+    if (settings_.kinds.shadow && lanes_.hit.valid(k)) cast_shadow(k, before);
+  }
+
+  // Not inlined: arrive() is, into the loop over the lanes, and most lanes have nothing to do here.
+  [[gnu::noinline]] void arrive_alone(size_t k) {
+    left_[k] = kNothing;
+    goes_on_[k] = false;
+    scatters_[k] = false;
+    const Arrival photon{lanes_.ray.get(k), VertexLanes::get(lanes_.flux, k)};
+    SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
+    const BsdfAt bsdf_at(scene_, si, -photon.ray.d);
+    std::visit(
+        [&](const auto& bsdf) {
+          const Lobes lobes = bsdf.lobes();
+          leave_photon(k, si, photon, !(lobes.broad || scene_.materials[si.material].lobes().broad));
+          if (walkers_.state[k].is_straight()) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
+          const bool wanted = settings_.kinds.indirect || (lobes.specular && settings_.kinds.caustic);
+          if (wanted && !is_last(k)) scatter_alone(k, bsdf, si, photon);
+        },
+        *bsdf_at);
+  }
+
+  // The same for what lanes_ has computed, but for shadow photons. The flux was found valid when it was made.
+  // Nobody could predict branches here.
+  void arrive_in_lane(size_t k) {
+    const bool met = !(lanes_.traits[k] & kMissedTrait), specular = lanes_.traits[k] & kSpecularTrait;
+    const PhotonKind kind = walkers_.state[k].kind();
+    const bool leaves = met & !specular & settings_.kinds[kind] & (lanes_.cos_in[k] != 0);
+    left_[k] = leaves ? static_cast<uint8_t>(kind) : kNothing;
+    counters_.stored[static_cast<size_t>(kind)] += leaves;
+    const bool wanted = settings_.kinds.indirect | (specular & settings_.kinds.caustic);
+    const bool asked = met & wanted & !walkers_.state[k].is_straight() & !is_last(k);
+    scatters_[k] = asked;
+    counters_.dropped_invalid += asked & (lanes_.fate[k] == VertexLanes::kInvalid);
+    goes_on_[k] = asked & (lanes_.fate[k] == VertexLanes::kAlive);
+    walkers_.state[k] = specular ? walkers_.state[k].behind_specular() : walkers_.state[k].behind_diffuse();
+  }
+
+  // The straight ray of a vertex in lanes.
+  void cast_shadow(size_t k, WalkState before) {
+    const bool specular = lanes_.traits[k] & kSpecularTrait;
+    if (!before.is_straight() && !casts_shadow(before.kind(), specular)) return;
+    const Vector3 d = VertexLanes::get(lanes_.ray.d, k);
+    const Ray on{
+        offset_origin(VertexLanes::get(lanes_.p, k), lanes_.p_error[k], VertexLanes::get(lanes_.n, k), d), d};
+    const Rgb flux = VertexLanes::get(lanes_.flux, k);
+    if (!before.is_straight()) return start_straight(k, on, flux);
+    walkers_.state[k] = before;
+    go_straight_on(k, on, flux);
+  }
+
+  bool is_last(size_t k) const {
+    return walkers_.state[k].rays() + 1 >= static_cast<uint32_t>(settings_.max_bounces);
+  }
+
+  // The straight ray behind the first surface.
+  void start_straight(size_t k, const Ray& on, const Rgb& flux) {
+    queue_of(on.d).push(on.o, on.d, flux, walkers_.reversed_index[k], WalkState::straight());
+  }
+  void go_straight_on(size_t k, const Ray& on, const Rgb& flux) {
+    lanes_.set_next(k, on, flux);
+    walkers_.state[k] = walkers_.state[k].behind_any();
+    goes_on_[k] = walkers_.state[k].rays() < kMaxStraightSurfaces;
+  }
+
+  void leave_photons_of_lanes(size_t count) {
+    if constexpr (requires { sink_(lanes_, left_.data(), count); }) {
+      sink_(lanes_, left_.data(), count);
+    } else {
+      for (size_t k = 0; k < count; ++k) {
+        if (left_[k] == kNothing) continue;
+        hand_over(k, static_cast<PhotonKind>(left_[k]),
+                  Photon{VertexLanes::get(lanes_.p, k), -VertexLanes::get(lanes_.ray.d, k),
+                         VertexLanes::get(lanes_.flux, k), VertexLanes::get(lanes_.facing, k),
+                         lanes_.surface_group[k]});
+      }
+    }
+  }
+
+  void hand_over(size_t k, PhotonKind kind, const Photon& photon) {
+    if constexpr (requires { sink_(kind, photon, uint64_t{0}); }) {
+      sink_(kind, photon, keys_.upper_half() << 32 | reverse_bits(walkers_.reversed_index[k]));
+    } else {
+      sink_(kind, photon);
+    }
+  }
+
+  // Counts and refuses what must never reach a map.
+  bool valid(const Rgb& flux) {
+    if (is_valid_flux(flux)) return true;
+    ++counters_.dropped_invalid;
+    return false;
+  }
+
+  void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon, bool specular) {
+    const PhotonKind kind = walkers_.state[k].kind();
+    if (!specular && settings_.kinds[kind]) record(k, kind, si, photon);
+    if (settings_.kinds.shadow && casts_shadow(kind, specular))
+      start_straight(k, si.spawn(photon.ray.d), photon.flux);
+  }
+
+  // Whether a straight ray goes on behind a surface where a photon of this kind arrives.
+  bool casts_shadow(PhotonKind kind, bool specular) const {
+    return kind == PhotonKind::kDirect && (!specular || settings_.shadow_behind_specular);
+  }
+
+  void record(size_t k, PhotonKind kind, const SurfaceInteraction& si, const Arrival& photon) {
+    const Vector3 wi = -photon.ray.d;
+    const Rgb deposit = shading_correction(si, wi, glm::dot(wi, si.ns)) * photon.flux;
+    if (is_black(deposit) || !valid(deposit)) return;
+    ++counters_.stored[static_cast<size_t>(kind)];
+    hand_over(k, kind, Photon{si.p, wi, deposit, glm::dot(wi, si.n) < 0 ? -si.n : si.n, si.surface_group});
+  }
+
+  template <class B>
+  void scatter_alone(size_t k, const B& bsdf, const SurfaceInteraction& si, const Arrival& photon) {
+    const uint64_t dropped_before = counters_.dropped_invalid;
+    lanes_.scattered_energy[k] = lanes_.next_energy[k] = 0;
+    scatters_[k] = true;
+    goes_on_[k] = scatter(k, bsdf, si, photon);
+    const bool dropped = counters_.dropped_invalid != dropped_before;
+    lanes_.fate[k] = dropped ? VertexLanes::kInvalid : VertexLanes::kAlive;
+  }
+
+  // Samples the next direction and plays Russian roulette; false when the photon is absorbed, or not wanted
+  // behind this lobe. Numbers of the vertex: direction (0, 1), then lobe where there is a choice, roulette.
+  template <class B>
+  bool scatter(size_t k, const B& bsdf, const SurfaceInteraction& si, const Arrival& photon) {
+    const auto u = [&](int dimension) { return numbers_.u[dimension][k]; };
+    const Vector3 wo = -photon.ray.d;
+    const Frame frame = scatters_about_n<B>(si, wo) ? geometric_frame(si) : si.shading_frame();
+    const Vector3 wo_local = frame.to_local(wo);
+    const auto sample =
+        bsdf.sample_f(wo_local, kChoosesLobe<B> ? u(2) : 0, {u(0), u(1)}, TransportMode::kImportance);
+    if (!sample) return false;
+    scatters_[k] = sample->specular || settings_.kinds.indirect;
+    if (!scatters_[k]) return false;
+    WalkState& state = walkers_.state[k];
+    state = sample->specular ? state.behind_specular() : state.behind_diffuse();
+    const Onward on = onward(bsdf, si, frame, wo, wo_local, *sample);
+    const Rgb next = on.weight * photon.flux;
+    if (is_black(next) || !valid(next)) return false;
+    lanes_.scattered_energy[k] = energy_of(next, units_per_watt_);
+    const float scale = roulette(photon.flux, next, u(kChoosesLobe<B> ? 3 : 2));
+    if (scale == 0) return false;
+    lanes_.set_next(k, si.spawn(unit(on.wi)), scale * next);
+    lanes_.next_energy[k] = energy_of(scale * next, units_per_watt_);
+    return true;
+  }
+
+  // Roulette: survival with probability q = min(1, next / flux) keeps the flux of the survivors near
+  // constant. Returns what to scale next by, zero for the absorbed.
+  static float roulette(const Rgb& flux, const Rgb& next, float u) {
+    const float before = max_component(flux), after = max_component(next);
+    if (!(after < before)) return 1;
+    return u * before < after ? before / after : 0.0f;
+  }
+
+  const Scene& scene_;
+  const SurfaceTable& surfaces_;
+  const Accel& bvh_;
+  const TraceSettings& settings_;
+  Sink& sink_;
+  TraceCounters& counters_;
+  int unit_exponent_;  // of the energy ledger
+  float units_per_watt_ = std::ldexp(1.0f, -unit_exponent_);
+  SobolKeyTable keys_;
+  std::unique_ptr<WalkerQueue[]> queues_ = std::make_unique_for_overwrite<WalkerQueue[]>(8);
+  // Of the group that takes a step. Lanes nobody has set are zero, not leftovers of the stack: slow
+  // denormals.
+  VertexLanes lanes_{};
+  SobolLanes numbers_{};
+  EmissionLanes starts_{};
+  EmissionLanes::Column weights_{};  // of guided starts
+  WalkerLanes walkers_{};
+  WalkerRows rows_{};
+  std::array<uint32_t, kGroupSize> sets_{};  // Sobol sets to draw from
+  std::array<bool, kGroupSize> goes_on_{};
+  alignas(64) uint8_t scatters_[kGroupSize]{};  // what arrives is booked as scattered, not as terminated
+  std::array<uint8_t, kGroupSize> left_{};      // kind of the photon left by a vertex in lanes, or kNothing
+};
+
+}  // namespace detail
+
+template <class Accel, class Sink>
+void trace_photons(const Scene& scene, const SurfaceTable& surfaces, const Accel& bvh,
+                   const TraceSettings& settings, uint64_t first, uint64_t end, Sink&& sink,
+                   TraceCounters& counters) {
+  constexpr uint64_t kHalf = uint64_t{1} << 32;
+  while (first < end) {
+    const uint64_t stop = std::min(end, (first / kHalf + 1) * kHalf);
+    detail::Tracer<Accel, std::remove_reference_t<Sink>> tracer(scene, surfaces, bvh, settings, first / kHalf,
+                                                                sink, counters);
+    tracer.trace(first, stop);
+    first = stop;
+  }
+}
+
+}  // namespace kaustik::photon

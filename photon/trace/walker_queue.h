@@ -1,0 +1,57 @@
+#pragma once
+// Photons on their way, waiting for the next step.
+
+#include <cmath>
+#include <cstring>
+
+#include "photon/trace/walker_rows.h"
+
+namespace kaustik::photon {
+
+// Photons whose rays point into one octant, by rows: joining a queue touches three lines of the cache.
+class WalkerQueue {
+ public:
+  static constexpr size_t kGroup = VertexLanes::kLanes;
+  // The tracer emits a group only when no queue of the eight holds one, and a photon that has been emitted
+  // adds at most one more, its straight ray.
+  static constexpr size_t kCapacity = 2 * (8 * kGroup + kGroup);
+
+  size_t size() const { return size_; }
+
+  // One photon.
+  void push(const glm::vec3& o, const glm::vec3& d, const Rgb& flux, uint32_t reversed_index,
+            WalkState state) {
+    const float floats[] = {o.x, o.y, o.z, d.x, d.y, d.z, flux.x, flux.y, flux.z};
+    uint32_t words[12]{};
+    std::memcpy(words, floats, sizeof(floats));
+    words[9] = reversed_index;
+    std::memcpy(words + 10, &state, sizeof(state));
+    for (int i = 0; i < 3; ++i) std::memcpy(part_[i][size_], words + 4 * i, sizeof(Part));
+    ++size_;
+  }
+
+  // Row k. Writes behind the last, and keeps it if `keep`: nobody could predict a branch on that.
+  void push(const WalkerRows& rows, size_t k, bool keep) {
+    for (int i = 0; i < 3; ++i) std::memcpy(part_[i][size_], rows.part[i][k], sizeof(Part));
+    size_ += keep;
+  }
+
+  // Takes the last `count` out.
+  void take(size_t count, VertexLanes& lanes, WalkerLanes& walkers) {
+    size_ -= count;
+    from_rows({part_[0][size_], part_[1][size_], part_[2][size_]}, count, &lanes.ray, lanes.flux, &walkers);
+  }
+
+  static size_t octant(const glm::vec3& d) {
+    return static_cast<size_t>(std::signbit(d.x)) | static_cast<size_t>(std::signbit(d.y)) << 1 |
+           static_cast<size_t>(std::signbit(d.z)) << 2;
+  }
+
+ private:
+  using Part = uint32_t[4];
+  size_t size_ = 0;
+  // With room for the whole vectors of a group that is not full.
+  alignas(64) Part part_[3][kCapacity + kGroup];
+};
+
+}  // namespace kaustik::photon

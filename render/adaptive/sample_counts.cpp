@@ -1,0 +1,108 @@
+#include "render/adaptive/sample_counts.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace kaustik::render {
+
+namespace {
+
+// Relative variances as whole numbers that grow with their logarithm: the upper bits of a float.
+constexpr int kMantissaBits = 4;
+constexpr uint32_t kSteps = 1u << (8 + kMantissaBits);  // of all finite floats that are not negative
+// Of the count. If the variance of a mean fell like 1 / count, the root of the relative variance would be
+// best; of stratified samples it falls faster, and what is smooth gains as much from a few as edges do from
+// many.
+constexpr int kStepsPerDoubling = 4 << kMantissaBits;
+uint32_t step_of(double relative_variance) {
+  const float value = static_cast<float>(std::min(relative_variance, 1e30));
+  return value > 0 ? std::bit_cast<uint32_t>(value) >> (23 - kMantissaBits) : 0;
+}
+
+int doublings(uint32_t step, uint32_t threshold) {
+  return std::clamp((int(step) - int(threshold)) / kStepsPerDoubling, 0, kMostDoublings);
+}
+
+// Work of as many samples as there are first ones, of all pixels whose gain lies in each step.
+using Histogram = std::array<double, kSteps>;
+
+double further_work_of(const Histogram& work, uint32_t threshold) {
+  double sum = 0;
+  for (uint32_t step = 0; step < kSteps; ++step)
+    if (work[step] > 0) sum += work[step] * (std::ldexp(1.0, doublings(step, threshold)) - 1);
+  return sum;
+}
+
+// The least threshold that takes no more work.
+uint32_t least_threshold(const Histogram& work, double most) {
+  uint32_t low = 1, high = kSteps;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (further_work_of(work, middle) <= most)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
+}
+
+double gain_of(const LightSpread& light) {
+  return light.work > 0 ? light.variance / light.work : 0;
+}
+
+}  // namespace
+
+SampleCounts::SampleCounts(const FilmSums& window)
+    : first_column_(window.x0() / kRayBlock),
+      first_row_(window.y0() / kRayBlock),
+      columns_((window.x0() + window.width() - 1) / kRayBlock + 1 - first_column_),
+      rows_((window.y0() + window.height() - 1) / kRayBlock + 1 - first_row_),
+      spreads_(size_t(columns_) * size_t(rows_) * kHalves),
+      counts_(spreads_.size()),
+      lights_(spreads_.size()) {}
+
+// The other half counts as much as the blocks around together: it is nearer, and less of it.
+SampleSpread SampleCounts::neighbours(size_t i) const {
+  constexpr double kAround = 1.0 / 16;
+  const int half = int(i % kHalves), column = int(i / kHalves) % columns_, row = int(i / kHalves) / columns_;
+  SampleSpread sum;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows_ - 1); ++r) {
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns_ - 1); ++c) {
+      const SampleSpread* const halves = &spreads_[block(c, r)];
+      if (r == row && c == column)
+        sum.add(halves[1 - half], 1);
+      else
+        for (int h = 0; h < kHalves; ++h) sum.add(halves[h], kAround);
+    }
+  }
+  return sum;
+}
+
+void SampleCounts::share_out(uint64_t first, double further_work) {
+  SampleSpread all;
+  double roots = 0;
+  for (const SampleSpread& half : spreads_) {
+    all.add(half, 1);
+    if (half.pixels > 0) roots += std::sqrt(std::max(half.mean * half.pixels, 0.0));
+  }
+  if (!(all.pixels > 0)) return;
+  const double root = roots / all.pixels, least = root * root / 2;
+
+  std::vector<uint32_t> steps(spreads_.size());
+  Histogram work{};
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const SampleSpread near = neighbours(i);
+    if (!(near.pixels > 0)) continue;
+    const double whole = gain_of(near.of(SampleLight::kAll)), traced = gain_of(near.of(SampleLight::kTraced));
+    const double m = near.mean / near.pixels;
+    lights_[i] = whole < traced ? SampleLight::kTraced : SampleLight::kAll;
+    steps[i] = step_of(std::max(whole, traced) / (m * m + least * least));
+    work[steps[i]] += spreads_[i].of(lights_[i]).work;
+  }
+  const uint32_t threshold = least_threshold(work, all.of(SampleLight::kAll).work * further_work);
+  for (size_t i = 0; i < counts_.size(); ++i) counts_[i] = first << doublings(steps[i], threshold);
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,174 @@
+#include "render/estimators/lighting.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// Veach 1997, section 9.2.4, beta = 2. As a ratio, so that squares of large densities do not overflow.
+float power_heuristic(float pdf, float other) {
+  if (!(pdf > 0)) return 0;
+  const float ratio = other / pdf;
+  return 1 / (1 + ratio * ratio);
+}
+
+// The shadow ray ends just off the lamp: p_light is already offset, t counts in lengths of d.
+Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
+  if (s.infinite) return si.spawn(s.wi);
+  Ray ray = si.spawn(s.wi, 1);
+  ray.d = s.p_light - ray.o;
+  return ray;
+}
+
+// Whether the lamp is seen from x, as far as photons foretell it: on the viewer's side. Light that comes
+// through arrives on the other, and in a glossy lobe a wrong forecast would be too bright a sample.
+photon::VisibilityGuess foretold(const RenderContext& ctx, const ShadingPoint& x, LobePart part,
+                                 uint32_t lamp) {
+  if (!ctx.maps.visibility || part == LobePart::kGlossy || transmits(*x.bsdf)) return {};
+  return ctx.maps.visibility->guess(lamp, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
+}
+
+float trace_visibility(const RenderContext& ctx, const ShadingPoint& x, const LightSample& s,
+                       TileCounters& counters) {
+  ++counters.rays.shadow;
+  return ctx.bvh.occluded(shadow_ray(x.si, s)) ? 0 : 1;
+}
+
+bool dark(const Scene& scene) {
+  return scene.light_power.empty() || !(scene.light_power.total() > 0);
+}
+
+// Few lamps are all sampled, each once; of more, one.
+constexpr size_t kMostLampsSampled = LightSampler::kMostByPower;
+bool samples_each(const Scene& scene) {
+  return scene.lights.size() <= kMostLampsSampled;
+}
+// How many samples of a lamp are expected.
+float samples_of(const Scene& scene, const LightReceiver& x, uint32_t lamp) {
+  return samples_each(scene) ? 1 : scene.light_sampler.probability(x, lamp);
+}
+
+// What a sample of a lamp brings where it is seen: f Li / pdf, times its share against BSDF sampling.
+struct LampSample {
+  LightSample at;
+  Rgb brings{0};
+};
+// expected: number of samples of the lamp. Nothing where it brings nothing.
+std::optional<LampSample> sample_lamp(const Scene& scene, uint32_t lamp, float expected,
+                                      const ShadingPoint& x, LightWeight weight, LobePart part,
+                                      const Point2& u) {
+  const auto s = sample_Li(scene.lights[lamp], x.receiver(), u);
+  if (!s || !(s->pdf > 0)) return std::nullopt;
+  const Rgb f = f_cos(x, s->wi, part);
+  if (is_black(f) || is_black(s->Li)) return std::nullopt;
+  const float pdf = s->pdf * expected;
+  const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[lamp]);
+  const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
+  return LampSample{*s, f * s->Li * (w / pdf)};
+}
+
+// The sum over all lamps of what each brings times V, as foretold, put right for one of them at most: chosen
+// by what it brings times p. As often as the most doubtful of them alone would be.
+Rgb sample_each_lamp(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, float u_ray,
+                     const Point2& u, TileCounters& counters, LobePart part) {
+  struct Candidate {
+    LampSample sample;
+    float v, size;
+  };
+  std::array<Candidate, kMostLampsSampled> candidates;
+  size_t count = 0;
+  float all = 0, p = 0;
+  Rgb sum(0);
+  for (uint32_t lamp = 0; lamp < ctx.scene.lights.size(); ++lamp) {
+    const auto s = sample_lamp(ctx.scene, lamp, 1, x, weight, part, u);
+    if (!s) continue;
+    const photon::VisibilityGuess guess = foretold(ctx, x, part, lamp);
+    const float size = s->brings.x + s->brings.y + s->brings.z;
+    sum += s->brings * guess.v;
+    all += size * guess.p;
+    p = std::max(p, guess.p);
+    candidates[count++] = {*s, guess.v, size * guess.p};
+  }
+  if (!(u_ray < p)) return sum;
+  float at = u_ray / p * all;
+  for (size_t i = 0; i < count; ++i) {
+    const Candidate& c = candidates[i];
+    if (at < c.size)
+      return sum + c.sample.brings *
+                       ((trace_visibility(ctx, x, c.sample.at, counters) - c.v) * (all / (c.size * p)));
+    at -= c.size;
+  }
+  return sum;
+}
+
+// f Li / pdf of a sample of one lamp.
+Rgb unoccluded_from(const Scene& scene, uint32_t lamp, const ShadingPoint& x, const Point2& u) {
+  const auto s = sample_lamp(scene, lamp, 1, x, LightWeight::kAlone, LobePart::kBroad, u);
+  return s ? s->brings : Rgb(0);
+}
+
+}  // namespace
+
+Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
+                  TileCounters& counters, LobePart part) {
+  const float u_lamp = sampler.next_1d();
+  const Point2 u = sampler.next_2d();
+  const Scene& scene = ctx.scene;
+  if (dark(scene)) return Rgb(0);
+  if (scene.lights.size() > 1 && samples_each(scene))
+    return sample_each_lamp(ctx, x, weight, u_lamp, u, counters, part);
+  const auto lamp = scene.light_sampler.choose(x.receiver(), u_lamp);
+  if (!lamp) return Rgb(0);
+  // The number that chose the lamp is uniform again, whatever the lamp and the point on it.
+  const photon::VisibilityGuess guess = foretold(ctx, x, part, lamp->lamp);
+  const bool traced = lamp->u_remapped < guess.p;
+  if (!traced && guess.v == 0) return Rgb(0);
+  const auto s = sample_lamp(scene, lamp->lamp, lamp->probability, x, weight, part, u);
+  if (!s) return Rgb(0);
+  return s->brings *
+         (traced ? guess.v + (trace_visibility(ctx, x, s->at, counters) - guess.v) / guess.p : guess.v);
+}
+
+Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler) {
+  const float u_lamp = sampler.next_1d();
+  const Point2 u = sampler.next_2d();
+  const Scene& scene = ctx.scene;
+  if (dark(scene)) return Rgb(0);
+  if (scene.lights.size() > kMostLampsSummed) {
+    const auto lamp = scene.light_sampler.choose(x.receiver(), u_lamp);
+    return lamp ? unoccluded_from(scene, lamp->lamp, x, u) / lamp->probability : Rgb(0);
+  }
+  Rgb sum(0);
+  for (uint32_t lamp = 0; lamp < scene.lights.size(); ++lamp) sum += unoccluded_from(scene, lamp, x, u);
+  return sum;
+}
+
+Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w) {
+  if (si.light == kNoIndex) return Rgb(0);
+  const auto* area = std::get_if<DiffuseAreaLight>(&scene.lights[si.light]);
+  return area ? area->Le(si, w) : Rgb(0);
+}
+
+Rgb escaped(const Scene& scene, const Ray& ray) {
+  Rgb sum(0);
+  for (const uint32_t i : scene.infinite_lights) sum += escaped_radiance(scene.lights[i], ray);
+  return sum;
+}
+
+float emitter_hit_weight(const Scene& scene, const LightReceiver& x, const Vector3& wi, float bsdf_pdf,
+                         const SurfaceInteraction& si) {
+  const auto* area = std::get_if<DiffuseAreaLight>(&scene.lights[si.light]);
+  if (!area) return 0;
+  return power_heuristic(bsdf_pdf, samples_of(scene, x, si.light) * area->pdf_Li(x.p, wi, si));
+}
+
+Rgb escaped_weighted(const Scene& scene, const LightReceiver& x, const Ray& ray, float bsdf_pdf) {
+  Rgb sum(0);
+  for (const uint32_t i : scene.infinite_lights) {
+    const Light& light = scene.lights[i];
+    const float light_pdf = samples_of(scene, x, i) * escaped_pdf(light, x, ray.d);
+    sum += escaped_radiance(light, ray) * power_heuristic(bsdf_pdf, light_pdf);
+  }
+  return sum;
+}
+
+}  // namespace kaustik::render

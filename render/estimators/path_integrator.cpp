@@ -1,0 +1,135 @@
+#include "render/estimators/path_integrator.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// One path while it is followed.
+struct PathState {
+  Rgb beta{1};            // throughput since x
+  float roulette = 1;     // largest component of the throughput without the eta^2 of refractions
+  int events = 1;         // scattering events since x, x included
+  int diffuse = 0;        // those by broad lobes, x included
+  bool specular = false;  // the last event was specular
+  bool has_pdf = false;   // it was no delta lobe's: lamps were sampled there, too
+  LightReceiver ref;      // where it was
+  float pdf = 0;          // density of the ray that left it
+};
+
+bool caustics_by_map(const RenderContext& ctx) {
+  return ctx.plan.caustics == CausticEstimator::kPhotons;
+}
+
+bool follows_indirect(const RenderContext& ctx) {
+  return ctx.plan.indirect == IndirectEstimator::kPaths;
+}
+
+// Where a lamp met by the path is counted, or nothing when another estimator owns it. specular: of the event
+// that leads to the lamp.
+Rgb* owner_of_lamp(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
+  if (path.diffuse == 1) {
+    if (specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
+    return samples_lamps(ctx.plan.direct) ? &light->direct : nullptr;
+  }
+  return specular && caustics_by_map(ctx) ? nullptr : &light->indirect;
+}
+
+void add_lamp(const RenderContext& ctx, const PathState& path, const SurfaceInteraction& si, const Ray& ray,
+              PathLight* light) {
+  const Rgb Le = emitted(ctx.scene, si, -ray.d);
+  if (is_black(Le)) return;
+  Rgb* owner = owner_of_lamp(ctx, path, path.specular, light);
+  if (!owner) return;
+  const float w = path.has_pdf ? emitter_hit_weight(ctx.scene, path.ref, ray.d, path.pdf, si) : 1;
+  *owner += path.beta * Le * w;
+}
+
+void add_escape(const RenderContext& ctx, const PathState& path, const Ray& ray, PathLight* light) {
+  if (ctx.scene.infinite_lights.empty()) return;
+  if (Rgb* owner = owner_of_lamp(ctx, path, path.specular, light))
+    *owner += path.beta *
+              (path.has_pdf ? escaped_weighted(ctx.scene, path.ref, ray, path.pdf) : escaped(ctx.scene, ray));
+}
+
+// Light that arrives at y, behind a broad event, and is scattered along the path by y's broad lobes.
+Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler, TileCounters& counters) {
+  Rgb sum = sample_direct(ctx, y, LightWeight::kMis, sampler, counters);
+  if (caustics_by_map(ctx))
+    sum += photon::estimate_radiance(ctx.maps.caustic.map, y.si, y.wo, *y.bsdf, ctx.maps.caustic.estimate,
+                                     counters.gather);
+  return sum;
+}
+
+// Follows the path through a scattering event; false where it ends.
+bool continue_path(const ShadingPoint& v, Scatter part, PathState* path, Ray* ray, Sampler& sampler) {
+  const auto s = scatter(v, sampler, part);
+  if (!s || is_black(s->weight)) return false;
+  path->beta *= s->weight;
+  if (!s->transmission) path->roulette *= max_component(s->weight);
+  path->specular = s->specular;
+  path->diffuse += !s->specular;
+  path->has_pdf = !s->specular || s->glossy;
+  path->ref = v.receiver();
+  path->pdf = s->pdf;
+  *ray = v.si.spawn(s->wi);
+  return true;
+}
+
+// Pharr et al. 2023, section 13.2.2, with the refractions' eta^2 left out: radiance is larger in water, but
+// not more important. From the third broad event on. False where the path ends. Draws one dimension.
+bool survives(PathState* path, Sampler& sampler) {
+  const float u = sampler.next_1d();
+  if (path->diffuse < 2 || path->roulette >= 1) return true;
+  const float q = std::max(path->roulette, 0.05f);
+  if (u >= q) return false;
+  path->beta /= q;
+  path->roulette /= q;
+  return true;
+}
+
+// What the path finds at y before it goes on; false where it ends.
+bool visit(const RenderContext& ctx, const ShadingPoint& y, PathState* path, PathLight* light,
+           Sampler& sampler, TileCounters& counters) {
+  const Lobes parts = lobes(*y.bsdf);
+  if (parts.broad) {
+    if (follows_indirect(ctx))
+      light->indirect += path->beta * arriving(ctx, y, sampler, counters);
+    else if (!parts.specular)
+      return false;
+  }
+  if (parts.glossy) {
+    if (Rgb* owner = owner_of_lamp(ctx, *path, true, light))
+      *owner += path->beta * sample_direct(ctx, y, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
+  }
+  return !parts.broad || survives(path, sampler);
+}
+
+}  // namespace
+
+bool traces_paths(const EstimatorPlan& plan) {
+  return plan.caustics == CausticEstimator::kPaths || plan.indirect == IndirectEstimator::kPaths;
+}
+
+PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler,
+                     TileCounters& counters) {
+  PathLight light;
+  PathState path;
+  Ray ray;
+  if (!continue_path(x, Scatter::kBroad, &path, &ray, sampler)) return light;
+  const Scatter part = follows_indirect(ctx) ? Scatter::kEither : Scatter::kSpecular;
+  while (true) {
+    ++counters.rays.bounce;
+    SurfaceInteraction si;
+    if (!ctx.bvh.intersect(ray, &si)) {
+      add_escape(ctx, path, ray, &light);
+      return light;
+    }
+    add_lamp(ctx, path, si, ray, &light);
+    if (++path.events > ctx.settings.max_bounces) return light;
+    const ShadingPoint y(ctx.scene, si, -ray.d);
+    if (!visit(ctx, y, &path, &light, sampler, counters)) return light;
+    if (!continue_path(y, part, &path, &ray, sampler)) return light;
+  }
+}
+
+}  // namespace kaustik::render

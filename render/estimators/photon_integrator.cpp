@@ -1,0 +1,242 @@
+// What a camera ray brings back:
+//
+//   L(ray) = Le + Lr                                          the rendering equation (Kajiya 1986)
+//   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
+//   Lr = direct + caustic + indirect at points x of the chain, by their broad lobes; where all lobes of a
+//        point are broad, the chain ends
+//        direct    L D S* E                 lamp samples, photons or both                   add_direct
+//        caustic   L S+ D S* E              photons or paths                                add_reflected
+//        indirect  L S* D (S|D)* D S* E     photons or paths                                add_reflected
+//
+// Each class has one owner, so that their sum counts every path once (Heckbert 1990 for the notation).
+
+#include "render/estimators/photon_integrator.h"
+
+#include <array>
+
+#include "render/estimators/path_integrator.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// Adds what a photon map says of a point, at once or when the batch is flushed.
+struct MapReader {
+  const CameraSample& sample;
+  TileCounters& counters;
+  PixelResult* result;
+
+  // Adds weight * Lr to *to, which is part of *result.
+  void add(const photon::PhotonMap& map, const photon::EstimateSettings& estimate, const ShadingPoint& x,
+           const Rgb& weight, Rgb* to) const {
+    if (!sample.with_bias &&
+        sample.batch->add(map, x.si, x.wo, *x.bsdf, estimate, weight, to, &result->photons))
+      return;
+    const uint64_t accepted = counters.gather.accepted;
+    photon::BiasEstimate bias;
+    *to += weight * photon::estimate_radiance(map, x.si, x.wo, *x.bsdf, estimate, counters.gather,
+                                              sample.with_bias ? &bias : nullptr);
+    result->photons += float(counters.gather.accepted - accepted);
+    result->bias += weight * bias.bias;
+    counters.gather += bias.counters;
+  }
+  void add(const ReadMap& read, const ShadingPoint& x, const Rgb& weight, Rgb* to) const {
+    add(read.map, read.estimate, x, weight, to);
+  }
+};
+
+// The lecture (TNCG15): photons where the octree cell of x is free of shadow photons, shadow rays elsewhere.
+bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, LectureCounters& counters) {
+  const auto answer = photon::lecture_lookup(ctx.maps.direct.map, ctx.maps.shadow, x.si.p, ctx.maps.lecture);
+  counters.from_photons += answer.use_photons();
+  counters.climbed += answer.outcome == photon::LectureOutcome::kClimbed;
+  counters.fallback_few += answer.outcome == photon::LectureOutcome::kFew;
+  counters.fallback_shadow += answer.outcome == photon::LectureOutcome::kShadow;
+  counters.fallback_face += answer.outcome == photon::LectureOutcome::kFace;
+  return answer.use_photons();
+}
+
+// BSDF sampling finds lamps too when a path leaves x anyway: then both share the direct light.
+LightWeight light_weight(const EstimatorPlan& plan) {
+  return samples_lamps(plan.direct) && traces_paths(plan) ? LightWeight::kMis : LightWeight::kAlone;
+}
+
+// Adds beta times the direct light at x.
+void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
+                const MapReader& maps) {
+  Rgb* const to = &maps.result->direct;
+  switch (ctx.plan.direct) {
+    case DirectEstimator::kPhotons:
+      return maps.add(ctx.maps.direct, x, beta, to);
+    case DirectEstimator::kLecture:
+      if (lecture_trusts_photons(ctx, x, maps.counters.lecture))
+        return maps.add(ctx.maps.direct, x, beta, to);
+      break;
+    case DirectEstimator::kSigned:
+      *to += beta * unoccluded_direct(ctx, x, sampler);
+      return maps.add(ctx.maps.shadow, ctx.maps.direct.estimate, x, -beta, to);
+    case DirectEstimator::kShadowRays:
+    case DirectEstimator::kPredicted:
+      break;
+  }
+  *to += beta * sample_direct(ctx, x, light_weight(ctx.plan), sampler, maps.counters);
+}
+
+// Light scattered by the broad lobes of a point, seen through a specular chain of throughput beta. The path
+// brings nothing of a class that another estimator owns, so each sum has one owner.
+void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
+                   const MapReader& maps) {
+  PixelResult* const result = maps.result;
+  add_direct(ctx, x, beta, sampler, maps);
+  if (maps.sample.light == SampleLight::kTraced) return;
+  if (ctx.plan.caustics == CausticEstimator::kPhotons) maps.add(ctx.maps.caustic, x, beta, &result->caustic);
+  if (ctx.plan.indirect == IndirectEstimator::kPhotons)
+    maps.add(ctx.maps.indirect, x, beta, &result->indirect);
+  if (!traces_paths(ctx.plan)) return;
+  const PathLight path = trace_path(ctx, x, sampler, maps.counters);
+  result->direct += beta * path.direct;
+  result->caustic += beta * path.caustic;
+  result->indirect += beta * path.indirect;
+}
+
+void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* result) {
+  result->albedo = albedo(*hit.bsdf);
+  result->normal = hit.si.ns;
+  result->depth = glm::distance(hit.si.p, eye);
+}
+
+// How a camera ray left the point before: by a delta lobe, or by a glossy one with density pdf.
+struct LeftBy {
+  bool glossy = false;
+  LightReceiver ref;
+  float pdf = 0;
+};
+
+// One branch of the tree of specular chains that a camera sample grows.
+struct Branch {
+  Ray ray;
+  RayCone cone;
+  Rgb beta{1};
+  float share = 1;  // of the sample: the product of the Fresnel factors where it divided
+  int events = 0;
+  LeftBy last{};
+};
+
+// Lamps that a glossy lobe leads to are sampled where it is, too.
+Rgb emission_seen(const Scene& scene, const LeftBy& last, const SurfaceInteraction& si, const Vector3& d) {
+  const Rgb Le = emitted(scene, si, -d);
+  if (!last.glossy || is_black(Le)) return Le;
+  return Le * emitter_hit_weight(scene, last.ref, d, last.pdf, si);
+}
+Rgb escape_seen(const Scene& scene, const LeftBy& last, const Ray& ray) {
+  return last.glossy ? escaped_weighted(scene, last.ref, ray, last.pdf) : escaped(scene, ray);
+}
+
+// Chains over coated surfaces grow dim soon, and each point of them takes a gather: Russian roulette for what
+// is less than kDim of the pixel. Draws a dimension there.
+bool is_worth_it(Rgb* beta, Sampler& sampler) {
+  constexpr float kDim = 0.05f;
+  const float q = max_component(*beta) / kDim;
+  if (q >= 1) return true;
+  if (!(sampler.next_1d() < q)) return false;
+  *beta /= q;
+  return true;
+}
+
+// What a dim branch arrives at takes as long as what a bright one does: Russian roulette. Weight of the
+// point, 0 where it is left out.
+float worth(float share, Sampler& sampler) {
+  constexpr float kBright = 0.25f;
+  if (share >= kBright) return 1;
+  const float q = share / kBright;
+  return sampler.next_1d() < q ? 1 / q : 0;
+}
+
+// Grows one camera sample.
+class CameraPath {
+ public:
+  CameraPath(const RenderContext& ctx, const CameraSample& sample, Sampler& sampler, TileCounters& counters,
+             PixelResult* result)
+      : ctx_(ctx), sampler_(sampler), counters_(counters), result_(result), maps_{sample, counters, result} {}
+
+  void trace(const CameraSample& sample) {
+    ++counters_.rays.camera;
+    visit(Branch{sample.ray, ctx_.cone}, sample.hit);
+    while (waiting_ > 0) {
+      const Branch branch = branches_[--waiting_];
+      ++counters_.rays.specular;
+      visit(branch, ctx_.bvh.intersect(branch.ray));
+    }
+  }
+
+ private:
+  // Branches that wait at once, at most. Each division leaves one waiting.
+  static constexpr int kMostWaiting = 16;
+
+  // What is seen at the end of a branch, which goes on from there or not.
+  void visit(const Branch& branch, const Hit& hit) {
+    if (!hit.valid()) {
+      result_->emitted += branch.beta * escape_seen(ctx_.scene, branch.last, branch.ray);
+      return;
+    }
+    const Vector3 wo = -branch.ray.d;
+    const SurfaceInteraction si = make_interaction(ctx_.scene.shapes, branch.ray, hit);
+    result_->emitted += branch.beta * emission_seen(ctx_.scene, branch.last, si, branch.ray.d);
+    const RayCone cone = branch.cone.after(hit.t);
+    const bool plain = ctx_.scene.materials[si.material].constant();
+    const ShadingPoint x(ctx_.scene, si, wo, plain ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
+    if (branch.events == 0) set_features(x, branch.ray.o, result_);
+    const Lobes parts = lobes(*x.bsdf);
+    if (parts.broad)
+      if (const float weight = worth(branch.share, sampler_); weight > 0)
+        add_reflected(ctx_, x, weight * branch.beta, sampler_, maps_);
+    if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
+    if (parts.glossy)
+      result_->emitted +=
+          branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
+    if (parts.glossy || parts.broad || !divide(branch, cone, x)) go_on(branch, cone, x);
+  }
+
+  void go_on(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
+    const auto s = scatter(x, sampler_, Scatter::kSpecular);
+    if (!s) return;
+    Rgb beta = from.beta * s->weight;
+    if (lobes(*x.bsdf).broad && !is_worth_it(&beta, sampler_)) return;
+    push({x.si.spawn(s->wi), cone, beta, from.share, from.events + 1,
+          LeftBy{s->glossy, x.receiver(), s->pdf}});
+  }
+
+  // Follows both the reflected and the refracted ray, by their factors instead of by chance, while neither
+  // is too dim: what little a surface of glass reflects of a lamp is noise otherwise. False, and nothing is
+  // done, where there are not two, or one is dim.
+  bool divide(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
+    constexpr float kDim = 1.0f / 256;
+    if (waiting_ + 2 > kMostWaiting) return false;
+    const auto reflected = scatter_delta(x, 0), refracted = scatter_delta(x, kOneMinusEpsilon);
+    if (!reflected || !refracted || reflected->transmission == refracted->transmission) return false;
+    if (from.share * std::min(reflected->pdf, refracted->pdf) < kDim) return false;
+    for (const BsdfSample* s : {&*reflected, &*refracted})
+      push({x.si.spawn(s->wi), cone, from.beta * s->weight * s->pdf, from.share * s->pdf, from.events + 1,
+            LeftBy{false, x.receiver(), s->pdf}});
+    return true;
+  }
+
+  void push(const Branch& branch) { branches_[waiting_++] = branch; }
+
+  const RenderContext& ctx_;
+  Sampler& sampler_;
+  TileCounters& counters_;
+  PixelResult* result_;
+  MapReader maps_;
+  std::array<Branch, kMostWaiting> branches_;
+  int waiting_ = 0;
+};
+
+}  // namespace
+
+void trace_camera_ray(const RenderContext& ctx, const CameraSample& sample, Sampler& sampler,
+                      TileCounters& counters, PixelResult* result) {
+  CameraPath(ctx, sample, sampler, counters, result).trace(sample);
+}
+
+}  // namespace kaustik::render

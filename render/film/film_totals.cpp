@@ -1,0 +1,195 @@
+#include "render/film/film_totals.h"
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+
+#include "core/geometry/surface_bounds.h"
+#include "render/film/for_each_pixel.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// The smallest power of two above x, as an exponent; 0 where there is nothing to go by.
+int exponent_above(double x) {
+  return x > 0 && std::isfinite(x) ? std::ilogb(x) + 1 : 0;
+}
+
+double size_of(const Scene& scene) {
+  const double radius = double(scene.bounds.radius());
+  return radius > 0 && std::isfinite(radius) ? radius : 1;
+}
+
+// Radiance to expect of what a lamp lights, W/(m^2 sr): generous.
+struct LampBrightness {
+  double scene_size;
+  double operator()(const DiffuseAreaLight& l) const {
+    return double(max_component(l.image ? l.L * l.image->brightest() : l.L));
+  }
+  double operator()(const InfiniteLight& l) const { return double(max_component(l.L)); }
+  double operator()(const ImageInfiniteLight& l) const {
+    return double(l.scale) * double(max_component(l.map->brightest()));
+  }
+  double operator()(const PortalInfiniteLight& l) const {
+    return double(l.scale) * double(max_component(l.sky->brightest()));
+  }
+  double operator()(const DistantLight& l) const { return double(max_component(l.L)); }
+  double operator()(const PointLight& l) const { return near(l.I); }
+  double operator()(const SpotLight& l) const { return near(l.I); }
+  double operator()(const GoniometricLight& l) const { return near(l.I * l.map->brightest().x); }
+  double operator()(const ProjectionLight& l) const { return near(l.scale * l.image->brightest()); }
+  double near(const Rgb& I) const { return 0x1p20 * double(max_component(I)) / (scene_size * scene_size); }
+};
+
+std::array<double, kSumChannels> channels_of(const PixelSum& s) {
+  std::array<double, kSumChannels> out{};
+  size_t i = 0;
+  for (const glm::dvec3* v : {&s.emitted, &s.direct, &s.caustic, &s.indirect, &s.bias, &s.albedo, &s.normal})
+    for (const double c : {v->x, v->y, v->z}) out[i++] = c;
+  out[i++] = s.depth;
+  out[i++] = s.photons;
+  return out;
+}
+
+int exponent_of(size_t channel, const ExactUnits& units) {
+  if (channel < kAlbedoSum) return units.radiance;
+  if (channel < kDepthSum) return ExactUnits::kFeature;
+  return channel == kDepthSum ? units.depth : ExactUnits::kPhotons;
+}
+
+// Units per value, made once for a film.
+struct PerUnit {
+  std::array<double, kSumChannels> sums;
+  double square;
+  explicit PerUnit(const ExactUnits& units) : square(std::ldexp(1.0, -units.square)) {
+    for (size_t i = 0; i < kSumChannels; ++i) sums[i] = std::ldexp(1.0, -exponent_of(i, units));
+  }
+};
+
+// Returns how many sums were clamped.
+uint64_t add_pixel(const PixelSum& samples, const PerUnit& per_unit, PixelTotals* totals) {
+  if (samples.count == 0) return 0;
+  const PixelSum pass = samples.completed();
+  uint64_t clamped = 0;
+  const auto channels = channels_of(pass);
+  for (size_t i = 0; i < kSumChannels; ++i) clamped += !totals->sums[i].add(channels[i], per_unit.sums[i]);
+  // Of a few samples a negative filter's weights may cancel; their number then stands in.
+  const double weight = static_cast<double>(pass.weight() > 0 ? uint64_t(pass.weight()) : pass.count);
+  const glm::dvec3 mean = (pass.emitted + pass.direct + pass.caustic + pass.indirect) / weight;
+  for (int c = 0; c < 3; ++c) {
+    clamped += !totals->squares[size_t(c)].add(mean[c] * mean[c], per_unit.square);
+    clamped += !totals->bias_squares[size_t(c)].add(pass.bias[c] * pass.bias[c], per_unit.square);
+  }
+  totals->weight += pass.weight();
+  ++totals->passes;
+  return clamped;
+}
+
+void add_pixel(const PixelTotals& part, PixelTotals* totals) {
+  for (size_t i = 0; i < kSumChannels; ++i) totals->sums[i] += part.sums[i];
+  for (size_t c = 0; c < 3; ++c) {
+    totals->squares[c] += part.squares[c];
+    totals->bias_squares[c] += part.bias_squares[c];
+  }
+  totals->weight += part.weight;
+  totals->passes += part.passes;
+}
+
+PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
+  PixelResult out;
+  out.error = Rgb(kInfinity);  // one film knows nothing of it
+  if (totals.weight == 0) return out;
+  const double weight = static_cast<double>(totals.weight);
+  const auto mean = [&](size_t i) {
+    return static_cast<float>(totals.sums[i].value(units.sums[i]) / weight);
+  };
+  const auto mean3 = [&](SumChannel first) {
+    return glm::vec3(mean(first), mean(first + 1), mean(first + 2));
+  };
+  out.emitted = mean3(kEmittedSum), out.direct = mean3(kDirectSum);
+  out.caustic = mean3(kCausticSum), out.indirect = mean3(kIndirectSum);
+  out.albedo = mean3(kAlbedoSum), out.normal = mean3(kNormalSum);
+  out.depth = mean(kDepthSum), out.photons = mean(kPhotonsSum);
+  return out;
+}
+
+double largest_gain(const Sensor& sensor) {
+  double largest = 0;
+  for (int row = 0; row < 3; ++row) {
+    double sum = 0;
+    for (int column = 0; column < 3; ++column) sum += std::abs(double(sensor.response[column][row]));
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+template <class Window>
+bool same_window(const PixelWindow<PixelTotals>& a, const Window& b) {
+  return a.width() == b.width() && a.height() == b.height() && a.x0() == b.x0() && a.y0() == b.y0() &&
+         a.full_width() == b.full_width() && a.full_height() == b.full_height();
+}
+
+}  // namespace
+
+PixelUnits::PixelUnits(const ExactUnits& units) : square(std::ldexp(1.0, units.square)) {
+  for (size_t i = 0; i < kSumChannels; ++i) sums[i] = std::ldexp(1.0, exponent_of(i, units));
+}
+
+ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
+  const double size = size_of(scene);
+  double brightest = 0;
+  for (const Light& light : scene.lights)
+    brightest = std::max(brightest, std::visit(LampBrightness{size}, light));
+  // No channel of a sample is more than this times its brightest one.
+  if (!scene.sensor.neutral) brightest *= largest_gain(scene.sensor);
+  const Point3 eye = scene.camera.to_world.point(Point3(0));
+  const double lens = double(scene.camera.lens_radius() * max_row_sum(scene.camera.to_world.linear));
+  const double farthest = double(glm::distance(eye, scene.bounds.center())) + size + lens;
+  const int samples = exponent_above(static_cast<double>(samples_per_pass));
+  const int lamp = std::clamp(exponent_above(brightest), -400, 400);  // squares within double's range
+  return {.radiance = lamp + samples + 20 - ExactSum::kTermBits,
+          .square = 2 * (lamp + 10) - ExactSum::kTermBits,
+          .depth = exponent_above(farthest) + samples - ExactSum::kTermBits};
+}
+
+uint64_t FilmTotals::add(const FilmSums& pass) {
+  if (!same_window(pixels_, pass)) throw std::invalid_argument("the films show different windows");
+  const PerUnit per_unit(units_);
+  std::atomic<uint64_t> clamped{0};
+  for_each_pixel(pixels_.width(), pixels_.height(), [&](int x, int y) {
+    if (const uint64_t n = add_pixel(pass.at(x, y), per_unit, &pixels_.at(x, y))) clamped += n;
+  });
+  return clamped;
+}
+
+void FilmTotals::add(const FilmTotals& other) {
+  if (!same_window(pixels_, other.pixels_)) throw std::invalid_argument("the films show different windows");
+  if (units_ != other.units_) throw std::invalid_argument("the films' sums have different units");
+  for_each_pixel(pixels_.width(), pixels_.height(),
+                 [&](int x, int y) { add_pixel(other.pixels_.at(x, y), &pixels_.at(x, y)); });
+}
+
+Film FilmTotals::mean() const {
+  Film film = window_of<PixelResult>(pixels_);
+  const PixelUnits units(units_);
+  for_each_pixel(film.width(), film.height(),
+                 [&](int x, int y) { film.at(x, y) = mean_of(pixels_.at(x, y), units); });
+  return film;
+}
+
+Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped) {
+  Film film = window_of<PixelResult>(pass);
+  const PerUnit per_unit(units);
+  const PixelUnits values(units);
+  std::atomic<uint64_t> out_of_range{0};
+  for_each_pixel(film.width(), film.height(), [&](int x, int y) {
+    PixelTotals totals;
+    if (const uint64_t n = add_pixel(pass.at(x, y), per_unit, &totals)) out_of_range += n;
+    film.at(x, y) = mean_of(totals, values);
+  });
+  *clamped += out_of_range;
+  return film;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,124 @@
+#include "render/maps/radius.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "render/maps/visible_points.h"
+
+namespace kaustik::render {
+
+namespace {
+
+constexpr uint32_t kPilotPoints = 1024;
+
+// How many photons are to be in reach. With M photons in a map the squared noise of an estimate of radius r
+// goes like 1 / (M r^2), its squared bias like r^4: their sum is least at r^2 ~ M^(-1/3), where k ~ M^(2/3)
+// photons are in reach (Silverman 1986, section 4.3.1, in two dimensions).
+struct RadiusRule {
+  double of_million;  // k for M = 10^6
+  double least;       // few photons leave their own noise, however small the map
+};
+// Measured (docs/accuracy.md): direct light and caustics have edges, indirect light is smooth.
+constexpr RadiusRule kDirectRule{160, 64};
+constexpr RadiusRule kIndirectRule{500, 200};
+constexpr RadiusRule kCausticRule{232, kFewestInReach};
+// Times the median distance: the nearest photons set the radius where caustics are dense, this one where they
+// are thin.
+constexpr float kCausticReach = 2;
+
+// Photons evenly spaced in the light of the map, in its order: guided ones lie densely where they are dim.
+std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
+  constexpr uint64_t kLookedAt = 1 << 16;
+  const uint64_t looked_at = std::min(map.size(), kLookedAt);
+  const auto photon = [&](uint64_t i) { return map.photon(i * map.size() / looked_at); };
+  std::vector<double> light(looked_at);
+  tbb::parallel_for(uint64_t{0}, looked_at,
+                    [&](uint64_t i) { light[i] = double(max_component(photon(i).flux)); });
+  std::partial_sum(light.begin(), light.end(), light.begin());
+  std::vector<VisiblePoint> points;
+  const uint64_t count = std::min<uint64_t>(looked_at, kPilotPoints);
+  for (uint64_t i = 0; i < count; ++i) {
+    const double at = light.back() * (double(i) + 0.5) / double(count);
+    const auto found = std::lower_bound(light.begin(), light.end(), at);
+    const photon::Photon p = photon(uint64_t(found - light.begin()));
+    points.push_back({{p.p, p.n, p.surface_group}});
+  }
+  return points;
+}
+
+// Distance to the k-th nearest photon; `reach` or more when the scene holds fewer. The search radius grows
+// from small, so that a map of any size costs little.
+float nearest_radius(const photon::PhotonMap& map, photon::GatherQuery query, float reach, uint32_t k) {
+  photon::GatherCounters ignored;
+  for (query.radius = reach / 4096; query.radius < reach; query.radius *= 2)
+    if (const float r = map.nearest_radius(query, k, ignored); r < query.radius) return r;
+  return reach;
+}
+
+// On the side where photons lie more densely: on the other there may be none before the far wall of a hollow
+// ball, whose normals are the same.
+float nearest_radius(const photon::PhotonMap& map, const VisiblePoint& point, float reach, uint32_t k) {
+  const float r = nearest_radius(map, point.query, reach, k);
+  if (!point.both_sides) return r;
+  photon::GatherQuery behind = point.query;
+  behind.n = -behind.n;
+  return std::min(r, nearest_radius(map, behind, reach, k));
+}
+
+// Median over the points of the distance to the k-th nearest photon; points that do not find so many are
+// left out. Nothing found gives 0.
+float median_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
+                    uint32_t k) {
+  std::vector<float> radii(points.size());
+  tbb::parallel_for(size_t(0), points.size(),
+                    [&](size_t i) { radii[i] = nearest_radius(map, points[i], reach, k); });
+  radii.erase(std::remove_if(radii.begin(), radii.end(), [&](float r) { return !(r > 0 && r < reach); }),
+              radii.end());
+  if (radii.empty()) return 0;
+  const auto chosen = radii.begin() + std::ptrdiff_t(radii.size() / 2);
+  std::nth_element(radii.begin(), chosen, radii.end());
+  return *chosen;
+}
+
+// Of all passes together, where the map is that of one.
+uint32_t photons_to_reach(const RadiusRule& rule, const photon::PhotonMap& map, const PassShare& pass) {
+  const double root = std::cbrt(double(map.size()) * double(pass.shares) / 1e6);
+  return static_cast<uint32_t>(std::lround(std::clamp(rule.of_million * root * root, rule.least, 1e9)));
+}
+
+// Where every point fails with k photons, fewer must do; the last resort is a fixed part of the scene.
+float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
+                  uint32_t photons, const PassShare& pass) {
+  if (map.empty()) return reach / 64;  // those of other passes need not be
+  for (uint32_t k = photons_in_reach(photons, pass.shares); k > 0; k /= 2)
+    if (const float r = median_radius(map, points, reach, k); r > 0) return r;
+  return reach / 64;
+}
+
+}  // namespace
+
+GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                         const PassShare& pass, const PhotonMaps& maps) {
+  if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius, 0};
+  const float reach = 2 * scene.bounds.radius(), f = settings.radius_factor;
+  const auto visible = visible_points(scene, bvh, settings, kPilotPoints);
+  const auto choose = [&](const photon::PhotonMap& map, const auto& points, uint32_t k) {
+    return f * auto_radius(map, points, reach, k, pass);
+  };
+  // Shadow photons lie as densely as direct ones would without what casts the shadows, and like caustics they
+  // fill little of the picture.
+  const bool signed_light = maps.direct.map.empty() && !maps.shadow.empty();
+  const photon::PhotonMap& direct = signed_light ? maps.shadow : maps.direct.map;
+  const uint32_t caustic = photons_to_reach(kCausticRule, maps.caustic.map, pass);
+  const double scaled = std::clamp(caustic * double(f) * double(f), double(kFewestInReach), 1e9);
+  return {choose(direct, signed_light ? photon_points(direct) : visible,
+                 photons_to_reach(kDirectRule, direct, pass)),
+          kCausticReach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
+          choose(maps.indirect.map, visible, photons_to_reach(kIndirectRule, maps.indirect.map, pass)),
+          static_cast<uint32_t>(std::lround(scaled))};
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,225 @@
+#include "render/passes/partial_result.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/files/content_hash.h"
+#include "core/files/pending_file.h"
+#include "render/passes/partial_manifest.h"
+
+namespace kaustik::render {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMagic{"KPART\r\n\x1a", 8};
+constexpr uint64_t kVersion = 2;
+constexpr uint64_t kHeadBytes = 24, kHashBytes = 16;
+// Pixels are written as they lie in memory.
+static_assert(sizeof(PixelTotals) == 480 && std::endian::native == std::endian::little);
+static_assert(std::is_trivially_copyable_v<PixelTotals>);
+
+struct Closer {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Closer>;
+
+File open(const std::string& path, const std::string& shown, const char* mode) {
+  File file(std::fopen(path.c_str(), mode));
+  if (!file) throw PartialError(shown, std::strerror(errno));
+  return file;
+}
+
+// Bytes to a file, and to the hash that ends it.
+class Writer {
+ public:
+  Writer(const std::string& path, std::string shown)
+      : shown_(std::move(shown)), file_(open(path, shown_, "wb")) {}
+  void put(const void* bytes, size_t size) {
+    hash_.add(bytes, size);
+    raw(bytes, size);
+  }
+  void put(uint64_t word) { put(&word, sizeof word); }
+  // The hash; then all is on the disk.
+  void finish() {
+    const auto words = hash_.words();
+    raw(words.data(), sizeof words);
+    if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0) fail();
+    if (std::fclose(file_.release()) != 0) fail();
+  }
+
+ private:
+  void raw(const void* bytes, size_t size) {
+    if (std::fwrite(bytes, 1, size, file_.get()) != size) fail();
+  }
+  [[noreturn]] void fail() const { throw PartialError(shown_, std::strerror(errno)); }
+
+  std::string shown_;
+  File file_;
+  ContentHash hash_;
+};
+
+// Looks before it opens: a pipe would wait for someone who writes.
+File open_regular(const std::string& path) {
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    throw PartialError(path, "not a regular file");
+  return open(path, path, "rb");
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : path_(path), file_(open_regular(path)) {
+    std::error_code error;
+    size_ = fs::file_size(path, error);
+    if (error) fail(error.message());
+  }
+  uint64_t size() const { return size_; }
+  void get(void* bytes, size_t size) {
+    if (std::fread(bytes, 1, size, file_.get()) != size) fail("the file is shorter than it was");
+  }
+  uint64_t word() {
+    uint64_t out = 0;
+    get(&out, sizeof out);
+    return out;
+  }
+  void rewind() { std::rewind(file_.get()); }
+  [[noreturn]] void fail(const std::string& message) const { throw PartialError(path_, message); }
+
+ private:
+  std::string path_;
+  File file_;
+  uint64_t size_ = 0;
+};
+
+// Size of the manifest.
+uint64_t read_head(Reader& in) {
+  std::array<char, kMagic.size()> magic{};
+  if (in.size() < magic.size()) in.fail("this is no partial result of kaustik");
+  in.get(magic.data(), magic.size());
+  if (std::string_view(magic.data(), magic.size()) != kMagic) in.fail("this is no partial result of kaustik");
+  if (in.size() < kHeadBytes + kHashBytes) in.fail("the file is truncated: its head is not complete");
+  if (const uint64_t version = in.word(); version != kVersion)
+    in.fail(fmt::format("version {} of the format; this program reads version {}", version, kVersion));
+  const uint64_t bytes = in.word();
+  if (bytes > in.size() - kHeadBytes - kHashBytes)
+    in.fail("the file is truncated: its manifest is not complete");
+  return bytes;
+}
+
+ReadManifest read_manifest(Reader& in) {
+  std::string text(read_head(in), '\0');
+  in.get(text.data(), text.size());
+  try {
+    return manifest_from_json(nlohmann::ordered_json::parse(text));
+  } catch (const std::exception& error) {
+    in.fail(fmt::format("its manifest is damaged: {}", error.what()));
+  }
+}
+
+// Of the file but for its last bytes, which are that hash.
+void check_hash(Reader& in) {
+  in.rewind();
+  ContentHash hash;
+  std::vector<char> block(std::min<uint64_t>(in.size(), 1 << 20));
+  for (uint64_t left = in.size() - kHashBytes; left > 0;) {
+    const size_t size = std::min<uint64_t>(left, block.size());
+    in.get(block.data(), size);
+    hash.add(block.data(), size);
+    left -= size;
+  }
+  const uint64_t first = in.word(), second = in.word();
+  if (std::array<uint64_t, 2>{first, second} != hash.words())
+    in.fail("the file is damaged or truncated: its checksum does not fit its contents");
+}
+
+std::string seen(const std::vector<std::string>& texts) {
+  return texts.empty() ? "unset" : fmt::format("{}", fmt::join(texts, " "));
+}
+
+const std::vector<std::string>& find(const SettingTexts& settings, const std::string& name) {
+  static const std::vector<std::string> none;
+  for (const auto& [n, texts] : settings)
+    if (n == name) return texts;
+  return none;
+}
+
+// Names of files may be any bytes, JSON is UTF-8.
+std::string manifest_text(const PartialManifest& manifest, const PassSums& sums, const std::string& path) {
+  try {
+    return manifest_json(manifest, sums).dump(1);
+  } catch (const nlohmann::json::exception&) {
+    throw PartialError(path, "the name of the scene or of an output is not UTF-8");
+  }
+}
+
+}  // namespace
+
+bool is_partial_name(const std::string& path) {
+  return fs::path(path).extension() == ".kpart";
+}
+
+void write_partial(const std::string& path, const PartialManifest& manifest, const PassSums& sums) {
+  const fs::path name(path);
+  PendingFile pending(name, name.parent_path() / fmt::format(".{}.partial", name.filename().string()));
+  Writer out(pending.temporary(), path);
+  const std::string json = manifest_text(manifest, sums, path);
+  out.put(kMagic.data(), kMagic.size());
+  out.put(kVersion);
+  out.put(json.size());
+  out.put(json.data(), json.size());
+  const PixelWindow<PixelTotals>& pixels = sums.totals.pixels();
+  for (int y = 0; y < pixels.height(); ++y)
+    out.put(&pixels.at(0, y), sizeof(PixelTotals) * size_t(pixels.width()));
+  out.finish();
+  if (const std::string error = pending.commit(); !error.empty()) throw PartialError(path, error);
+}
+
+PartialResult read_partial(const std::string& path) {
+  Reader in(path);
+  const uint64_t manifest_bytes = read_head(in);
+  check_hash(in);
+  in.rewind();
+  ReadManifest read = read_manifest(in);
+  const uint64_t pixel_bytes = uint64_t(read.width) * uint64_t(read.height) * sizeof(PixelTotals);
+  if (kHeadBytes + manifest_bytes + pixel_bytes + kHashBytes != in.size())
+    in.fail("the file's size does not fit its image");
+  FilmTotals& totals = read.result.sums.totals;
+  totals = FilmTotals(
+      PixelWindow<PixelTotals>(read.width, read.height, read.x0, read.y0, read.full_width, read.full_height),
+      read.units);
+  for (int y = 0; y < read.height; ++y)
+    in.get(&totals.pixels().at(0, y), sizeof(PixelTotals) * size_t(read.width));
+  return std::move(read.result);
+}
+
+std::string difference(const PartialResult& a, const PartialResult& b) {
+  const PartialManifest &m = a.manifest, &n = b.manifest;
+  if (m.scene_hash != n.scene_hash)
+    return fmt::format("they show different scenes: {} and {} differ in content", m.scene_path, n.scene_path);
+  for (const auto& [name, texts] : m.settings)
+    if (const auto& other = find(n.settings, name); texts != other)
+      return fmt::format("they differ in --{}: {} and {}", name, seen(texts), seen(other));
+  for (const auto& [name, texts] : n.settings)
+    if (find(m.settings, name).empty())
+      return fmt::format("they differ in --{}: unset and {}", name, seen(texts));
+  if (m.build != n.build) return fmt::format("different programs made them: {} and {}", m.build, n.build);
+  if (m.isa != n.isa) return fmt::format("different instruction sets made them: {} and {}", m.isa, n.isa);
+  if (a.sums.radii && b.sums.radii && *a.sums.radii != *b.sums.radii) return "their gather radii differ";
+  if (a.sums.shares != b.sums.shares || a.sums.totals.units() != b.sums.totals.units())
+    return "their sums have different units";
+  return {};
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,18 @@
+#include "render/passes/pass_sums.h"
+
+#include <stdexcept>
+
+namespace kaustik::render {
+
+void PassSums::add(const PassSums& other) {
+  if (!passes.common(other.passes).empty()) throw std::invalid_argument("a pass is in both sums");
+  if (shares != other.shares) throw std::invalid_argument("photons are shared out over other passes");
+  if (radii && other.radii && *radii != *other.radii)
+    throw std::invalid_argument("the sums' gather radii differ");
+  totals.add(other.totals);
+  passes.add(other.passes);
+  if (!radii) radii = other.radii;
+  statistics += other.statistics;
+}
+
+}  // namespace kaustik::render

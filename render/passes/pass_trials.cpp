@@ -1,0 +1,136 @@
+#include "render/passes/pass_trials.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/sampling/sampler.h"
+#include "core/stopwatch.h"
+#include "render/camera/camera_rays.h"
+#include "render/camera/pixel_range.h"
+#include "render/camera/ray_cone.h"
+#include "render/tiles.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// A line through two tries tells what each photon takes: learning of guides included, up to four million on
+// every scene measured within a third.
+constexpr uint64_t kFewPhotons = 1u << 14, kMorePhotons = 1u << 16;
+// Side of a window, pixels: a few blocks of rays, which share what they read of the maps. So many windows
+// tell what the parts of a picture take.
+constexpr int kWindow = 3 * kRayBlock;
+constexpr double kFewWindows = 36, kManyWindows = 120;
+constexpr double kShare = 1.0 / 16;  // of the picture, between these
+
+// One in each of so many squares, anywhere in it.
+std::vector<PixelRange> windows_of(const PixelRange& whole) {
+  const double wanted =
+      std::clamp(double(whole.pixels()) * kShare / (kWindow * kWindow), kFewWindows, kManyWindows);
+  const int places = std::max(1, int(std::sqrt(double(whole.pixels()) / wanted) / kWindow));
+  std::vector<PixelRange> windows;
+  whole.for_each_square(kWindow * places, [&](const PixelRange& square) {
+    const uint64_t place = hash_combine(uint64_t(square.x0), uint64_t(square.y0));
+    const auto at = [&](int corner, uint64_t number) {
+      return corner - corner % (kWindow * places) + kWindow * int(number % uint64_t(places));
+    };
+    const PixelRange window = square.in_square(at(square.x0, place), at(square.y0, place >> 32), kWindow);
+    if (window.x0 < window.x1 && window.y0 < window.y1) windows.push_back(window);
+  });
+  if (windows.empty()) windows.push_back(whole.in_square(whole.x0, whole.y0, kWindow));
+  return windows;
+}
+
+// Of samples of all pixels, from those of the windows.
+double seconds_of(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                  const EstimatorPlan& plan, const PhotonMaps& maps, const std::vector<PixelRange>& windows) {
+  const Stopwatch watch;
+  const PassShare pass = pass_share(0, 1, settings.photons, settings.spp);
+  const RenderContext ctx{scene,
+                          bvh,
+                          settings,
+                          plan,
+                          maps,
+                          pass,
+                          pass_samples(pass, settings, plan),
+                          camera_cone(scene.camera, pass.end_sample)};
+  tbb::parallel_for(size_t(0), windows.size(), [&](size_t i) {
+    const PixelRange& w = windows[i];
+    FilmSums film(w.width(), w.height(), w.x0, w.y0, scene.camera.width, scene.camera.height);
+    RenderStatistics ignored;
+    render_tiles(ctx, {}, &film, &ignored);
+  });
+  const double seconds = watch.seconds();
+  uint64_t pixels = 0;
+  for (const PixelRange& w : windows) pixels += w.pixels();
+  return seconds * double(rendered_range(settings.crop, scene.camera).pixels()) / double(pixels);
+}
+
+}  // namespace
+
+FirstPhotons shoot_first(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                         const EstimatorPlan& plan, const ProgressCallback& progress) {
+  FirstPhotons shot;
+  make_photon_maps(scene, bvh, settings, plan, pass_share(0, 1, settings.photons, 1), progress, &shot.maps,
+                   &shot.radii, &shot.statistics);
+  return shot;
+}
+
+PhotonCost photon_cost(double few, double more) {
+  const double slope = (more - few) / double(kMorePhotons - kFewPhotons);
+  PhotonCost cost;
+  cost.each = std::max(slope, more / double(2 * kMorePhotons));
+  cost.fixed = std::max(few - double(kFewPhotons) * cost.each, 0.0);
+  return cost;
+}
+
+PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                        const EstimatorPlan& plan, double most, const ProgressCallback& progress) {
+  PhotonTrial trial;
+  const auto shoot = [&](uint64_t photons) {
+    const Stopwatch watch;
+    RenderSettings few = settings;
+    few.photons = photons;
+    trial.photons = shoot_first(scene, bvh, few, plan, progress);
+    return watch.seconds();
+  };
+  const double few = shoot(kFewPhotons);
+  trial.cost = few < most ? photon_cost(few, shoot(kMorePhotons)) : PhotonCost{0, few / double(kFewPhotons)};
+  return trial;
+}
+
+SampleCost sample_cost(double one, double four, double four_further, double adaptive) {
+  SampleCost cost;
+  if (adaptive > 0) cost.further = std::max((four_further - four) / (4 * adaptive), 0.0);
+  const double alone = one - adaptive * cost.further;  // of one sample without further ones
+  cost.each = std::max((four - alone) / 3, four / 8);
+  cost.fixed = std::max(alone - cost.each, 0.0);
+  return cost;
+}
+
+SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                       const EstimatorPlan& plan, double most, FirstPhotons* photons) {
+  if (!photons->radii) return {.each = 1};  // cancelled
+  const std::vector<PixelRange> windows = windows_of(rendered_range(settings.crop, scene.camera));
+  RenderStatistics ignored;
+  foretell_visibility(scene, bvh, settings, plan, &photons->maps, &ignored);
+  const auto seconds = [&](int spp, float adaptive) {
+    RenderSettings tried = settings;
+    tried.spp = spp, tried.adaptive = adaptive;
+    return seconds_of(scene, bvh, tried, plan, photons->maps, windows);
+  };
+  const Stopwatch watch;
+  const float w = settings.adaptive;
+  const double one = seconds(1, w);
+  SampleCost cost{0, one / (1 + double(w)), w > 0 ? one / (1 + double(w)) : 0};
+  if (watch.seconds() < most) {
+    const double four = seconds(4, 0);
+    cost = sample_cost(one, four, w > 0 ? seconds(4, w) : four, double(w));
+  }
+  photons->maps.visibility.reset();  // it is of settings.spp
+  return cost;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,192 @@
+#include "render/picture/image_io.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cctype>
+#include <filesystem>
+
+#include "core/files/pending_file.h"
+#include "render/picture/exr_file.h"
+
+namespace kaustik::render {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+// write: takes the temporary name, and gives why it could not write it, or nothing.
+template <class Write>
+void write_pending(const std::string& path, const Write& write) {
+  PendingFile file(path, unique_temporary_name(path));
+  std::string error = write(file.temporary());
+  if (error.empty()) error = file.commit();
+  if (!error.empty()) throw ImageError(path, error);
+}
+
+void write_exr(const std::string& path, const ExrPicture& picture, const Metadata& metadata) {
+  write_pending(path, [&](const std::string& temporary) -> std::string {
+    try {
+      write_exr_file(temporary, picture, metadata);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return {};
+  });
+}
+
+std::vector<std::string> channel_names(Layer layer) {
+  const std::string name(kLayerNames[size_t(layer)]);
+  switch (layer) {
+    case Layer::kNormal:
+      return {name + ".X", name + ".Y", name + ".Z"};
+    case Layer::kDepth:
+      return {name + ".Z"};
+    case Layer::kPhotons:
+      return {name + ".Y"};
+    default:
+      return {name + ".R", name + ".G", name + ".B"};
+  }
+}
+
+void append_layer(const PixelResult& pixel, Layer layer, std::vector<float>* out) {
+  const auto append = [out](const glm::vec3& v) { out->insert(out->end(), {v.x, v.y, v.z}); };
+  switch (layer) {
+    case Layer::kEmitted:
+      return append(pixel.emitted);
+    case Layer::kDirect:
+      return append(pixel.direct);
+    case Layer::kCaustic:
+      return append(pixel.caustic);
+    case Layer::kIndirect:
+      return append(pixel.indirect);
+    case Layer::kAlbedo:
+      return append(pixel.albedo);
+    case Layer::kNormal:
+      return append(pixel.normal);
+    case Layer::kDepth:
+      return out->push_back(pixel.depth);
+    case Layer::kPhotons:
+      return out->push_back(pixel.photons);
+    case Layer::kError:
+      return append(pixel.error);
+    case Layer::kBias:
+      return append(pixel.bias);
+  }
+}
+
+void write_exr(const std::string& path, const Film& film, const WriteOptions& options) {
+  std::vector<std::string> names = {"R", "G", "B"};
+  for (const Layer layer : options.layers)
+    for (std::string& name : channel_names(layer)) names.push_back(std::move(name));
+  std::vector<float> pixels;
+  pixels.reserve(size_t(film.width()) * size_t(film.height()) * names.size());
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) {
+      const PixelResult& pixel = film.at(x, y);
+      const Rgb total = pixel.radiance();
+      pixels.insert(pixels.end(), {total.x, total.y, total.z});
+      for (const Layer layer : options.layers) append_layer(pixel, layer, &pixels);
+    }
+  // Radiance has noise to its last bits: zip takes 75 ms to save 6 % of 512 x 512 pixels, run lengths 3 ms to
+  // save 1 %, and all of an empty background. Other layers are smooth.
+  const ExrPicture picture{std::move(names), film.x0(),         film.y0(),          film.width(),
+                           film.height(),    film.full_width(), film.full_height(), !options.layers.empty(),
+                           pixels.data()};
+  write_exr(path, picture, options.metadata);
+}
+
+void write_exr(const std::string& path, const Image& image, const Metadata& metadata) {
+  static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  const ExrPicture picture{.channels = {"R", "G", "B"},
+                           .width = image.width,
+                           .height = image.height,
+                           .full_width = image.width,
+                           .full_height = image.height,
+                           .values = &image.pixels.data()->x};
+  write_exr(path, picture, metadata);
+}
+
+void write_srgb8(const std::string& path, const Image& image, const ToneSettings& tone,
+                 const Metadata& metadata) {
+  std::vector<uint8_t> pixels;
+  pixels.reserve(3 * image.pixels.size());
+  for (const Rgb& radiance : image.pixels) {
+    const auto encoded = to_srgb8(radiance, tone);
+    pixels.insert(pixels.end(), encoded.begin(), encoded.end());
+  }
+  write_pending(path, [&](const std::string& temporary) {
+    return image_formats().write_srgb8(temporary, image.width, image.height, pixels, metadata);
+  });
+}
+
+}  // namespace
+
+std::vector<Layer> layers_from_names(const std::vector<std::string>& names) {
+  std::array<bool, kLayers> wanted{};
+  for (const std::string& name : names) {
+    const auto found = std::find(kLayerNames.begin(), kLayerNames.end(), name);
+    if (name == "all")
+      wanted.fill(true);
+    else if (found != kLayerNames.end())
+      wanted[size_t(found - kLayerNames.begin())] = true;
+    else
+      throw std::invalid_argument(
+          fmt::format("unknown layer '{}'; there are: {}, all", name, fmt::join(kLayerNames, ", ")));
+  }
+  std::vector<Layer> layers;
+  for (int i = 0; i < kLayers; ++i)
+    if (wanted[size_t(i)]) layers.push_back(Layer(i));
+  return layers;
+}
+
+void check_output_name(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".exr" && extension != ".png" && extension != ".jpg" && extension != ".jpeg")
+    throw std::invalid_argument(path + ": the name must end in .exr, .png, .jpg or .jpeg");
+}
+
+bool is_exr(const std::string& path) {
+  return lower_extension(path) == ".exr";
+}
+
+void write_film(const std::string& path, const Film& film, const WriteOptions& options) {
+  check_output_name(path);
+  if (is_exr(path))
+    write_exr(path, film, options);
+  else
+    write_srgb8(path, image_of(film), options.tone, options.metadata);
+}
+
+void write_image(const std::string& path, const Image& image, const ToneSettings& tone,
+                 const Metadata& metadata) {
+  check_output_name(path);
+  if (is_exr(path))
+    write_exr(path, image, metadata);
+  else
+    write_srgb8(path, image, tone, metadata);
+}
+
+Image read_image(const std::string& path, uint64_t most_pixels) {
+  std::string error;
+  const auto numbers = image_formats().read(path, Channels::kColour, most_pixels, error);
+  if (!numbers) throw ImageError(path, error);
+  const size_t channels = size_t(numbers->channels);
+  Image image(numbers->width, numbers->height);
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const float v = numbers->values[i * channels + size_t(channels == 3 ? c : 0)];
+      image.pixels[i][c] = numbers->integers ? linear_from_srgb(v) : v;
+    }
+  return image;
+}
+
+}  // namespace kaustik::render

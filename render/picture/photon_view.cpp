@@ -1,0 +1,106 @@
+#include "render/picture/photon_view.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "render/picture/tonemap.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// What landed in one pixel. Integer sums: their order does not matter.
+struct PixelCount {
+  std::atomic<uint64_t> photons = 0;
+  std::array<std::atomic<uint64_t>, 3> colour = {};  // sums of 8-bit values
+};
+
+// Nothing may stand nearer than this fraction of the way to a photon: its position was rounded when it was
+// stored.
+constexpr float kNearlyThere = 0.999f;
+
+bool visible(const accel::Bvh& bvh, const Point3& eye, const Point3& p) {
+  return !bvh.occluded({eye, p - eye, kNearlyThere});
+}
+
+// Mean luminance of the flux, the scale of photon_colour; fixed blocks, summed in order.
+float mean_luminance(const photon::PhotonBuffer& buffer) {
+  double sum = 0;
+  for (const photon::PhotonRecord& record : buffer.records) {
+    sum += luminance(photon::unpack(record, buffer.flux_unit).flux);
+  }
+  return buffer.records.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(buffer.records.size()));
+}
+
+void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons,
+                   std::vector<PixelCount>& counts) {
+  const Camera& camera = bvh.scene().camera;
+  const photon::PhotonBuffer& buffer = *photons.buffer;
+  const float mean_flux = mean_luminance(buffer);
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, buffer.records.size(), 4096), [&](const auto& range) {
+    for (size_t i = range.begin(); i < range.end(); ++i) {
+      const photon::Photon photon = photon::unpack(buffer.records[i], buffer.flux_unit);
+      Point2 raster;
+      Point3 eye;
+      if (!camera.project(photon.p, &raster, &eye)) continue;
+      if (!visible(bvh, eye, photon.p)) continue;
+      const size_t x = std::min(static_cast<size_t>(raster.x), static_cast<size_t>(camera.width - 1));
+      const size_t y = std::min(static_cast<size_t>(raster.y), static_cast<size_t>(camera.height - 1));
+      PixelCount& pixel = counts[y * static_cast<size_t>(camera.width) + x];
+      const glm::u8vec3 colour = photon::photon_colour(photons.kind, photon.flux, mean_flux);
+      pixel.photons.fetch_add(1, std::memory_order_relaxed);
+      for (int c = 0; c < 3; ++c) {
+        pixel.colour[static_cast<size_t>(c)].fetch_add(colour[c], std::memory_order_relaxed);
+      }
+    }
+  });
+}
+
+// The scene lit from the eye, dimly: enough to know the place.
+void draw_background(const accel::Bvh& bvh, Image& image) {
+  constexpr float kDim = 0.06f;
+  const RayGenerator camera(bvh.scene().camera);
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Ray ray = camera({float(x) + 0.5f, float(y) + 0.5f});
+      SurfaceInteraction si;
+      if (!bvh.intersect(ray, &si)) continue;
+      image.at(x, y) = Rgb(kDim * abs_dot(si.ns, glm::normalize(ray.d)));
+    }
+  });
+}
+
+}  // namespace
+
+Image draw_photons(const accel::Bvh& bvh, std::span<const photon::PlyPhotons> photons) {
+  const Camera& camera = bvh.scene().camera;
+  Image image(camera.width, camera.height);
+  draw_background(bvh, image);
+  std::vector<PixelCount> counts(image.pixels.size());
+  for (const photon::PlyPhotons& kind : photons) count_photons(bvh, kind, counts);
+
+  uint64_t total = 0, lit = 0;
+  for (const PixelCount& pixel : counts) {
+    total += pixel.photons;
+    lit += pixel.photons > 0 ? 1 : 0;
+  }
+  // One photon per pixel shows at 86 % of full brightness; where many fall, the mean number does.
+  const float scale = total > 0 ? 2.0f * static_cast<float>(lit) / static_cast<float>(total) : 0.0f;
+  for (size_t i = 0; i < counts.size(); ++i) {
+    const uint64_t n = counts[i].photons;
+    if (n == 0) continue;
+    const float coverage = 1 - std::exp(-scale * static_cast<float>(n));
+    for (int c = 0; c < 3; ++c) {
+      const float encoded =
+          static_cast<float>(counts[i].colour[static_cast<size_t>(c)]) / (255.0f * float(n));
+      image.pixels[i][c] = glm::mix(image.pixels[i][c], linear_from_srgb(encoded), coverage);
+    }
+  }
+  return image;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,59 @@
+#include "render/picture/tonemap.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// Also maps NaN to 0.
+float clip(float v) {
+  return v > 0 ? std::min(v, 1.0f) : 0.0f;
+}
+
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve". Written as a ratio that stays finite for large x.
+float filmic(float x) {
+  if (!(x > 0)) return 0;
+  if (x > 1e6f) return 1;
+  return clip(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f));
+}
+
+}  // namespace
+
+std::optional<Tonemap> tonemap_from_name(std::string_view name) {
+  for (size_t i = 0; i < kTonemapNames.size(); ++i)
+    if (kTonemapNames[i] == name) return static_cast<Tonemap>(i);
+  return {};
+}
+
+float srgb_from_linear(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+float linear_from_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+Rgb tonemap(const Rgb& radiance, const ToneSettings& settings) {
+  const Rgb c = radiance * std::exp2(settings.exposure);
+  switch (settings.tonemap) {
+    case Tonemap::kReinhard: {
+      const float Y = luminance(c);
+      if (!std::isfinite(Y)) break;
+      const float scale = 1 / (1 + std::max(Y, 0.0f));
+      return {clip(c.x * scale), clip(c.y * scale), clip(c.z * scale)};
+    }
+    case Tonemap::kFilmic:
+      return {filmic(c.x), filmic(c.y), filmic(c.z)};
+    case Tonemap::kSrgb:
+      break;
+  }
+  return {clip(c.x), clip(c.y), clip(c.z)};
+}
+
+std::array<uint8_t, 3> to_srgb8(const Rgb& radiance, const ToneSettings& settings) {
+  const Rgb display = tonemap(radiance, settings);
+  std::array<uint8_t, 3> out;
+  for (int c = 0; c < 3; ++c) out[size_t(c)] = uint8_t(std::floor(srgb_from_linear(display[c]) * 255 + 0.5f));
+  return out;
+}
+
+}  // namespace kaustik::render

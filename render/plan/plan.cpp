@@ -1,0 +1,122 @@
+// make_plan: which estimator computes which class of paths.
+
+#include <fmt/format.h>
+
+#include "render/maps/photon_maps.h"
+#include "render/names.h"
+#include "render/renderer.h"
+
+namespace kaustik::render {
+
+namespace {
+
+using Direct = DirectEstimator;
+using Caustic = CausticEstimator;
+using Indirect = IndirectEstimator;
+
+// What the method says.
+EstimatorPlan preset(Method method, const SceneNeeds& needs) {
+  EstimatorPlan plan;
+  switch (method) {
+    case Method::kRaytrace:
+      plan.direct = Direct::kShadowRays, plan.caustics = Caustic::kOff, plan.indirect = Indirect::kOff;
+      break;
+    case Method::kMc:
+      plan.direct = Direct::kShadowRays, plan.caustics = Caustic::kPaths, plan.indirect = Indirect::kPaths;
+      break;
+    case Method::kHybrid:
+      plan.direct = Direct::kLecture, plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPaths;
+      break;
+    case Method::kPhoton:
+      plan.direct = Direct::kPhotons, plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
+      break;
+    case Method::kAuto:
+      // Direct light with foretold visibility: the error of shadow rays in less time. A sky is partly seen
+      // nearly everywhere, so that nothing is foretold of it. Indirect light by photons: less error
+      // in the same time than paths on every scene measured, and no fireflies where a small bright patch
+      // lights the room (docs/accuracy.md).
+      plan.direct = needs.any_light && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
+      plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
+      break;
+  }
+  return plan;
+}
+
+void leave_out(const RenderSettings& settings, const SceneNeeds& needs, EstimatorPlan* plan) {
+  if (!needs.any_light) plan->notes.push_back("no lamp: the image is black");
+  // Caustics are the only class that can be empty by construction: without specular surfaces, or without
+  // light or something that receives it.
+  const bool empty = !needs.specular || !needs.any_light || !needs.diffuse;
+  if (empty && plan->caustics != Caustic::kOff && !settings.caustics) {
+    plan->caustics = Caustic::kOff;
+    plan->notes.push_back(
+        !needs.specular
+            ? "no specular surface: no caustic pass; saves the caustic map, and a query of it at each point"
+        : !needs.any_light ? "no lamp: no caustic pass"
+                           : "no diffuse surface: no caustic pass");
+  }
+  if (!needs.any_light && plan->indirect != Indirect::kOff && !settings.indirect) {
+    plan->indirect = Indirect::kOff;
+    plan->notes.push_back("no lamp: no indirect light");
+  }
+}
+
+void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* notes) {
+  const photon::KindMask kinds = kinds_needed(plan);
+  if (plan.direct == Direct::kPredicted)
+    notes->push_back(
+        "direct and shadow photons are counted, not stored: they foretell which lamps are seen; "
+        "saves most shadow rays");
+  if (!kinds.any()) {
+    notes->push_back(
+        "no estimator reads stored photons: no photon pass; saves every photon's rays and records");
+    return;
+  }
+  if (!kinds.shadow && plan.direct != Direct::kPredicted)
+    notes->push_back(
+        "shadow photons are not traced: the direct estimator does not read them; saves a ray and a record "
+        "for each surface behind a direct photon's first");
+  if (plan.direct == Direct::kShadowRays)
+    notes->push_back("direct photons are not stored: shadow rays; saves a record per photon");
+  if (plan.direct == Direct::kSigned)
+    notes->push_back(
+        "direct photons are not stored: only what shadow photons carry is subtracted; saves "
+        "a record per photon");
+  if (plan.indirect != Indirect::kPhotons)
+    notes->push_back(std::string("indirect photons are not traced: indirect light ") +
+                     (plan.indirect == Indirect::kPaths ? "by paths" : "is off") +
+                     "; saves each photon's path behind its first diffuse surface");
+}
+
+void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
+  if (!needs.specular || !needs.any_light) return;
+  if (plan->caustics == Caustic::kPaths && needs.only_delta_lights && needs.delta)
+    plan->notes.push_back(
+        "paths cannot hit point, spot or distant lamps: their caustics are missing; use --caustics photons");
+  if (plan->caustics == Caustic::kOff && plan->indirect == Indirect::kPaths && needs.only_delta_lights &&
+      needs.delta)
+    plan->notes.push_back(
+        "caustics are off: light of point, spot or distant lamps through specular surfaces is missing "
+        "from the indirect light too");
+  if (plan->caustics == Caustic::kOff && needs.diffuse)
+    plan->notes.push_back(
+        "caustics are off: light that reaches a diffuse surface through mirror or glass is left out");
+}
+
+}  // namespace
+
+EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs) {
+  EstimatorPlan plan = preset(settings.method, needs);
+  if (settings.direct) plan.direct = *settings.direct;
+  if (settings.caustics) plan.caustics = *settings.caustics;
+  if (settings.indirect) plan.indirect = *settings.indirect;
+  leave_out(settings, needs, &plan);
+  plan.notes.insert(plan.notes.begin(),
+                    fmt::format("method {}: direct {}, caustics {}, indirect {}", name_of(settings.method),
+                                name_of(plan.direct), name_of(plan.caustics), name_of(plan.indirect)));
+  note_photon_kinds(plan, &plan.notes);
+  note_limits(needs, &plan);
+  return plan;
+}
+
+}  // namespace kaustik::render

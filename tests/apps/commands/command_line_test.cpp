@@ -1,0 +1,144 @@
+// Exit codes and messages of command lines and scenes that cannot work, and what --help says.
+
+#include <gmock/gmock.h>
+
+#include "apps/settings/table.h"
+#include "core/version.h"
+#include "tests/apps/support/program.h"
+
+namespace kaustik::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::Outcome;
+using testing::run_kaustik;
+
+class CommandLine : public testing::ProgramTest {};
+
+TEST_F(CommandLine, HelpAndVersionSucceed) {
+  const Outcome help = run_kaustik({"--help"});
+  EXPECT_EQ(help.code, kDone);
+  for (const char* command : {"render", "photons", "compare", "info"})
+    EXPECT_THAT(help.out, HasSubstr(command));
+  const Outcome version_line = run_kaustik({"--version"});
+  EXPECT_EQ(version_line.code, kDone);
+  EXPECT_THAT(version_line.out, HasSubstr(std::string(version())));
+}
+
+TEST_F(CommandLine, RenderHelpExplainsEverySettingWithItsDefault) {
+  const Outcome help = run_kaustik({"render", "--help"});
+  EXPECT_EQ(help.code, kDone);
+  std::string flat;  // the help breaks lines where it likes
+  for (const char c : help.out) {
+    if (c != '\n') flat += c;
+    while (flat.ends_with("  ")) flat.pop_back();
+  }
+  for (const Setting& setting : settings_table()) {
+    EXPECT_THAT(flat, HasSubstr("--" + std::string(setting.name)));
+    EXPECT_THAT(flat, HasSubstr("Default: " + setting.default_text)) << setting.name;
+  }
+}
+
+TEST_F(CommandLine, UnknownThingsExitWithTwoAndNameWhatIsNear) {
+  const Outcome option = run_kaustik({"render", "a.pbrt", "--kernal", "cone"});
+  EXPECT_EQ(option.code, kBadCommandLine);
+  EXPECT_THAT(option.err, HasSubstr("unknown option --kernal; did you mean --kernel?"));
+  const Outcome assigned = run_kaustik({"render", "a.pbrt", "--photon=5"});
+  EXPECT_EQ(assigned.code, kBadCommandLine);
+  EXPECT_THAT(assigned.err, HasSubstr("did you mean --photons?"));
+  const Outcome value = run_kaustik({"render", "a.pbrt", "--kernel", "cones"});
+  EXPECT_EQ(value.code, kBadCommandLine);
+  EXPECT_THAT(value.err, HasSubstr("--kernel"));
+  EXPECT_THAT(value.err, HasSubstr("did you mean `cone`"));
+  const Outcome command = run_kaustik({"rendr", "a.pbrt"});
+  EXPECT_EQ(command.code, kBadCommandLine);
+  EXPECT_THAT(command.err, HasSubstr("render"));
+}
+
+TEST_F(CommandLine, MissingAndSurplusArgumentsExitWithTwo) {
+  EXPECT_EQ(run_kaustik({}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"render"}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"render", "a.pbrt", "--photons"}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"render", "a.pbrt", "--crop", "1", "2", "3"}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"render", "a.pbrt", "b.pbrt"}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"compare", "a.exr"}).code, kBadCommandLine);
+}
+
+TEST_F(CommandLine, BadValuesExitWithTwo) {
+  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{{"--photons", "0"},
+                                                                                   {"--photons", "1.5"},
+                                                                                   {"--radius", "-1"},
+                                                                                   {"--spp", "many"},
+                                                                                   {"--aov", "dept"}}) {
+    std::vector<std::string> arguments = {"render", small_scene(), "-o", path("a.exr")};
+    arguments.insert(arguments.end(), bad.begin(), bad.end());
+    const Outcome outcome = run_kaustik(arguments);
+    EXPECT_EQ(outcome.code, kBadCommandLine) << bad[0] << " " << bad[1];
+    EXPECT_THAT(outcome.err, HasSubstr(bad[0]));
+    EXPECT_FALSE(exists("a.exr"));
+  }
+}
+
+// The scene does not exist either: exit code 2 shows that the outputs were looked at first.
+TEST_F(CommandLine, OutputsThatCannotBeWrittenAreFoundFirst) {
+  const std::string scene = path("missing.pbrt");
+  EXPECT_EQ(run_kaustik({"render", scene, "-o", path("no/such/folder.exr")}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"render", scene, "-o", path("picture.gif")}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"render", scene, "-o", path("picture")}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"render", scene, "-o", path("a.exr"), "--stats", path("no/stats.json")}).code,
+            kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"photons", scene}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"photons", scene, "-o", path("map.obj")}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"photons", scene, "-o", path("map.ply"), "--kinds", "caustics"}).code,
+            kBadCommandLine);
+  EXPECT_THAT(files(), IsEmpty());
+}
+
+// 10^12 photons take 24 TB at least, more than any machine that runs this.
+TEST_F(CommandLine, PhotonsThatDoNotFitInMemoryExitWithOne) {
+  const Outcome outcome =
+      run_kaustik({"photons", small_scene(film(8, 8)), "-o", path("a.ply"), "--photons", "1T"});
+  EXPECT_EQ(outcome.code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("1000000000000 photons would need about"));
+  EXPECT_THAT(outcome.err, HasSubstr("emit at most about"));
+  EXPECT_FALSE(exists("a.ply"));
+}
+
+TEST_F(CommandLine, BadScenesExitWithThree) {
+  const Outcome missing = run_kaustik({"render", path("missing.pbrt"), "-o", path("a.exr")});
+  EXPECT_EQ(missing.code, kBadScene);
+  EXPECT_THAT(missing.err, HasSubstr("missing.pbrt"));
+  EXPECT_EQ(run_kaustik({"info", path("missing.pbrt")}).code, kBadScene);
+  EXPECT_EQ(run_kaustik({"photons", path("missing.pbrt"), "-o", path("a.ply")}).code, kBadScene);
+}
+
+TEST_F(CommandLine, SettingsErrorsOfTheSceneAreLocated) {
+  const std::string scene = small_scene("Integrator \"photonmap\" \"string kernal\" \"cone\"");
+  const Outcome outcome = run_kaustik({"render", scene, "-o", path("a.exr")});
+  EXPECT_EQ(outcome.code, kBadScene);
+  EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:3:"));
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean `kernel`"));
+  EXPECT_FALSE(exists("a.exr"));
+}
+
+// An error of the scene and one of its settings come in the same run.
+TEST_F(CommandLine, AllErrorsOfAFileComeInOneRun) {
+  const std::string scene = small_scene(
+      "Integrator \"photonmap\" \"string kernal\" \"cone\"\nFilm \"rgb\" \"integer xresolutio\" 5");
+  const Outcome outcome = run_kaustik({"info", scene});
+  EXPECT_EQ(outcome.code, kBadScene);
+  EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:3:"));
+  EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:4:"));
+}
+
+// The number is out of range for the scene's schema and for --spp.
+TEST_F(CommandLine, OneMistakeIsOneError) {
+  const Outcome outcome = run_kaustik({"info", small_scene("Sampler \"halton\" \"integer pixelsamples\" 0")});
+  EXPECT_EQ(outcome.code, kBadScene);
+  EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:3:41: error: `pixelsamples`"));
+  EXPECT_THAT(outcome.err, HasSubstr("small.pbrt: 1 error\n"));
+}
+
+}  // namespace
+}  // namespace kaustik::app

@@ -1,0 +1,98 @@
+// kaustik convert: the text that is written, and that it renders to the same bits.
+
+#include <gmock/gmock.h>
+
+#include "tests/apps/support/program.h"
+
+namespace kaustik::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_kaustik;
+
+class ConvertCommand : public testing::ProgramTest {
+ protected:
+  // Renders in the test's folder; gives the picture's bytes.
+  std::string picture(const std::string& scene, const std::string& name) const {
+    const Outcome outcome = run_kaustik({"render", path(scene), "-o", path(name), "--spp", "2", "--photons",
+                                         "2000", "--width", "24", "--threads", "1", "-q"});
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return read(name);
+  }
+  // The pictures of a scene and of what it is converted to are the same, to the bit. PNG: EXR files hold the
+  // scene's hash and times.
+  void expect_same_picture(const std::string& scene) const {
+    const Outcome outcome = run_kaustik({"convert", path(scene), path("converted.pbrt")});
+    ASSERT_EQ(outcome.code, kDone) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("wrote " + path("converted.pbrt")));
+    EXPECT_EQ(picture(scene, "a.png"), picture("converted.pbrt", "b.png"));
+    const Outcome difference = run_kaustik({"compare", path("a.png"), path("b.png"), "--max-relmse", "0"});
+    EXPECT_EQ(difference.code, kDone) << difference.out;
+  }
+};
+
+TEST_F(ConvertCommand, PbrtRendersTheSame) {
+  std::string mesh = "\"integer indices\" [", points = "] \"point3 P\" [";
+  for (int i = 0; i < 30; ++i) {
+    const std::string x = std::to_string(0.05 * i - 0.75);
+    mesh += " " + std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2);
+    points += " " + x + " 0.25 1  " + x + "25 0.75 1  " + x + "5 0.25 1.5\n";
+  }
+  write("scene.pbrt", read([this] {
+                        small_scene(film(24, 18));
+                        return std::string("small.pbrt");
+                      }()) +
+                          R"(
+    MakeNamedMaterial "gold \"leaf\"" "string type" "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"
+    AttributeBegin
+      NamedMaterial "gold \"leaf\""
+      Shape "trianglemesh" )" +
+                          mesh + points + R"(]
+    AttributeEnd
+    ObjectBegin "ball" Shape "sphere" "float radius" 0.2 ObjectEnd
+    AttributeBegin Translate 1 0.2 0 Rotate 33 1 2 3 ObjectInstance "ball" AttributeEnd
+    LightSource "point" "blackbody I" 3000 "point3 from" [ 1 3 1 ])");
+  expect_same_picture("scene.pbrt");
+}
+
+// Vertices that are floats go to a PLY file.
+TEST_F(ConvertCommand, ObjRendersTheSame) {
+  std::string obj = "mtllib scene.mtl\nusemtl clay\n";
+  for (int i = 0; i <= 8; ++i) {
+    for (int k = 0; k <= 8; ++k)
+      obj += "v " + std::to_string(i / 8.0) + " " + std::to_string((i * k % 5) / 16.0) + " " +
+             std::to_string(k / 8.0) + "\n";
+  }
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 8; ++k) {
+      const int a = 9 * i + k + 1;
+      obj += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 10) + " " +
+             std::to_string(a + 9) + "\n";
+    }
+  }
+  write("scene.mtl", "newmtl clay\nKd 0.5 0.25 0.125\n");
+  write("scene.obj", obj);
+  expect_same_picture("scene.obj");
+  EXPECT_TRUE(exists("converted-files/mesh0.ply"));
+}
+
+TEST_F(ConvertCommand, BadScenesLeaveNothing) {
+  write("bad.pbrt", "WorldBegin\nShape \"spere\"\n");
+  const Outcome outcome = run_kaustik({"convert", path("bad.pbrt"), path("out.pbrt")});
+  EXPECT_EQ(outcome.code, kBadScene);
+  EXPECT_THAT(outcome.err, HasSubstr("bad.pbrt:2:7: error"));
+  EXPECT_THAT(files(), ElementsAre("bad.pbrt"));
+}
+
+TEST_F(ConvertCommand, BadNames) {
+  const std::string scene = small_scene();
+  EXPECT_EQ(run_kaustik({"convert", scene, path("out.obj")}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"convert", scene, scene}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"convert", scene, path("no/such/folder.pbrt")}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"convert", scene}).code, kBadCommandLine);
+}
+
+}  // namespace
+}  // namespace kaustik::app

@@ -1,0 +1,218 @@
+// kaustik render, photons and info from the outside: files, reports, interruption.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "render/picture/image_io.h"
+#include "tests/apps/support/program.h"
+#include "tests/apps/support/watching.h"
+
+namespace kaustik::app {
+namespace {
+
+using testing::count_threads;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_kaustik;
+using testing::ThreadCounts;
+using testing::wait_until_handled;
+
+class RenderCommand : public testing::ProgramTest {
+ protected:
+  nlohmann::json stats(const std::string& name) const { return nlohmann::json::parse(read(name)); }
+};
+
+TEST_F(RenderCommand, WritesEveryFileAndSaysSo) {
+  const Outcome outcome =
+      run_kaustik({"render", small_scene(film(24, 16)), "-o", path("a.exr"), "-o", path("a.png"), "--photons",
+                   "10k", "--guide", "off", "--spp", "2", "--aov", "all", "--stats", path("a.json")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_THAT(files(), ElementsAre("a.exr", "a.json", "a.png", "small.pbrt"));
+  for (const char* expected : {"a.exr", "a.png", "a.json", "10,000 emitted", "photon trace", "total"}) {
+    EXPECT_THAT(outcome.err, HasSubstr(expected));
+  }
+  const render::Image image = render::read_image(path("a.exr"));
+  EXPECT_EQ(image.width, 24);
+  EXPECT_EQ(image.height, 16);
+}
+
+TEST_F(RenderCommand, StatisticsHaveTheKeysThatScriptsRead) {
+  ASSERT_EQ(run_kaustik({"render", small_scene(film(16, 16)), "-o", path("a.exr"), "--photons", "5k", "--spp",
+                         "1", "--method", "photon", "--stats", path("a.json"), "--quiet"})
+                .code,
+            kDone);
+  const nlohmann::json json = stats("a.json");
+  EXPECT_EQ(json["photons"]["emitted"], 5000);
+  for (const char* kind : {"direct", "shadow", "caustic", "indirect"}) {
+    EXPECT_TRUE(json["photons"]["stored"].contains(kind)) << kind;
+  }
+  EXPECT_GT(json["photons"]["stored"]["caustic"], 0);
+  for (const char* phase : {"load", "bvh", "photon_trace", "photon_build", "render", "write", "total"}) {
+    EXPECT_TRUE(json["seconds"][phase].is_number()) << phase;
+  }
+  EXPECT_GE(json["seconds"]["total"], json["seconds"]["render"]);
+  EXPECT_GT(json["radius"], 0);
+  EXPECT_GT(json["peak_memory_bytes"], 0);
+  EXPECT_TRUE(json["needs"]["specular"]);
+  EXPECT_EQ(json["settings"]["spp"], 1);
+}
+
+TEST_F(RenderCommand, QuietSaysNothing) {
+  const Outcome outcome = run_kaustik(
+      {"render", small_scene(film(8, 8)), "-o", path("a.exr"), "--photons", "1k", "--spp", "1", "--quiet"});
+  EXPECT_EQ(outcome.code, kDone);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(RenderCommand, CommandLineWinsOverFileAndFileOverDefaults) {
+  const std::string scene =
+      small_scene(film(10, 20) +
+                  "\nSampler \"halton\" \"integer pixelsamples\" 3"
+                  "\nIntegrator \"photonmap\" \"integer photons\" 2000 \"string direct\" "
+                  "\"photons\" \"string kernel\" \"cone\"");
+  ASSERT_EQ(run_kaustik({"render", scene, "-o", path("file.exr"), "--stats", path("file.json"), "-q"}).code,
+            kDone);
+  const nlohmann::json file = stats("file.json")["settings"];
+  EXPECT_EQ(file["spp"], 3);
+  EXPECT_EQ(file["photons"], 2000);
+  EXPECT_EQ(file["direct"], "photons");
+  EXPECT_EQ(file["kernel"], "cone");
+  ASSERT_EQ(run_kaustik({"render", scene, "-o", path("line.exr"), "--stats", path("line.json"), "-q", "--spp",
+                         "1", "--kernel", "epanechnikov", "--width", "5"})
+                .code,
+            kDone);
+  const nlohmann::json line = stats("line.json");
+  EXPECT_EQ(line["settings"]["spp"], 1);
+  EXPECT_EQ(line["settings"]["kernel"], "epanechnikov");
+  EXPECT_EQ(line["settings"]["photons"], 2000);
+  EXPECT_EQ(line["width"], 5);
+  EXPECT_EQ(line["height"], 10);  // in proportion
+}
+
+// --method is the command line's word on all estimators, those that the file chose included.
+TEST_F(RenderCommand, MethodOfTheCommandLineReplacesTheFilesEstimators) {
+  const std::string scene = small_scene(film(8, 8) + "\nIntegrator \"sppm\"");
+  ASSERT_EQ(run_kaustik({"render", scene, "-o", path("a.exr"), "--stats", path("a.json"), "-q", "--spp", "1",
+                         "--method", "mc"})
+                .code,
+            kDone);
+  const nlohmann::json settings = stats("a.json")["settings"];
+  EXPECT_EQ(settings["direct"], "shadow-rays");
+  EXPECT_EQ(settings["caustics"], "paths");
+  EXPECT_EQ(settings["indirect"], "paths");
+}
+
+TEST_F(RenderCommand, FilmFilenameIsTheDefaultOutput) {
+  const std::string name = path("from-the-film.exr");
+  const std::string scene = small_scene(film(8, 8) + " \"string filename\" \"" + name + "\"");
+  ASSERT_EQ(run_kaustik({"render", scene, "--spp", "1", "--photons", "1k", "-q"}).code, kDone);
+  EXPECT_TRUE(exists("from-the-film.exr"));
+}
+
+TEST_F(RenderCommand, FilesAreTheSameBytesForAnyNumberOfThreads) {
+  const std::string scene = small_scene(film(32, 24));
+  std::string first;
+  for (const char* threads : {"1", "2", "3", "8"}) {
+    const std::string name = std::string("t") + threads + ".exr";
+    ASSERT_EQ(run_kaustik({"render", scene, "-o", path(name), "--photons", "20k", "--spp", "2", "--aov",
+                           "all", "-q", "--threads", threads})
+                  .code,
+              kDone);
+    const std::string bytes = read(name);
+    if (first.empty()) first = bytes;
+    EXPECT_EQ(bytes.size(), first.size());
+    EXPECT_TRUE(bytes == first) << threads << " threads";
+  }
+}
+
+TEST_F(RenderCommand, CropOutsideTheImageExitsWithTwo) {
+  const Outcome outcome =
+      run_kaustik({"render", small_scene(film(8, 8)), "-o", path("a.exr"), "--crop", "0", "9", "0", "4"});
+  EXPECT_EQ(outcome.code, kBadCommandLine);
+  EXPECT_THAT(outcome.err, HasSubstr("8 x 8"));
+}
+
+// A folder that disappears while the picture is rendered: exit code 1, nothing written.
+TEST_F(RenderCommand, AFailureWhileWritingExitsWithOne) {
+  std::filesystem::create_directories(path("gone"));
+  const std::string scene = small_scene(film(64, 64));
+  std::atomic<bool> stop = false;
+  std::thread remover([&] {
+    wait_until_handled(SIGTERM, stop);
+    std::filesystem::remove_all(path("gone"));
+  });
+  const Outcome outcome =
+      run_kaustik({"render", scene, "-o", path("gone/a.exr"), "--photons", "200k", "--spp", "64", "-q"});
+  stop = true;
+  remover.join();
+  EXPECT_EQ(outcome.code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("a.exr"));
+  EXPECT_FALSE(exists("gone"));
+}
+
+// Before a tile is finished there is nothing to show; partial_results_test.cpp has the rest.
+TEST_F(RenderCommand, AnEarlyInterruptLeavesNoPictureAndExitsWith130) {
+  // Far more samples than a test could wait for: only the signal can end it.
+  const std::string scene = small_scene(film(256, 256));
+  std::atomic<bool> stop = false;
+  std::thread sender([&] {
+    wait_until_handled(SIGINT, stop);
+    if (!stop) std::raise(SIGINT);
+  });
+  const Outcome outcome =
+      run_kaustik({"render", scene, "-o", path("a.exr"), "--photons", "1k", "--spp", "1000000", "-q"});
+  stop = true;
+  sender.join();
+  EXPECT_EQ(outcome.code, kInterrupted);
+  EXPECT_THAT(files(), ElementsAre("small.pbrt"));
+}
+
+TEST_F(RenderCommand, ThreadsBoundsEveryThreadOfTheProcess) {
+  const std::string scene = small_scene(film(64, 64));
+  int code = -1;
+  const ThreadCounts threads = count_threads([&] {
+    code = run_kaustik({"render", scene, "-o", path("a.exr"), "-o", path("a.png"), "--photons", "50k",
+                        "--spp", "4", "--threads", "2", "-q"})
+               .code;
+  });
+  EXPECT_EQ(code, kDone);
+  EXPECT_LE(threads.most, threads.before + 1);
+}
+
+TEST_F(RenderCommand, PhotonsWritesACloudAndAView) {
+  const Outcome outcome =
+      run_kaustik({"photons", small_scene(film(48, 32)), "--photons", "20k", "-o", path("map.ply"), "--image",
+                   path("view.png"), "--kinds", "direct,caustic"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_TRUE(read("map.ply").starts_with("ply\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("caustic"));
+  EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("shadow")));
+  const render::Image view = render::read_image(path("view.png"));
+  EXPECT_EQ(view.width, 48);
+  float brightest = 0;
+  for (const Rgb& pixel : view.pixels) brightest = std::max(brightest, max_component(pixel));
+  EXPECT_GT(brightest, 0.3f);  // far above the dim background, which stays below 0.06
+}
+
+TEST_F(RenderCommand, InfoCountsWhatIsInTheScene) {
+  const Outcome outcome = run_kaustik({"info", small_scene(film(48, 32)), "--json"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["image"]["width"], 48);
+  EXPECT_EQ(json["lights"].size(), 1u);
+  EXPECT_EQ(json["shapes"].size(), 3u);  // a mesh, a sphere, a disk
+  EXPECT_TRUE(json["needs"]["specular"]);
+  EXPECT_FALSE(json["needs"]["only_delta_lights"]);
+  // pi L A of a disk of radius 1/2 that emits on one side; the radiance is exact, the rest rounds.
+  const double watts = M_PI * 10 * M_PI * 0.25;
+  EXPECT_NEAR(json["lights"][0]["power"][1].get<double>(), watts, 1e-5 * watts);
+  const Outcome text = run_kaustik({"info", small_scene(film(48, 32))});
+  EXPECT_EQ(text.code, kDone);
+  EXPECT_THAT(text.out, HasSubstr("dielectric"));
+}
+
+}  // namespace
+}  // namespace kaustik::app

@@ -1,0 +1,74 @@
+#pragma once
+// Scenes written by tests into a folder of their own.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "apps/import/import_scene.h"
+
+namespace kaustik::pbrt {
+
+class ImportTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ =
+        std::filesystem::path(KAUSTIK_TEST_OUTPUT_DIR) / "import" / test->test_suite_name() / test->name();
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override {
+    if (!HasFailure()) std::filesystem::remove_all(folder_);
+  }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    const std::filesystem::path path = folder_ / name;
+    std::filesystem::create_directories(path.parent_path());
+    // A new file: replacing one's contents can wait for the disk.
+    std::filesystem::remove(path);
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+
+  // The scene, which must load without errors.
+  LoadedScene load(const std::string& text) {
+    diagnostics_ = Diagnostics();
+    auto loaded = load_scene(write("scene.pbrt", text), diagnostics_);
+    EXPECT_TRUE(loaded) << diagnostics_.format_all();
+    return loaded ? std::move(*loaded) : LoadedScene{};
+  }
+  Scene world(const std::string& text) { return load("WorldBegin\n" + text).scene; }
+
+  // Everything that is said about a scene, file names without their folder.
+  std::string messages(const std::string& text) {
+    diagnostics_ = Diagnostics();
+    loaded_ = load_scene(write("scene.pbrt", text), diagnostics_).has_value();
+    EXPECT_EQ(loaded_, !diagnostics_.has_errors());
+    std::string out = diagnostics_.format_all();
+    const std::string prefix = folder_.string() + "/";
+    for (size_t i; (i = out.find(prefix)) != out.npos;) out.erase(i, prefix.size());
+    return out;
+  }
+  // Only the first line of each message, and only what follows the file's name, after a line with WorldBegin.
+  std::string first_lines(const std::string& text) {
+    messages("WorldBegin\n" + text);
+    std::string out;
+    for (const Diagnostic& d : diagnostics_.entries()) {
+      out += std::to_string(d.location.line) + ":" + std::to_string(d.location.column) +
+             (d.severity == Severity::kError ? ": error: " : ": warning: ") + d.message + "\n";
+    }
+    const std::string prefix = folder_.string() + "/";
+    for (size_t i; (i = out.find(prefix)) != out.npos;) out.erase(i, prefix.size());
+    return out;
+  }
+
+  std::filesystem::path folder_;
+  Diagnostics diagnostics_;
+  bool loaded_ = false;
+};
+
+}  // namespace kaustik::pbrt

@@ -1,0 +1,285 @@
+// Texture directives and image files: what they mean, and what is said about bad ones.
+
+#include <OpenImageIO/imageio.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+#include "core/scene/bsdf_at.h"
+#include "tests/apps/import/import_support.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+class ImportTextures : public ImportTest {
+ protected:
+  // Rows from the top; channels interleaved.
+  template <class T>
+  void write_image(const std::string& name, int width, int channels, const std::vector<T>& values) const {
+    const OIIO::TypeDesc type = sizeof(T) == 1 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
+    const int height = static_cast<int>(values.size()) / width / channels;
+    OIIO::ImageSpec spec(width, height, channels, type);
+    const std::string path = (folder_ / name).string();
+    auto out = OIIO::ImageOutput::create(path);
+    ASSERT_TRUE(out);
+    ASSERT_TRUE(out->open(path, spec) && out->write_image(type, values.data()) && out->close());
+  }
+
+  // A 2 x 2 image of one byte per pixel: 0 and 255 above, 51 and 102 below.
+  void write_fields(const std::string& name = "fields.png") const {
+    write_image<uint8_t>(name, 2, 1, {0, 255, 51, 102});
+  }
+  // The reflectance that a texture gives to a plane's point uv.
+  static Rgb colour_at(const Scene& scene, float u, float v) {
+    // Barycentrics of a triangle of uv (0, 0), (1, 0), (1, 1).
+    SurfaceInteraction si = make_interaction(scene.shapes, {}, {1, 0, 0, {u - v, v}});
+    const BsdfAt bsdf(scene, si, {0, 0, 1});
+    return std::get<Lambertian>(*bsdf).reflectance;
+  }
+  Scene with_texture(const std::string& parameters, const std::string& type = "imagemap") {
+    return world("Texture \"t\" \"spectrum\" \"" + type + "\" " + parameters +
+                 "\nMaterial \"diffuse\" \"texture reflectance\" \"t\" "
+                 "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0]");
+  }
+};
+
+constexpr const char* kLinear = " \"string encoding\" \"linear\"";
+
+// Bilinear between texel centres at 1/4 and 3/4; t points up, so v = 3/4 is the upper row. 8-bit values are
+// kept as half floats: 2^-11 of the value.
+TEST_F(ImportTextures, ImagesAreInterpolatedBetweenTexels) {
+  write_fields();
+  const Scene s = with_texture(std::string("\"string filename\" \"fields.png\"") + kLinear);
+  EXPECT_NEAR(colour_at(s, 0.75f, 0.75f).x, 1, 1e-6f);
+  EXPECT_NEAR(colour_at(s, 0.75f, 0.25f).x, 0.4f, 2e-4f);
+  EXPECT_NEAR(colour_at(s, 0.5f, 0.25f).x, 0.3f, 2e-4f);
+  EXPECT_EQ(colour_at(s, 0.75f, 0.25f).x, colour_at(s, 0.75f, 0.25f).z);
+}
+
+// At s = 1, between the right texel and what follows: the left one again, nothing, or itself.
+TEST_F(ImportTextures, WrapModes) {
+  write_fields();
+  const auto at_edge = [&](const std::string& wrap) {
+    const Scene s =
+        with_texture("\"string filename\" \"fields.png\" \"float udelta\" 0.25 \"string wrap\" \"" + wrap +
+                     "\"" + kLinear);
+    return colour_at(s, 0.75f, 0.75f).x;
+  };
+  EXPECT_NEAR(at_edge("repeat"), 0.5f, 1e-3f);
+  EXPECT_NEAR(at_edge("black"), 0.5f, 1e-3f);
+  EXPECT_NEAR(at_edge("clamp"), 1, 1e-3f);
+  const Scene far = with_texture(std::string("\"string filename\" \"fields.png\" \"float udelta\" 1 "
+                                             "\"string wrap\" \"black\"") +
+                                 kLinear);
+  EXPECT_EQ(colour_at(far, 0.75f, 0.75f).x, 0);
+}
+
+// Of the byte 102 = 0.4: ((0.4 + 0.055) / 1.055)^2.4 = 0.13287, 0.4, 0.4^2.2 = 0.13320.
+TEST_F(ImportTextures, Encodings) {
+  write_fields();
+  const auto decoded = [&](const std::string& encoding) {
+    const std::string parameter = encoding.empty() ? "" : " \"string encoding\" \"" + encoding + "\"";
+    return colour_at(with_texture("\"string filename\" \"fields.png\"" + parameter), 0.75f, 0.25f).x;
+  };
+  EXPECT_NEAR(decoded(""), 0.13287f, 1e-4f);
+  EXPECT_NEAR(decoded("sRGB"), 0.13287f, 1e-4f);
+  EXPECT_NEAR(decoded("linear"), 0.4f, 2e-4f);
+  EXPECT_NEAR(decoded("gamma 2.2"), 0.13320f, 1e-4f);
+}
+
+// Float images are linear whatever the encoding; three channels stay three, alpha is left out.
+TEST_F(ImportTextures, FloatImagesOfFourChannels) {
+  write_image<float>("c.exr", 1, 4, {0.25f, 0.5f, 0.75f, 0.5f});
+  const Scene s = with_texture("\"string filename\" \"c.exr\" \"string encoding\" \"sRGB\"");
+  EXPECT_EQ(colour_at(s, 0.5f, 0.25f), Rgb(0.25f, 0.5f, 0.75f));
+}
+
+TEST_F(ImportTextures, ValuesStayInTheRangeOfTheParameter) {
+  write_image<float>("c.exr", 1, 3, {-1, 5, std::numeric_limits<float>::quiet_NaN()});
+  const Scene s = with_texture("\"string filename\" \"c.exr\"");
+  EXPECT_EQ(colour_at(s, 0.5f, 0.25f), Rgb(0, 1, 0));
+}
+
+// The transform where the texture is defined, not where it is used.
+TEST_F(ImportTextures, TextureSpaceIsTheCurrentTransform) {
+  const Scene s = world(R"(
+    AttributeBegin Translate 2 0 0
+    Texture "t" "spectrum" "checkerboard" "integer dimension" 3 "rgb tex1" [1 0 0] "rgb tex2" [0 1 0]
+    AttributeEnd
+    Material "diffuse" "texture reflectance" "t"
+    Translate 7 0 0.5 Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0])");
+  SurfaceInteraction si = make_interaction(s.shapes, {}, {1, 0, 0, {0.25f, 0.25f}});
+  EXPECT_EQ(std::get<Lambertian>(*BsdfAt(s, si, {0, 0, 1})).reflectance, Rgb(0, 1, 0));  // 7.5 - 2: field 5
+}
+
+// Roughness and the like take float textures; a number in a float texture is one.
+TEST_F(ImportTextures, FloatTexturesForNumbers) {
+  const Scene s = world(R"(
+    Texture "a" "float" "constant" "float value" 1.25
+    Texture "b" "float" "scale" "texture tex" "a" "float scale" 2
+    Material "dielectric" "texture eta" "b" Shape "sphere")");
+  SurfaceInteraction si = make_interaction(s.shapes, {{0, 0, 2}, {0, 0, -1}}, {1, 0, 0, {}});
+  EXPECT_EQ(std::get<Dielectric>(*BsdfAt(s, si, {0, 0, 1})).eta, 2.5f);
+  EXPECT_TRUE(s.needs.specular);
+}
+
+TEST_F(ImportTextures, ConstantMaterialsStayConstant) {
+  const Scene s = world(R"(Texture "t" "spectrum" "constant" Material "diffuse" Shape "sphere")");
+  EXPECT_TRUE(s.materials[s.shapes[0].material].constant());
+}
+
+TEST_F(ImportTextures, SaysWhatIsWrongWithTextures) {
+  EXPECT_EQ(first_lines(R"(Texture "t" "colour" "constant")"),
+            "2:13: error: a texture is \"float\" or \"spectrum\", not \"colour\"; known: float, spectrum\n");
+  EXPECT_EQ(
+      first_lines(R"(Texture "t" "float" "ptex")"),
+      "2:21: error: pbrt's texture \"ptex\" is not rendered; there are: constant, scale, mix, directionmix, "
+      "checkerboard, dots, bilerp, imagemap, fbm, wrinkled, windy, marble\n");
+  EXPECT_EQ(first_lines("Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"mix\""),
+            "3:9: warning: texture `t` is defined again, as in pbrt-v3: this one holds up to the end of the "
+            "block\n");
+  EXPECT_EQ(first_lines(R"(Texture "t" "float" "constant" "rgb value" [1 1 1])"),
+            "2:32: error: `value` is a number here: \"float value\"\n");
+  EXPECT_EQ(first_lines(R"(Texture "t" "float" "imagemap")"),
+            "2:21: error: texture \"imagemap\" needs `filename`\n");
+  EXPECT_EQ(
+      first_lines(R"(Texture "t" "float" "dots" "string mapping" "planer")"),
+      "2:45: error: unknown mapping \"planer\"; did you mean `planar`? known: uv, spherical, cylindrical, "
+      "planar\n");
+}
+
+// As in pbrt-v3, whose names end with their block.
+TEST_F(ImportTextures, NamesMayBeUsedAgain) {
+  const Scene s = world(R"(
+    Texture "t" "spectrum" "constant" "rgb value" [ .1 .1 .1 ]
+    AttributeBegin
+      Texture "t" "spectrum" "constant" "rgb value" [ .2 .2 .2 ]
+      Texture "t" "spectrum" "scale" "texture tex" "t" "float scale" 2
+      MakeNamedMaterial "m" "string type" "diffuse" "texture reflectance" "t"
+      NamedMaterial "m" Shape "sphere"
+    AttributeEnd
+    AttributeBegin
+      MakeNamedMaterial "m" "string type" "diffuse" "texture reflectance" "t"
+      NamedMaterial "m" Shape "sphere"
+    AttributeEnd
+    NamedMaterial "m" Shape "sphere")");
+  const auto reflectance = [&](size_t shape) {
+    SurfaceInteraction si = make_interaction(s.shapes, {{0, 0, 2}, {0, 0, -1}}, {1, uint32_t(shape), 0, {}});
+    return std::get<Lambertian>(*BsdfAt(s, si, {0, 0, 1})).reflectance.x;
+  };
+  EXPECT_FLOAT_EQ(reflectance(0), 0.4f);
+  EXPECT_FLOAT_EQ(reflectance(1), 0.1f);
+  EXPECT_FLOAT_EQ(reflectance(2), 0.4f);
+}
+
+TEST_F(ImportTextures, NoiseHasItsParameters) {
+  world(R"(Texture "f" "float" "fbm" "integer octaves" 3 "float roughness" .25
+    Texture "w" "float" "wrinkled" Texture "y" "float" "windy"
+    Texture "m" "spectrum" "marble" "float scale" 2 "float variation" .5
+    Material "diffuse" "texture reflectance" "m" "texture displacement" "w" Shape "sphere")");
+  EXPECT_EQ(first_lines(R"(Texture "f" "float" "fbm" "integer octaves" 0)"),
+            "2:45: error: `octaves` of texture \"fbm\" must be >= 1 and <= 32, not 0\n");
+}
+
+TEST_F(ImportTextures, SaysWhatIsWrongWithNames) {
+  EXPECT_EQ(first_lines("Texture \"wood\" \"spectrum\" \"constant\"\n"
+                        "Material \"diffuse\" \"texture reflectance\" \"wod\""),
+            "3:42: error: no spectrum texture is named `wod`; did you mean `wood`?\n");
+  EXPECT_EQ(first_lines("Texture \"wood\" \"float\" \"constant\"\n"
+                        "Material \"diffuse\" \"texture reflectance\" \"wood\""),
+            "3:42: error: `reflectance` takes a spectrum texture: `wood` is none\n");
+  EXPECT_EQ(first_lines(R"(Texture "t" "float" "scale" "texture tex" "t")"),
+            "2:43: error: texture `t` is used before it is defined\n");
+}
+
+// 2^60 lookups from 60 lines.
+TEST_F(ImportTextures, RefusesTexturesOfTooManyTextures) {
+  std::string text = "Texture \"t0\" \"float\" \"constant\"\n";
+  for (int i = 1; i <= 60; ++i) {
+    const std::string before = std::to_string(i - 1);
+    text += "Texture \"t" + std::to_string(i) + "\" \"float\" \"mix\" \"texture tex1\" \"t" + before +
+            "\" \"texture tex2\" \"t" + before + "\"\n";
+  }
+  EXPECT_NE(first_lines(text).find("at most 256 are rendered"), std::string::npos);
+}
+
+TEST_F(ImportTextures, SaysWhatIsWrongWithImages) {
+  const auto lines = [&](const std::string& file) {
+    return first_lines("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" + file + "\"");
+  };
+  EXPECT_EQ(lines("none.png"), "2:53: error: cannot open \"none.png\": no such file\n");
+  write("text.png", "no picture at all");
+  EXPECT_TRUE(lines("text.png").starts_with("2:53: error: cannot read the image \"text.png\": "));
+  // The second half of the pixels is missing.
+  std::vector<uint8_t> noise(64 * 64);
+  for (size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<uint8_t>(i * i * 37 >> 3);
+  write_image<uint8_t>("whole.png", 64, 1, noise);
+  std::ifstream in(folder_ / "whole.png", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  write("half.png", bytes.substr(0, bytes.size() / 2));
+  EXPECT_TRUE(lines("half.png").starts_with("2:53: error: cannot read the image \"half.png\": "));
+}
+
+// A file of some hundred bytes that says it holds 2^40 pixels is refused by its header.
+TEST_F(ImportTextures, RefusesHugeImagesByTheirHeaders) {
+  std::ofstream out(folder_ / "huge.pfm", std::ios::binary);
+  out << "PF\n1048576 1048576\n-1.0\n" << std::string(100, '\0');
+  out.close();
+  const std::string said =
+      first_lines("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"huge.pfm\"");
+  EXPECT_TRUE(said.starts_with("2:53: error: cannot read the image \"huge.pfm\": ")) << said;
+}
+
+// A PNG is refused by its size where its pixels cannot be in it; one colour packs nearly as well as can be.
+TEST_F(ImportTextures, RefusesCutImagesByTheirSize) {
+  write_image<uint8_t>("black.png", 2048, 1, std::vector<uint8_t>(2048 * 2048));
+  EXPECT_EQ(colour_at(with_texture("\"string filename\" \"black.png\""), 0.5f, 0.5f), Rgb(0));
+  std::ifstream in(folder_ / "black.png", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  write("cut.png", bytes.substr(0, bytes.size() / 2));
+  EXPECT_TRUE(first_lines("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"cut.png\"")
+                  .starts_with("2:53: error: cannot read the image \"cut.png\": it ends early\n"));
+}
+
+// Partial results of another picture are refused: the hash of the scene's files covers images.
+TEST_F(ImportTextures, ImagesAreAPartOfTheContent) {
+  const std::string text = "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\"";
+  write_image<uint8_t>("a.png", 1, 1, {10});
+  const std::string first = load(text).content_hash;
+  EXPECT_EQ(load(text).content_hash, first);
+  write_image<uint8_t>("a.png", 1, 1, {11});
+  EXPECT_NE(load(text).content_hash, first);
+}
+
+// Threads outlive scenes: what one looked up of a scene's images says nothing of the next scene's.
+TEST_F(ImportTextures, ScenesComeAndGo) {
+  for (int scene = 0; scene < 40; ++scene) {
+    const int value = 6 * scene;
+    std::string more;
+    for (int i = 0; i < 8; ++i) {
+      const std::string name = std::to_string(i) + ".png";
+      write_image<uint8_t>(name, 100, 1, std::vector<uint8_t>(10'000, static_cast<uint8_t>(value)));
+      more += "Texture \"" + name + "\" \"spectrum\" \"imagemap\" \"string filename\" \"" + name + "\"" +
+              kLinear + "\n";
+    }
+    const Scene s = with_texture(std::string("\"string filename\" \"0.png\"") + kLinear + "\n" + more);
+    std::atomic<int> wrong = 0;
+    tbb::parallel_for(0, 256, [&](int /*i*/) {
+      if (std::abs(colour_at(s, 0.5f, 0.25f).x - static_cast<float>(value) / 255) > 5e-4f) ++wrong;
+    });
+    EXPECT_EQ(wrong, 0) << scene;
+  }
+}
+
+TEST_F(ImportTextures, AmountsOfMixturesAreFloatTextures) {
+  const std::string mix = R"(MakeNamedMaterial "a" "string type" "mirror"
+    Texture "grey" "spectrum" "constant" Texture "half" "float" "constant" "float value" 0.5
+    Material "mix" "string materials" ["a" "a"] "texture amount" )";
+  EXPECT_EQ(first_lines(mix + "\"grey\" Shape \"sphere\""),
+            "4:66: error: `amount` takes a float texture: `grey` is none\n");
+  const Scene s = world(mix + "\"half\" Shape \"sphere\"");
+  EXPECT_EQ(s.materials[s.shapes[0].material].mixed()->amount_texture, 1u);
+}
+
+}  // namespace
+}  // namespace kaustik::pbrt

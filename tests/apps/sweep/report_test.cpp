@@ -1,0 +1,75 @@
+// Texts in pages: nothing of a scene's name or a setting can become markup or script.
+
+#include <gmock/gmock.h>
+
+#include "apps/report/html.h"
+#include "apps/report/sweep_report.h"
+#include "apps/sweep/pictures.h"
+#include "report_assets.h"
+#include "tests/apps/support/program.h"
+
+namespace kaustik::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Html, EscapesWhatHasAMeaning) {
+  EXPECT_EQ(html_escaped("<b a=\"x\" c='y'>&amp;"), "&lt;b a=&quot;x&quot; c=&#39;y&#39;&gt;&amp;amp;");
+}
+
+TEST(Html, JsonCannotEndItsElement) {
+  const Json value = {{"name", "</script><!--<script>\xe2\x80\xa8&"}};
+  const std::string text = script_json(value.dump());
+  EXPECT_THAT(text, Not(HasSubstr("<")));
+  EXPECT_THAT(text, Not(HasSubstr("\xe2\x80\xa8")));
+  EXPECT_EQ(Json::parse(text), value);
+}
+
+// The vectors of RFC 4648, section 10.
+TEST(Html, Base64IsThatOfTheRfc) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(Html, ValuesAreNotTemplates) {
+  EXPECT_EQ(filled("a{{x}}b{{y}}", {{"x", "{{y}}"}, {"y", "2"}}), "a{{y}}b2");
+  EXPECT_THROW(filled("{{z}}", {}), std::logic_error);
+}
+
+// What goes into script elements as it is must not end them.
+TEST(Html, EmbeddedScriptsStayInside) {
+  for (const std::string_view script : {assets::chart_library, assets::script}) {
+    EXPECT_THAT(std::string(script), Not(HasSubstr("</script")));
+    EXPECT_THAT(std::string(script), Not(HasSubstr("<!--")));
+  }
+  EXPECT_THAT(std::string(assets::chart_licence), HasSubstr("Permission is hereby granted"));
+}
+
+class Report : public testing::ProgramTest {};
+
+TEST_F(Report, NamesAreEscapedEverywhere) {
+  const std::string evil = "</script><img src=x onerror=alert(1)>.pbrt";
+  SweepResult result;
+  result.scene = result.version = result.build = result.reference.source = evil;
+  result.settings["kernel"] = evil;
+  result.machine["cpu"] = evil;
+  result.reference.picture = "a.png";
+  SweepCell cell;
+  cell.picture = cell.error_map = "a.png";
+  cell.flags = evil;
+  cell.error.relmse = 0.0001;
+  result.cells = {cell};
+  write_picture(path("a.png"), render::Image(2, 2), {});
+  const std::string page = sweep_report(result, path(""));
+  EXPECT_THAT(page, Not(HasSubstr("<img src=x")));
+  EXPECT_THAT(page, HasSubstr("&lt;img src=x"));
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBOR"));
+}
+
+}  // namespace
+}  // namespace kaustik::app

@@ -1,0 +1,375 @@
+// kaustik sweep from the outside: files that agree, resumption, what is refused.
+
+#include <gmock/gmock.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "apps/sweep/reference.h"
+#include "render/passes/partial_result.h"
+#include "render/picture/image_io.h"
+#include "tests/apps/support/child_process.h"
+#include "tests/apps/support/program.h"
+#include "tests/apps/support/watching.h"
+
+namespace kaustik::app {
+namespace {
+
+using ::testing::AnyOf;
+using testing::ChildProcess;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::Outcome;
+using testing::run_kaustik;
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::ordered_json;
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+void sleep_ms(int ms) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+}
+
+class SweepCommand : public testing::ProgramTest {
+ protected:
+  SweepCommand() {
+    EXPECT_EQ(run_kaustik({"render", scene_, "--method", "mc", "--spp", "64", "--seed", "9", "-o",
+                           path("ref.exr"), "-q"})
+                  .code,
+              kDone);
+  }
+  Arguments sweep(const Arguments& more, const std::string& folder = "out") const {
+    return Arguments{"sweep", scene_,    "--photons", "1k,4k", "--radius",   "auto,2x", "--spp",
+                     "2",     "--seeds", "2",         "-o",    path(folder), "-q"} +
+           more;
+  }
+  Arguments against_file() const { return {"--reference", path("ref.exr")}; }
+  void expect_done(const Arguments& arguments) const {
+    const Outcome outcome = run_kaustik(arguments);
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+  }
+  void expect_refused(const Arguments& arguments, const std::string& part) const {
+    const Outcome outcome = run_kaustik(arguments);
+    EXPECT_EQ(outcome.code, kBadCommandLine) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+  }
+  Json result(const std::string& folder = "out") const { return Json::parse(read(folder + "/sweep.json")); }
+  // The finished cells by their names.
+  std::map<std::string, std::string> cells(const std::string& folder = "out") const {
+    std::map<std::string, std::string> texts;
+    if (!exists(folder + "/cells")) return texts;
+    for (const auto& entry : std::filesystem::directory_iterator(path(folder + "/cells"))) {
+      const std::string name = entry.path().filename().string();
+      if (name.ends_with(".json") && !name.starts_with(".")) texts[name] = read(folder + "/cells/" + name);
+    }
+    return texts;
+  }
+
+  // A sweep of one cell, with a reference that is rendered.
+  Arguments with_reference(const Arguments& more = {}) const {
+    return Arguments{"sweep",   scene_, "--photons",        "1k",   "--radius", "auto",      "--spp", "2",
+                     "--seeds", "1",    "--reference-time", "10ms", "-o",       path("out"), "-q"} +
+           more;
+  }
+
+  std::string scene_ = small_scene(film(24, 16));
+};
+
+std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream fields(line + ",");
+    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+  }
+  return rows;
+}
+
+TEST_F(SweepCommand, CsvAndJsonHoldTheSame) {
+  expect_done(sweep(against_file() + Arguments{"--methods", "photon,mc"}));
+  const Json cells = result()["cells"];
+  const auto rows = csv_rows(read("out/sweep.csv"));
+  ASSERT_EQ(cells.size(), 5u);  // mc is one point
+  ASSERT_EQ(rows.size(), 1 + cells.size());
+  for (size_t i = 0; i < cells.size(); ++i) {
+    std::map<std::string, std::string> row;
+    ASSERT_EQ(rows[i + 1].size(), rows[0].size());
+    for (size_t k = 0; k < rows[0].size(); ++k) row[rows[0][k]] = rows[i + 1][k];
+    EXPECT_EQ(row["method"], cells[i]["method"]);
+    EXPECT_EQ(row["photons"], cells[i]["photons"].is_null() ? "" : cells[i]["photons"].dump());
+    EXPECT_EQ(row["radius"], cells[i]["radius"].is_null() ? "" : cells[i]["radius"].get<std::string>());
+    for (const char* key : {"relmse", "relative_rmse", "bias2", "variance"})
+      EXPECT_EQ(row[key], cells[i]["error"][key].dump()) << key;
+    EXPECT_EQ(row["seconds"], cells[i]["seconds"]["total"]["median"].dump());
+    EXPECT_EQ(row["pareto"], cells[i]["pareto"].dump());
+    // The parts add up, as of error_parts.h; sums of 1152 doubles.
+    const double relmse = cells[i]["error"]["relmse"];
+    EXPECT_NEAR(double(cells[i]["error"]["bias2"]) + double(cells[i]["error"]["variance"]), relmse, 1e-12);
+  }
+  const std::string page = read("out/report.html");
+  EXPECT_THAT(page, HasSubstr("small.pbrt"));
+  EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
+}
+
+// The errors are those that `render` and `compare` show.
+TEST_F(SweepCommand, ErrorsAreThoseOfTheRender) {
+  expect_done(sweep(against_file()));
+  const Json cell = result()["cells"][3];
+  ASSERT_EQ(cell["flags"], "--photons 4k --radius 2x --spp 2");
+  for (const char* seed : {"0", "1"}) {
+    expect_done({"render", scene_, "--photons", "4k", "--radius", "2x", "--spp", "2", "--seed", seed, "-o",
+                 path("a.exr"), "-q"});
+    const Outcome compared = run_kaustik({"compare", path("ref.exr"), path("a.exr"), "--json"});
+    EXPECT_EQ(cell["error"]["relmse_by_seed"][size_t(seed[0] - '0')], Json::parse(compared.out)["relmse"]);
+  }
+}
+
+// Multiples of two: floats hold them exactly.
+TEST_F(SweepCommand, RadiusFactorsScaleEveryMap) {
+  const auto radii = [&](const std::string& radius) {
+    expect_done({"render", scene_, "--method", "photon", "--photons", "20k", "--radius", radius, "--spp", "1",
+                 "-o", path("a.exr"), "--stats", path("s.json"), "-q"});
+    return Json::parse(read("s.json"))["radii"];
+  };
+  const Json once = radii("auto"), half = radii("0.5x"), twice = radii("2x");
+  for (const char* map : {"direct", "caustic", "indirect"}) {
+    EXPECT_GT(once[map], 0) << map;
+    EXPECT_EQ(double(half[map]), 0.5 * double(once[map])) << map;
+    EXPECT_EQ(double(twice[map]), 2 * double(once[map])) << map;
+  }
+}
+
+TEST_F(SweepCommand, AFinishedSweepIsNotRenderedAgainAndMayGrow) {
+  expect_done(sweep(against_file()));
+  const auto before = cells();
+  const std::string csv = read("out/sweep.csv"), json = read("out/sweep.json");
+  expect_done(sweep(against_file()));
+  EXPECT_EQ(cells(), before);
+  EXPECT_EQ(read("out/sweep.csv"), csv);
+  EXPECT_EQ(read("out/sweep.json"), json);
+  expect_done(sweep(against_file() + Arguments{"--radius", "0.5x"}));  // one more
+  EXPECT_EQ(result()["cells"].size(), 6u);
+  for (const auto& [name, text] : before) EXPECT_EQ(cells()[name], text);
+}
+
+// Killed when the first cell is there: that one is kept, the others follow, and the errors are those of a
+// sweep that ran through.
+TEST_F(SweepCommand, KilledBetweenCellsGoesOn) {
+  const Arguments more = against_file() + Arguments{"--photons", "30k,31k", "--threads", "1"};
+  expect_done(sweep(more, "whole"));
+  ChildProcess first(sweep(more));
+  while (cells().empty() && first.running()) sleep_ms(1);
+  first.kill(SIGKILL);
+  first.wait();
+  const auto kept = cells();
+  ASSERT_FALSE(kept.empty());
+  EXPECT_LT(kept.size(), 8u);
+  EXPECT_FALSE(exists("out/report.html"));
+  expect_done(sweep(more));
+  for (const auto& [name, text] : kept) EXPECT_EQ(cells()[name], text);
+  const Json resumed = result()["cells"], whole = result("whole")["cells"];
+  ASSERT_EQ(resumed.size(), whole.size());
+  for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(resumed[i]["error"], whole[i]["error"]) << i;
+}
+
+TEST_F(SweepCommand, AnInterruptLeavesAFolderToGoOnWith) {
+  const std::string scene = small_scene(film(256, 256));
+  std::atomic<bool> stop = false;
+  std::thread sender([&] {
+    testing::wait_until_handled(SIGINT, stop);
+    while (!stop && cells().empty()) sleep_ms(1);
+    if (!stop) std::raise(SIGINT);
+  });
+  // The second point takes far longer than a test could wait: only the signal can end it.
+  const Outcome outcome =
+      run_kaustik({"sweep", scene, "--photons", "1k", "--radius", "auto", "--spp", "1,1000000", "--seeds",
+                   "1", "--reference-time", "100ms", "-o", path("out"), "-q"});
+  stop = true;
+  sender.join();
+  EXPECT_EQ(outcome.code, kInterrupted);
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 2 points finished"));
+  EXPECT_EQ(cells().size(), 1u);
+  expect_done({"sweep", scene, "--photons", "1k", "--radius", "auto", "--spp", "1", "--seeds", "1",
+               "--reference-time", "100ms", "-o", path("out"), "-q"});
+}
+
+// The passes that are complete are kept, and gone on with: each run that is interrupted late enough has more.
+TEST_F(SweepCommand, AnInterruptedReferenceIsGoneOnWith) {
+  const auto passes = [&] {
+    return exists("out/reference.kpart")
+               ? render::read_partial(path("out/reference.kpart")).sums.passes.count()
+               : 0;
+  };
+  const auto run_until_more_than = [&](uint64_t before) {
+    for (int ms = 500; passes() <= before && ms < 100'000; ms *= 2) {
+      ChildProcess run(sweep({"--reference-time", "1h", "--threads", "1"}));
+      while (!exists("out/sweep-of.json") && run.running()) sleep_ms(1);
+      sleep_ms(ms);
+      run.kill(SIGINT);
+      EXPECT_THAT(run.wait(), AnyOf(kInterrupted, -1));  // -1: on a busy machine it was not yet at work
+    }
+    return passes();
+  };
+  const uint64_t first = run_until_more_than(0);
+  EXPECT_GT(first, 0u);
+  EXPECT_GT(run_until_more_than(first), first);
+  EXPECT_THAT(cells(), IsEmpty());
+}
+
+TEST_F(SweepCommand, ARenderedReferenceTellsItsNoise) {
+  const Outcome outcome = run_kaustik(sweep({"--reference-time", "50ms", "--reference-method", "mc"}));
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("finds no light of point lamps through glass"));
+  const Json reference = result()["reference"];
+  EXPECT_THAT(reference["source"].get<std::string>(), HasSubstr("method mc"));
+  EXPECT_GE(reference["passes"], 2);
+  EXPECT_GT(reference["noise_relmse"], 0);
+  EXPECT_FALSE(exists("out/reference.kpart"));
+  const std::string exr = read("out/reference.exr");
+  expect_done(sweep({"--reference-time", "50ms", "--reference-method", "mc", "--radius", "3x"}));
+  EXPECT_TRUE(read("out/reference.exr") == exr);  // taken as it is
+}
+
+TEST_F(SweepCommand, RefusesTheFolderOfAnotherSweep) {
+  expect_done(sweep(against_file()));
+  expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}), "holds another sweep");
+  expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}),
+                 "settings max-bounces: there \"16\", here \"3\"");
+  expect_refused(sweep({"--reference-time", "1s"}), "reference");
+  small_scene(film(24, 16) + "\n# another");
+  expect_refused(sweep(against_file()), "scene: there");
+}
+
+TEST_F(SweepCommand, BadInputExitsWithTwo) {
+  expect_refused(sweep(against_file() + Arguments{"--methods", "photonn"}), "did you mean `photon`?");
+  expect_refused(sweep(against_file() + Arguments{"--photons", "0"}), "--photons: `0`");
+  expect_refused(sweep(against_file() + Arguments{"--photons", "1k"}), "given twice");
+  expect_refused(sweep(against_file() + Arguments{"--radius", "wide"}), "--radius: `wide`");
+  expect_refused(sweep(against_file() + Arguments{"--reference-time", "1m"}), "--reference");
+  expect_refused(sweep({"--reference-time", "0s"}), "--reference-time");
+  expect_refused(sweep({"--reference-method", "best"}), "--reference-method");
+  expect_refused(sweep(against_file() + Arguments{"--width", "12"}),
+                 "24 x 16 pixels, the scene's picture 12 x 8");
+  expect_refused(sweep({"--reference", path("none.exr")}), "none.exr");
+  expect_refused(sweep({"--reference", scene_}, "bad"), "--reference");
+  write("file", "");
+  expect_refused(sweep(against_file(), "file"), "this is not a folder");
+  expect_refused({"sweep", scene_}, "--output is required");
+  EXPECT_EQ(run_kaustik({"sweep", path("no.pbrt"), "-o", path("x")}).code, kBadScene);
+}
+
+TEST_F(SweepCommand, ADamagedCellIsRenderedAgain) {
+  expect_done(sweep(against_file()));
+  const Json before = result()["cells"];
+  const std::string name = "out/cells/" + cells().begin()->first;
+  write(name, "{\"error\": ");
+  const Outcome outcome = run_kaustik(sweep(against_file()));
+  EXPECT_EQ(outcome.code, kDone);
+  EXPECT_THAT(outcome.err, HasSubstr("the cell is rendered again"));
+  const Json after = result()["cells"];
+  for (size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i]["error"], before[i]["error"]);
+}
+
+TEST_F(SweepCommand, ADamagedReferenceIsRenderedAgain) {
+  expect_done(with_reference());
+  const std::string about = read("out/reference.json"), picture = read("out/reference.exr");
+  const auto expect_again = [&](const std::string& what) {
+    const Outcome outcome = run_kaustik(with_reference());
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(what));
+    EXPECT_THAT(outcome.err, HasSubstr("the reference is rendered"));
+    EXPECT_THAT(run_kaustik(with_reference()).err, Not(HasSubstr("the reference is rendered")));
+  };
+  for (const char* text : {"{\"source\":1}", "[]", "{"}) {
+    write("out/reference.json", text);
+    expect_again("reference.json");
+  }
+  write("out/reference.exr", "garbage");
+  expect_again("reference.exr");
+  write("out/reference.exr", picture);
+  write("out/reference.json",
+        about.substr(0, about.find("hash") + 8) + "x" + about.substr(about.find("hash") + 8));
+  expect_again("not the picture");
+  std::filesystem::remove(path("out/reference.exr"));
+  write("out/reference.kpart", "garbage");
+  expect_again("reference.kpart");
+}
+
+// A cell belongs to the picture that it was measured against.
+TEST_F(SweepCommand, AnotherReferenceMeansOtherCells) {
+  expect_done(with_reference());
+  const auto before = cells();
+  expect_done(with_reference());
+  EXPECT_EQ(cells(), before);  // the picture in the file is the one that was rendered, to the bit
+  // As if it had been rendered anew, with another number of passes.
+  std::filesystem::copy_file(path("ref.exr"), path("out/reference.exr"),
+                             std::filesystem::copy_options::overwrite_existing);
+  Json about = Json::parse(read("out/reference.json"));
+  about["hash"] = picture_hash(render::read_image(path("ref.exr")));
+  write("out/reference.json", about.dump());
+  expect_done(with_reference());
+  EXPECT_EQ(cells().size(), before.size() + 1);
+}
+
+// What a sweep examines does not reach the reference: two of as many passes are the same picture. (Two passes
+// of 10^6 photons take longer than 10 ms, so there are two.)
+TEST_F(SweepCommand, TheReferenceDoesNotTakePartInTheSweep) {
+  const Arguments other = {"--lookup",   "leaf",          "--kernel",  "cone",
+                           "--emission", "uniform-angle", "--nearest", "3"};
+  const auto mean_after = [&](const Arguments& more) {
+    expect_done(with_reference(more));
+    const Json reference = result()["reference"];
+    std::filesystem::remove_all(path("out"));
+    return std::pair(uint64_t(reference["passes"]), double(reference["mean"]));
+  };
+  const auto plain = mean_after({}), examined = mean_after(other);
+  ASSERT_EQ(plain.first, 2u);
+  ASSERT_EQ(examined.first, 2u);
+  EXPECT_EQ(plain.second, examined.second);
+}
+
+TEST_F(SweepCommand, OneSweepAtATimeInAFolder) {
+  expect_done(sweep(against_file()));
+  const int file = open(path("out/.lock").c_str(), O_RDWR);
+  ASSERT_GE(file, 0);
+  ASSERT_EQ(flock(file, LOCK_EX | LOCK_NB), 0);
+  expect_refused(sweep(against_file()), "another sweep is at work");
+  close(file);
+  expect_done(sweep(against_file()));
+}
+
+// When to stop is no setting of a sweep's renders.
+TEST_F(SweepCommand, StopRulesOfTheSceneAreLeftOut) {
+  small_scene(film(24, 16) +
+              "\nIntegrator \"photonmap\" \"string target-error\" \"10%\" \"string time\" \"2s\"");
+  expect_done(sweep(against_file()));
+  for (const char* name : {"target-error", "target-quantile", "time"})
+    EXPECT_FALSE(result()["settings"].contains(name)) << name;
+}
+
+TEST_F(SweepCommand, APictureOfWholeNumbersIsWarnedOf) {
+  EXPECT_EQ(run_kaustik({"render", scene_, "--spp", "1", "-o", path("ref.png"), "-q"}).code, kDone);
+  const std::string warning = "a format of whole numbers";
+  EXPECT_THAT(run_kaustik(sweep({"--reference", path("ref.png")}, "png")).err, HasSubstr(warning));
+  EXPECT_THAT(run_kaustik(sweep(against_file())).err, Not(HasSubstr(warning)));
+}
+
+TEST_F(SweepCommand, ABadGridIsFoundBeforeAnythingIsRendered) {
+  expect_refused(with_reference({"--photons", "100", "--passes", "1000"}), "fewer than the 1k passes");
+  EXPECT_FALSE(exists("out"));
+}
+
+}  // namespace
+}  // namespace kaustik::app

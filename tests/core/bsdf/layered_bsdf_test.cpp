@@ -1,0 +1,151 @@
+// Microfacets, coats and panes against what they must be.
+
+#include <gtest/gtest.h>
+
+#include "core/bsdf/bsdf.h"
+#include "core/bsdf/rough_coat.h"
+#include "tests/core/support/statistics.h"
+
+namespace kaustik {
+namespace {
+
+using test::IndependentRandom;
+
+const Rgb kCopperEta(0.2f, 0.92f, 1.1f), kCopperK(3.9f, 2.45f, 2.14f);
+const Vector3 kDirections[] = {{0, 0, 1},
+                               {0, 0, -1},
+                               glm::normalize(Vector3(1, 0.5f, 1)),
+                               glm::normalize(Vector3(-1, 0.2f, -0.3f)),
+                               glm::normalize(Vector3(0.3f, -1, 0.01f))};
+
+// pbrt-v4's conventions: alpha = sqrt(roughness) unless remapping is off, smooth below 1e-3.
+TEST(Ggx, RoughnessIsPbrts) {
+  EXPECT_EQ(Ggx::from_roughness(0.25f, 0.04f, true).alpha_x, 0.5f);
+  EXPECT_EQ(Ggx::from_roughness(0.25f, 0.04f, true).alpha_y, 0.2f);
+  EXPECT_EQ(Ggx::from_roughness(0.25f, 0.04f, false).alpha_x, 0.25f);
+  EXPECT_TRUE(Ggx::from_roughness(0, 0, true).smooth());
+  EXPECT_TRUE(Ggx::from_roughness(0.9e-6f, 0.9e-6f, true).smooth());
+  EXPECT_FALSE(Ggx::from_roughness(1.1e-6f, 0, true).smooth());
+  EXPECT_EQ(Ggx::from_roughness(1.1e-6f, 0, true).alpha_y, Ggx::kLeastAlpha);
+}
+
+// The projected area of all facets is that of the surface, and of those that w sees what w sees of it
+// (Heitz 2014, equations 4 and 14).
+TEST(Ggx, NormalsCoverTheSurface) {
+  for (const Ggx& g : {Ggx{0.3f, 0.3f}, Ggx{1, 1}, Ggx{0.4f, 0.8f}}) {
+    for (const Vector3& w : kDirections) {
+      // Midpoints in s = tan / (1 + tan) and phi.
+      constexpr int kSteps = 400;
+      double area = 0, seen = 0;
+      for (int i = 0; i < kSteps; ++i) {
+        const double s = (i + 0.5) / kSteps, t = s / (1 - s), z = 1 / std::sqrt(1 + t * t);
+        // sin dtheta, with dtan/ds = (1 + t)^2 and dtheta/dtan = z^2.
+        const double measure = t * z * z * z * (1 + t) * (1 + t) / kSteps;
+        for (int j = 0; j < kSteps; ++j) {
+          const double phi = (j + 0.5) * 2 * std::numbers::pi / kSteps;
+          const Vector3 wm(glm::dvec3(t * z * std::cos(phi), t * z * std::sin(phi), z));
+          const double m = measure * 2 * std::numbers::pi / kSteps;
+          area += double(g.D(wm) * wm.z) * m;
+          const Vector3 up(w.x, w.y, std::abs(w.z));
+          if (glm::dot(up, wm) > 0) seen += double(g.visible_D(up, wm)) * m;
+        }
+      }
+      EXPECT_NEAR(area, 1, 2e-3);
+      EXPECT_NEAR(seen, 1, 2e-3);
+    }
+  }
+}
+
+// Lobes change their part at the threshold, and keep their values.
+TEST(Ggx, WidthDecidesThePart) {
+  const Vector3 wo = kDirections[2], wi = glm::normalize(Vector3(-0.8f, -0.7f, 1));
+  const float a = Ggx::kNarrowAlpha;
+  const Conductor narrow{kCopperEta, kCopperK, {0.999f * a, a}}, broad{kCopperEta, kCopperK, {1.001f * a, a}};
+  EXPECT_TRUE(narrow.lobes().glossy && narrow.lobes().specular && !narrow.lobes().broad);
+  EXPECT_TRUE(broad.lobes().broad && !broad.lobes().glossy && !broad.lobes().specular);
+  EXPECT_EQ(narrow.f(wo, wi), Rgb(0));
+  EXPECT_EQ(broad.f_glossy(wo, wi), Rgb(0));
+  EXPECT_NEAR(narrow.f_glossy(wo, wi).x, broad.f(wo, wi).x, 0.01f * broad.f(wo, wi).x);
+}
+
+// A white base under a coat that absorbs nothing loses nothing: what is reflected and what comes out after
+// all inner reflections adds up to one for every direction. Midpoint rule of 1000 points: 1e-5.
+TEST(CoatedDiffuse, WhiteFurnace) {
+  for (const float eta : {1.0f, 1.33f, 1.5f, 2.5f}) {
+    const CoatedDiffuse b = CoatedDiffuse::from_reflectance(Rgb(1), eta);
+    for (const float z : {1.0f, 0.7f, 0.3f, 0.05f}) {
+      const Vector3 wo(std::sqrt(1 - z * z), 0, z);
+      double out = double(fresnel_dielectric(z, eta));
+      constexpr int kPoints = 1000;
+      for (int i = 0; i < kPoints; ++i) {
+        const float c = (i + 0.5f) / kPoints;
+        out += 2 * std::numbers::pi * double(b.f(wo, {std::sqrt(1 - c * c), 0, c}).x * c) / kPoints;
+      }
+      // fresnel_diffuse() is off by 1e-6, which inner reflections under a white base multiply by up to 20.
+      EXPECT_NEAR(out, 1, 1e-4) << eta << " " << z;
+    }
+  }
+}
+
+// The share of each part is that of its light: neither part's samples outweigh what the whole surface
+// scatters.
+TEST(CoatedDiffuse, PartsAddUp) {
+  const CoatedDiffuse b = CoatedDiffuse::from_reflectance(Rgb(0.5f, 0.2f, 0.8f), 1.5f);
+  IndependentRandom random(9);
+  for (const Vector3& wo : kDirections) {
+    test::Mean either, broad, specular;
+    for (int i = 0; i < 50000; ++i) {
+      const Point2 u = random.next_2d();
+      const float uc = random.next();
+      constexpr TransportMode kMode = TransportMode::kRadiance;
+      if (const auto s = b.sample_f(wo, uc, u, kMode)) either.add(double(s->weight.x));
+      if (const auto s = b.sample_broad(wo, uc, u, kMode)) broad.add(double(s->weight.x));
+      if (const auto s = b.sample_specular(wo, uc, u, kMode)) specular.add(double(s->weight.x));
+    }
+    EXPECT_NEAR(either.mean, broad.mean + specular.mean,
+                4.5 * std::hypot(either.standard_error(), broad.standard_error()) + 1e-6);
+  }
+}
+
+// Two smooth surfaces and all reflections between them, summed one by one.
+TEST(ThinDielectric, HoldsAllReflections) {
+  const Vector3 wo = glm::normalize(Vector3(1, 0, 0.4f));
+  const double R = double(fresnel_dielectric(wo.z, 1.5f)), T = 1 - R;
+  double reflected = R;
+  for (int i = 0; i < 200; ++i) reflected += T * T * std::pow(R, 2 * i + 1);
+  const auto s = ThinDielectric{1.5f}.sample_f(wo, 0, {}, TransportMode::kRadiance);
+  EXPECT_NEAR(s->pdf, reflected, 1e-6);
+  const auto through = ThinDielectric{1.5f}.sample_f(wo, 0.999f, {}, TransportMode::kRadiance);
+  EXPECT_EQ(through->wi, -wo);
+  EXPECT_NEAR(through->pdf, 1 - reflected, 1e-6);
+}
+
+// The table against many samples of the boundary itself. Random cosines, alphas and indices; linear
+// interpolation of smooth curves.
+TEST(RoughCoat, TableIsWhatTheBoundaryDoes) {
+  IndependentRandom random(21);
+  for (int i = 0; i < 40; ++i) {
+    const float alpha = random.between(0.02f, 1), eta = random.between(1.05f, 3),
+                z = random.between(0.02f, 1);
+    const Dielectric boundary{eta, {alpha, alpha}};
+    const Vector3 wo(std::sqrt(1 - z * z), 0, z);
+    test::Mean through, inner;
+    for (int k = 0; k < 20000; ++k) {
+      const auto s = boundary.sample_f(wo, random.next(), random.next_2d(), TransportMode::kImportance);
+      through.add(s && s->transmission ? double(s->weight.x) : 0.0);
+      Vector3 from_inside = sample_cosine_hemisphere(random.next_2d());
+      from_inside.z = -from_inside.z;
+      const auto r =
+          boundary.sample_f(from_inside, random.next(), random.next_2d(), TransportMode::kImportance);
+      inner.add(r && !r->transmission ? double(r->weight.x) : 0.0);
+    }
+    EXPECT_NEAR(double(rough_transmittance(z, alpha, eta)), through.mean,
+                4.5 * through.standard_error() + 0.01)
+        << alpha << " " << eta << " " << z;
+    EXPECT_NEAR(double(rough_inner_reflectance(alpha, eta)), inner.mean, 4.5 * inner.standard_error() + 0.01)
+        << alpha << " " << eta;
+  }
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,178 @@
+// Properties that every light must have, run over instances of all of them.
+
+#include "core/light/light.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/core/light/light_cases.h"
+#include "tests/core/support/statistics.h"
+
+namespace kaustik {
+namespace {
+
+using test::IndependentRandom;
+using test::LightCase;
+
+TEST(Light, CasesCoverEveryTypeAndSurface) {
+  std::set<size_t> types, surfaces;
+  for (const LightCase& c : test::light_cases()) {
+    types.insert(c.light.index());
+    if (const auto* area = std::get_if<DiffuseAreaLight>(&c.light)) surfaces.insert(area->surface.index());
+  }
+  EXPECT_EQ(types.size(), std::variant_size_v<Light>);
+  EXPECT_EQ(surfaces.size(), std::variant_size_v<decltype(DiffuseAreaLight::surface)>);
+}
+
+TEST(Light, MeanEmittedFluxIsThePower) {
+  for (const LightCase& c : test::light_cases()) {
+    for (const EmissionMode mode : {EmissionMode::kCosine, EmissionMode::kUniformAngle}) {
+      SCOPED_TRACE(c.name);
+      IndependentRandom random(1);
+      test::Mean flux;
+      for (int i = 0; i < 50000; ++i) {
+        const auto s = test::sample_Le(c.light, random, mode);
+        flux.add(s ? luminance(s->flux) : 0);
+        if (s) {
+          ASSERT_NEAR(glm::length(s->ray.d), 1, 1e-6);
+        }
+      }
+      // Equal-flux emission has no variance; float rounding alone remains.
+      const double power_y = luminance(power(c.light));
+      EXPECT_NEAR(flux.mean, power_y, 4.5 * flux.standard_error() + 1e-5 * power_y);
+    }
+  }
+}
+
+// Photons through a disk in space against the irradiance on it, from sample_Li at random points of the disk:
+// two routes through different code that must carry the same flux. Both are independent means.
+TEST(Light, PhotonsAndIrradianceCarryTheSameFlux) {
+  for (const LightCase& c : test::light_cases()) {
+    for (const EmissionMode mode : {EmissionMode::kCosine, EmissionMode::kUniformAngle}) {
+      SCOPED_TRACE(c.name);
+      IndependentRandom random(2);
+      const test::Receiver receiver = test::receiver_of(c);
+      test::Mean photons, irradiance;
+      for (int i = 0; i < 400000; ++i) {
+        const auto s = test::sample_Le(c.light, random, mode);
+        photons.add(s && receiver.meets(s->ray) ? luminance(s->flux) : 0);
+      }
+      for (int i = 0; i < 100000; ++i) {
+        const Point3 p = receiver.point(random.next_2d());
+        const auto s = test::sample_Li(c.light, {p, receiver.normal, false}, random);
+        const float cosine = s ? glm::dot(s->wi, receiver.normal) : 0;
+        irradiance.add(cosine > 0 ? luminance(s->Li) * cosine / s->pdf * receiver.area() : 0);
+      }
+      ASSERT_GT(irradiance.mean, 0);
+      EXPECT_NEAR(
+          photons.mean, irradiance.mean,
+          4.5 * std::hypot(photons.standard_error(), irradiance.standard_error()) + 1e-5 * irradiance.mean);
+    }
+  }
+}
+
+// sample_Li's directions against pdf_Li, evaluated where rays meet the lamp: chi-square, and mass one.
+TEST(Light, DirectionsFollowTheirDensity) {
+  std::vector<test::SquareCase> cases;
+  for (const LightCase& c : test::light_cases()) {
+    if (is_delta(c.light)) continue;
+    for (const Point3& ref : c.refs) {
+      cases.push_back(test::direction_square(c, {ref}));
+      // Of skies, the receiver's normal chooses too.
+      if (is_infinite(c.light))
+        cases.push_back(test::direction_square(c, {ref, glm::normalize(Vector3(1, -2, 0.5f)), false}));
+    }
+  }
+  // A lamp's outline crosses bins: 40 subdivisions of 16 bins resolve its area to better than a percent.
+  test::expect_all_accepted(cases, 40000, 0.01);
+}
+
+TEST(Light, SampledDensityIsTheQueriedOne) {
+  for (const LightCase& c : test::light_cases()) {
+    const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
+    if (!area) continue;
+    for (const Point3& ref : c.refs) {
+      SCOPED_TRACE(c.name);
+      IndependentRandom random(3);
+      int compared = 0, other_cell = 0;
+      for (int i = 0; i < 2000; ++i) {
+        const auto s = area->sample_Li(ref, random.next_2d());
+        if (!s) continue;
+        const Ray ray{ref, s->wi};
+        const Hit hit = test::brute_force(c.shapes, ray);
+        if (!hit.valid()) continue;  // the very rim
+        const SurfaceInteraction on_light = make_interaction(c.shapes, ray, hit);
+        // Another part of the lamp hides the sampled point: its own density is meant.
+        if (glm::distance(on_light.p, s->p_light) > 1e-4f * glm::distance(ref, s->p_light)) continue;
+        // The cosine at the lamp loses its relative precision at grazing angles.
+        const float cosine = abs_dot(on_light.n, s->wi);
+        const float found = area->pdf_Li(ref, s->wi, on_light), error = std::abs(found - s->pdf);
+        ++compared;
+        if (error <= s->pdf * (1e-5f + 2e-6f / cosine)) continue;
+        EXPECT_TRUE(area->image) << found << " for " << s->pdf;
+        ++other_cell;
+      }
+      EXPECT_GT(compared, 500);
+      // Of an image: rounding takes a point over the edge of its cell, which is a millionth of it away.
+      EXPECT_LE(other_cell, 2);
+    }
+  }
+}
+
+// The shadow ray's end lies on the side of the lamp that shines on the point: nothing of the lamp is between.
+TEST(Light, SampledPointIsNotBehindItsOwnLamp) {
+  for (const LightCase& c : test::light_cases()) {
+    const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
+    if (!area || std::holds_alternative<TriangleEmitter>(area->surface)) continue;
+    for (const Point3& ref : c.refs) {
+      IndependentRandom random(4);
+      for (int i = 0; i < 20000; ++i) {
+        const auto s = area->sample_Li(ref, random.next_2d());
+        if (!s) continue;
+        const Vector3 d = s->p_light - ref;
+        ASSERT_FALSE(test::brute_force(c.shapes, Ray{ref, d, 1}).valid()) << c.name << " " << i;
+      }
+    }
+  }
+}
+
+TEST(Light, EmittedRaysDoNotMeetTheirConvexLamp) {
+  for (const LightCase& c : test::light_cases()) {
+    const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
+    const auto* sphere = area ? std::get_if<SphereEmitter>(&area->surface) : nullptr;
+    const bool mesh = area && std::holds_alternative<TriangleEmitter>(area->surface);
+    // Inner sides of spheres and of bent meshes may well shine on the lamp itself.
+    const auto* quadric = area ? std::get_if<QuadricEmitter>(&area->surface) : nullptr;
+    const bool hollow = quadric && quadric->quadric.kind != QuadricKind::kDisk;
+    if (!area || hollow || (sphere && sphere->inward) || (area->twosided && (sphere || mesh))) continue;
+    IndependentRandom random(5);
+    for (int i = 0; i < 20000; ++i) {
+      const auto s = test::sample_Le(c.light, random, EmissionMode::kCosine);
+      if (!s) continue;
+      ASSERT_FALSE(test::brute_force(c.shapes, s->ray).valid()) << c.name;
+    }
+  }
+}
+
+TEST(Light, PowerDistribution) {
+  std::vector<Light> lights = {PointLight{Point3(0), Rgb(1)}, PointLight{Point3(0), Rgb(0)},
+                               PointLight{Point3(0), Rgb(3)}};
+  const DiscreteDistribution d = light_power_distribution(lights);
+  EXPECT_FLOAT_EQ(d.pdf(0), 0.25f);
+  EXPECT_EQ(d.pdf(1), 0);
+  EXPECT_FLOAT_EQ(d.pdf(2), 0.75f);
+  for (Light& light : lights) std::get<PointLight>(light).I = Rgb(0);
+  EXPECT_FLOAT_EQ(light_power_distribution(lights).pdf(1), 1.0f / 3);
+  EXPECT_TRUE(light_power_distribution({}).empty());
+}
+
+TEST(Light, SphereUnderNonUniformScaleCannotEmit) {
+  Shape shape;
+  shape.geometry =
+      Sphere{Transform::from_matrix(test::affine(glm::dmat3(1, 0, 0, 0, 2, 0, 0, 0, 1), {0, 0, 0}))};
+  EXPECT_FALSE(DiffuseAreaLight::make(shape, Rgb(1), false));
+}
+
+}  // namespace
+}  // namespace kaustik

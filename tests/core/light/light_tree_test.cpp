@@ -1,0 +1,210 @@
+// The choice of a lamp among many: probabilities that sum to one, are those by which lamps are chosen, and
+// are zero only where nothing arrives.
+
+#include <gtest/gtest.h>
+
+#include "core/light/choice/light_sampler.h"
+#include "tests/core/support/statistics.h"
+#include "tests/core/support/test_tracer.h"
+
+namespace kaustik {
+namespace {
+
+using test::IndependentRandom;
+
+Point3 point_in_box(IndependentRandom& random, float size) {
+  return size * Point3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+}
+
+DiffuseAreaLight triangle_lamp(IndependentRandom& random, float size) {
+  const Point3 p = point_in_box(random, size);
+  const auto corner = [&] { return p + 0.05f * size * random.direction(); };
+  const Shape shape = test::triangle_shape(p, corner(), corner());
+  return *DiffuseAreaLight::make(shape, Rgb(random.between(1, 9)), random.next() < 0.2f);
+}
+
+SpotLight spot(IndependentRandom& random, float size) {
+  SpotLight s;
+  s.position = point_in_box(random, size);
+  s.frame = Frame::from_z(random.direction());
+  s.I = Rgb(size * size * random.between(1, 5));
+  s.cos_total_width = random.between(-0.9f, 0.98f);
+  s.cos_falloff_start = random.between(s.cos_total_width, 1);
+  return s;
+}
+
+// One of each kind in turn; coordinates and distances go with size.
+std::vector<Light> lamps(int count, float size = 1, uint64_t seed = 8) {
+  IndependentRandom random(seed);
+  std::vector<Light> out;
+  for (int i = 0; i < count; ++i) {
+    switch (i % 5) {
+      case 0:
+        out.push_back(PointLight{point_in_box(random, size), Rgb(size * size * random.between(1, 5))});
+        break;
+      case 1:
+        out.push_back(spot(random, size));
+        break;
+      case 2:
+        out.push_back(*DiffuseAreaLight::make(
+            test::sphere_shape(point_in_box(random, size), 0.03f * size, random.next() < 0.3f), Rgb(3),
+            false));
+        break;
+      default:
+        out.push_back(triangle_lamp(random, size));
+    }
+  }
+  return out;
+}
+
+LightReceiver receiver(IndependentRandom& random, float size = 1) {
+  return {point_in_box(random, 1.5f * size), random.direction(), random.next() < 0.3f};
+}
+
+double sum_of_probabilities(const LightTree& tree, const LightReceiver& x, int count) {
+  double sum = 0;
+  for (int lamp = 0; lamp < count; ++lamp) sum += double(tree.probability(x, uint32_t(lamp)));
+  return sum;
+}
+
+// Each step down multiplies by a factor rounded once: at most about 40 steps of 2^-24 for 1000 lamps.
+TEST(LightTree, ProbabilitiesSumToOne) {
+  constexpr double kRounding = 40 * 0x1p-24;
+  for (const int count : {1, 2, 17, 1000}) {
+    std::vector<Light> points;
+    for (const Light& light : lamps(5 * count))
+      if (std::holds_alternative<PointLight>(light)) points.push_back(light);
+    const LightTree of_points(points), of_all(lamps(count));
+    IndependentRandom random(9);
+    for (int i = 0; i < 50; ++i) {
+      LightReceiver x = receiver(random);
+      // Less than one where a branch cannot give anything although its parent might.
+      const double sum = sum_of_probabilities(of_all, x, count);
+      EXPECT_LE(sum, 1 + kRounding);
+      EXPECT_TRUE(sum > 0 || !of_all.choose(x, 0.5f));
+      x.two_sided = true;
+      EXPECT_NEAR(sum_of_probabilities(of_points, x, count), 1, kRounding);
+    }
+  }
+}
+
+// Every number leads to a lamp with the probability that is stated for it, and the numbers that lead to one
+// lamp are an interval of that length.
+TEST(LightTree, ChoosesByTheProbabilityItStates) {
+  const int count = 200;
+  const LightTree tree(lamps(count));
+  IndependentRandom random(10);
+  for (int i = 0; i < 5; ++i) {
+    const LightReceiver x = receiver(random);
+    std::vector<int> chosen(count);
+    constexpr int kSteps = 1 << 16;
+    for (int k = 0; k < kSteps; ++k) {
+      const auto choice = tree.choose(x, (float(k) + 0.5f) / kSteps);
+      if (!choice) continue;
+      ++chosen[choice->lamp];
+      ASSERT_EQ(choice->probability, tree.probability(x, choice->lamp));
+      ASSERT_TRUE(choice->u_remapped >= 0 && choice->u_remapped < 1);
+    }
+    for (int lamp = 0; lamp < count; ++lamp)
+      EXPECT_NEAR(chosen[size_t(lamp)] / double(kSteps), double(tree.probability(x, uint32_t(lamp))),
+                  2.0 / kSteps);
+  }
+}
+
+TEST(LightTree, IsNeverZeroWhereALampContributes) {
+  const std::vector<Light> all = lamps(300);
+  const LightTree tree(all);
+  IndependentRandom random(11);
+  int contributing = 0;
+  for (int i = 0; i < 60; ++i) {
+    const LightReceiver x = receiver(random);
+    for (uint32_t lamp = 0; lamp < all.size(); ++lamp)
+      for (int k = 0; k < 20; ++k) {
+        const Point2 u = random.next_2d();
+        const auto s = sample_Li(all[lamp], x, u);
+        if (!s || is_black(s->Li)) continue;
+        if (!x.two_sided && !(glm::dot(x.n, s->wi) > 0)) continue;
+        ++contributing;
+        ASSERT_GT(tree.probability(x, lamp), 0) << lamp;
+      }
+  }
+  EXPECT_GT(contributing, 50000);
+}
+
+// Lamps in one place, lamps on a line, lamps whose powers differ by many orders: all are found.
+TEST(LightTree, FindsLampsOfAnyArrangement) {
+  std::vector<Light> all;
+  for (int i = 0; i < 3000; ++i) {
+    const float x = i < 1000 ? 0 : i < 2000 ? float(i) : std::ldexp(1.0f, i % 10);
+    all.push_back(PointLight{{x, 0, 0}, Rgb(std::ldexp(1.0f, i % 12 - 6))});
+  }
+  const LightTree tree(all);
+  const LightReceiver x{{3, 100, 5}, {0, -1, 0}, false};
+  double sum = 0;
+  for (uint32_t lamp = 0; lamp < all.size(); ++lamp) {
+    const float p = tree.probability(x, lamp);
+    EXPECT_GT(p, 0) << lamp;
+    sum += double(p);
+  }
+  EXPECT_NEAR(sum, 1, 1e-4);
+}
+
+// The same lamps by the same probabilities in a scene that is 2^k times as large.
+TEST(LightTree, ScalesByPowersOfTwo) {
+  const LightTree one(lamps(100));
+  for (const int k : {-30, 20}) {
+    const float size = std::ldexp(1.0f, k);
+    const LightTree scaled(lamps(100, size));
+    IndependentRandom random(12), same(12);
+    for (int i = 0; i < 1000; ++i) {
+      const LightReceiver x = receiver(random), y = receiver(same, size);
+      const float u = random.next();
+      ASSERT_EQ(same.next(), u);
+      const auto a = one.choose(x, u), b = scaled.choose(y, u);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (!a) continue;
+      ASSERT_EQ(a->lamp, b->lamp);
+      ASSERT_EQ(a->probability, b->probability);
+    }
+  }
+}
+
+TEST(LightSampler, FewLampsAreChosenByPower) {
+  const std::vector<Light> all = lamps(int(LightSampler::kMostByPower));
+  const LightSampler sampler(all);
+  const DiscreteDistribution by_power = light_power_distribution(all);
+  const LightReceiver x{{0, 0, 0}, {0, 0, 1}, true};
+  for (uint32_t lamp = 0; lamp < all.size(); ++lamp)
+    EXPECT_EQ(sampler.probability(x, lamp), by_power.pdf(lamp));
+  for (const float u : {0.0f, 0.25f, 0.77f, kOneMinusEpsilon}) {
+    EXPECT_EQ(sampler.choose(x, u)->lamp, by_power.sample(u).index);
+    EXPECT_EQ(sampler.choose(x, u)->u_remapped, by_power.sample(u).u_remapped);
+  }
+}
+
+TEST(LightSampler, LampsWithoutAPlaceStandBesideTheTree) {
+  std::vector<Light> all = lamps(40);
+  all.insert(all.begin() + 3, DistantLight{{0, 0, 1}, Rgb(1), {0, 0, 0}, 2});
+  all.insert(all.begin() + 9, InfiniteLight{Rgb(1), {0, 0, 0}, 2});
+  all.push_back(InfiniteLight{Rgb(0), {0, 0, 0}, 2});  // gives nothing
+  const LightSampler sampler(all);
+  const LightReceiver x{{0, 0, 0}, {0, 0, 1}, true};
+  // One choice in eight is made by power.
+  const DiscreteDistribution by_power = light_power_distribution(all);
+  for (const uint32_t lamp : {3u, 9u})
+    EXPECT_FLOAT_EQ(sampler.probability(x, lamp), 0.875f / 3 + 0.125f * by_power.pdf(lamp));
+  EXPECT_EQ(sampler.probability(x, uint32_t(all.size() - 1)), 0);
+  double sum = 0;
+  for (uint32_t lamp = 0; lamp < all.size(); ++lamp) sum += double(sampler.probability(x, lamp));
+  EXPECT_LE(sum, 1 + 1e-5);
+  for (int k = 0; k < 1000; ++k) {
+    const auto choice = sampler.choose(x, (float(k) + 0.5f) / 1000);
+    if (!choice) continue;
+    ASSERT_EQ(choice->probability, sampler.probability(x, choice->lamp));
+  }
+  const LightSampler none(std::vector<Light>(20, PointLight{{0, 0, 0}, Rgb(0)}));
+  EXPECT_FALSE(none.choose(x, 0.5f));
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,101 @@
+#include "core/scene/shapes/loop_subdivision.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace kaustik {
+namespace {
+
+TriangleMesh octahedron() {
+  TriangleMesh mesh;
+  mesh.P = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  mesh.indices = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  return mesh;
+}
+
+// A flat square grid of n x n cells in z = 0, facing +z.
+TriangleMesh grid(uint32_t n) {
+  TriangleMesh mesh;
+  for (uint32_t y = 0; y <= n; ++y)
+    for (uint32_t x = 0; x <= n; ++x) mesh.P.emplace_back(float(x), float(y), 0.0f);
+  for (uint32_t y = 0; y < n; ++y)
+    for (uint32_t x = 0; x < n; ++x) {
+      const uint32_t a = y * (n + 1) + x;
+      mesh.indices.push_back({a, a + 1, a + n + 2});
+      mesh.indices.push_back({a, a + n + 2, a + n + 1});
+    }
+  return mesh;
+}
+
+TriangleMesh subdivided(const TriangleMesh& cage, int levels) {
+  std::string error;
+  auto mesh = subdivide_loop(cage, levels, &error);
+  EXPECT_EQ(error, "");
+  return mesh.value_or(TriangleMesh{});
+}
+
+// The vertices of a level lie on the limit surface, so that finer levels keep them.
+TEST(LoopSubdivision, EveryLevelLiesOnTheSameSurface) {
+  const TriangleMesh coarse = subdivided(octahedron(), 1), fine = subdivided(octahedron(), 4);
+  EXPECT_EQ(fine.indices.size(), 8u << 8);
+  ASSERT_LT(coarse.P.size(), fine.P.size());
+  // Refinement keeps the numbers of the vertices. Doubles inside, rounded to float once.
+  for (size_t i = 0; i < coarse.P.size(); ++i) {
+    EXPECT_LT(glm::distance(coarse.P[i], fine.P[i]), 1e-6f);
+    EXPECT_LT(glm::distance(coarse.N[i], fine.N[i]), 1e-5f);
+  }
+}
+
+// Of valence 4 the limit of a vertex is (1 - 4 g) p + g (ring) with g = 1 / (4 + 3 / (8 beta)),
+// beta = 3 / 32: the ring sums to zero, so that the octahedron's corners go to 1 - 4 / 8.
+TEST(LoopSubdivision, LimitOfTheOctahedronsCorners) {
+  const TriangleMesh mesh = subdivided(octahedron(), 0);
+  for (size_t i = 0; i < 6; ++i) {
+    EXPECT_LT(glm::distance(mesh.P[i], 0.5f * octahedron().P[i]), 1e-6f);
+    EXPECT_LT(glm::distance(mesh.N[i], octahedron().P[i]), 1e-6f);  // outward, as the winding
+  }
+}
+
+// Normals are those of the facets, more and more.
+TEST(LoopSubdivision, NormalsFitTheFacets) {
+  const TriangleMesh mesh = subdivided(octahedron(), 5);
+  for (const auto& [a, b, c] : mesh.indices) {
+    const Normal3 n = glm::normalize(glm::cross(mesh.P[b] - mesh.P[a], mesh.P[c] - mesh.P[a]));
+    for (const uint32_t i : {a, b, c}) ASSERT_GT(glm::dot(n, mesh.N[i]), 0.98f);
+  }
+}
+
+TEST(LoopSubdivision, FlatMeshesStayFlatToTheirBoundary) {
+  const TriangleMesh mesh = subdivided(grid(3), 3);
+  float right = 0;
+  for (size_t i = 0; i < mesh.P.size(); ++i) {
+    EXPECT_EQ(mesh.P[i].z, 0);
+    EXPECT_LT(glm::distance(mesh.N[i], Normal3(0, 0, 1)), 1e-6f) << i;
+    right = std::max(right, mesh.P[i].x);
+  }
+  EXPECT_NEAR(right, 3, 1e-6);  // the boundary's straight parts stay
+}
+
+TEST(LoopSubdivision, RefusesWhatHasNoLimit) {
+  const auto error_of = [](TriangleMesh cage, int levels = 1) {
+    std::string error;
+    EXPECT_FALSE(subdivide_loop(cage, levels, &error));
+    return error;
+  };
+  TriangleMesh mesh = octahedron();
+  mesh.indices.push_back({0, 2, 1});
+  EXPECT_EQ(error_of(mesh), "the edge of vertices 0 and 2 has more than two triangles");
+  mesh = octahedron();
+  std::swap(mesh.indices[0][0], mesh.indices[0][1]);
+  EXPECT_NE(error_of(mesh).find("two triangles of different winding"), std::string::npos);
+  mesh = octahedron();
+  mesh.indices = {{0, 2, 4}, {0, 3, 5}};
+  EXPECT_EQ(error_of(mesh), "several fans of triangles meet in vertex 0");
+  mesh.indices = {{0, 0, 1}};
+  EXPECT_EQ(error_of(mesh), "triangle 0 has a vertex twice");
+  EXPECT_NE(error_of(octahedron(), 14).find("are more than the"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kaustik

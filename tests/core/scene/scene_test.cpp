@@ -1,0 +1,72 @@
+// What finalize_scene derives.
+
+#include "core/scene/scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/support/test_tracer.h"
+
+namespace kaustik {
+namespace {
+
+Scene two_spheres() {
+  Scene scene;
+  scene.shapes = {test::sphere_shape({0, 0, 0}, 1), test::sphere_shape({4, 0, 0}, 2)};
+  scene.shapes[1].material = 1;
+  scene.materials = {Lambertian{}, Mirror{}};
+  scene.lights = {PointLight{}, InfiniteLight{}, DistantLight{}};
+  return scene;
+}
+
+TEST(Scene, BoundsAndScenesSphereHoldEveryShape) {
+  Scene scene = two_spheres();
+  finalize_scene(scene);
+  EXPECT_LE(scene.bounds.min.x, -1);
+  EXPECT_GE(scene.bounds.max.x, 6);
+  EXPECT_EQ(scene.infinite_lights, std::vector<uint32_t>{1});
+  const auto& light = std::get<InfiniteLight>(scene.lights[1]);
+  EXPECT_EQ(light.scene_radius, std::get<DistantLight>(scene.lights[2]).scene_radius);
+  for (const Point3& corner : {scene.bounds.min, scene.bounds.max}) {
+    EXPECT_LE(glm::distance(corner, light.scene_center), light.scene_radius);
+  }
+  // Box of 7 x 4 x 4.
+  EXPECT_NEAR(light.scene_radius, 4.5, 1e-4);
+  // Powers are known only after the scene's sphere is: 4 pi, 4 pi^2 r^2, pi r^2.
+  const double p0 = 4, p1 = 4 * std::numbers::pi * 4.5 * 4.5, p2 = 4.5 * 4.5;
+  EXPECT_NEAR(scene.light_power.pdf(1), p1 / (p0 + p1 + p2), 1e-4);
+}
+
+TEST(Scene, NeedsFollowFromSurfacesAndLights) {
+  Scene scene = two_spheres();
+  finalize_scene(scene);
+  EXPECT_TRUE(scene.needs.specular && scene.needs.diffuse && scene.needs.any_light &&
+              scene.needs.infinite_light);
+  EXPECT_FALSE(scene.needs.only_delta_lights);
+  EXPECT_TRUE(scene.needs.left_out().empty());
+
+  scene.shapes.pop_back();  // the mirror is a material that no shape uses now
+  scene.lights = {PointLight{}};
+  finalize_scene(scene);
+  EXPECT_FALSE(scene.needs.specular);
+  EXPECT_TRUE(scene.needs.only_delta_lights);
+  EXPECT_THAT(scene.needs.left_out(), ::testing::Contains(::testing::HasSubstr("no caustic pass")));
+
+  scene.lights.clear();
+  finalize_scene(scene);
+  EXPECT_FALSE(scene.needs.any_light);
+  EXPECT_FALSE(scene.needs.only_delta_lights);
+}
+
+TEST(Scene, EmptySceneIsFinite) {
+  Scene scene;
+  scene.lights = {InfiniteLight{}};
+  finalize_scene(scene);
+  EXPECT_TRUE(scene.bounds.empty());
+  EXPECT_FALSE(
+      std::get<InfiniteLight>(scene.lights[0]).sample_Le({0.5f, 0.5f}, {0.5f, 0.5f}, EmissionMode::kCosine));
+  EXPECT_EQ(scene.light_power.pdf(0), 1);
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,75 @@
+#include "core/scene/build/surface_groups.h"
+
+#include <gtest/gtest.h>
+
+namespace kaustik {
+namespace {
+
+// Two triangles over the parallelogram p, p + u, p + u + v, p + v.
+Shape tile(const Point3& p, const Vector3& u, const Vector3& v, bool turned = false) {
+  TriangleMesh mesh;
+  mesh.P = {p, p + u, p + u + v, p + v};
+  mesh.indices = {{0, 1, 2}, {0, 2, 3}};
+  if (turned) mesh.indices = {{0, 2, 1}, {0, 3, 2}};
+  Shape shape;
+  shape.geometry = mesh;
+  return shape;
+}
+
+std::vector<uint32_t> groups(std::vector<Shape> shapes, std::vector<std::string> names = {}) {
+  names.resize(shapes.size());
+  assign_surface_groups(shapes, names);
+  std::vector<uint32_t> out;
+  for (const Shape& s : shapes) out.push_back(s.surface_group);
+  return out;
+}
+
+using Groups = std::vector<uint32_t>;
+const Vector3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
+
+TEST(SurfaceGroups, TilesOfAFloorAreOneSurface) {
+  EXPECT_EQ(groups({tile({0, 0, 0}, kX, kZ), tile({1, 0, 0}, kX, kZ), tile({2, 0, 0}, kX, kZ, true)}),
+            Groups({0, 0, 0}));
+}
+
+TEST(SurfaceGroups, FloorAndWallAreTwo) {
+  EXPECT_EQ(groups({tile({0, 0, 0}, kX, kZ), tile({0, 0, 0}, kX, kY)}), Groups({0, 1}));
+}
+
+TEST(SurfaceGroups, TheBendDecides) {
+  const auto bent = [&](float degrees) {
+    const float a = glm::radians(degrees);
+    return groups({tile({0, 0, 0}, kX, kZ), tile({1, 0, 0}, {std::cos(a), std::sin(a), 0}, kZ)});
+  };
+  EXPECT_EQ(bent(25), Groups({0, 0}));  // cos 25 = 0.906
+  EXPECT_EQ(bent(27), Groups({0, 1}));  // cos 27 = 0.891
+}
+
+TEST(SurfaceGroups, ACommonCornerOrANearEdgeDoesNotJoin) {
+  EXPECT_EQ(groups({tile({0, 0, 0}, kX, kZ), tile({1, 0, 1}, kX, kZ)}), Groups({0, 1}));
+  EXPECT_EQ(groups({tile({0, 0, 0}, kX, kZ), tile({std::nextafter(1.0f, 2.0f), 0, 0}, kX, kZ)}),
+            Groups({0, 1}));
+}
+
+TEST(SurfaceGroups, MinusZeroIsZero) {
+  EXPECT_EQ(groups({tile({-1, 0, 0}, kX, kZ), tile({-0.0f, -0.0f, -0.0f}, kX, kZ)}), Groups({0, 0}));
+}
+
+TEST(SurfaceGroups, InnerEdgesDoNotJoin) {
+  // The second one stands on the diagonal of the first, which is no boundary of it.
+  Shape on_diagonal = tile({0, 0, 0}, {1, 0, 1}, {-1, 0, 1});
+  EXPECT_EQ(groups({tile({0, 0, 0}, kX, kZ), on_diagonal}), Groups({0, 1}));
+}
+
+TEST(SurfaceGroups, NamesJoinAndSeparate) {
+  const std::vector<Shape> floor = {tile({0, 0, 0}, kX, kZ), tile({1, 0, 0}, kX, kZ),
+                                    tile({9, 0, 0}, kX, kZ)};
+  EXPECT_EQ(groups(floor, {"a", "b", "a"}), Groups({0, 1, 0}));
+  EXPECT_EQ(groups(floor, {"a", "", ""}), Groups({0, 1, 2}));
+  Shape sphere;
+  sphere.geometry = Sphere{};
+  EXPECT_EQ(groups({sphere, sphere, floor[0]}, {"", "s", "s"}), Groups({0, 1, 1}));
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,102 @@
+#include "photon/estimate/radiance_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/photon/support/photon_sets.h"
+
+namespace kaustik::photon {
+namespace {
+
+constexpr int kPhotons = 40000;
+
+// A unit square floor under even light: each photon carries E / kPhotons watts from straight above.
+PhotonMap even_floor(const Rgb& E) {
+  PhotonMaker make(40);
+  std::vector<Photon> photons;
+  for (int i = 0; i < kPhotons; ++i) {
+    photons.push_back({{make.uniform(), make.uniform(), 0}, {0, 0, 1}, E / float(kPhotons), {0, 0, 1}, 5});
+  }
+  return PhotonMap::build(make_buffer(photons, 0x1p-15f));
+}
+
+SurfaceInteraction middle() {
+  SurfaceInteraction si;
+  si.p = {0.5f, 0.5f, 0};
+  si.surface_group = 5;
+  return si;
+}
+
+const Vector3 kViewer = glm::normalize(Vector3(0.3f, -0.2f, 0.8f));
+const Rgb kIrradiance(3, 2, 0.5f);
+
+// Photons in reach are binomial: the relative standard error of the constant kernel is 1/sqrt(n), that of a
+// kernel K sqrt(pi r^2 int K^2 / n): 4/3 for Epanechnikov, at most 3/2 for the cone. Five of them.
+float tolerance(float radius) {
+  const float n = kPi * radius * radius * float(kPhotons);
+  return 5 * std::sqrt(1.5f / n) + 1.0f / 511;
+}
+
+TEST(RadianceEstimate, LambertianUnderEvenLightIsAlbedoTimesIrradianceOverPi) {
+  const PhotonMap map = even_floor(kIrradiance);
+  const Lambertian bsdf{Rgb(0.8f, 0.5f, 0.2f)};
+  const Rgb expected = bsdf.reflectance * kIrradiance * kInvPi;
+  for (const KernelType type : {KernelType::kConstant, KernelType::kCone, KernelType::kEpanechnikov}) {
+    for (const bool leaf : {false, true}) {
+      const EstimateSettings settings{0.1f, {type, 1}, 0, leaf, 64};
+      GatherCounters counters;
+      const Rgb Lr = estimate_radiance(map, middle(), kViewer, bsdf, settings, counters);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lr[c], expected[c], expected[c] * tolerance(0.1f));
+      EXPECT_EQ(counters.queries, 1u);
+    }
+  }
+}
+
+TEST(RadianceEstimate, OtherBsdfsAreEvaluatedPerPhoton) {
+  const PhotonMap map = even_floor(kIrradiance);
+  const EstimateSettings settings{0.1f, {KernelType::kEpanechnikov, 1}, 0, false, 64};
+  GatherCounters counters;
+  // Without roughness Oren-Nayar is Lambertian: both branches must agree up to rounding of up to n terms.
+  const Rgb smooth =
+      estimate_radiance(map, middle(), kViewer, OrenNayar{Rgb(0.5f), 1, 0}, settings, counters);
+  const Rgb lambertian = estimate_radiance(map, middle(), kViewer, Lambertian{Rgb(0.5f)}, settings, counters);
+  const float rounding = float(counters.accepted) * std::numeric_limits<float>::epsilon();
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(smooth[c], lambertian[c], lambertian[c] * rounding);
+  // With it, light from one direction has one value of f.
+  const OrenNayar rough = OrenNayar::from_sigma_degrees(Rgb(0.5f), 30);
+  const Rgb expected = rough.f(kViewer, {0, 0, 1}) * kIrradiance;
+  const Rgb Lr = estimate_radiance(map, middle(), kViewer, rough, settings, counters);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lr[c], expected[c], expected[c] * tolerance(0.1f));
+}
+
+TEST(RadianceEstimate, NearestUsesTheDiscOfTheKthPhoton) {
+  const PhotonMap map = even_floor(kIrradiance);
+  constexpr uint32_t kNearest = 400;
+  const EstimateSettings settings{0.5f, {}, kNearest, false, 64};
+  GatherCounters counters;
+  const Rgb Lr = estimate_radiance(map, middle(), kViewer, Lambertian{Rgb(1)}, settings, counters);
+  // The radius of the K-th photon makes the density K/A a gamma variate: relative error 1/sqrt(K), bias
+  // 1/(K-1).
+  const Rgb expected = kIrradiance * kInvPi;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lr[c], expected[c], expected[c] * 5 / std::sqrt(float(kNearest)));
+}
+
+TEST(RadianceEstimate, OtherGroupsAndTheOtherSideDoNotCount) {
+  const PhotonMap map = even_floor(kIrradiance);
+  const EstimateSettings settings{0.1f, {}, 0, false, 64};
+  GatherCounters counters;
+  SurfaceInteraction other = middle();
+  other.surface_group = 6;
+  EXPECT_EQ(estimate_radiance(map, other, kViewer, Lambertian{}, settings, counters), Rgb(0));
+  EXPECT_EQ(estimate_radiance(map, middle(), -kViewer, Lambertian{}, settings, counters), Rgb(0));
+}
+
+TEST(RadianceEstimate, EmptyMapsAndSpecularSurfacesAreBlack) {
+  GatherCounters counters;
+  const EstimateSettings settings{0.1f, {}, 0, false, 64};
+  EXPECT_EQ(estimate_radiance(PhotonMap(), middle(), kViewer, Lambertian{}, settings, counters), Rgb(0));
+  EXPECT_EQ(estimate_radiance(even_floor(kIrradiance), middle(), kViewer, Mirror{}, settings, counters),
+            Rgb(0));
+}
+
+}  // namespace
+}  // namespace kaustik::photon

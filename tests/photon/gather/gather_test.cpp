@@ -1,0 +1,100 @@
+// Every instruction set that this machine has against the plainest one.
+
+#include "photon/gather/gather.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "tests/photon/support/photon_sets.h"
+
+namespace kaustik::photon {
+namespace {
+
+// Restricts the run-time dispatch to one instruction set until it goes out of scope.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(int64_t target) { set(target); }
+  ~OnlyTarget() { set(0); }
+
+ private:
+  static void set(int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+std::vector<int64_t> targets() {
+  std::vector<int64_t> result;
+  for (int64_t left = hwy::SupportedTargets(); left; left &= left - 1) result.push_back(left & -left);
+  return result;
+}
+
+struct Answer {
+  Rgb flux;
+  uint64_t accepted;
+  std::vector<float> distances;
+  float nearest;
+};
+
+std::vector<Answer> ask(const PhotonMap& map, const std::vector<GatherQuery>& queries) {
+  std::vector<Answer> answers;
+  for (const GatherQuery& query : queries) {
+    Answer answer{};
+    GatherCounters counters;
+    answer.flux = map.gather_flux(query, {KernelType::kEpanechnikov, 1}, counters);
+    answer.accepted = counters.accepted;
+    map.for_each(
+        query, [&](const Photon&, float d2) { answer.distances.push_back(d2); }, counters);
+    answer.nearest = map.nearest_radius(query, 5, counters);
+    answers.push_back(std::move(answer));
+  }
+  return answers;
+}
+
+TEST(Gather, EveryInstructionSetAcceptsTheSamePhotons) {
+  ASSERT_FALSE(targets().empty());
+  for (const PhotonSet& set : photon_sets()) {
+    const PhotonMap map = PhotonMap::build(make_buffer(set.photons));
+    const std::vector<GatherQuery> queries = queries_for(set, 60);
+    std::vector<Answer> plain;
+    {
+      const OnlyTarget only(targets().back());
+      plain = ask(map, queries);
+    }
+    for (const int64_t target : targets()) {
+      const OnlyTarget only(target);
+      const std::vector<Answer> answers = ask(map, queries);
+      for (size_t i = 0; i < answers.size(); ++i) {
+        ASSERT_EQ(answers[i].accepted, plain[i].accepted) << hwy::TargetName(target) << ", " << set.name;
+        ASSERT_EQ(answers[i].distances, plain[i].distances) << hwy::TargetName(target) << ", " << set.name;
+        ASSERT_EQ(answers[i].nearest, plain[i].nearest) << hwy::TargetName(target) << ", " << set.name;
+        // Sums in another order, of at most 1024 terms a lane: see PhotonMapSets in photon_map_test.cpp.
+        const float scale = kernel_terms({KernelType::kEpanechnikov, 1}, queries[i].radius).scale;
+        const float bound =
+            (1024 + 16) * std::numeric_limits<float>::epsilon() * scale * float(plain[i].accepted);
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(answers[i].flux[c], plain[i].flux[c], bound);
+      }
+    }
+  }
+}
+
+TEST(Gather, TogetherOrAloneIsTheSameOnEveryInstructionSet) {
+  for (const PhotonSet& set : photon_sets()) {
+    const PhotonMap map = PhotonMap::build(make_buffer(set.photons));
+    const std::vector<GatherQuery> queries = with_neighbours(queries_for(set, 60), map.size());
+    for (const int64_t target : targets()) {
+      const OnlyTarget only(target);
+      std::vector<PhotonMap::Gathered> together(queries.size());
+      map.gather_flux(queries, {}, together.data());
+      for (size_t i = 0; i < queries.size(); ++i) {
+        GatherCounters counters;
+        ASSERT_EQ(together[i].flux, map.gather_flux(queries[i], {}, counters))
+            << hwy::TargetName(target) << ", " << set.name << ", query " << i;
+        ASSERT_EQ(together[i].counters.accepted, counters.accepted);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kaustik::photon

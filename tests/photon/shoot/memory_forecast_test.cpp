@@ -1,0 +1,86 @@
+// What a shoot will take, foretold, and the limit that it is held to.
+
+#include "photon/shoot/memory_forecast.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/photon/support/trace_scenes.h"
+
+namespace kaustik::photon {
+namespace {
+
+using testing::settings_for;
+
+constexpr KindMask kDirectOnly = {true, false, false, false};
+const Scene kRoom = testing::lit_room(Rgb(0.5f), Rgb(1));
+constexpr uint64_t kUnlimited = std::numeric_limits<uint64_t>::max();
+
+// What check_memory says; empty when it lets the shoot go on.
+std::string refusal(const Scene& scene, const TraceSettings& settings, PhotonUse use, uint64_t limit) {
+  try {
+    check_memory(scene, accel::Bvh(scene), settings, use, limit);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// Two shoots of n photons each leave counts that differ by less than 5 standard deviations sqrt(2 v), v the
+// variance of one: at most 16 times its mean for counts of 0 to 16 per photon.
+TEST(MemoryForecast, IsWhatALargerShootStores) {
+  const Scene scene = testing::full_room();
+  const accel::Bvh bvh(scene);
+  const TraceSettings settings = settings_for(2 * kForecastPhotons, testing::kAllKinds);
+  const auto forecast = forecast_stored(scene, bvh, settings);
+  const TraceCounters counted = shoot(scene, bvh, settings).counters;
+  for (size_t k = 0; k < kPhotonKinds; ++k) {
+    EXPECT_GT(forecast[k], 0) << kPhotonKindNames[k];
+    EXPECT_NEAR(forecast[k], double(counted.stored[k]), 5 * std::sqrt(2 * 16 * forecast[k] / 2))
+        << kPhotonKindNames[k];
+  }
+}
+
+TEST(MemoryForecast, PeakIsTheLargestMapsBuildBesideTheRest) {
+  EXPECT_EQ(peak_bytes({10, 20, 30, 40}, PhotonUse::kRecords), 24 * 100);
+  EXPECT_DOUBLE_EQ(peak_bytes({10, 20, 30, 40}, PhotonUse::kMaps), 26.4 * 60 + 52 * 40);
+}
+
+// In a closed room every photon of the lamp leaves one direct photon.
+TEST(MemoryForecast, RefusesWhatDoesNotFitAndSaysWhatWould) {
+  const TraceSettings settings = settings_for(1'000'000'000, kDirectOnly);
+  EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kMaps, 52'000'000'000), "");
+  EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kRecords, 24'000'000'000), "");
+  EXPECT_EQ(
+      refusal(kRoom, settings, PhotonUse::kMaps, 26'000'000'000),
+      "1000000000 photons would need about 52 GB of memory, but 26 GB are available: emit at most about "
+      "500M at a time, or store fewer kinds");
+  EXPECT_NE(refusal(kRoom, settings, PhotonUse::kRecords, 23'999'999'999), "");
+}
+
+TEST(MemoryForecast, RefusesMorePhotonsThanAMapCanNumber) {
+  const TraceSettings settings = settings_for(8'589'934'588, kDirectOnly);  // 2 (2^32 - 2)
+  EXPECT_EQ(
+      refusal(kRoom, settings, PhotonUse::kMaps, kUnlimited),
+      "8589934588 photons would leave about 8.59e+09 in one map, which holds 4294967294 at most: emit at "
+      "most about 4.2G at a time");
+  EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kRecords, kUnlimited), "");
+}
+
+// The direct photons alone fill the limit; those that meet the shelf leave shadow photons behind it.
+TEST(MemoryForecast, ShadowPhotonsCountToo) {
+  Scene scene = kRoom;
+  scene.shapes.push_back(testing::quad({-0.5f, 0, -0.5f}, {0, 0, 1}, {1, 0, 0}));
+  finalize_scene(scene);
+  const uint64_t photons = 10'000'000, limit = 24 * photons;
+  const TraceSettings direct = settings_for(photons, kDirectOnly);
+  const TraceSettings both = settings_for(photons, {true, true, false, false});
+  EXPECT_EQ(refusal(scene, direct, PhotonUse::kRecords, limit), "");
+  EXPECT_NE(refusal(scene, both, PhotonUse::kRecords, limit), "");
+}
+
+TEST(MemoryForecast, NoPhotonsNeedNothing) {
+  EXPECT_EQ(refusal(kRoom, settings_for(0, kDirectOnly), PhotonUse::kMaps, 0), "");
+}
+
+}  // namespace
+}  // namespace kaustik::photon

@@ -1,0 +1,245 @@
+// Samples that are spread by what the first ones say: the estimates, the shares, and that the mean stays.
+
+#include "render/adaptive/sample_counts.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "render/film/film_totals.h"
+#include "tests/render/support/image_statistics.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+// Every pixel has `count` samples, value(x, y, i).
+template <class Fn>
+BlockMoments moments_of(int count, const Fn& value) {
+  BlockMoments block;
+  for (int y = 0; y < kRayBlock; ++y)
+    for (int x = 0; x < kRayBlock; ++x)
+      for (int i = 0; i < count; ++i) {
+        SampleMoments& pixel = block[pixel_of_block(x, y)];
+        for (LightMoments& light : pixel.light) light.add(Rgb(value(x, y, i)), 3);
+        ++pixel.count;
+      }
+  return block;
+}
+
+double variance_of(const BlockMoments& block, int half) {
+  return spread_of(block, half).of(SampleLight::kAll).variance;
+}
+
+// What is plane over the block is no noise, however much the samples of a pixel differ; and what does not
+// differ within a pixel is none, however crooked the block.
+TEST(SampleSpread, IsTheSmallerOfTwoBounds) {
+  const auto plane = moments_of(2, [](int x, int y, int i) {
+    return 8.0f + 0.5f * float(x) - 0.25f * float(y) + (i == 0 ? 1.0f : -1.0f);
+  });
+  const auto crooked = moments_of(2, [](int x, int y, int) { return float(1 + x * x * y); });
+  for (int half = 0; half < kHalves; ++half) {
+    EXPECT_EQ(variance_of(plane, half), 0);
+    EXPECT_EQ(variance_of(crooked, half), 0);
+    EXPECT_EQ(spread_of(plane, half).pixels, 8);
+    EXPECT_EQ(spread_of(plane, half).of(SampleLight::kTraced).work, 8 * 3);
+    EXPECT_DOUBLE_EQ(spread_of(plane, half).mean, 8 * (8 + 0.5 * 1.5 - 0.25 * 1.5));
+  }
+}
+
+// Of independent samples both bounds have the mean that is asked for; the smaller of two is less, but of 4
+// samples in 8 pixels and 5 degrees of freedom of means seldom less than a half.
+TEST(SampleSpread, OfNoiseIsItsVariance) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(5, 2);
+  double sum = 0;
+  constexpr int kBlocks = 400;
+  for (int i = 0; i < kBlocks; ++i)
+    sum += variance_of(moments_of(4, [&](int, int, int) { return noise(random); }), i % 2) / 8;
+  const double of_one = sum / kBlocks / 3;  // a channel's
+  EXPECT_LT(of_one, 4);
+  EXPECT_GT(of_one, 2);
+}
+
+// Pixels beyond the window have no samples, and no plane is laid through the others.
+TEST(SampleSpread, OfABlockThatIsCutIsThatOfItsPixels) {
+  auto block = moments_of(2, [](int, int, int i) { return i == 0 ? 1.0f : 3.0f; });
+  for (int y = 0; y < kRayBlock; ++y) block[pixel_of_block(3, y)] = {};
+  for (int half = 0; half < kHalves; ++half) {
+    const SampleSpread spread = spread_of(block, half);
+    EXPECT_EQ(spread.pixels, 6);
+    EXPECT_EQ(spread.of(SampleLight::kAll).variance, 6 * 3 * 2);
+  }
+}
+
+constexpr int kBlocks = 12, kPixels = kBlocks * kRayBlock;
+
+// Of half a block, for each of its pixels; the mean is 1.
+SampleSpread spread_by(const LightSpread& all, const LightSpread& traced = {}) {
+  SampleSpread spread{{all, traced}, 1.0, 1.0}, half;
+  half.add(spread, 8);
+  return half;
+}
+
+// spread(x, y, half): of half of block (x, y).
+template <class Fn>
+SampleCounts counts_of(const Fn& spread, uint64_t first, double further_work) {
+  SampleCounts counts{FilmSums(kPixels, kPixels)};
+  for (int y = 0; y < kPixels; y += kRayBlock)
+    for (int x = 0; x < kPixels; x += kRayBlock)
+      for (int half = 0; half < kHalves; ++half)
+        counts.spread(x, y, half) = spread(x / kRayBlock, y / kRayBlock, half);
+  counts.share_out(first, further_work);
+  return counts;
+}
+
+// Variances from 1 to 2^44 from left to right: 2^11 times the samples by the fourth root, of which 2^6 are
+// allowed.
+TEST(SampleCounts, KeepToTheWorkAndFollowTheRootOfTheVariance) {
+  constexpr uint64_t kFirst = 2;
+  constexpr double kFurther = 7;
+  const auto spread = [](int x, int, int) { return spread_by({std::ldexp(1.0, 4 * x), 1.0}); };
+  const auto counts = counts_of(spread, kFirst, kFurther);
+  uint64_t sum = 0;
+  for (int y = 0; y < kPixels; y += kRayBlock) {
+    uint64_t last = kFirst;
+    for (int x = 0; x < kPixels; x += kRayBlock)
+      for (int half = 0; half < kHalves; ++half) {
+        const uint64_t count = counts.count(x, y, half);
+        EXPECT_GE(count, last);
+        EXPECT_LE(count, kFirst << 6);
+        last = count, sum += count;
+      }
+    EXPECT_GT(last, kFirst * 16);
+  }
+  const double all = kFirst * (1 + kFurther) * kBlocks * kBlocks * kHalves;
+  EXPECT_LE(double(sum), all);
+  EXPECT_GT(double(sum), all / 2);  // twice as many everywhere would be too many
+}
+
+TEST(SampleCounts, AreEvenWhereNothingDiffers) {
+  const auto even = [](double variance) { return [=](int, int, int) { return spread_by({variance, 1.0}); }; };
+  const auto dark = counts_of(even(0), 4, 3), noisy = counts_of(even(0.1), 4, 3),
+             noisy_but_dear = counts_of(even(0.1), 4, 0.5);
+  for (int x = 0; x < kPixels; x += kRayBlock) {
+    EXPECT_EQ(dark.count(x, x, 0), 4u);
+    EXPECT_EQ(noisy.count(x, x, 1), 16u);
+    EXPECT_EQ(noisy_but_dear.count(x, x, 1), 4u);
+  }
+}
+
+// The number of a pixel's samples must say nothing of what they bring.
+TEST(SampleCounts, OfAPixelDoNotDependOnItself) {
+  const auto with_spot = [](double spot) {
+    const auto spread = [=](int x, int y, int half) {
+      return spread_by({x == 5 && y == 5 && half == 0 ? spot : 1.0, 1.0});
+    };
+    return counts_of(spread, 4, 3);
+  };
+  const auto plain = with_spot(1), bright = with_spot(1e6);
+  const int at = 5 * kRayBlock;
+  EXPECT_LE(bright.count(at, at, 0), plain.count(at, at, 0));  // others take more of the work
+  EXPECT_GT(bright.count(at, at, 1), plain.count(at, at, 1));
+  EXPECT_GT(bright.count(at + kRayBlock, at, 0), plain.count(at + kRayBlock, at, 0));
+}
+
+// Dear samples are taken less often: half as many where they cost sixteen times as much.
+TEST(SampleCounts, CountWhatSamplesCost) {
+  const auto spread = [](int x, int, int) { return spread_by({1.0, x < kBlocks / 2 ? 1.0 : 16.0}); };
+  const auto counts = counts_of(spread, 4, 3);
+  EXPECT_EQ(counts.count(0, 24, 0), 2 * counts.count(kPixels - 1, 24, 0));
+}
+
+// What the maps say of two samples stands for six that asked for nothing else.
+TEST(SampleCounts, TracedSamplesLeaveWhatTheMapsSay) {
+  FilmSums film(1, 1);
+  for (int i = 0; i < 8; ++i) {
+    PixelResult sample;
+    sample.direct = Rgb(float(i));
+    const bool traced = i >= 2;
+    if (!traced) sample.caustic = Rgb(3), sample.indirect = Rgb(1 + 2.0f * float(i)), sample.photons = 10;
+    film.at(0, 0).add(sample, 1, traced ? SampleLight::kTraced : SampleLight::kAll);
+  }
+  uint64_t clamped = 0;
+  const PixelResult mean = mean_of(film, {.radiance = -60, .square = -60, .depth = -60}, &clamped).at(0, 0);
+  EXPECT_EQ(mean.direct, Rgb(3.5f));
+  EXPECT_EQ(mean.caustic, Rgb(3));
+  EXPECT_EQ(mean.indirect, Rgb(2));
+  EXPECT_EQ(mean.photons, 10);
+  EXPECT_EQ(clamped, 0u);
+}
+
+// Traced light, where it varies more for what it takes: at half the work of all light, 3.5 times the work of
+// the first samples buys seven times as many.
+TEST(SampleCounts, LeaveTheMapsOutWhereTheyTellLess) {
+  const auto counts_for = [](const LightSpread& all, const LightSpread& traced) {
+    return counts_of([&](int, int, int) { return spread_by(all, traced); }, 4, 3.5);
+  };
+  const auto by_lamps = counts_for({1.0, 2.0}, {0.8, 1.0}), by_maps = counts_for({1.0, 2.0}, {0.4, 1.0});
+  EXPECT_EQ(by_lamps.light(0, 0, 0), SampleLight::kTraced);
+  EXPECT_EQ(by_lamps.count(0, 0, 0), 32u);
+  EXPECT_EQ(by_maps.light(0, 0, 0), SampleLight::kAll);
+  EXPECT_EQ(by_maps.count(0, 0, 0), 16u);
+}
+
+// The lamp's edges and its image in the glass ball differ most within pixels. Seeds of both ways are compared
+// by blocks of pixels: no mean is shifted, and the picture's noise is less.
+class SpreadSamples : public ::testing::Test {
+ protected:
+  static constexpr int kSide = 48, kSeeds = 40, kPart = 16;
+
+  static std::vector<Film> films(float adaptive, uint64_t seed) {
+    const Scene scene = cornell(kSide);
+    RenderSettings settings;
+    settings.photons = 20'000;
+    settings.spp = 8;
+    settings.adaptive = adaptive;
+    std::vector<Film> out;
+    for (settings.seed = seed; out.size() < kSeeds; ++settings.seed)
+      out.push_back(render_with_threads(scene, settings).film);
+    return out;
+  }
+
+  static Estimate mean_of(const std::vector<Film>& films, int x0, int y0) {
+    std::vector<double> means;
+    for (const Film& film : films) {
+      Rgb sum(0);
+      for (int y = y0; y < y0 + kPart; ++y)
+        for (int x = x0; x < x0 + kPart; ++x) sum += film.at(x, y).radiance();
+      means.push_back(double(sum.x + sum.y + sum.z));
+    }
+    return estimate_of(means);
+  }
+
+  // Of light that reaches the eye without photons, over the picture.
+  static double variance(const std::vector<Film>& films) {
+    double sum = 0;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        std::vector<double> values;
+        for (const Film& film : films)
+          values.push_back(double((film.at(x, y).emitted + film.at(x, y).direct).y));
+        const Estimate e = estimate_of(values);
+        sum += e.standard_error * e.standard_error / (e.mean * e.mean + 0.01);
+      }
+    return sum;
+  }
+};
+
+TEST_F(SpreadSamples, KeepTheMeanAndLowerTheNoise) {
+  const auto even = films(0, 1), spread = films(0.75f, 1001);
+  for (int y = 0; y < kSide; y += kPart)
+    for (int x = 0; x < kSide; x += kPart) {
+      const Estimate a = mean_of(even, x, y), b = mean_of(spread, x, y);
+      // 4.5 standard errors of 78 degrees of freedom: of nine, one in 4000 by chance.
+      EXPECT_NEAR(b.mean, a.mean, 4.5 * std::hypot(a.standard_error, b.standard_error)) << x << " " << y;
+    }
+  // Half the work more would leave 1 / 1.5 of the variance of independent samples, were it spent evenly.
+  // Edges hold most of it, and the variance of their variance from 40 seeds is large.
+  EXPECT_LT(variance(spread), variance(even) / 1.5);
+  write_if_failed(spread[0], "spread");
+}
+
+}  // namespace
+}  // namespace kaustik::render

@@ -1,0 +1,213 @@
+// Partial results on disk: nothing is lost, nothing damaged is taken.
+
+#include "render/passes/partial_result.h"
+
+#include <gmock/gmock.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "core/files/content_hash.h"
+#include "tests/render/support/image_statistics.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+using ::testing::HasSubstr;
+
+// A folder of its own, empty.
+class PartialFile : public ::testing::Test {
+ protected:
+  PartialFile() {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = output_file(std::string("partial_") + info->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    file_ = folder_ + "/a.kpart";
+  }
+
+  static PartialResult example() {
+    PartialResult part;
+    part.manifest.build = "0.1.0 (abc)";
+    part.manifest.isa = "AVX2";
+    part.manifest.scene_path = "/scenes/\"quoted\" \xc3\xa9.pbrt";
+    part.manifest.scene_hash = "0123";
+    part.manifest.settings = {{"spp", {"4"}}, {"crop", {"1", "4", "0", "2"}}, {"seed", {"0"}}};
+    part.manifest.presentation = {{"aov", {"direct", "depth"}}};
+    part.manifest.outputs = {"/out/a.exr"};
+    part.manifest.goal = PassSet(0, 8);
+    part.manifest.needs = {.specular = true, .any_light = true};
+    part.sums.passes = PassSet(0, 3);
+    part.sums.passes.add(PassSet(5, 6));
+    part.sums.shares = 8;
+    part.sums.radii = {0.1f, 1e-20f, 3e10f};
+    FilmSums film(3, 2, 1, 0, 8, 8);
+    film.at(2, 1) = {.direct = {1, 2e-9, 3e5}, .normal = {-1, 0, 0.5}, .depth = 7, .photons = 9, .count = 4};
+    part.sums.totals = FilmTotals(window_of<PixelTotals>(film), {-60, -50, -70});
+    part.sums.totals.add(film);
+    RenderStatistics& s = part.sums.statistics;
+    s.photons.emitted = ~uint64_t{0};
+    s.photons.stored = {1, 2, 3, 4};
+    s.rays.shadow = 5;
+    s.dropped_examples = {{.y = 1, .x = 2, .sample = uint64_t{1} << 40}};
+    s.render_s = 0.1;
+    return part;
+  }
+
+  std::string bytes() const {
+    std::ifstream in(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
+  // What is said of the file; empty when it is read.
+  std::string complaint() const {
+    try {
+      read_partial(file_);
+    } catch (const PartialError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(file_));
+      return error.what();
+    }
+    return {};
+  }
+
+  std::string folder_, file_;
+};
+
+TEST_F(PartialFile, HoldsEverything) {
+  const PartialResult part = example();
+  write_partial(file_, part.manifest, part.sums);
+  const PartialResult back = read_partial(file_);
+  EXPECT_EQ(difference(part, back), "");
+  EXPECT_EQ(back.manifest.scene_path, part.manifest.scene_path);
+  EXPECT_EQ(back.manifest.presentation, part.manifest.presentation);
+  EXPECT_EQ(back.manifest.outputs, part.manifest.outputs);
+  EXPECT_EQ(back.manifest.goal, part.manifest.goal);
+  EXPECT_TRUE(back.manifest.needs.specular && back.manifest.needs.any_light);
+  EXPECT_FALSE(back.manifest.needs.diffuse);
+  EXPECT_EQ(back.sums.passes, part.sums.passes);
+  EXPECT_EQ(back.sums.shares, part.sums.shares);
+  EXPECT_EQ(back.sums.radii, part.sums.radii);
+  EXPECT_EQ(back.sums.totals.units(), part.sums.totals.units());
+  const auto &a = part.sums.totals.pixels(), &b = back.sums.totals.pixels();
+  EXPECT_EQ(b.x0(), 1);
+  EXPECT_EQ(b.full_width(), 8);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x) EXPECT_EQ(a.at(x, y), b.at(x, y));
+  EXPECT_EQ(back.sums.statistics.photons.emitted, ~uint64_t{0});
+  EXPECT_EQ(back.sums.statistics.photons.stored, part.sums.statistics.photons.stored);
+  EXPECT_EQ(back.sums.statistics.rays.shadow, 5u);
+  EXPECT_EQ(back.sums.statistics.dropped_examples, part.sums.statistics.dropped_examples);
+  EXPECT_EQ(back.sums.statistics.render_s, 0.1);
+  EXPECT_EQ(back.sums.statistics.passes, 4u);
+  EXPECT_EQ(back.sums.statistics.radius, 3e10f);
+}
+
+// In the head, the manifest, the sums and the checksum.
+TEST_F(PartialFile, EveryFlippedByteIsFound) {
+  const PartialResult part = example();
+  write_partial(file_, part.manifest, part.sums);
+  const std::string whole = bytes();
+  for (size_t at = 0; at < whole.size(); at += at < 32 ? 1 : 7) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x20);
+    write(damaged);
+    EXPECT_NE(complaint(), "") << at;
+  }
+  write(whole);
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(PartialFile, TruncatedAndForeignFilesAreNamed) {
+  const PartialResult part = example();
+  write_partial(file_, part.manifest, part.sums);
+  const std::string whole = bytes();
+  for (const size_t size : {size_t{20}, size_t{39}, size_t{100}, whole.size() / 2, whole.size() - 1}) {
+    write(whole.substr(0, size));
+    EXPECT_THAT(complaint(), HasSubstr("truncated")) << size;
+  }
+  write(whole + "x");
+  EXPECT_NE(complaint(), "");
+  for (const std::string& text : {std::string(), std::string("KPART"), std::string(1000, 'x')}) {
+    write(text);
+    EXPECT_THAT(complaint(), HasSubstr("no partial result"));
+  }
+  std::string newer = whole;
+  ++newer[8];
+  write(newer);
+  EXPECT_THAT(complaint(), HasSubstr("version 3 of the format"));
+  std::filesystem::remove(file_);
+  EXPECT_THAT(complaint(), HasSubstr("No such file"));
+  std::filesystem::create_directory(file_);
+  EXPECT_NE(complaint(), "");
+}
+
+// A manifest that claims the largest image, in a file whose checksum fits: refused by the file's size, before
+// memory is taken.
+TEST_F(PartialFile, ClaimsAreCheckedAgainstTheFilesSize) {
+  PartialResult part = example();
+  part.sums.totals =
+      FilmTotals(PixelWindow<PixelTotals>(10000, 1, 0, 0, 65535, 65535), part.sums.totals.units());
+  write_partial(file_, part.manifest, part.sums);
+  std::string forged = bytes();
+  const std::string honest = "\"width\": 10000,", claim = "\"width\": 65535,";  // equally long
+  ASSERT_NE(forged.find(honest), std::string::npos);
+  forged.replace(forged.find(honest), honest.size(), claim);
+  ContentHash hash;
+  hash.add(std::string_view(forged).substr(0, forged.size() - 16));
+  const auto words = hash.words();
+  std::memcpy(forged.data() + forged.size() - 16, words.data(), 16);
+  write(forged);
+  EXPECT_THAT(complaint(), HasSubstr("size"));
+}
+
+// What a kill during the write leaves: half a temporary file. The last complete file is untouched by it, and
+// the next write is too.
+TEST_F(PartialFile, AnUnfinishedWriteCostsNothing) {
+  PartialResult part = example();
+  write_partial(file_, part.manifest, part.sums);
+  const std::string whole = bytes();
+  const std::string left = folder_ + "/.a.kpart.partial";
+  EXPECT_FALSE(std::filesystem::exists(left));
+  std::ofstream(left, std::ios::binary) << whole.substr(0, whole.size() / 2);
+  EXPECT_EQ(complaint(), "");
+  part.sums.passes.add(PassSet(3, 4));
+  write_partial(file_, part.manifest, part.sums);
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_EQ(read_partial(file_).sums.passes, part.sums.passes);
+}
+
+TEST_F(PartialFile, AFailedWriteLeavesThePreviousFile) {
+  const PartialResult part = example();
+  write_partial(file_, part.manifest, part.sums);
+  std::filesystem::create_directory(folder_ + "/.a.kpart.partial");  // where the temporary file should be
+  EXPECT_THROW(write_partial(file_, part.manifest, part.sums), PartialError);
+  EXPECT_EQ(complaint(), "");
+  EXPECT_THROW(write_partial(folder_ + "/none/a.kpart", part.manifest, part.sums), PartialError);
+}
+
+TEST(PartialDifference, NamesWhatDiffers) {
+  PartialResult a;
+  a.manifest.settings = {{"seed", {"0"}}};
+  const auto differing = [&](auto change) {
+    PartialResult b = a;
+    change(b);
+    return difference(a, b);
+  };
+  EXPECT_EQ(differing([](PartialResult& b) { b.manifest.presentation = {{"threads", {"2"}}}; }), "");
+  EXPECT_THAT(differing([](PartialResult& b) { b.manifest.scene_hash = "1"; }), HasSubstr("scenes"));
+  EXPECT_THAT(differing([](PartialResult& b) { b.manifest.settings[0].second = {"1"}; }),
+              HasSubstr("--seed: 0 and 1"));
+  EXPECT_THAT(differing([](PartialResult& b) { b.manifest.settings.clear(); }),
+              HasSubstr("--seed: 0 and unset"));
+  EXPECT_THAT(differing([](PartialResult& b) {
+                b.manifest.settings.push_back({"crop", {"1", "2", "3", "4"}});
+              }),
+              HasSubstr("--crop: unset and 1 2 3 4"));
+  EXPECT_THAT(differing([](PartialResult& b) { b.manifest.build = "x"; }), HasSubstr("programs"));
+  EXPECT_THAT(differing([](PartialResult& b) { b.manifest.isa = "x"; }), HasSubstr("instruction sets"));
+}
+
+}  // namespace
+}  // namespace kaustik::render

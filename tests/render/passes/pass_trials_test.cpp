@@ -1,0 +1,114 @@
+// What a pass is found to take, and photons that are shot before the render.
+
+#include "render/passes/pass_trials.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "tests/render/support/image_statistics.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+class PassTrials : public ::testing::Test {
+ protected:
+  PassTrials() {
+    settings_.photons = 30'000;
+    settings_.spp = 2;
+    plan_ = make_plan(settings_, scene_.needs);
+  }
+
+  Scene scene_ = cornell(40);
+  accel::Bvh bvh_{scene_};
+  RenderSettings settings_;
+  EstimatorPlan plan_;
+};
+
+// 20 ms, and two microseconds each.
+TEST(PassCosts, OfPhotonsAreALine) {
+  const auto seconds = [](double photons) { return 0.02 + 2e-6 * photons; };
+  const PhotonCost cost = photon_cost(seconds(16384), seconds(65536));
+  EXPECT_NEAR(cost.fixed, 0.02, 1e-9);
+  EXPECT_NEAR(cost.each, 2e-6, 1e-15);
+  // More took no longer: half of what they took.
+  EXPECT_NEAR(photon_cost(1, 1).each, 0.5 / 65536, 1e-15);
+}
+
+TEST(PassCosts, OfSamplesAreAPlane) {
+  const auto seconds = [](double spp, double adaptive) { return 0.25 + spp * (0.5 + 0.125 * adaptive); };
+  const SampleCost cost = sample_cost(seconds(1, 0.75), seconds(4, 0), seconds(4, 0.75), 0.75);
+  EXPECT_NEAR(cost.fixed, 0.25, 1e-12);
+  EXPECT_NEAR(cost.each, 0.5, 1e-12);
+  EXPECT_NEAR(cost.further, 0.125, 1e-12);
+  EXPECT_NEAR(cost.of(16, 2), seconds(16, 2), 1e-12);
+  const SampleCost without = sample_cost(seconds(1, 0), seconds(4, 0), seconds(4, 0), 0);
+  EXPECT_NEAR(without.of(8, 0), seconds(8, 0), 1e-12);
+  EXPECT_EQ(without.further, 0);
+}
+
+TEST_F(PassTrials, LeaveWhatIsRead) {
+  PhotonTrial trial = try_photons(scene_, bvh_, settings_, plan_, 1, {});
+  ASSERT_TRUE(trial.photons.radii);
+  EXPECT_GT(trial.photons.radii->indirect, 0);
+  try_samples(scene_, bvh_, settings_, plan_, 1, &trial.photons);
+  EXPECT_GT(trial.photons.maps.indirect.map.size(), 0u);
+  EXPECT_EQ(trial.photons.maps.visibility, nullptr);  // it would be of another number of samples
+}
+
+// Where even the first takes too long, there is no second.
+TEST_F(PassTrials, AreFewWhereTheyTakeTooLong) {
+  PhotonTrial few = try_photons(scene_, bvh_, settings_, plan_, 0, {});
+  EXPECT_EQ(few.cost.fixed, 0);
+  EXPECT_GT(few.photons.maps.indirect.map.size(), 0u);
+  EXPECT_LE(few.photons.maps.indirect.map.size(), 16u * 16384);
+  const SampleCost cost = try_samples(scene_, bvh_, settings_, plan_, 0, &few.photons);
+  EXPECT_EQ(cost.fixed, 0);
+  EXPECT_EQ(cost.each, cost.further);
+}
+
+// Windows are chosen by squares of the whole image, of which a crop may hold none.
+TEST_F(PassTrials, TakeTheSmallestCrop) {
+  settings_.crop = {39, 40, 17, 18};
+  PhotonTrial trial = try_photons(scene_, bvh_, settings_, plan_, 1, {});
+  const double each = try_samples(scene_, bvh_, settings_, plan_, 1, &trial.photons).each;
+  EXPECT_TRUE(std::isfinite(each)) << each;
+}
+
+// Also where the number of samples is chosen when the photons are there, and tried.
+TEST_F(PassTrials, PhotonsShotBeforeGiveTheSamePicture) {
+  const RenderResult whole = render(scene_, bvh_, settings_);
+  RenderSettings before = settings_;
+  before.spp = 16;
+  auto photons = std::make_shared<FirstPhotons>(shoot_first(scene_, bvh_, before, plan_, {}));
+  try_samples(scene_, bvh_, before, plan_, 1, photons.get());
+  const RenderResult result = render(scene_, bvh_, settings_, {}, {.keep_sums = false, .photons = photons});
+  const size_t bytes = sizeof(PixelResult) * size_t(result.film.width()) * size_t(result.film.height());
+  EXPECT_EQ(std::memcmp(&result.film.at(0, 0), &whole.film.at(0, 0), bytes), 0);
+  EXPECT_EQ(result.statistics.photons.stored, whole.statistics.photons.stored);
+  EXPECT_EQ(result.statistics.rays.shadow, whole.statistics.rays.shadow);
+  EXPECT_EQ(result.statistics.radius, whole.statistics.radius);
+  write_if_failed(result.film, "photons_before");
+}
+
+TEST_F(PassTrials, PhotonsShotBeforeAreThoseOfASinglePass) {
+  auto photons = std::make_shared<FirstPhotons>(shoot_first(scene_, bvh_, settings_, plan_, {}));
+  settings_.passes = 2;
+  EXPECT_THROW(render(scene_, bvh_, settings_, {}, {.photons = photons}), std::invalid_argument);
+}
+
+TEST_F(PassTrials, CancelledPhotonsGiveNoPicture) {
+  const auto cancel = [](const Progress&) { return false; };
+  auto photons = std::make_shared<FirstPhotons>(shoot_first(scene_, bvh_, settings_, plan_, cancel));
+  EXPECT_FALSE(photons->radii);
+  const RenderResult result =
+      render(scene_, bvh_, settings_, cancel, {.keep_sums = false, .photons = photons});
+  EXPECT_TRUE(result.cancelled);
+  EXPECT_EQ(result.shown, Shown::kNothing);
+}
+
+}  // namespace
+}  // namespace kaustik::render

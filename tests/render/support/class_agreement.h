@@ -1,0 +1,141 @@
+#pragma once
+// Do photons and paths give the same light, class by class? Differences are held against the measured noise
+// of several seeds and a kernel bias measured by halving the radius: an estimate whose bias falls at least
+// linearly with r has |bias(r)| <= 2 |estimate(r) - estimate(r/2)|.
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/render/support/image_statistics.h"
+
+namespace kaustik::render::test {
+
+inline constexpr int kSeeds = 6;
+// 5 standard errors of a difference, of 10 degrees of freedom: less than 1 in 1000 by chance.
+inline constexpr double kErrors = 5;
+inline constexpr int kSize = 24, kBlock = 8;
+inline constexpr std::array<Layer, 3> kClasses = {Layer::kDirect, Layer::kCaustic, Layer::kIndirect};
+
+// Mean of one class over a square block of pixels, or over the image (block < 0).
+inline double block_mean(const Film& film, Layer layer, int block) {
+  if (block < 0) return layer_mean(film, layer);
+  const int columns = film.width() / kBlock;
+  Film part(kBlock, kBlock);
+  for (int y = 0; y < kBlock; ++y)
+    for (int x = 0; x < kBlock; ++x)
+      part.at(x, y) = film.at(block % columns * kBlock + x, block / columns * kBlock + y);
+  return layer_mean(part, layer);
+}
+
+inline std::vector<Film> films(const Scene& scene, RenderSettings settings, int seeds = kSeeds) {
+  std::vector<Film> out;
+  const uint64_t first = settings.seed;
+  for (int i = 0; i < seeds; ++i) {
+    settings.seed = first + uint64_t(i);
+    out.push_back(render_with_threads(scene, settings).film);
+  }
+  return out;
+}
+
+inline Estimate block_estimate(const std::vector<Film>& of, Layer layer, int block) {
+  std::vector<double> means;
+  for (const Film& film : of) means.push_back(block_mean(film, layer, block));
+  return estimate_of(means);
+}
+
+inline RenderSettings settings_of(Method method, int spp, float radius, uint64_t seed) {
+  RenderSettings settings;
+  settings.method = method;
+  settings.spp = spp;
+  settings.photons = 200'000;
+  settings.radius = radius;
+  settings.seed = seed;
+  return settings;
+}
+
+// Powers are stored with 9 bits of mantissa shared by the three channels: a channel is off by at most 1/1022
+// of the largest one. The lamp of the box is (17, 12, 4), so means over channels of light on the coloured
+// walls are off by at most 17/4 of that, where only blue counts.
+inline constexpr double kPackedFlux = 17.0 / 4 / 1022;
+
+// Films of a scene by paths, and by a photon method at the full and at half the radius.
+struct Comparison {
+  const std::vector<Film>& mc;
+  std::vector<Film> photons, half;
+
+  Comparison(const Scene& scene, const std::vector<Film>& by_paths, Method method, float radius)
+      : mc(by_paths),
+        photons(films(scene, settings_of(method, 16, radius, 200))),
+        half(films(scene, settings_of(method, 16, radius / 2, 300))) {}
+
+  void expect_agreement(Layer layer, int block, double meaningful = 0.25) const {
+    const Estimate reference = block_estimate(mc, layer, block),
+                   found = block_estimate(photons, layer, block);
+    const Estimate smaller = block_estimate(half, layer, block);
+    const double noise =
+        std::hypot(reference.standard_error, found.standard_error, 2 * smaller.standard_error);
+    const double bias = 2 * std::abs(found.mean - smaller.mean) + kPackedFlux * reference.mean;
+    EXPECT_NEAR(found.mean, reference.mean, kErrors * noise + bias)
+        << kLayerNames[size_t(layer)] << " block " << block << " noise " << noise << " bias " << bias;
+    if (block < 0) {
+      // The test can fail: noise and bias are small against what is measured.
+      EXPECT_LT(kErrors * noise + bias, meaningful * reference.mean) << kLayerNames[size_t(layer)];
+    }
+  }
+
+  void expect_agreement_everywhere(Layer layer) const {
+    for (int block = -1; block < kSize / kBlock * (kSize / kBlock); ++block) expect_agreement(layer, block);
+  }
+
+  void write_pictures(const std::string& name) const {
+    write_if_failed(mc[0], name + "_mc");
+    write_if_failed(photons[0], name + "_photons");
+  }
+};
+
+// Of whole pictures.
+inline Estimate total(const std::vector<Film>& of) {
+  std::vector<double> means;
+  for (const Film& film : of) means.push_back(total_mean(film));
+  return estimate_of(means);
+}
+
+// The settings with every way to estimate direct, caustic and indirect light.
+inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) {
+  settings.photons = 100'000;
+  std::vector<RenderSettings> all;
+  for (const auto direct : {DirectEstimator::kShadowRays, DirectEstimator::kPhotons,
+                            DirectEstimator::kLecture, DirectEstimator::kPredicted, DirectEstimator::kSigned})
+    for (const auto caustics : {CausticEstimator::kPhotons, CausticEstimator::kPaths})
+      for (const auto indirect : {IndirectEstimator::kPaths, IndirectEstimator::kPhotons}) {
+        settings.direct = direct;
+        settings.caustics = caustics;
+        settings.indirect = indirect;
+        all.push_back(settings);
+      }
+  return all;
+}
+inline std::string names_of_estimators(const RenderSettings& s) {
+  return std::to_string(int(*s.direct)) + std::to_string(int(*s.caustics)) + std::to_string(int(*s.indirect));
+}
+
+// Whichever estimators are chosen, every path is counted once: the pictures' means are those of paths, but
+// for noise and the kernels' bias.
+inline void expect_the_same_sum_by_all_estimators(const Scene& scene, float radius) {
+  const Estimate reference = total(films(scene, settings_of(Method::kMc, 128, radius, 1)));
+  const auto wide = total(films(scene, settings_of(Method::kPhoton, 16, radius, 20)));
+  const auto narrow = total(films(scene, settings_of(Method::kPhoton, 16, radius / 2, 30)));
+  const double bias = kPackedFlux * reference.mean + 2 * std::abs(wide.mean - narrow.mean) +
+                      kErrors * std::hypot(wide.standard_error, narrow.standard_error);
+  for (const RenderSettings& settings : with_all_estimators(settings_of(Method::kAuto, 16, radius, 10))) {
+    const Estimate found = total(films(scene, settings, 4));
+    const double noise = std::hypot(reference.standard_error, found.standard_error);
+    EXPECT_NEAR(found.mean, reference.mean, 6 * noise + bias)
+        << names_of_estimators(settings) << " noise " << noise << " bias " << bias;
+    EXPECT_LT(6 * noise + bias, 0.5 * reference.mean);
+  }
+}
+
+}  // namespace kaustik::render::test

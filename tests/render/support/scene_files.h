@@ -1,0 +1,20 @@
+#pragma once
+// The scenes of the scenes/ folder.
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "apps/import/import_scene.h"
+
+namespace kaustik::render::test {
+
+// file: relative to scenes/. Throws when it does not load.
+inline Scene scene_from(const std::string& file) {
+  Diagnostics diagnostics;
+  auto loaded = pbrt::load_scene(std::filesystem::path(KAUSTIK_SCENES_DIR) / file, diagnostics);
+  if (!loaded) throw std::runtime_error(file + " does not load");
+  return std::move(loaded->scene);
+}
+
+}  // namespace kaustik::render::test

@@ -1,0 +1,220 @@
+// Scenes whose radiance is known in closed form.
+
+#include <gtest/gtest.h>
+
+#include "tests/render/support/closed_forms.h"
+#include "tests/render/support/image_statistics.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+// The image of a camera with a tiny field of view shows one point: over the footprint of fov 0.001 degrees
+// seen from 4 m, 7e-5 m, the irradiance of lamps 1 m away changes by less than 3 * 7e-5 (|grad ln E| <= 3 /
+// distance).
+constexpr float kPointFov = 0.001f;
+constexpr double kFootprint = 3 * 7e-5;
+// Largest relative error of a flux in the shared-exponent record: 9 bits of mantissa.
+constexpr double kPackedFlux = 1.0 / 512;
+
+constexpr float kReflectance = 0.5f;
+
+Scene plane(const Point3& seen) {
+  Scene scene;
+  const uint32_t white = add_material(scene, Lambertian{Rgb(kReflectance)});
+  add_shape(scene, horizontal({0, 0, 0}, 4, 4, true, white));
+  look_at(scene, {2, 3, 1.5f}, seen, {0, 1, 0}, kPointFov, 8, 8);
+  return scene;
+}
+
+RenderSettings settings_of(Method method, int spp) {
+  RenderSettings settings;
+  settings.method = method;
+  settings.spp = spp;
+  return settings;
+}
+
+class PointLamp : public ::testing::TestWithParam<Method> {};
+
+TEST_P(PointLamp, RaysGiveTheClosedForm) {
+  for (const Point3 seen : {Point3(0, 0, 0), Point3(0.5f, 0, 0.25f), Point3(-1.5f, 0, 1)}) {
+    Scene scene = plane(seen);
+    scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(3)});
+    finalize_scene(scene);
+    const auto result = render_with_threads(scene, settings_of(GetParam(), 2));
+    const double expected =
+        kReflectance * PointLampOverPlane{3, 1}.irradiance(seen.x * seen.x + seen.z * seen.z) / double(kPi);
+    EXPECT_NEAR(total_mean(result.film), expected, expected * kFootprint) << seen.x << " " << seen.z;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Methods, PointLamp,
+                         ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
+
+// The estimate averages E over a disc of radius r: its bias is r^2/8 times the Laplacian, at most the largest
+// value on the disc (second-order Taylor with remainder). M photons in reach scatter like a Poisson number at
+// most.
+TEST(PointLampPhotons, WithinKernelBiasAndNoise) {
+  constexpr double kRadius = 0.1, kPhotons = 1e6;
+  const PointLampOverPlane form{3, 1};
+  for (const Point3 seen : {Point3(0, 0, 0), Point3(0.5f, 0, 0.25f), Point3(-1.0f, 0, 0.5f)}) {
+    Scene scene = plane(seen);
+    scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(3)});
+    finalize_scene(scene);
+    RenderSettings settings = settings_of(Method::kPhoton, 1);
+    settings.photons = uint64_t(kPhotons);
+    settings.radius = float(kRadius);
+    const auto result = render_with_threads(scene, settings);
+
+    const double rho = std::hypot(double(seen.x), double(seen.z));
+    double curvature = 0;
+    for (double d = -kRadius; d <= kRadius; d += kRadius / 16)
+      curvature = std::max(curvature, std::abs(form.laplacian((rho + d) * (rho + d))));
+    const double E = form.irradiance(rho * rho), flux = 4 * double(kPi) * form.I / kPhotons;
+    const double in_reach = E * double(kPi) * kRadius * kRadius / flux;
+    const double bound =
+        kRadius * kRadius / 8 * curvature + 4 * E / std::sqrt(in_reach) + E * (kPackedFlux + kFootprint);
+    EXPECT_NEAR(total_mean(result.film), kReflectance * E / double(kPi), kReflectance * bound / double(kPi));
+    EXPECT_GT(result.film.at(0, 0).photons, in_reach / 2);
+    EXPECT_EQ(result.statistics.radius, float(kRadius));
+    write_if_failed(result.film, "point_lamp_photons");
+  }
+}
+
+struct TriangleLamp {
+  Point3 a{-0.4f, 1, -0.3f}, b{0.6f, 1.2f, -0.2f}, c{0.1f, 0.9f, 0.7f};
+  double irradiance(const Point3& x) const {
+    return lambert_polygon({glm::dvec3(a), glm::dvec3(b), glm::dvec3(c)}, glm::dvec3(x), {0, 1, 0}, 5);
+  }
+  Scene scene(const Point3& seen) const {
+    Scene s = plane(seen);
+    const uint32_t black = add_material(s, Lambertian{Rgb(0)});
+    make_lamp(s, add_shape(s, triangle(a, b, c, black)), Rgb(5));
+    finalize_scene(s);
+    return s;
+  }
+};
+
+class PolygonLamp : public ::testing::TestWithParam<Method> {};
+
+TEST_P(PolygonLamp, RaysGiveLambertsFormula) {
+  for (const Point3 seen : {Point3(0.1f, 0, 0.05f), Point3(1, 0, 0.5f)}) {
+    const TriangleLamp lamp;
+    const auto result = render_with_threads(lamp.scene(seen), settings_of(GetParam(), 512));
+    std::vector<double> pixels;
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) pixels.push_back(double(result.film.at(x, y).direct.x));
+    const Estimate direct = estimate_of(pixels);
+    const double expected = kReflectance * lamp.irradiance(seen) / double(kPi);
+    EXPECT_NEAR(direct.mean, expected, 4 * direct.standard_error + expected * kFootprint);
+    EXPECT_LT(direct.standard_error, 0.01 * expected);
+    write_if_failed(result.film, "polygon_lamp");
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Methods, PolygonLamp, ::testing::Values(Method::kRaytrace, Method::kMc));
+
+// As for the point lamp; the Laplacian of Lambert's formula by central differences (step 1e-3, error below
+// 1e-4 of it: fourth derivatives are of the order of 100 E at this distance).
+TEST(PolygonLampPhotons, WithinKernelBiasAndNoise) {
+  constexpr double kRadius = 0.1, kPhotons = 1e6;
+  const TriangleLamp lamp;
+  const Point3 seen(0.1f, 0, 0.05f);
+  RenderSettings settings = settings_of(Method::kPhoton, 1);
+  settings.photons = uint64_t(kPhotons);
+  settings.radius = float(kRadius);
+  const Scene scene = lamp.scene(seen);
+  const auto result = render_with_threads(scene, settings);
+
+  const auto laplacian = [&](const Point3& x) {
+    constexpr float kStep = 1e-2f;
+    const double center = lamp.irradiance(x);
+    double sum = 0;
+    for (const Vector3 d :
+         {Vector3(kStep, 0, 0), Vector3(-kStep, 0, 0), Vector3(0, 0, kStep), Vector3(0, 0, -kStep)})
+      sum += lamp.irradiance(x + d) - center;
+    return sum / double(kStep * kStep);
+  };
+  double curvature = 0;
+  for (int i = 0; i < 16; ++i)
+    for (const float part : {0.0f, 0.5f, 1.0f}) {
+      const float angle = float(i) * kPi / 8, d = part * float(kRadius);
+      curvature =
+          std::max(curvature, std::abs(laplacian(seen + d * Vector3(std::cos(angle), 0, std::sin(angle)))));
+    }
+  const double E = lamp.irradiance(seen), flux = double(power(scene.lights[0]).x) / kPhotons;
+  const double in_reach = E * double(kPi) * kRadius * kRadius / flux;
+  const double bound =
+      kRadius * kRadius / 8 * curvature + 4 * E / std::sqrt(in_reach) + E * (kPackedFlux + kFootprint);
+  EXPECT_LT(bound, 0.2 * E);  // the bound says something
+  EXPECT_NEAR(total_mean(result.film), kReflectance * E / double(kPi), kReflectance * bound / double(kPi));
+  write_if_failed(result.film, "polygon_lamp_photons");
+}
+
+// A lamp seen by the camera shows its radiance on its outside, and nothing on its back.
+TEST(Emitted, LampShowsItsRadianceOnItsOutside) {
+  for (const bool outside : {true, false}) {
+    Scene scene;
+    const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
+    make_lamp(scene, add_shape(scene, horizontal({0, 0, 0}, 1, 1, outside, black)), {1, 2, 3});
+    look_at(scene, {0, 2, 0}, {0, 0, 0}, {0, 0, 1}, 1, 4, 4);
+    finalize_scene(scene);
+    for (const Method method : {Method::kRaytrace, Method::kMc, Method::kHybrid, Method::kPhoton}) {
+      RenderSettings settings = settings_of(method, 2);
+      settings.photons = 1000;
+      const auto result = render_with_threads(scene, settings);
+      EXPECT_EQ(result.film.at(1, 1).emitted, outside ? Rgb(1, 2, 3) : Rgb(0));
+      // The pixel next to the axis of a 1 degree view: 2 / cos, within 2 (1/cos(0.5 degrees) - 1).
+      EXPECT_NEAR(result.film.at(1, 1).depth, 2, 2 * 4e-5);
+    }
+  }
+}
+
+// A sample that meets glass goes on by both rays: what it reflects of a lamp is Fresnel's share, 4 % at right
+// angles for eta = 1.5, in every sample, and what shines through the rest. The cosine of a 0.1 degree view
+// and float rounding leave 1e-5.
+TEST(Emitted, GlassReflectsAndTransmitsInEverySample) {
+  Scene scene;
+  const uint32_t black = add_material(scene, Lambertian{Rgb(0)}),
+                 glass = add_material(scene, Dielectric{1.5f});
+  make_lamp(scene, add_shape(scene, horizontal({0, 3, 0}, 1, 1, false, black)), {100, 0, 0});
+  make_lamp(scene, add_shape(scene, horizontal({0, -1, 0}, 1, 1, true, black)), {0, 225, 0});
+  add_shape(scene, horizontal({0, 0, 0}, 1, 1, true, glass));
+  look_at(scene, {0, 2, 0}, {0, 0, 0}, {0, 0, 1}, 0.1f, 4, 4);
+  finalize_scene(scene);
+  for (const Method method : {Method::kRaytrace, Method::kMc}) {
+    const auto result = render_with_threads(scene, settings_of(method, 1));
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x) {
+        const Rgb seen = result.film.at(x, y).emitted;
+        EXPECT_NEAR(seen.x, 4, 4e-5);
+        EXPECT_NEAR(seen.y, 96, 96e-5);  // 225 in glass is 225 / eta^2 outside
+      }
+  }
+}
+
+// Lambertian floor under a constant sky: L = rho E / pi = rho L_sky, without noise in the mean; seen past the
+// floor is the sky itself.
+TEST(InfiniteLamp, ConvexReceiverReflectsTheSky) {
+  for (const Method method : {Method::kRaytrace, Method::kMc, Method::kPhoton}) {
+    Scene scene;
+    const uint32_t white = add_material(scene, Lambertian{Rgb(kReflectance)});
+    add_shape(scene, sphere({0, 0, 0}, 1, white));
+    InfiniteLight sky;
+    sky.L = Rgb(2);
+    scene.lights.push_back(sky);
+    look_at(scene, {0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 4, 8, 8);
+    finalize_scene(scene);
+    RenderSettings settings = settings_of(method, 64);
+    settings.photons = 400'000;
+    settings.radius = 0.2f;
+    std::vector<double> means;
+    for (settings.seed = 0; settings.seed < 6; ++settings.seed)
+      means.push_back(total_mean(render_with_threads(scene, settings).film));
+    const Estimate found = estimate_of(means);
+    EXPECT_NEAR(found.mean, 1.0, 5 * found.standard_error + kPackedFlux) << int(method);
+    EXPECT_LT(found.standard_error, 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace kaustik::render
