@@ -26,7 +26,7 @@ inline void add_quad(Scene& scene, uint32_t material, Point3 p, Vector3 a, Vecto
   add_shape(scene, material, std::move(mesh));
 }
 
-inline void add_lamp(Scene& scene, uint32_t material, Point3 p, Vector3 a, Vector3 b, float L) {
+inline void add_light(Scene& scene, uint32_t material, Point3 p, Vector3 a, Vector3 b, float L) {
   add_quad(scene, material, p, a, b);
   scene.shapes.back().light = static_cast<uint32_t>(scene.lights.size());
   scene.lights.emplace_back(*DiffuseAreaLight::make(scene.shapes.back(), Rgb(L), false));
@@ -58,7 +58,7 @@ inline void set_camera(Scene& scene, const std::vector<double>& look_at, float f
   scene.camera.set_default_screen_window();
 }
 
-// A closed box with an area lamp; with sheet > 0 also two wavy sheets, one of them of glass: 14 + 4 sheet^2
+// A closed box with an area light; with sheet > 0 also two wavy sheets, one of them of glass: 14 + 4 sheet^2
 // triangles. The camera is inside.
 inline Scene room(uint32_t sheet) {
   Scene scene;
@@ -73,13 +73,13 @@ inline Scene room(uint32_t sheet) {
     add_sheet(scene, 2, 0.0f, 0.1f, 0.9f, sheet);
     add_sheet(scene, 1, -0.6f, 0.1f, 0.9f, sheet);
   }
-  add_lamp(scene, 0, {-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}, 10);
+  add_light(scene, 0, {-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}, 10);
   set_camera(scene, {0, 0.6, 0.95, 0, -0.2, 0, 0, 1, 0}, 60);
   finalize_scene(scene);
   return scene;
 }
 
-// Water with waves over the floor of a box whose front is open, under a lamp of 5 x 4 mm: 103,070 triangles.
+// Water with waves over the floor of a box whose front is open, under a light of 5 x 4 mm: 103,070 triangles.
 inline Scene water_box() {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0.72f)}, Lambertian{{0.63f, 0.07f, 0.05f}},
@@ -90,7 +90,7 @@ inline Scene water_box() {
   add_quad(scene, 2, {1, 0, -1}, {0, 0, 2}, {0, 2, 0});
   add_quad(scene, 0, {-1, 0, -1}, {2, 0, 0}, {0, 2, 0});
   add_sheet(scene, 3, 0.9f, 0.02f, 0.999f, 227);
-  add_lamp(scene, 0, {-0.0025f, 1.98f, -0.032f}, {0.005f, 0, 0}, {0, 0, 0.004f}, 1e5f);
+  add_light(scene, 0, {-0.0025f, 1.98f, -0.032f}, {0.005f, 0, 0}, {0, 0, 0.004f}, 1e5f);
   set_camera(scene, {0, 1.2, 6.8, 0, 0.9, 0, 0, 1, 0}, 20);
   finalize_scene(scene);
   return scene;

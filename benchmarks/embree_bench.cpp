@@ -8,7 +8,7 @@
 //                                     two roofs, of which the faster counts.
 //
 // Rays: camera (tile by tile), photon (path by path, recorded from the tracer), packet (the packets that the
-// tracer makes of photons), shadow (camera hits to lamps). Scenes: a box of 14 triangles, cornell-spheres,
+// tracer makes of photons), shadow (camera hits to lights). Scenes: a box of 14 triangles, cornell-spheres,
 // tncg15-room, water over a floor (103 k triangles), two wavy sheets in the box (1 M); with --large also
 // sheets of 10 M (2 GB, half a minute to build). Every round checks that both sides meet as many surfaces.
 //
@@ -128,7 +128,7 @@ struct SceneRow {
 std::vector<SceneRow> scene_rows(bool large) {
   std::vector<SceneRow> rows = {
       {"box", [] { return room(0); }},
-      {"cornell-spheres", [] { return scene_file("cornell-spheres/square-lamp-2.pbrt"); }},
+      {"cornell-spheres", [] { return scene_file("cornell-spheres/square-light-2.pbrt"); }},
       {"tncg15-room", [] { return scene_file("tncg15-room/tncg15-room.pbrt"); }},
       {"water", water_box},
       {"sheets-1M", [] { return room(500); }}};
@@ -181,7 +181,7 @@ uint64_t bare_occluded(const BareScene& bare, const std::vector<RTCRay>& rays) {
 uint64_t our_intersect(const accel::Bvh& bvh, const std::vector<Ray>& rays) {
   uint64_t hits = 0;
   for (const Ray& ray : rays) {
-    const Hit hit = bvh.intersect(ray);
+    Hit hit = bvh.intersect(ray);
     benchmark::DoNotOptimize(hit);
     hits += hit.valid();
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Rays as a render traces them: from the camera, from photons, to the lamps.
+// Rays as a render traces them: from the camera, from photons, to the lights.
 
 #include <vector>
 
@@ -25,7 +25,7 @@ inline std::vector<Ray> camera_rays(const Scene& scene) {
   return rays;
 }
 
-// From what the camera rays meet to a point of a lamp, in the same order.
+// From what the camera rays meet to a point of a light, in the same order.
 inline std::vector<Ray> shadow_rays(const Scene& scene, const accel::Bvh& bvh,
                                     const std::vector<Ray>& camera_rays) {
   std::vector<Ray> rays;

@@ -72,7 +72,7 @@ class BlockSamples {
   // Traced light varies not at all where it cannot be told from what the maps say, or where weights may
   // cancel.
   void add_to(SampleMoments* moments, const Sample& sample) const {
-    const bool apart = samples_lamps(ctx_.plan.direct) && !ctx_.scene.camera.filter.is_negative();
+    const bool apart = samples_lights(ctx_.plan.direct) && !ctx_.scene.camera.filter.is_negative();
     const Rgb traced = apart ? sample.result.emitted + sample.result.direct : Rgb(0);
     moments->light[size_t(SampleLight::kAll)].add(sample.result.radiance(), sample.rays + sample.readings);
     moments->light[size_t(SampleLight::kTraced)].add(traced, sample.rays);

@@ -103,7 +103,7 @@ class PassRenderer {
                                  statistics)) {
       return false;
     }
-    foretell_visibility(scene_, bvh_, settings_, plan_, &maps_, statistics);
+    predict_visibility(scene_, bvh_, settings_, plan_, &maps_, statistics);
     return true;
   }
 

@@ -64,8 +64,8 @@ struct RenderSettings {
   uint64_t photon_memory = std::numeric_limits<uint64_t>::max();
 };
 
-// Whether direct light comes from samples of the lamps: then it is shared with paths that leave anyway.
-inline bool samples_lamps(DirectEstimator direct) {
+// Whether direct light comes from samples of the lights: then it is shared with paths that leave anyway.
+inline bool samples_lights(DirectEstimator direct) {
   return direct == DirectEstimator::kShadowRays || direct == DirectEstimator::kPredicted;
 }
 

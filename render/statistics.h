@@ -38,7 +38,7 @@ inline constexpr size_t kDropExamples = 10;
 // Adds to a sorted list of at most kDropExamples, the first of all.
 void add_examples(const std::vector<DroppedSample>& more, std::vector<DroppedSample>* examples);
 
-// Of photons emitted for one kind alone, where that is guided. Their flux adds up to the lamps' power on the
+// Of photons emitted for one kind alone, where that is guided. Their flux adds up to the lights' power on the
 // mean only, so it is not in the energy ledger.
 struct GuidedCounters {
   uint64_t emitted = 0, rays = 0, dropped_invalid = 0;

@@ -111,7 +111,7 @@ Command make_compare_command(CLI::App& program) {
       ->check(CLI::NonNegativeNumber);
   parser
       .add_option("--mask-bright", options->mask_bright,
-                  "Leave out 2 pixels around reference pixels brighter than L [W/(m^2 sr)]: edges of lamps. "
+                  "Leave out 2 pixels around reference pixels brighter than L [W/(m^2 sr)]: edges of lights. "
                   "Default: nothing is left out")
       ->option_text("L")
       ->check(CLI::NonNegativeNumber);

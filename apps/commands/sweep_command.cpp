@@ -113,8 +113,8 @@ void warn_of_reference(const Options& options, const Job& job, const Console& co
                     options.reference.file));
   if (options.reference.method == render::Method::kMc && job.scene.needs.specular)
     console.warning(
-        "the reference `mc` finds no light of point lamps through glass or by mirrors, and that of small "
-        "lamps "
+        "the reference `mc` finds no light of point lights through glass or by mirrors, and that of small "
+        "lights "
         "rarely");
 }
 
@@ -243,7 +243,7 @@ void add_reference_options(CLI::App& parser, Options& options) {
       ->excludes(file);
   parser
       .add_option("--mask-bright", options.mask_bright,
-                  "Leave out 2 pixels around reference pixels brighter than L [W/(m^2 sr)]: edges of lamps. "
+                  "Leave out 2 pixels around reference pixels brighter than L [W/(m^2 sr)]: edges of lights. "
                   "Default: nothing is left out")
       ->option_text("L")
       ->check(CLI::NonNegativeNumber);

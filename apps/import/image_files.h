@@ -1,5 +1,5 @@
 #pragma once
-// The image files that a scene names: what lamps emit, and textures.
+// The image files that a scene names: what lights emit, and textures.
 
 #include <filesystem>
 #include <mutex>

@@ -15,7 +15,7 @@ namespace kaustik::app {
 
 namespace {
 
-// Where the photons' flux went, in shares of what the lamps emitted.
+// Where the photons' flux went, in shares of what the lights emitted.
 void report_energy(const render::RenderStatistics& s, const Console& console) {
   const photon::EnergyLedger& e = s.photons.energy;
   if (e.emitted == 0) return;

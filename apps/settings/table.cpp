@@ -190,10 +190,10 @@ void add_methods(std::vector<Setting>& table) {
              "the cheapest mix for what the scene needs."));
   table.push_back(choice<render::DirectEstimator>(
       "direct", &RenderSettings::direct, render::kDirectNames, std::string(kByMethod),
-      "Direct light. shadow-rays: a sample of a lamp and a ray to it. photons: the density of direct "
+      "Direct light. shadow-rays: a sample of a light and a ray to it. photons: the density of direct "
       "photons. "
       "lecture: photons where they suffice, else shadow rays. predicted: as shadow-rays, but where photons "
-      "foretell what the ray would meet it is seldom traced, without bias. signed: light as if nothing were "
+      "predict what the ray would meet it is seldom traced, without bias. signed: light as if nothing were "
       "in its way, less what shadow photons carry."));
   table.push_back(choice<render::CausticEstimator>(
       "caustics", &RenderSettings::caustics, render::kCausticNames, std::string(kByMethod),
@@ -226,7 +226,7 @@ void add_photons(std::vector<Setting>& table) {
                          "exact: every photon in reach. leaf: the lecture's, those of one octree node."));
   table.push_back(
       choice("emission", &RenderSettings::emission, render::kEmissionNames,
-             "Photon directions of area lamps. cosine: equal flux each. uniform-angle: the lecture's, "
+             "Photon directions of area lights. cosine: equal flux each. uniform-angle: the lecture's, "
              "uniform in angle and weighted."));
   table.push_back(choice(
       "guide", &RenderSettings::guide, render::kGuideNames,

@@ -18,8 +18,8 @@ struct ReferenceChoice {
 };
 
 // `mc` where the scene has neither mirror nor glass: unbiased, and finds all light. Else `auto` with radii
-// that shrink over the passes: paths do not find the light of point lamps through glass at all, and that of
-// small lamps so rarely that photons are nearer to the truth after the same time.
+// that shrink over the passes: paths do not find the light of point lights through glass at all, and that of
+// small lights so rarely that photons are nearer to the truth after the same time.
 render::Method reference_method(const SceneNeeds& needs);
 
 struct Reference {

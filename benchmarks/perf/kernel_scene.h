@@ -43,7 +43,7 @@ inline Sphere sphere(Point3 centre, float radius) {
   return {Transform{glm::mat3(radius), glm::mat3(1 / radius), centre}};
 }
 
-// A closed box with a lamp, a wavy floor of 8192 triangles, a sphere of glass and one that mirrors: every
+// A closed box with a light, a wavy floor of 8192 triangles, a sphere of glass and one that mirrors: every
 // kind of photon, triangles and exact spheres.
 inline Scene kernel_scene() {
   Scene scene;
@@ -56,9 +56,9 @@ inline Scene kernel_scene() {
   add_shape(scene, 0, quad({-1, -1, 1}, {0, 2, 0}, {2, 0, 0}));
   add_shape(scene, 2, sphere({-0.4f, -0.4f, 0.2f}, 0.35f));
   add_shape(scene, 3, sphere({0.45f, -0.4f, -0.3f}, 0.35f));
-  Shape& lamp = add_shape(scene, 0, quad({-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}));
-  lamp.light = 0;
-  scene.lights.emplace_back(*DiffuseAreaLight::make(lamp, Rgb(10), false));
+  Shape& light = add_shape(scene, 0, quad({-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}));
+  light.light = 0;
+  scene.lights.emplace_back(*DiffuseAreaLight::make(light, Rgb(10), false));
   finalize_scene(scene);
   return scene;
 }

@@ -2,13 +2,13 @@
 // Stochastic progressive photon mapping (Hachisuka and Jensen 2009), plainly: the rival to beat. Ours,
 // written after the design of pbrt-v3's and pbrt-v4's SPPMIntegrator (Pharr et al. 2016, section 16.2); no
 // line is theirs. Each iteration finds a visible point per pixel, with direct light by one light sample; puts
-// the points into a hash grid of linked lists; and traces photons one by one, uniformly from the lamps by
+// the points into a hash grid of linked lists; and traces photons one by one, uniformly from the lights by
 // power, which add to the points in reach by atomics. Radius, N and tau are each pixel's own. Scene, lights,
 // BSDFs, ray tree and random numbers (Owen-scrambled Sobol, where pbrt has Halton) are this renderer's, so
 // that only the design differs.
 //
 // Unlike pbrt: photons of lists that share a bucket count once; none is left on purely specular surfaces;
-// glossy lobes that are followed get light from lamps they meet, without a light sample. Not handled:
+// glossy lobes that are followed get light from lights they meet, without a light sample. Not handled:
 // surfaces with both broad and specular lobes (the specular ones are left out), negative pixel filters,
 // textures' footprints. Atomic sums depend on the order of threads.
 
@@ -29,7 +29,7 @@ struct Settings {
   uint32_t iterations = 16;
   uint64_t photons = 262144;  // per iteration
   float radius = 0.025f;      // of the first iteration, metres
-  int max_bounces = 16;       // longest chain of reflections and refractions from the lamp, or from the eye
+  int max_bounces = 16;       // longest chain of reflections and refractions from the light, or from the eye
   uint64_t seed = 0;
 };
 

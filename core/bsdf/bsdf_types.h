@@ -34,7 +34,7 @@ enum class TransportMode { kRadiance, kImportance };
 struct Lobes {
   bool broad = false;
   bool specular = false;
-  bool glossy = false;  // the specular part has finite width: lamps can be sampled there
+  bool glossy = false;  // the specular part has finite width: lights can be sampled there
 };
 inline constexpr Lobes kBroadLobes{true, false, false}, kDeltaLobes{false, true, false},
     kGlossyLobes{false, true, true};

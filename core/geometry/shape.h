@@ -1,6 +1,6 @@
 #pragma once
 // Geometry as plain data in world space. Orientation: a shape's outside is where its oriented geometric
-// normal points; one-sided lamps emit there, dielectrics have their exterior medium there.
+// normal points; one-sided lights emit there, dielectrics have their exterior medium there.
 
 #include <array>
 #include <cstdint>

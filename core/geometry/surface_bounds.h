@@ -1,5 +1,5 @@
 #pragma once
-// Error bounds and normals of the three kinds of surface, shared by intersections and lamps so that a point
+// Error bounds and normals of the three kinds of surface, shared by intersections and lights so that a point
 // leaves a surface by the same distance whichever of them made it.
 
 #include "core/geometry/shape.h"

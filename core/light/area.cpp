@@ -1,4 +1,4 @@
-// Area lamps: uniform points on triangles, spheres and disks, the cone of directions that a sphere subtends
+// Area lights: uniform points on triangles, spheres and disks, the cone of directions that a sphere subtends
 // (Pharr et al. 2023, section 6.2.4), and photon emission.
 
 #include "core/light/area.h"
@@ -9,7 +9,7 @@
 namespace kaustik {
 namespace {
 
-// Point of a lamp, before any direction is known.
+// Point of a light, before any direction is known.
 struct SurfaceSample {
   Point3 p;
   float p_error;
@@ -46,7 +46,7 @@ SurfaceSample sample_surface(const QuadricEmitter& e, const Point2& u) {
   return {t.point(p), quadric_error(e.quadric), e.inward ? -n : n};
 }
 
-// A point of a lamp, what leaves it, and one over the density per area: of all lamps but spheres seen from
+// A point of a light, what leaves it, and one over the density per area: of all lights but spheres seen from
 // outside.
 struct EmittingSample {
   SurfaceSample at;
@@ -54,7 +54,7 @@ struct EmittingSample {
   float area;
 };
 
-// Lamps with an image are triangles or quadrics.
+// Lights with an image are triangles or quadrics.
 SurfaceSample surface_at(const DiffuseAreaLight& light, const EmissionImage::Place& place) {
   if (const auto* mesh = std::get_if<TriangleEmitter>(&light.surface))
     return point_on_triangle(mesh->triangles[place.part], place.u);

@@ -35,7 +35,7 @@ struct DiskEmitter {
   Normal3 n;
 };
 
-// What of a lamp's surface is there (Shape::alpha). Rays that meet it meet all of what they meet, so samples
+// What of a light's surface is there (Shape::alpha). Rays that meet it meet all of what they meet, so samples
 // of it count by the share.
 struct EmitterAlpha {
   float constant = 1;
@@ -55,7 +55,7 @@ struct DiffuseAreaLight {
   std::variant<TriangleEmitter, SphereEmitter, DiskEmitter, QuadricEmitter> surface;
   Rgb L{1};
   bool twosided = false;
-  bool invisible = false;  // pbrt's lamps of alpha 0: they shine, but no ray meets them
+  bool invisible = false;  // pbrt's lights of alpha 0: they shine, but no ray meets them
   float area = 0;          // m^2, one side
   std::shared_ptr<const EmissionImage> image;
   std::shared_ptr<const EmitterAlpha> alpha;  // null: all of it; needs an image
@@ -65,13 +65,13 @@ struct DiffuseAreaLight {
   static std::optional<DiffuseAreaLight> make(const Shape& shape, const Rgb& L, bool twosided,
                                               std::shared_ptr<const LightImage> image = nullptr);
 
-  // Radiance that leaves a point of the lamp in direction w (unit).
+  // Radiance that leaves a point of the light in direction w (unit).
   Rgb Le(const SurfaceInteraction& on_light, const Vector3& w) const {
     if (!twosided && !(glm::dot(on_light.n, w) > 0)) return Rgb(0);
     return image ? L * image->value(image->uv(image->place_of(on_light))) : L;
   }
   std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
-  // on_light: the point of this lamp that the ray from ref in direction wi meets.
+  // on_light: the point of this light that the ray from ref in direction wi meets.
   float pdf_Li(const Point3& ref, const Vector3& wi, const SurfaceInteraction& on_light) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
   // As if alpha were one everywhere.

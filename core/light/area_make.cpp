@@ -1,4 +1,4 @@
-// Builds a lamp's own copy of its shape.
+// Builds a light's own copy of its shape.
 
 #include "core/geometry/surface_bounds.h"
 #include "core/light/area.h"

@@ -3,7 +3,7 @@
 namespace kaustik {
 
 std::optional<LightSample> GoniometricLight::sample_Li(const Point3& ref, const Point2& /*u*/) const {
-  return sample_point_lamp(position, ref, [&](const Vector3& w) { return intensity(w); });
+  return sample_point_light(position, ref, [&](const Vector3& w) { return intensity(w); });
 }
 
 std::optional<EmissionSample> GoniometricLight::sample_Le(const Point2& /*u_pos*/, const Point2& u_dir,

@@ -6,8 +6,8 @@
 
 namespace kaustik {
 
-// Point lamp whose radiant intensity depends on the direction: I (W/sr) times a map, of which the red channel
-// counts.
+// Point light whose radiant intensity depends on the direction: I (W/sr) times a map, of which the red
+// channel counts.
 struct GoniometricLight {
   static constexpr bool kDelta = true;
   static constexpr std::string_view kName = "goniometric";
@@ -17,7 +17,7 @@ struct GoniometricLight {
   std::shared_ptr<const DirectionMap> map;
   Rgb I{1};
 
-  // w unit, from the lamp.
+  // w unit, from the light.
   Rgb intensity(const Vector3& w) const { return I * map->value(w * to_world).x; }
   std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;

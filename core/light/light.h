@@ -46,7 +46,7 @@ inline Rgb escaped_radiance(const Light& light, const Ray& ray) {
       },
       light);
 }
-// Light of a lamp that arrives at x, before visibility. Most lamps ask only for the place.
+// Light of a light that arrives at x, before visibility. Most lights ask only for the place.
 inline std::optional<LightSample> sample_Li(const Light& light, const LightReceiver& x, const Point2& u) {
   return std::visit(
       [&](const auto& l) {

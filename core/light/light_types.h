@@ -25,7 +25,7 @@ struct LightReceiver {
   bool two_sided = true;
 };
 
-// How area lamps choose photon directions.
+// How area lights choose photon directions.
 enum class EmissionMode {
   kCosine,       // pdf cos/pi: equal flux per photon
   kUniformAngle  // the lecture's: theta and phi uniform, weighted by cos sin(theta) pi
@@ -37,14 +37,14 @@ struct LightSample {
   Rgb Li{0};      // radiance; for delta lights intensity / distance^2 or irradiance, with pdf 1
   float pdf = 0;  // per solid angle at the point; 1 for delta lights
   Point3 p_light{
-      0};  // where it comes from, already offset off the lamp towards the point; infinite lights: unused
+      0};  // where it comes from, already offset off the light towards the point; infinite lights: unused
   bool infinite = false;  // no end point: trace to t_max = infinity
 };
 
-// sample_Li of a lamp without extent; intensity(w): W/sr in the unit direction w from the lamp.
+// sample_Li of a light without extent; intensity(w): W/sr in the unit direction w from the light.
 template <class Intensity>
-std::optional<LightSample> sample_point_lamp(const Point3& position, const Point3& ref,
-                                             const Intensity& intensity) {
+std::optional<LightSample> sample_point_light(const Point3& position, const Point3& ref,
+                                              const Intensity& intensity) {
   const Vector3 to_light = position - ref;
   const float distance2 = length_squared(to_light);
   if (!(distance2 > 0)) return std::nullopt;
@@ -56,8 +56,8 @@ std::optional<LightSample> sample_point_lamp(const Point3& position, const Point
 
 // Start of a photon path.
 struct EmissionSample {
-  Ray ray;      // unit direction, origin offset off the lamp
-  Rgb flux{0};  // Le |cos| / (pdf_pos pdf_dir): watts if this were the only photon of this lamp
+  Ray ray;      // unit direction, origin offset off the light
+  Rgb flux{0};  // Le |cos| / (pdf_pos pdf_dir): watts if this were the only photon of this light
   // The photon comes from infinity and only passes through the origin: there is none where the ray backwards
   // meets anything.
   bool from_sky = false;

@@ -74,7 +74,7 @@ float ProjectedImage::least_cosine() const {
 }
 
 std::optional<LightSample> ProjectionLight::sample_Li(const Point3& ref, const Point2& /*u*/) const {
-  return sample_point_lamp(position, ref, [&](const Vector3& w) { return intensity(w); });
+  return sample_point_light(position, ref, [&](const Vector3& w) { return intensity(w); });
 }
 
 std::optional<EmissionSample> ProjectionLight::sample_Le(const Point2& /*u_pos*/, const Point2& u_dir,

@@ -45,7 +45,7 @@ struct ProjectionLight {
   std::shared_ptr<const ProjectedImage> image;
   float scale = 1;
 
-  // w unit, from the lamp.
+  // w unit, from the light.
   Rgb intensity(const Vector3& w) const { return scale * image->value(w * to_world); }
   std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;

@@ -27,7 +27,7 @@ Rgb SpotLight::intensity(float cos_theta) const {
 }
 
 std::optional<LightSample> SpotLight::sample_Li(const Point3& ref, const Point2& /*u*/) const {
-  return sample_point_lamp(position, ref, [&](const Vector3& w) { return intensity(glm::dot(w, frame.z)); });
+  return sample_point_light(position, ref, [&](const Vector3& w) { return intensity(glm::dot(w, frame.z)); });
 }
 
 std::optional<EmissionSample> SpotLight::sample_Le(const Point2& /*u_pos*/, const Point2& u_dir,

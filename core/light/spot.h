@@ -4,7 +4,7 @@
 
 namespace kaustik {
 
-// Spot lamp: intensity I within acos(cos_falloff_start) of its axis, falling by pbrt's smoothstep to zero at
+// Spot light: intensity I within acos(cos_falloff_start) of its axis, falling by pbrt's smoothstep to zero at
 // acos(cos_total_width).
 struct SpotLight {
   static constexpr bool kDelta = true;

@@ -1,4 +1,4 @@
-// Relative power of the fluorescent lamps F1 to F12 (CIE 15:2004, table T.6), as in the data files of colord
+// Relative power of the fluorescent lights F1 to F12 (CIE 15:2004, table T.6), as in the data files of colord
 // 1.4.6.
 
 #include "core/spectrum/cie_tables.h"
@@ -83,8 +83,8 @@ constexpr double kFluorescent[12][81] = {
 
 }  // namespace
 
-std::span<const double, kFluorescentRows> fluorescent(int lamp) {
-  return std::span<const double, kFluorescentRows>(kFluorescent[lamp - 1]);
+std::span<const double, kFluorescentRows> fluorescent(int light) {
+  return std::span<const double, kFluorescentRows>(kFluorescent[light - 1]);
 }
 
 }  // namespace kaustik::cie

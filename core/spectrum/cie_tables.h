@@ -14,7 +14,7 @@ std::span<const double, kRows> daylight(int component);
 
 inline constexpr int kFluorescentFirst = 380;
 inline constexpr int kFluorescentRows = 81;  // to 780 nm
-// Of lamp 1 to 12.
-std::span<const double, kFluorescentRows> fluorescent(int lamp);
+// Of light 1 to 12.
+std::span<const double, kFluorescentRows> fluorescent(int light);
 
 }  // namespace kaustik::cie

@@ -34,11 +34,11 @@ constexpr Glass kGlasses[] = {
     {"SF11", {1.73759695, 0.313747346, 1.89878101}, {0.013188707, 0.0623068142, 155.23629}},
 };
 
-Spectrum fluorescent(int lamp) {
+Spectrum fluorescent(int light) {
   std::vector<double> wavelengths;
   for (int i = 0; i < cie::kFluorescentRows; ++i)
     wavelengths.push_back(cie::kFluorescentFirst + cie::kStep * i);
-  return sampled_spectrum(wavelengths, cie::fluorescent(lamp));
+  return sampled_spectrum(wavelengths, cie::fluorescent(light));
 }
 
 struct Named {
@@ -50,8 +50,8 @@ void add_illuminants(std::vector<Named>& all) {
   all.push_back({"stdillum-A", illuminant_a});
   for (const int t : {50, 55, 60, 65})
     all.push_back({fmt::format("stdillum-D{}", t), [t] { return daylight(100 * t); }});
-  for (int lamp = 1; lamp <= 12; ++lamp)
-    all.push_back({fmt::format("stdillum-F{}", lamp), [lamp] { return fluorescent(lamp); }});
+  for (int light = 1; light <= 12; ++light)
+    all.push_back({fmt::format("stdillum-F{}", light), [light] { return fluorescent(light); }});
   all.push_back({"illum-acesD60", [] { return daylight(6000); }});
 }
 

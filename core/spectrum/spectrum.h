@@ -37,7 +37,7 @@ Spectrum illuminant_a();
 glm::dvec3 tristimulus(const Spectrum& s);
 
 // Colours in linear Rec. 709, whose white is D65. Those outside of its gamut have negative components.
-// Of a light: its chromaticity at luminance 1, which is how pbrt scales the spectra of lamps. NaN for one
+// Of a light: its chromaticity at luminance 1, which is how pbrt scales the spectra of lights. NaN for one
 // that nobody sees.
 glm::dvec3 emitted_colour(const Spectrum& s);
 // Of a share that is reflected, or any other coefficient: seen under D65. A constant c gives (c, c, c).

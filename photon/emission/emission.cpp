@@ -5,16 +5,16 @@ namespace kaustik::photon {
 std::optional<EmissionSample> emit_photon(const Scene& scene, const EmissionNumbers& u, uint64_t total,
                                           EmissionMode mode, std::optional<uint32_t> only) {
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return std::nullopt;
-  uint32_t lamp = only.value_or(0);
-  double p_lamp = 1;
+  uint32_t light = only.value_or(0);
+  double p_light = 1;
   if (!only && scene.lights.size() > 1) {
-    const DiscreteDistribution::Sample chosen = scene.light_power.sample(u.lamp);
-    lamp = chosen.index;
-    p_lamp = chosen.pdf;
+    const DiscreteDistribution::Sample chosen = scene.light_power.sample(u.light);
+    light = chosen.index;
+    p_light = chosen.pdf;
   }
-  auto start = std::visit([&](const auto& light) { return light.sample_Le(u.position, u.direction, mode); },
-                          scene.lights[lamp]);
-  if (start) start->flux *= static_cast<float>(1 / (p_lamp * static_cast<double>(total)));
+  auto start = std::visit([&](const auto& l) { return l.sample_Le(u.position, u.direction, mode); },
+                          scene.lights[light]);
+  if (start) start->flux *= static_cast<float>(1 / (p_light * static_cast<double>(total)));
   return start;
 }
 

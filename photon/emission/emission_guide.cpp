@@ -195,10 +195,10 @@ float EmissionGuide::warp(EmissionPoint& u) const {
 void EmissionGuide::warp(EmissionLanes& starts, size_t count, EmissionLanes::Column& weights) const {
   auto& numbers = starts.position_direction.u;
   for (size_t k = 0; k < count; ++k) {
-    EmissionPoint u{numbers[0][k], numbers[1][k], numbers[2][k], numbers[3][k], starts.u_lamp[k]};
+    EmissionPoint u{numbers[0][k], numbers[1][k], numbers[2][k], numbers[3][k], starts.u_light[k]};
     weights[k] = warp(u);
     for (size_t d = 0; d < 4; ++d) numbers[d][k] = u[d];
-    starts.u_lamp[k] = u[4];
+    starts.u_light[k] = u[4];
   }
 }
 

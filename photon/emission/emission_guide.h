@@ -4,8 +4,8 @@
 // Ram and Gray 2011, "Density Estimation Trees"; the warp after McCool and Harwood 1997, "Probability
 // Trees").
 //
-// A photon starts from numbers u in the unit cube: position, direction, lamp. Instead of uniformly they are
-// drawn with a density p(u) that is constant over boxes, and the flux is divided by p. Lamps and emission
+// A photon starts from numbers u in the unit cube: position, direction, light. Instead of uniformly they are
+// drawn with a density p(u) that is constant over boxes, and the flux is divided by p. Lights and emission
 // know nothing of it, and each number is warped monotonically on the way to its box, so that points which are
 // spread evenly stay so.
 
@@ -17,7 +17,7 @@
 
 namespace kaustik::photon {
 
-// Position, direction, lamp: EmissionNumbers as a point.
+// Position, direction, light: EmissionNumbers as a point.
 inline constexpr uint32_t kEmissionNumbers = 5;
 using EmissionPoint = std::array<float, kEmissionNumbers>;
 

@@ -48,53 +48,53 @@ HWY_EXPORT(StartOnTriangles);
 
 namespace {
 
-// The lamp that the photons of a group choose, mostly the same one again.
-class ChosenLamp {
+// The light that the photons of a group choose, mostly the same one again.
+class ChosenLight {
  public:
-  ChosenLamp(const Scene& scene, uint64_t total, EmissionMode mode, std::optional<uint32_t> only)
+  ChosenLight(const Scene& scene, uint64_t total, EmissionMode mode, std::optional<uint32_t> only)
       : scene_(scene), total_(total), mode_(mode), only_(only) {}
 
-  void choose(float u_lamp) {
+  void choose(float u_light) {
     if (only_ || scene_.lights.size() == 1) return set(only_.value_or(0), 1);
-    const DiscreteDistribution::Sample chosen = scene_.light_power.sample(u_lamp);
+    const DiscreteDistribution::Sample chosen = scene_.light_power.sample(u_light);
     set(chosen.index, chosen.pdf);
   }
-  // Null when the lamp's photons cannot start in lanes.
+  // Null when the light's photons cannot start in lanes.
   const TriangleEmitter* triangles() const { return triangles_; }
   bool twosided() const { return area_->twosided; }
   const Rgb& flux() const { return flux_; }
 
  private:
-  void set(uint32_t lamp, float p_lamp) {
-    if (area_ && lamp == lamp_) return;
-    lamp_ = lamp;
+  void set(uint32_t light, float p_light) {
+    if (area_ && light == light_) return;
+    light_ = light;
     triangles_ = nullptr;
-    area_ = std::get_if<DiffuseAreaLight>(&scene_.lights[lamp]);
+    area_ = std::get_if<DiffuseAreaLight>(&scene_.lights[light]);
     if (!area_ || area_->image || mode_ != EmissionMode::kCosine) return;
     triangles_ = std::get_if<TriangleEmitter>(&area_->surface);
-    flux_ = area_->power() * static_cast<float>(1 / (double{p_lamp} * static_cast<double>(total_)));
+    flux_ = area_->power() * static_cast<float>(1 / (double{p_light} * static_cast<double>(total_)));
   }
 
   const Scene& scene_;
   uint64_t total_;
   EmissionMode mode_;
   std::optional<uint32_t> only_;
-  uint32_t lamp_ = 0;
+  uint32_t light_ = 0;
   const DiffuseAreaLight* area_ = nullptr;
   const TriangleEmitter* triangles_ = nullptr;
   Rgb flux_{0};
 };
 
-void set_start(EmissionLanes& lanes, size_t k, const ChosenLamp& lamp) {
+void set_start(EmissionLanes& lanes, size_t k, const ChosenLight& light) {
   const auto& u = lanes.position_direction.u;
-  const DiscreteDistribution::Sample choice = lamp.triangles()->by_area.sample(u[0][k]);
-  const TriangleEmitter::Triangle& t = lamp.triangles()->triangles[choice.index];
+  const DiscreteDistribution::Sample choice = light.triangles()->by_area.sample(u[0][k]);
+  const TriangleEmitter::Triangle& t = light.triangles()->triangles[choice.index];
   lanes.u[0][k] = choice.u_remapped;
   lanes.u[1][k] = u[1][k];
   lanes.u[2][k] = u[2][k];
   lanes.u[3][k] = u[3][k];
   float side = 1;
-  if (lamp.twosided()) {
+  if (light.twosided()) {
     side = u[2][k] < 0.5f ? 1.0f : -1.0f;
     lanes.u[2][k] = u[2][k] < 0.5f ? 2 * u[2][k] : 2 * u[2][k] - 1;
   }
@@ -102,7 +102,7 @@ void set_start(EmissionLanes& lanes, size_t k, const ChosenLamp& lamp) {
   VertexLanes::set(lanes.e1, k, t.e1);
   VertexLanes::set(lanes.e2, k, t.e2);
   VertexLanes::set(lanes.n, k, side * t.n);
-  VertexLanes::set(lanes.flux, k, lamp.flux());
+  VertexLanes::set(lanes.flux, k, light.flux());
 }
 
 void set_start(EmissionLanes& lanes, size_t k, const std::optional<EmissionSample>& start) {
@@ -119,18 +119,18 @@ void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t co
                 std::optional<uint32_t> only) {
   std::fill_n(lanes.emitted, count, 0);
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return;
-  ChosenLamp lamp(scene, total, mode, only);
+  ChosenLight light(scene, total, mode, only);
   bool in_lanes[VertexLanes::kLanes];
   for (size_t k = 0; k < count; ++k) {
-    lamp.choose(lanes.u_lamp[k]);
-    in_lanes[k] = lamp.triangles() != nullptr;
-    if (in_lanes[k]) set_start(lanes, k, lamp);
+    light.choose(lanes.u_light[k]);
+    in_lanes[k] = light.triangles() != nullptr;
+    if (in_lanes[k]) set_start(lanes, k, light);
   }
   HWY_DYNAMIC_DISPATCH(StartOnTriangles)(lanes, count);
   for (size_t k = 0; k < count; ++k) {
     if (in_lanes[k]) continue;
     const auto& u = lanes.position_direction.u;
-    const EmissionNumbers numbers{{u[0][k], u[1][k]}, {u[2][k], u[3][k]}, lanes.u_lamp[k]};
+    const EmissionNumbers numbers{{u[0][k], u[1][k]}, {u[2][k], u[3][k]}, lanes.u_light[k]};
     set_start(lanes, k, emit_photon(scene, numbers, total, mode, only));
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Photon starts, many at once: lamps of triangles in SIMD lanes, the others one by one.
+// Photon starts, many at once: lights of triangles in SIMD lanes, the others one by one.
 
 #include "photon/emission/emission.h"
 #include "photon/trace/vertex_lanes.h"
@@ -9,9 +9,9 @@ namespace kaustik::photon {
 struct EmissionLanes {
   using Column = VertexLanes::Column;
 
-  // In: the random numbers of emit_photon(). u_lamp is needed when there are several lamps.
+  // In: the random numbers of emit_photon(). u_light is needed when there are several lights.
   SobolLanes position_direction;
-  Column u_lamp;
+  Column u_light;
 
   // Out: rays and fluxes as emit_photon() makes them; emitted is zero where it makes none.
   accel::RayLanes ray;
@@ -19,7 +19,7 @@ struct EmissionLanes {
   int32_t emitted[VertexLanes::kLanes];  // kFromSky: EmissionSample::from_sky
   static constexpr int32_t kFromSky = 2;
 
-  // Between: for lamps of triangles, the numbers left for the point and the direction, and the triangle
+  // Between: for lights of triangles, the numbers left for the point and the direction, and the triangle
   // chosen with its normal on the side that emits.
   alignas(64) Column u[4], p0[3], e1[3], e2[3], n[3];
 };

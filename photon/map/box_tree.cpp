@@ -107,7 +107,7 @@ bool BoxTree::Start::list(const CellRanges& ranges, int shift) {
   for (size_t r = 0; r < ranges.size; ++r) {
     const uint32_t begin = ranges.first[r] >> shift, end = (ranges.last[r] >> shift) + 1;
     if ((listed += end - begin) > kMost) return false;
-    // Mostly none, one or two are new, which a branch could not foretell.
+    // Mostly none, one or two are new, which a branch could not predict.
     const uint32_t first = std::max(next, begin);
     nodes[size] = first;
     size += first < end;

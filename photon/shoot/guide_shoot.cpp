@@ -108,7 +108,7 @@ class GuideLearner {
   Start start_of(const TraceSettings& trace, uint64_t index, double square) const {
     Sampler sampler(photon_stream(trace), index);
     const EmissionNumbers n = emission_numbers(scene_, sampler);
-    Start start{{n.position.x, n.position.y, n.direction.x, n.direction.y, n.lamp}};
+    Start start{{n.position.x, n.position.y, n.direction.x, n.direction.y, n.light}};
     const double weight = trace.guide ? double(trace.guide->warp(start.u)) : 1;
     const double to_one = double(trace.photons) / weight;
     start.square = square * to_one * to_one;

@@ -1,5 +1,5 @@
 #pragma once
-// Do the photons of a shoot fit in memory? Foretold from a small shoot, before the large one has taken it.
+// Do the photons of a shoot fit in memory? Predicted from a small shoot, before the large one has taken it.
 
 #include <array>
 
@@ -13,7 +13,7 @@ enum class PhotonUse { kRecords, kMaps };
 // Emitted for the forecast.
 inline constexpr uint64_t kForecastPhotons = 1u << 16;
 
-// Photons of each kind that shoot() will store, counted in a shoot of kForecastPhotons: n of them foretell
+// Photons of each kind that shoot() will store, counted in a shoot of kForecastPhotons: n of them predict
 // with a relative standard error near 1/sqrt(n).
 std::array<double, kPhotonKinds> forecast_stored(const Scene& scene, const accel::Bvh& bvh,
                                                  const TraceSettings& settings);

@@ -86,7 +86,7 @@ class Join {
   }
 
  private:
-  // Room for what is still to come, as the photons so far foretell, so that the array is hardly ever moved: a
+  // Room for what is still to come, as the photons so far predict, so that the array is hardly ever moved: a
   // move would hold it twice. Memory that is reserved and never written costs nothing.
   void make_room(PhotonRecords& all, size_t size, double done_share) {
     if (size <= all.capacity()) return;

@@ -16,7 +16,7 @@ namespace kaustik::photon {
 // Signed multiples of 2^unit_exponent watts, summed over the three channels. Straight rays behind the first
 // surface carry no energy of their own.
 struct EnergyLedger {
-  int64_t emitted = 0;     // set out from the lamps
+  int64_t emitted = 0;     // set out from the lights
   int64_t absorbed = 0;    // what BSDFs kept; below zero only by the correction for shading normals
   int64_t escaped = 0;     // with rays that met nothing
   int64_t terminated = 0;  // with paths as long as max_bounces, or whose rest no kind asked for
@@ -31,8 +31,9 @@ struct EnergyLedger {
   bool operator==(const EnergyLedger&) const = default;
 };
 
-// The unit's exponent for so many photons of these lamps: 2^16 units are the power of two below the mean flux
-// of a photon by the lamps' power as light_power has it. Scaling a scene by 2^k scales the unit exactly.
+// The unit's exponent for so many photons of these lights: 2^16 units are the power of two below the mean
+// flux of a photon by the lights' power as light_power has it. Scaling a scene by 2^k scales the unit
+// exactly.
 int energy_unit_exponent(const Scene& scene, uint64_t photons);
 
 // A photon holds at most so many units; more is counted as this.

@@ -123,13 +123,13 @@ class Tracer {
     counters_.emitted += count;
     for (size_t k = 0; k < count; ++k)
       walkers_.reversed_index[k] = reverse_bits(static_cast<uint32_t>(first + k));
-    if (scene_.lights.size() > 1 && !settings_.lamp) {
+    if (scene_.lights.size() > 1 && !settings_.light) {
       draw_from(1, count, 3, numbers_);
-      std::copy_n(numbers_.u[0], count, starts_.u_lamp);
+      std::copy_n(numbers_.u[0], count, starts_.u_light);
     }
     draw_from(0, count, 4, starts_.position_direction);
     if (settings_.guide) settings_.guide->warp(starts_, count, weights_);
-    emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_, settings_.lamp);
+    emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_, settings_.light);
     if (settings_.guide) weigh_starts(count);
     std::fill_n(walkers_.state, count, WalkState());
     to_energy_lanes(starts_.flux, count, units_per_watt_, walkers_.energy);

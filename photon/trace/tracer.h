@@ -1,5 +1,5 @@
 #pragma once
-// One photon's life: from lamp to absorption, leaving records on non-specular surfaces.
+// One photon's life: from light to absorption, leaving records on non-specular surfaces.
 //
 // Path classes (Heckbert 1990; Jensen 2001, chapter 5; Jensen and Christensen 1995 for shadow photons):
 //   direct    L D            at the first surface, if it is non-specular
@@ -45,8 +45,8 @@ struct TraceSettings {
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
   bool shadow_behind_specular = false;
-  std::optional<uint32_t> lamp{};        // the only one that emits, with all photons; else each by its power
-  const EmissionGuide* guide = nullptr;  // not empty: draws the starts, of all lamps; else uniform
+  std::optional<uint32_t> light{};       // the only one that emits, with all photons; else each by its power
+  const EmissionGuide* guide = nullptr;  // not empty: draws the starts, of all lights; else uniform
   KindMask kinds;  // only what is asked for is traced: without `indirect` a photon ends at its first diffuse
                    // surface
 };

@@ -14,43 +14,43 @@ using Votes = std::vector<uint64_t>;
 // Keeps these photons apart from those of any pass that can be.
 constexpr uint64_t kVisibilityPass = 0x7669736962696c69;
 
-TraceSettings straight_photons(const VisibilitySettings& settings, uint32_t lamp, double share) {
+TraceSettings straight_photons(const VisibilitySettings& settings, uint32_t light, double share) {
   TraceSettings trace;
   trace.seed = settings.seed;
-  trace.pass = kVisibilityPass + lamp;
+  trace.pass = kVisibilityPass + light;
   trace.photons = static_cast<uint64_t>(std::llround(static_cast<double>(settings.photons) * share));
   trace.max_bounces = 1;
   trace.emission = settings.emission;
   trace.kinds.direct = trace.kinds.shadow = true;
   trace.shadow_behind_specular = true;
-  trace.lamp = lamp;
+  trace.light = light;
   return trace;
 }
 
 }  // namespace
 
-VisibilityTree foretell_visibility(const Scene& scene, const accel::Bvh& bvh,
-                                   const VisibilitySettings& settings) {
+VisibilityTree predict_visibility(const Scene& scene, const accel::Bvh& bvh,
+                                  const VisibilitySettings& settings) {
   const MortonCube cube = MortonCube::around(scene.bounds);
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return {};
   const SurfaceTable surfaces(scene);
   tbb::enumerable_thread_specific<Votes> by_thread;
-  const size_t lamps = std::min<size_t>(scene.lights.size(), VisibilityTree::kMostLamps);
-  const auto power = [&](uint32_t lamp) {
-    return is_infinite(scene.lights[lamp]) ? 0.0 : double(scene.light_power.pdf(lamp));
+  const size_t lights = std::min<size_t>(scene.lights.size(), VisibilityTree::kMostLights);
+  const auto power = [&](uint32_t light) {
+    return is_infinite(scene.lights[light]) ? 0.0 : double(scene.light_power.pdf(light));
   };
   double sum = 0;
-  for (uint32_t lamp = 0; lamp < scene.lights.size(); ++lamp) sum += power(lamp);
-  for (uint32_t lamp = 0; lamp < lamps; ++lamp) {
-    if (!(power(lamp) > 0)) continue;
-    const TraceSettings trace = straight_photons(settings, lamp, power(lamp) / sum);
+  for (uint32_t light = 0; light < scene.lights.size(); ++light) sum += power(light);
+  for (uint32_t light = 0; light < lights; ++light) {
+    if (!(power(light) > 0)) continue;
+    const TraceSettings trace = straight_photons(settings, light, power(light) / sum);
     const uint64_t blocks = (trace.photons + kShootBlock - 1) / kShootBlock;
     tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t block) {
       Votes& votes = by_thread.local();
       TraceCounters ignored;
       const uint64_t first = block * kShootBlock, end = std::min(trace.photons, first + kShootBlock);
       const auto sink = [&](PhotonKind kind, const Photon& photon) {
-        votes.push_back(VisibilityTree::vote(cube, lamp, photon.p, photon.n, kind == PhotonKind::kDirect));
+        votes.push_back(VisibilityTree::vote(cube, light, photon.p, photon.n, kind == PhotonKind::kDirect));
       };
       trace_photons(scene, surfaces, bvh, trace, first, end, sink, ignored);
     });

@@ -8,7 +8,7 @@ namespace kaustik::photon {
 
 namespace {
 
-// A vote, from its highest bits: lamp and direction, a digit of six bits for each level, hidden.
+// A vote, from its highest bits: light and direction, a digit of six bits for each level, hidden.
 constexpr int kTreeShift = 55;
 constexpr int kDigitBits = 6;
 
@@ -30,16 +30,16 @@ int probability_exponent(uint64_t votes) {
   return k;
 }
 
-uint64_t VisibilityTree::vote(const MortonCube& cube, uint32_t lamp, const Point3& p, const Normal3& n,
+uint64_t VisibilityTree::vote(const MortonCube& cube, uint32_t light, const Point3& p, const Normal3& n,
                               bool seen) {
   const MortonCell cell = cube.cell(p);
-  uint64_t key = lamp * kDirections + direction(n);
+  uint64_t key = light * kDirections + direction(n);
   for (int level = 0; level < kLevels; ++level) key = key << kDigitBits | digit(cell, level);
   return key << 1 | !seen;
 }
 
 VisibilityTree::VisibilityTree(const MortonCube& cube, std::vector<uint64_t> votes) : cube_(cube) {
-  static_assert(digit_shift(kLevels - 1) == 1 && (kMostLamps * kDirections) >> (64 - kTreeShift) == 0);
+  static_assert(digit_shift(kLevels - 1) == 1 && (kMostLights * kDirections) >> (64 - kTreeShift) == 0);
   tbb::parallel_sort(votes.begin(), votes.end());
   const uint64_t* const end = votes.data() + votes.size();
   for (const uint64_t* at = votes.data(); at < end;) {
@@ -51,7 +51,7 @@ VisibilityTree::VisibilityTree(const MortonCube& cube, std::vector<uint64_t> vot
   }
 }
 
-// What votes of one cell foretell: -(2 k + v) with p = 2^-k, or 0.
+// What votes of one cell predict: -(2 k + v) with p = 2^-k, or 0.
 int32_t VisibilityTree::leaf(uint64_t votes, uint64_t hidden) {
   const int k = hidden == 0 || hidden == votes ? probability_exponent(votes) : 0;
   return k == 0 ? 0 : -(2 * k + (hidden == 0));

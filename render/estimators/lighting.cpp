@@ -11,7 +11,7 @@ float power_heuristic(float pdf, float other) {
   return 1 / (1 + ratio * ratio);
 }
 
-// The shadow ray ends just off the lamp: p_light is already offset, t counts in lengths of d.
+// The shadow ray ends just off the light: p_light is already offset, t counts in lengths of d.
 Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
   if (s.infinite) return si.spawn(s.wi);
   Ray ray = si.spawn(s.wi, 1);
@@ -19,12 +19,12 @@ Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
   return ray;
 }
 
-// Whether the lamp is seen from x, as far as photons foretell it: on the viewer's side. Light that comes
+// Whether the light is seen from x, as far as photons predict it: on the viewer's side. Light that comes
 // through arrives on the other, and in a glossy lobe a wrong forecast would be too bright a sample.
-photon::VisibilityGuess foretold(const RenderContext& ctx, const ShadingPoint& x, LobePart part,
-                                 uint32_t lamp) {
+photon::VisibilityGuess predicted(const RenderContext& ctx, const ShadingPoint& x, LobePart part,
+                                  uint32_t light) {
   if (!ctx.maps.visibility || part == LobePart::kGlossy || transmits(*x.bsdf)) return {};
-  return ctx.maps.visibility->guess(lamp, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
+  return ctx.maps.visibility->guess(light, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
 }
 
 float trace_visibility(const RenderContext& ctx, const ShadingPoint& x, const LightSample& s,
@@ -37,51 +37,51 @@ bool dark(const Scene& scene) {
   return scene.light_power.empty() || !(scene.light_power.total() > 0);
 }
 
-// Few lamps are all sampled, each once; of more, one.
-constexpr size_t kMostLampsSampled = LightSampler::kMostByPower;
+// Few lights are all sampled, each once; of more, one.
+constexpr size_t kMostLightsSampled = LightSampler::kMostByPower;
 bool samples_each(const Scene& scene) {
-  return scene.lights.size() <= kMostLampsSampled;
+  return scene.lights.size() <= kMostLightsSampled;
 }
-// How many samples of a lamp are expected.
-float samples_of(const Scene& scene, const LightReceiver& x, uint32_t lamp) {
-  return samples_each(scene) ? 1 : scene.light_sampler.probability(x, lamp);
+// How many samples of a light are expected.
+float samples_of(const Scene& scene, const LightReceiver& x, uint32_t light) {
+  return samples_each(scene) ? 1 : scene.light_sampler.probability(x, light);
 }
 
-// What a sample of a lamp brings where it is seen: f Li / pdf, times its share against BSDF sampling.
-struct LampSample {
+// What a sample of a light brings where it is seen: f Li / pdf, times its share against BSDF sampling.
+struct WeightedLightSample {
   LightSample at;
   Rgb brings{0};
 };
-// expected: number of samples of the lamp. Nothing where it brings nothing.
-std::optional<LampSample> sample_lamp(const Scene& scene, uint32_t lamp, float expected,
-                                      const ShadingPoint& x, LightWeight weight, LobePart part,
-                                      const Point2& u) {
-  const auto s = sample_Li(scene.lights[lamp], x.receiver(), u);
+// expected: number of samples of the light. Nothing where it brings nothing.
+std::optional<WeightedLightSample> sample_light(const Scene& scene, uint32_t light, float expected,
+                                                const ShadingPoint& x, LightWeight weight, LobePart part,
+                                                const Point2& u) {
+  const auto s = sample_Li(scene.lights[light], x.receiver(), u);
   if (!s || !(s->pdf > 0)) return std::nullopt;
   const Rgb f = f_cos(x, s->wi, part);
   if (is_black(f) || is_black(s->Li)) return std::nullopt;
   const float pdf = s->pdf * expected;
-  const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[lamp]);
+  const bool shared = weight == LightWeight::kMis && !is_delta(scene.lights[light]);
   const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
-  return LampSample{*s, f * s->Li * (w / pdf)};
+  return WeightedLightSample{*s, f * s->Li * (w / pdf)};
 }
 
-// The sum over all lamps of what each brings times V, as foretold, put right for one of them at most: chosen
-// by what it brings times p. As often as the most doubtful of them alone would be.
-Rgb sample_each_lamp(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, float u_ray,
-                     const Point2& u, TileCounters& counters, LobePart part) {
+// The sum over all lights of what each brings times V, as predicted, put right for one of them at most:
+// chosen by what it brings times p. As often as the most doubtful of them alone would be.
+Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, float u_ray,
+                      const Point2& u, TileCounters& counters, LobePart part) {
   struct Candidate {
-    LampSample sample;
+    WeightedLightSample sample;
     float v, size;
   };
-  std::array<Candidate, kMostLampsSampled> candidates;
+  std::array<Candidate, kMostLightsSampled> candidates;
   size_t count = 0;
   float all = 0, p = 0;
   Rgb sum(0);
-  for (uint32_t lamp = 0; lamp < ctx.scene.lights.size(); ++lamp) {
-    const auto s = sample_lamp(ctx.scene, lamp, 1, x, weight, part, u);
+  for (uint32_t light = 0; light < ctx.scene.lights.size(); ++light) {
+    const auto s = sample_light(ctx.scene, light, 1, x, weight, part, u);
     if (!s) continue;
-    const photon::VisibilityGuess guess = foretold(ctx, x, part, lamp);
+    const photon::VisibilityGuess guess = predicted(ctx, x, part, light);
     const float size = s->brings.x + s->brings.y + s->brings.z;
     sum += s->brings * guess.v;
     all += size * guess.p;
@@ -100,9 +100,9 @@ Rgb sample_each_lamp(const RenderContext& ctx, const ShadingPoint& x, LightWeigh
   return sum;
 }
 
-// f Li / pdf of a sample of one lamp.
-Rgb unoccluded_from(const Scene& scene, uint32_t lamp, const ShadingPoint& x, const Point2& u) {
-  const auto s = sample_lamp(scene, lamp, 1, x, LightWeight::kAlone, LobePart::kBroad, u);
+// f Li / pdf of a sample of one light.
+Rgb unoccluded_from(const Scene& scene, uint32_t light, const ShadingPoint& x, const Point2& u) {
+  const auto s = sample_light(scene, light, 1, x, LightWeight::kAlone, LobePart::kBroad, u);
   return s ? s->brings : Rgb(0);
 }
 
@@ -110,35 +110,35 @@ Rgb unoccluded_from(const Scene& scene, uint32_t lamp, const ShadingPoint& x, co
 
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
                   TileCounters& counters, LobePart part) {
-  const float u_lamp = sampler.next_1d();
+  const float u_light = sampler.next_1d();
   const Point2 u = sampler.next_2d();
   const Scene& scene = ctx.scene;
   if (dark(scene)) return Rgb(0);
   if (scene.lights.size() > 1 && samples_each(scene))
-    return sample_each_lamp(ctx, x, weight, u_lamp, u, counters, part);
-  const auto lamp = scene.light_sampler.choose(x.receiver(), u_lamp);
-  if (!lamp) return Rgb(0);
-  // The number that chose the lamp is uniform again, whatever the lamp and the point on it.
-  const photon::VisibilityGuess guess = foretold(ctx, x, part, lamp->lamp);
-  const bool traced = lamp->u_remapped < guess.p;
+    return sample_each_light(ctx, x, weight, u_light, u, counters, part);
+  const auto light = scene.light_sampler.choose(x.receiver(), u_light);
+  if (!light) return Rgb(0);
+  // The number that chose the light is uniform again, whatever the light and the point on it.
+  const photon::VisibilityGuess guess = predicted(ctx, x, part, light->light);
+  const bool traced = light->u_remapped < guess.p;
   if (!traced && guess.v == 0) return Rgb(0);
-  const auto s = sample_lamp(scene, lamp->lamp, lamp->probability, x, weight, part, u);
+  const auto s = sample_light(scene, light->light, light->probability, x, weight, part, u);
   if (!s) return Rgb(0);
   return s->brings *
          (traced ? guess.v + (trace_visibility(ctx, x, s->at, counters) - guess.v) / guess.p : guess.v);
 }
 
 Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler) {
-  const float u_lamp = sampler.next_1d();
+  const float u_light = sampler.next_1d();
   const Point2 u = sampler.next_2d();
   const Scene& scene = ctx.scene;
   if (dark(scene)) return Rgb(0);
-  if (scene.lights.size() > kMostLampsSummed) {
-    const auto lamp = scene.light_sampler.choose(x.receiver(), u_lamp);
-    return lamp ? unoccluded_from(scene, lamp->lamp, x, u) / lamp->probability : Rgb(0);
+  if (scene.lights.size() > kMostLightsSummed) {
+    const auto light = scene.light_sampler.choose(x.receiver(), u_light);
+    return light ? unoccluded_from(scene, light->light, x, u) / light->probability : Rgb(0);
   }
   Rgb sum(0);
-  for (uint32_t lamp = 0; lamp < scene.lights.size(); ++lamp) sum += unoccluded_from(scene, lamp, x, u);
+  for (uint32_t light = 0; light < scene.lights.size(); ++light) sum += unoccluded_from(scene, light, x, u);
   return sum;
 }
 

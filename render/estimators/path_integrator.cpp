@@ -11,7 +11,7 @@ struct PathState {
   int events = 1;         // scattering events since x, x included
   int diffuse = 0;        // those by broad lobes, x included
   bool specular = false;  // the last event was specular
-  bool has_pdf = false;   // it was no delta lobe's: lamps were sampled there, too
+  bool has_pdf = false;   // it was no delta lobe's: lights were sampled there, too
   LightReceiver ref;      // where it was
   float pdf = 0;          // density of the ray that left it
 };
@@ -24,21 +24,21 @@ bool follows_indirect(const RenderContext& ctx) {
   return ctx.plan.indirect == IndirectEstimator::kPaths;
 }
 
-// Where a lamp met by the path is counted, or nothing when another estimator owns it. specular: of the event
-// that leads to the lamp.
-Rgb* owner_of_lamp(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
+// Where a light met by the path is counted, or nothing when another estimator owns it. specular: of the event
+// that leads to the light.
+Rgb* owner_of_light(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
   if (path.diffuse == 1) {
     if (specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
-    return samples_lamps(ctx.plan.direct) ? &light->direct : nullptr;
+    return samples_lights(ctx.plan.direct) ? &light->direct : nullptr;
   }
   return specular && caustics_by_map(ctx) ? nullptr : &light->indirect;
 }
 
-void add_lamp(const RenderContext& ctx, const PathState& path, const SurfaceInteraction& si, const Ray& ray,
-              PathLight* light) {
+void add_light(const RenderContext& ctx, const PathState& path, const SurfaceInteraction& si, const Ray& ray,
+               PathLight* light) {
   const Rgb Le = emitted(ctx.scene, si, -ray.d);
   if (is_black(Le)) return;
-  Rgb* owner = owner_of_lamp(ctx, path, path.specular, light);
+  Rgb* owner = owner_of_light(ctx, path, path.specular, light);
   if (!owner) return;
   const float w = path.has_pdf ? emitter_hit_weight(ctx.scene, path.ref, ray.d, path.pdf, si) : 1;
   *owner += path.beta * Le * w;
@@ -46,7 +46,7 @@ void add_lamp(const RenderContext& ctx, const PathState& path, const SurfaceInte
 
 void add_escape(const RenderContext& ctx, const PathState& path, const Ray& ray, PathLight* light) {
   if (ctx.scene.infinite_lights.empty()) return;
-  if (Rgb* owner = owner_of_lamp(ctx, path, path.specular, light))
+  if (Rgb* owner = owner_of_light(ctx, path, path.specular, light))
     *owner += path.beta *
               (path.has_pdf ? escaped_weighted(ctx.scene, path.ref, ray, path.pdf) : escaped(ctx.scene, ray));
 }
@@ -98,7 +98,7 @@ bool visit(const RenderContext& ctx, const ShadingPoint& y, PathState* path, Pat
       return false;
   }
   if (parts.glossy) {
-    if (Rgb* owner = owner_of_lamp(ctx, *path, true, light))
+    if (Rgb* owner = owner_of_light(ctx, *path, true, light))
       *owner += path->beta * sample_direct(ctx, y, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
   }
   return !parts.broad || survives(path, sampler);
@@ -124,7 +124,7 @@ PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& s
       add_escape(ctx, path, ray, &light);
       return light;
     }
-    add_lamp(ctx, path, si, ray, &light);
+    add_light(ctx, path, si, ray, &light);
     if (++path.events > ctx.settings.max_bounces) return light;
     const ShadingPoint y(ctx.scene, si, -ray.d);
     if (!visit(ctx, y, &path, &light, sampler, counters)) return light;

@@ -4,7 +4,7 @@
 //   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
 //   Lr = direct + caustic + indirect at points x of the chain, by their broad lobes; where all lobes of a
 //        point are broad, the chain ends
-//        direct    L D S* E                 lamp samples, photons or both                   add_direct
+//        direct    L D S* E                 light samples, photons or both                   add_direct
 //        caustic   L S+ D S* E              photons or paths                                add_reflected
 //        indirect  L S* D (S|D)* D S* E     photons or paths                                add_reflected
 //
@@ -56,9 +56,9 @@ bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, Lec
   return answer.use_photons();
 }
 
-// BSDF sampling finds lamps too when a path leaves x anyway: then both share the direct light.
+// BSDF sampling finds lights too when a path leaves x anyway: then both share the direct light.
 LightWeight light_weight(const EstimatorPlan& plan) {
-  return samples_lamps(plan.direct) && traces_paths(plan) ? LightWeight::kMis : LightWeight::kAlone;
+  return samples_lights(plan.direct) && traces_paths(plan) ? LightWeight::kMis : LightWeight::kAlone;
 }
 
 // Adds beta times the direct light at x.
@@ -122,7 +122,7 @@ struct Branch {
   LeftBy last{};
 };
 
-// Lamps that a glossy lobe leads to are sampled where it is, too.
+// Lights that a glossy lobe leads to are sampled where it is, too.
 Rgb emission_seen(const Scene& scene, const LeftBy& last, const SurfaceInteraction& si, const Vector3& d) {
   const Rgb Le = emitted(scene, si, -d);
   if (!last.glossy || is_black(Le)) return Le;
@@ -207,7 +207,7 @@ class CameraPath {
   }
 
   // Follows both the reflected and the refracted ray, by their factors instead of by chance, while neither
-  // is too dim: what little a surface of glass reflects of a lamp is noise otherwise. False, and nothing is
+  // is too dim: what little a surface of glass reflects of a light is noise otherwise. False, and nothing is
   // done, where there are not two, or one is dim.
   bool divide(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
     constexpr float kDim = 1.0f / 256;

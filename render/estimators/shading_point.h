@@ -27,7 +27,7 @@ struct ShadingPoint {
 
   bool specular() const { return is_specular(*bsdf); }
 
-  // As the choice of a lamp sees it: diffuse surfaces scatter light on the viewer's side alone.
+  // As the choice of a light sees it: diffuse surfaces scatter light on the viewer's side alone.
   LightReceiver receiver() const {
     const bool diffuse =
         std::holds_alternative<Lambertian>(*bsdf) || std::holds_alternative<OrenNayar>(*bsdf);

@@ -46,7 +46,7 @@ struct PixelResult {
   Rgb radiance() const { return emitted + direct + caustic + indirect; }
 };
 
-// What a sample brings. Traced light is what it needs rays for alone: emission, and direct light by lamp
+// What a sample brings. Traced light is what it needs rays for alone: emission, and direct light by light
 // samples. What photon maps say of a pixel can be left to its other samples.
 enum class SampleLight { kAll, kTraced };
 inline constexpr size_t kSampleLights = 2;

@@ -21,8 +21,8 @@ double size_of(const Scene& scene) {
   return radius > 0 && std::isfinite(radius) ? radius : 1;
 }
 
-// Radiance to expect of what a lamp lights, W/(m^2 sr): generous.
-struct LampBrightness {
+// Radiance to expect of what a light lights, W/(m^2 sr): generous.
+struct LightBrightness {
   double scene_size;
   double operator()(const DiffuseAreaLight& l) const {
     return double(max_component(l.image ? l.L * l.image->brightest() : l.L));
@@ -140,16 +140,16 @@ ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   const double size = size_of(scene);
   double brightest = 0;
   for (const Light& light : scene.lights)
-    brightest = std::max(brightest, std::visit(LampBrightness{size}, light));
+    brightest = std::max(brightest, std::visit(LightBrightness{size}, light));
   // No channel of a sample is more than this times its brightest one.
   if (!scene.sensor.neutral) brightest *= largest_gain(scene.sensor);
   const Point3 eye = scene.camera.to_world.point(Point3(0));
   const double lens = double(scene.camera.lens_radius() * max_row_sum(scene.camera.to_world.linear));
   const double farthest = double(glm::distance(eye, scene.bounds.center())) + size + lens;
   const int samples = exponent_above(static_cast<double>(samples_per_pass));
-  const int lamp = std::clamp(exponent_above(brightest), -400, 400);  // squares within double's range
-  return {.radiance = lamp + samples + 20 - ExactSum::kTermBits,
-          .square = 2 * (lamp + 10) - ExactSum::kTermBits,
+  const int light = std::clamp(exponent_above(brightest), -400, 400);  // squares within double's range
+  return {.radiance = light + samples + 20 - ExactSum::kTermBits,
+          .square = 2 * (light + 10) - ExactSum::kTermBits,
           .depth = exponent_above(farthest) + samples - ExactSum::kTermBits};
 }
 

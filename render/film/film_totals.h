@@ -20,10 +20,10 @@ struct ExactUnits {
   bool operator==(const ExactUnits&) const = default;
 };
 
-// From the lamps' radiance (as seen from a thousandth of the scene's size, for those that are points) and the
-// scene's size: a scene scaled by a power of two gives the same multiples. A pass's sum of radiance may be
-// 2^20 times that of samples that all see the brightest lamp, and its mean 2^10 times that lamp's radiance,
-// before it is clamped; the units lie 2^75 below the lamp, also those of squares.
+// From the lights' radiance (as seen from a thousandth of the scene's size, for those that are points) and
+// the scene's size: a scene scaled by a power of two gives the same multiples. A pass's sum of radiance may
+// be 2^20 times that of samples that all see the brightest light, and its mean 2^10 times that light's
+// radiance, before it is clamped; the units lie 2^75 below the light, also those of squares.
 ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass);
 
 // Where in a pixel's sums the three channels of each begin; depth and photons have one.

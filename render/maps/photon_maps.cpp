@@ -259,11 +259,11 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
   return kinds;
 }
 
-void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
+void predict_visibility(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                        const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
   if (plan.direct != DirectEstimator::kPredicted || maps->visibility) return;
   const Stopwatch watch;
-  maps->visibility = std::make_unique<const photon::VisibilityTree>(photon::foretell_visibility(
+  maps->visibility = std::make_unique<const photon::VisibilityTree>(photon::predict_visibility(
       scene, bvh, {settings.seed, visibility_photons(scene, settings), settings.emission}));
   statistics->photon_trace_s += watch.seconds();
 }

@@ -43,10 +43,10 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan);
 // as much for their time as more samples would. 0 where nothing may be guided.
 uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons);
 
-// Which lamps are seen from where, for `predicted`, unless it is there. Of scene and settings, not of the
-// pass: whatever is foretold, the image is right on average. Adds to the photons' seconds.
-void foretell_visibility(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics);
+// Which lights are seen from where, for `predicted`, unless it is there. Of scene and settings, not of the
+// pass: whatever is predicted, the image is right on average. Adds to the photons' seconds.
+void predict_visibility(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
+                        const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics);
 
 // Shoots and builds what the plan reads in one pass, in place of the maps of the pass before. radii: r0 of
 // all passes, settled from these maps where it is empty, so by the first pass. Adds to the photon fields of

@@ -115,7 +115,7 @@ SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSe
   if (!photons->radii) return {.each = 1};  // cancelled
   const std::vector<PixelRange> windows = windows_of(rendered_range(settings.crop, scene.camera));
   RenderStatistics ignored;
-  foretell_visibility(scene, bvh, settings, plan, &photons->maps, &ignored);
+  predict_visibility(scene, bvh, settings, plan, &photons->maps, &ignored);
   const auto seconds = [&](int spp, float adaptive) {
     RenderSettings tried = settings;
     tried.spp = spp, tried.adaptive = adaptive;

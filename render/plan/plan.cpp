@@ -31,8 +31,8 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
       plan.direct = Direct::kPhotons, plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
       break;
     case Method::kAuto:
-      // Direct light with foretold visibility: the error of shadow rays in less time. A sky is partly seen
-      // nearly everywhere, so that nothing is foretold of it. Indirect light by photons: less error
+      // Direct light with predicted visibility: the error of shadow rays in less time. A sky is partly seen
+      // nearly everywhere, so that nothing is predicted of it. Indirect light by photons: less error
       // in the same time than paths on every scene measured, and no fireflies where a small bright patch
       // lights the room (docs/accuracy.md).
       plan.direct = needs.any_light && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
@@ -43,7 +43,7 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
 }
 
 void leave_out(const RenderSettings& settings, const SceneNeeds& needs, EstimatorPlan* plan) {
-  if (!needs.any_light) plan->notes.push_back("no lamp: the image is black");
+  if (!needs.any_light) plan->notes.push_back("no light: the image is black");
   // Caustics are the only class that can be empty by construction: without specular surfaces, or without
   // light or something that receives it.
   const bool empty = !needs.specular || !needs.any_light || !needs.diffuse;
@@ -52,12 +52,12 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
     plan->notes.push_back(
         !needs.specular
             ? "no specular surface: no caustic pass; saves the caustic map, and a query of it at each point"
-        : !needs.any_light ? "no lamp: no caustic pass"
+        : !needs.any_light ? "no light: no caustic pass"
                            : "no diffuse surface: no caustic pass");
   }
   if (!needs.any_light && plan->indirect != Indirect::kOff && !settings.indirect) {
     plan->indirect = Indirect::kOff;
-    plan->notes.push_back("no lamp: no indirect light");
+    plan->notes.push_back("no light: no indirect light");
   }
 }
 
@@ -65,7 +65,7 @@ void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* note
   const photon::KindMask kinds = kinds_needed(plan);
   if (plan.direct == Direct::kPredicted)
     notes->push_back(
-        "direct and shadow photons are counted, not stored: they foretell which lamps are seen; "
+        "direct and shadow photons are counted, not stored: they predict which lights are seen; "
         "saves most shadow rays");
   if (!kinds.any()) {
     notes->push_back(
@@ -92,11 +92,11 @@ void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
   if (!needs.specular || !needs.any_light) return;
   if (plan->caustics == Caustic::kPaths && needs.only_delta_lights && needs.delta)
     plan->notes.push_back(
-        "paths cannot hit point, spot or distant lamps: their caustics are missing; use --caustics photons");
+        "paths cannot hit point, spot or distant lights: their caustics are missing; use --caustics photons");
   if (plan->caustics == Caustic::kOff && plan->indirect == Indirect::kPaths && needs.only_delta_lights &&
       needs.delta)
     plan->notes.push_back(
-        "caustics are off: light of point, spot or distant lamps through specular surfaces is missing "
+        "caustics are off: light of point, spot or distant lights through specular surfaces is missing "
         "from the indirect light too");
   if (plan->caustics == Caustic::kOff && needs.diffuse)
     plan->notes.push_back(

@@ -71,7 +71,7 @@ TEST_P(Determinism, SeedsGiveOtherNoise) {
   EXPECT_FALSE(same_bytes(a.film, render_with_threads(scene, settings).film));
 }
 
-// Twelve decades: 2^-20 to 2^20. Lamp radiance stays, so the picture stays; depth and radius scale.
+// Twelve decades: 2^-20 to 2^20. Light radiance stays, so the picture stays; depth and radius scale.
 TEST_P(Determinism, ScaledSceneGivesTheSameBits) {
   const auto one = render_with_threads(cornell(24), settings_of(GetParam()));
   for (const int exponent : {-20, -3, 20}) {

@@ -147,7 +147,7 @@ TEST(Render, RefusesSenselessSettings) {
   refused([](RenderSettings& s) { s.crop = {-1, 4, 0, 8}; });
 }
 
-// A path of one event is direct light only; a scene without lamps is black by every method.
+// A path of one event is direct light only; a scene without lights is black by every method.
 TEST(Render, BounceLimitAndDarkness) {
   Scene scene = cornell(16);
   RenderSettings settings;

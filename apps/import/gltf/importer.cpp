@@ -123,7 +123,7 @@ class Importer {
     return uv && std::any_of(uv->numbers.begin(), uv->numbers.end(), [](double x) { return x < 0 || x > 1; });
   }
 
-  // A mesh of several nodes is an object with instances, but for its lamps: those are shapes of their own.
+  // A mesh of several nodes is an object with instances, but for its lights: those are shapes of their own.
   void add_mesh(uint64_t mesh, const glm::dmat4& to_world) {
     if (uses_[mesh] == 1) {
       for (ShapeDescription& shape : shapes_of(mesh)) place(std::move(shape), to_world);
@@ -134,14 +134,14 @@ class Importer {
     if (is_new) {
       ObjectDescription object{fmt::format("mesh {}", mesh), warnings_.where(), {}};
       for (ShapeDescription& shape : shapes_of(mesh))
-        (shape.area_light ? shared.lamps : object.shapes).push_back(std::move(shape));
+        (shape.area_light ? shared.lights : object.shapes).push_back(std::move(shape));
       shared.object = object.name;
       if (!object.shapes.empty())
         scene_.objects.push_back(std::move(object));
       else
         shared.object.clear();
     }
-    for (const ShapeDescription& lamp : shared.lamps) place(lamp, to_world);
+    for (const ShapeDescription& light : shared.lights) place(light, to_world);
     if (!shared.object.empty()) scene_.instances.push_back({shared.object, warnings_.where(), to_world});
   }
 
@@ -152,7 +152,7 @@ class Importer {
 
   struct SharedMesh {
     std::string object;  // empty when there is none
-    std::vector<ShapeDescription> lamps;
+    std::vector<ShapeDescription> lights;
   };
 
   const Document& document_;

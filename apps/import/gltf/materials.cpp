@@ -49,7 +49,7 @@ Look Materials::make(const View& material, const std::string& name) {
   look.uv_set = base_of(material).texture["texCoord"].count(0);
   look.material = {std::nullopt, surface(material, name), warnings_.where()};
   look.alpha = alpha_of(material);
-  add_lamp(material, look);
+  add_light(material, look);
   return look;
 }
 
@@ -267,26 +267,26 @@ std::optional<Parameter> Materials::alpha_of(const View& material) {
   return make_parameter(ParameterType::kFloat, "alpha", std::vector<double>{covered(1)}, warnings_.where());
 }
 
-void Materials::add_lamp(const View& material, Look& look) {
+void Materials::add_light(const View& material, Look& look) {
   const View strength = extension(material, "KHR_materials_emissive_strength")["emissiveStrength"];
   const glm::dvec3 L =
       glm::max(strength.number(1) * colour(material["emissiveFactor"].numbers(3, {0, 0, 0})), 0.0);
   if (L == glm::dvec3(0)) return;
-  DirectiveMaker<Directive> lamp("diffuse", warnings_.where());
-  look.emits_image = add_emitted_image(material, L, look.uv_set, *lamp);
+  DirectiveMaker<Directive> light("diffuse", warnings_.where());
+  look.emits_image = add_emitted_image(material, L, look.uv_set, *light);
   if (!look.emits_image) {
     const glm::dvec3 mean = textures_.mean(material["emissiveTexture"]).value_or(glm::dvec3(1));
     if (L * mean == glm::dvec3(0)) return;
-    lamp.rgb("L", L * mean);
+    light.rgb("L", L * mean);
   }
-  if (material["doubleSided"].flag(false)) lamp.flag("twosided", true);
-  scene_.area_lights.push_back(std::move(*lamp));
+  if (material["doubleSided"].flag(false)) light.flag("twosided", true);
+  scene_.area_lights.push_back(std::move(*light));
   look.area_light = static_cast<uint32_t>(scene_.area_lights.size() - 1);
 }
 
-// pbrt's lamps show their image once, by the shape's own uv. False where there is none to show.
+// pbrt's lights show their image once, by the shape's own uv. False where there is none to show.
 bool Materials::add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set,
-                                  Directive& lamp) {
+                                  Directive& light) {
   const View texture = material["emissiveTexture"];
   if (!texture || textures_.mean(texture).value_or(glm::dvec3(0)) == glm::dvec3(0)) return false;
   if (texture["extensions"].has("KHR_texture_transform") || texture["texCoord"].count(0) != uv_set) {
@@ -297,8 +297,8 @@ bool Materials::add_emitted_image(const View& material, const glm::dvec3& L, uin
   const double brightest = std::max(L.x, std::max(L.y, L.z));
   const auto file = textures_.tinted_file(texture, L / brightest);
   if (!file) return false;
-  lamp.parameters.push_back(Textures::file_parameter("filename", *file));
-  lamp.parameters.push_back(
+  light.parameters.push_back(Textures::file_parameter("filename", *file));
+  light.parameters.push_back(
       make_parameter(ParameterType::kFloat, "scale", std::vector<double>{brightest}, warnings_.where()));
   return true;
 }

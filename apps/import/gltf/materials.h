@@ -70,8 +70,8 @@ class Materials {
   void add_width(const std::string& parameter, const Width& width, MaterialDescription& m);
   void add_roughness(const View& material, bool coat, MaterialDescription& m);
   std::optional<Parameter> alpha_of(const View& material);
-  void add_lamp(const View& material, Look& look);
-  bool add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set, Directive& lamp);
+  void add_light(const View& material, Look& look);
+  bool add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set, Directive& light);
   void warn_of_extensions(const View& material);
 
   const Document& document_;

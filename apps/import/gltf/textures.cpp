@@ -69,7 +69,8 @@ std::optional<ImageFile> Textures::file_of_image(uint64_t index) {
   const std::string extension = data ? extension_of(*data) : "";
   if (extension.empty()) {
     warnings_.say(fmt::format("image {} is none of PNG, JPEG and WebP: it is left out", index));
-    return images_[index] = std::nullopt;
+    images_[index] = std::nullopt;
+    return std::nullopt;
   }
   const ImageFile file = in_folder(fmt::format("image{}{}", index, extension));
   std::ofstream(path_of(file), std::ios::binary) << *data;

@@ -130,11 +130,11 @@ class ObjScene {
     names_.push_back(m.name);
     scene_.materials.push_back(std::move(m));
     alphas_.push_back(alpha_of_mtl(mtl, context));
-    auto lamp = lamp_of_mtl(mtl, warnings_.where());
-    lamps_.push_back(std::nullopt);
-    if (!lamp) return;
-    lamps_.back() = static_cast<uint32_t>(scene_.area_lights.size());
-    scene_.area_lights.push_back(std::move(*lamp));
+    auto light = light_of_mtl(mtl, warnings_.where());
+    lights_.push_back(std::nullopt);
+    if (!light) return;
+    lights_.back() = static_cast<uint32_t>(scene_.area_lights.size());
+    scene_.area_lights.push_back(std::move(*light));
   }
 
   void add_mesh(const aiMesh& mesh) {
@@ -159,7 +159,7 @@ class ObjScene {
     if (mesh.mMaterialIndex < names_.size()) {
       const size_t m = mesh.mMaterialIndex;
       shape->material = {std::nullopt, names_[m], warnings_.where()};
-      shape->area_light = lamps_[m];
+      shape->area_light = lights_[m];
       if (alphas_[m]) shape.add(*alphas_[m]);
     }
     scene_.shapes.push_back(std::move(*shape));
@@ -183,7 +183,7 @@ class ObjScene {
   Diagnostics& diagnostics_;
   std::vector<std::string> names_;
   std::vector<std::optional<Parameter>> alphas_;
-  std::vector<std::optional<uint32_t>> lamps_;
+  std::vector<std::optional<uint32_t>> lights_;
 };
 
 }  // namespace

@@ -139,14 +139,14 @@ MaterialDescription material_of_mtl(const aiMaterial& mtl, const MtlContext& con
   return std::move(*m);
 }
 
-std::optional<Directive> lamp_of_mtl(const aiMaterial& mtl, const SourceLocation& where) {
+std::optional<Directive> light_of_mtl(const aiMaterial& mtl, const SourceLocation& where) {
   const glm::dvec3 ke = colour(mtl, AI_MATKEY_COLOR_EMISSIVE, glm::dvec3(0));
   const auto image = map_of(mtl, aiTextureType_EMISSIVE);
   if (ke == glm::dvec3(0) && !image) return std::nullopt;
-  DirectiveMaker<Directive> lamp("diffuse", where);
-  if (!image) return *lamp.rgb("L", ke);
+  DirectiveMaker<Directive> light("diffuse", where);
+  if (!image) return *light.rgb("L", ke);
   const double brightest = std::max(ke.x, std::max(ke.y, ke.z));
-  return *lamp.text("filename", *image).number("scale", brightest > 0 ? brightest : 1);
+  return *light.text("filename", *image).number("scale", brightest > 0 ? brightest : 1);
 }
 
 std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, const MtlContext& context) {

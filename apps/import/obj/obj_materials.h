@@ -21,7 +21,7 @@ struct MtlContext {
 MaterialDescription material_of_mtl(const aiMaterial& mtl, const MtlContext& context);
 
 // Ke, or map_Ke times it, as the radiance of an area light; nothing where it is black.
-std::optional<Directive> lamp_of_mtl(const aiMaterial& mtl, const SourceLocation& where);
+std::optional<Directive> light_of_mtl(const aiMaterial& mtl, const SourceLocation& where);
 
 // map_d, or d, as the `alpha` of shapes.
 std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, const MtlContext& context);

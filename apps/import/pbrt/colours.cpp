@@ -37,8 +37,8 @@ void set_rgb(Parameter& p, const glm::dvec3& c) {
   p.value_places.resize(std::min<size_t>(p.value_places.size(), 1));
 }
 
-// Into the gamut, and no brighter or darker: a lamp of luminance 1 keeps it.
-glm::dvec3 cut_lamp(const glm::dvec3& c) {
+// Into the gamut, and no brighter or darker: a light of luminance 1 keeps it.
+glm::dvec3 cut_light(const glm::dvec3& c) {
   const glm::dvec3 cut = glm::max(c, 0.0);
   const auto y = [](const glm::dvec3& v) { return 0.2126 * v.x + 0.7152 * v.y + 0.0722 * v.z; };
   return cut == c || !(y(cut) > 0) ? cut : cut * (y(c) / y(cut));
@@ -53,7 +53,7 @@ void change_space(Parameter& p, const ParameterSpec& spec, const ColourSpace& sp
   const glm::dmat3 m = light ? space.light_to_ours() : space.surface_to_ours();
   for (size_t i = 0; i + 2 < p.numbers.size(); i += 3) {
     const glm::dvec3 c = m * glm::dvec3(p.numbers[i], p.numbers[i + 1], p.numbers[i + 2]);
-    const glm::dvec3 cut = light ? cut_lamp(c) : cut_surface(c, spec);
+    const glm::dvec3 cut = light ? cut_light(c) : cut_surface(c, spec);
     for (int k = 0; k < 3; ++k) p.numbers[i + static_cast<size_t>(k)] = cut[k];
   }
 }
@@ -121,7 +121,7 @@ void ColourReducer::reduce_spectrum(Parameter& p, const ParameterSpec& spec, con
                                                         p.name));
     return set_rgb(p, glm::dvec3(1));
   }
-  set_rgb(p, factor * cut_lamp(c));
+  set_rgb(p, factor * cut_light(c));
 }
 
 std::optional<Spectrum> ColourReducer::spectrum_of(const Parameter& p) {

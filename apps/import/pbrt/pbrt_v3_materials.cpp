@@ -211,7 +211,7 @@ std::string mix(Directive& d) {
     double mean = 0;
     for (const double v : amount->numbers) mean += v / double(amount->numbers.size());
     amount->type = ParameterType::kFloat;
-    amount->numbers = {mean};
+    amount->numbers.assign(1, mean);
   }
   erase(d, {"namedmaterial1", "namedmaterial2"});
   d.parameters.push_back(std::move(materials));

@@ -27,7 +27,7 @@ Angle subtended(float radius2, float distance2) {
 }
 
 // Of a cosine that is at most `most`, and `at_center` in the middle. Bounds alone say little of large boxes:
-// with this mean the variance in halls and clouds of lamps is 7 to 34 % lower.
+// with this mean the variance in halls and clouds of lights is 7 to 34 % lower.
 float typical(float most, float at_center) {
   return 0.5f * (std::max(most, kSlack) + std::max(at_center, 0.0f));
 }

@@ -4,7 +4,7 @@ namespace kaustik {
 namespace {
 
 // Share of the choices that are made by power although there is a tree: it bounds what a sample can weigh
-// where the tree takes a lamp for important that is not, as beside a lamp that faces away.
+// where the tree takes a light for important that is not, as beside a light that faces away.
 constexpr float kByPower = 0.125f;
 
 float mixed(float by_tree, float by_power) {
@@ -33,23 +33,23 @@ std::optional<LightSampler::Choice> LightSampler::choose(const LightReceiver& x,
   const float at = (u - kByPower) / (1 - kByPower) / share();
   const auto i = static_cast<size_t>(at);
   const float rest = std::min(at - static_cast<float>(i), kOneMinusEpsilon);
-  // Rounding may lead past the last lamp where there is no tree.
+  // Rounding may lead past the last light where there is no tree.
   if (i < placeless_.size() || tree_.empty()) {
-    const uint32_t lamp = placeless_[std::min(i, placeless_.size() - 1)];
-    return Choice{lamp, probability(x, lamp), rest};
+    const uint32_t light = placeless_[std::min(i, placeless_.size() - 1)];
+    return Choice{light, probability(x, light), rest};
   }
   const auto chosen = tree_.choose(x, rest);
   if (!chosen) return std::nullopt;
-  return Choice{chosen->lamp, mixed(share() * chosen->probability, power_.pdf(chosen->lamp)),
+  return Choice{chosen->light, mixed(share() * chosen->probability, power_.pdf(chosen->light)),
                 chosen->u_remapped};
 }
 
-float LightSampler::probability(const LightReceiver& x, uint32_t lamp) const {
-  const float by_power = power_.pdf(lamp);
+float LightSampler::probability(const LightReceiver& x, uint32_t light) const {
+  const float by_power = power_.pdf(light);
   if (by_power_) return by_power;
-  if (std::find(placeless_.begin(), placeless_.end(), lamp) != placeless_.end())
+  if (std::find(placeless_.begin(), placeless_.end(), light) != placeless_.end())
     return mixed(share(), by_power);
-  return mixed(tree_.empty() ? 0 : share() * tree_.probability(x, lamp), by_power);
+  return mixed(tree_.empty() ? 0 : share() * tree_.probability(x, light), by_power);
 }
 
 }  // namespace kaustik

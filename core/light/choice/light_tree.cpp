@@ -6,7 +6,7 @@ namespace kaustik {
 namespace {
 
 constexpr int kBuckets = 12;
-// From here on sets are halved, so that no trail is longer than 64 turns: 32 more do for all lamps there can
+// From here on sets are halved, so that no trail is longer than 64 turns: 32 more do for all lights there can
 // be.
 constexpr uint32_t kDeepestChosenSplit = 32;
 
@@ -21,7 +21,7 @@ double orientation_measure(const LightBounds& b) {
              (2 * w * std::sin(o) - std::cos(o - 2 * w) - 2 * o * std::sin(o) + std::cos(o));
 }
 
-// By the squared diagonal, not the surface of the box: lamps may well lie on a line, which has none.
+// By the squared diagonal, not the surface of the box: lights may well lie on a line, which has none.
 double cost(const LightBounds& b) {
   const glm::dvec3 d(b.box.diagonal());
   return double(b.phi) * orientation_measure(b) * glm::dot(d, d);
@@ -69,8 +69,8 @@ LightTree::LightTree(const std::vector<Light>& lights) : trails_(lights.size()) 
 // Recursion is as deep as the tree, 64 at most.
 void LightTree::build(uint32_t node, Item* begin, Item* end, Trail trail) {
   if (end - begin == 1) {
-    nodes_[node] = {begin->bounds, begin->lamp, true};
-    trails_[begin->lamp] = trail;
+    nodes_[node] = {begin->bounds, begin->light, true};
+    trails_[begin->light] = trail;
     return;
   }
   Item* const middle = split(begin, end, trail.depth);
@@ -82,13 +82,13 @@ void LightTree::build(uint32_t node, Item* begin, Item* end, Trail trail) {
   nodes_[node] = {united(nodes_[first].bounds, nodes_[first + 1].bounds), first, false};
 }
 
-// Of what lies in centers: the middle of the longest axis halves it, lamps of one place by their number.
+// Of what lies in centers: the middle of the longest axis halves it, lights of one place by their number.
 LightTree::Item* LightTree::halve(Item* begin, Item* end, const Vector3& extent) {
   const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
   Item* const middle = begin + (end - begin) / 2;
   std::nth_element(begin, middle, end, [&](const Item& a, const Item& b) {
     const float x = a.bounds.box.center()[axis], y = b.bounds.box.center()[axis];
-    return x != y ? x < y : a.lamp < b.lamp;
+    return x != y ? x < y : a.light < b.light;
   });
   return middle;
 }
@@ -136,8 +136,8 @@ std::optional<LightTree::Choice> LightTree::choose(const LightReceiver& x, float
   return Choice{node->first_child, probability, u};
 }
 
-float LightTree::probability(const LightReceiver& x, uint32_t lamp) const {
-  const Trail& trail = trails_[lamp];
+float LightTree::probability(const LightReceiver& x, uint32_t light) const {
+  const Trail& trail = trails_[light];
   if (trail.depth == kNotThere || !(nodes_[0].bounds.importance(x) > 0)) return 0;
   const Node* node = &nodes_[0];
   float probability = 1;

@@ -7,9 +7,9 @@
 
 namespace kaustik {
 
-// A binary tree over lamps from which one is chosen by what it may give at a point (Conty Estevez and Kulla
+// A binary tree over lights from which one is chosen by what it may give at a point (Conty Estevez and Kulla
 // 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", without splitting; Pharr et al.
-// 2023, section 12.6.3). Choosing takes one step per level, about log2 of the lamps. Immutable; thread-safe.
+// 2023, section 12.6.3). Choosing takes one step per level, about log2 of the lights. Immutable; thread-safe.
 class LightTree {
  public:
   LightTree() = default;
@@ -17,14 +17,14 @@ class LightTree {
   explicit LightTree(const std::vector<Light>& lights);
 
   struct Choice {
-    uint32_t lamp;
+    uint32_t light;
     float probability;
     float u_remapped;  // the random number, uniform again in [0, 1)
   };
-  // Nothing where no lamp of the tree can give anything.
+  // Nothing where no light of the tree can give anything.
   std::optional<Choice> choose(const LightReceiver& x, float u) const;
-  // By which choose() finds this lamp.
-  float probability(const LightReceiver& x, uint32_t lamp) const;
+  // By which choose() finds this light.
+  float probability(const LightReceiver& x, uint32_t light) const;
 
   bool empty() const { return nodes_.empty(); }
 
@@ -32,14 +32,14 @@ class LightTree {
   // Children lie side by side.
   struct Node {
     LightBounds bounds;
-    uint32_t first_child = 0;  // or the lamp
+    uint32_t first_child = 0;  // or the light
     bool leaf = false;
   };
   struct Item {
     LightBounds bounds;
-    uint32_t lamp;
+    uint32_t light;
   };
-  // How a lamp is reached from the root: bit d is set where the right child of depth d is taken.
+  // How a light is reached from the root: bit d is set where the right child of depth d is taken.
   struct Trail {
     uint64_t turns = 0;
     uint32_t depth = kNotThere;
@@ -53,7 +53,7 @@ class LightTree {
   std::optional<float> left_share(const Node& node, const LightReceiver& x) const;
 
   std::vector<Node> nodes_;
-  std::vector<Trail> trails_;  // of each lamp
+  std::vector<Trail> trails_;  // of each light
 };
 
 }  // namespace kaustik

@@ -10,7 +10,7 @@
 
 namespace kaustik {
 
-// The image that a textured area lamp emits, over the uv of its surface: bilinear between pixels, clamped at
+// The image that a textured area light emits, over the uv of its surface: bilinear between pixels, clamped at
 // the edges, (0, 0) the lower left corner, as in pbrt-v4. And points of the surface in proportion to its
 // luminance: a part of the surface is chosen by its power, then a cell of a table over the square that is
 // spread evenly over the part. Cells are about half a pixel wide, up to 2^19 in all; a share of 1/32 is

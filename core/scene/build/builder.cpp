@@ -8,8 +8,8 @@
 
 #include "core/diagnostics/nearest_name.h"
 #include "core/scene/build/camera_builder.h"
-#include "core/scene/build/lamp_table.h"
 #include "core/scene/build/light_images.h"
+#include "core/scene/build/light_table.h"
 #include "core/scene/build/local_origin.h"
 #include "core/scene/build/material_table.h"
 #include "core/scene/build/sensor_builder.h"
@@ -39,7 +39,7 @@ struct Item {
 struct Placement {
   size_t item = 0;
   glm::dmat4 to_world{1};
-  bool lamp = false;
+  bool light = false;
   bool last = false;    // of the item: may take the geometry instead of copying it
   size_t instance = 0;  // into SceneDescription::instances, for shapes of objects
 };
@@ -63,7 +63,7 @@ class Builder {
     collect(materials);
     load_sources();
     choose_origin(scene);
-    lamps_.emplace(description_, light_images_, *textures_, warned_, diagnostics_);
+    lights_.emplace(description_, light_images_, *textures_, warned_, diagnostics_);
     build_lights(scene);
     if (diagnostics_.has_errors()) return std::nullopt;
     share_meshes();
@@ -103,7 +103,7 @@ class Builder {
   LightImages light_images_;
   WarnedOnce warned_;
   std::optional<TextureTable> textures_;
-  std::optional<LampTable> lamps_;
+  std::optional<LightTable> lights_;
   std::vector<Item> items_;
   std::vector<Placement> placements_;
   std::set<size_t> warned_without_area_;
@@ -158,7 +158,7 @@ void Builder::collect(MaterialTable& materials) {
     for (const ShapeDescription& shape : object.shapes) {
       if (const auto item = add_item(shape, o, materials)) items.push_back(*item);
       if (shape.area_light) {
-        diagnostics_.warning(shape.location, "the area light is ignored: shapes of an object are no lamps");
+        diagnostics_.warning(shape.location, "the area light is ignored: shapes of an object are no lights");
       }
     }
   }
@@ -337,7 +337,7 @@ void Builder::place(Scene& scene) {
     shape.material = item.material;
     shape.alpha = item.alpha;
     shape.alpha_texture = item.alpha_texture;
-    if (placements_[i].lamp && !lamps_->make(*item.description, shape, scene.lights)) continue;
+    if (placements_[i].light && !lights_->make(*item.description, shape, scene.lights)) continue;
     names.push_back(group_key(placements_[i]));
     places.push_back(group_name(*item.description));
     scene.shapes.push_back(std::move(shape));

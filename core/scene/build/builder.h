@@ -25,7 +25,7 @@ struct LightImageResult {
   LightImage image;
   std::string error;  // one sentence that names the file; empty on success
 };
-// Reads the image of a lamp that the parameter at `where` names.
+// Reads the image of a light that the parameter at `where` names.
 using LightImageLoader =
     std::function<LightImageResult(const std::string& filename, const SourceLocation& where)>;
 

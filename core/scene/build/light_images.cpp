@@ -23,8 +23,8 @@ bool check_pixels(const std::string& file, LightImage& image, const SourceLocati
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     Rgb& c = image.pixels[i];
     if (!is_finite(c)) {
-      diagnostics.error(
-          where, fmt::format("\"{}\": {}, is not finite: no lamp can emit that", file, pixel_text(image, i)));
+      diagnostics.error(where, fmt::format("\"{}\": {}, is not finite: no light can emit that", file,
+                                           pixel_text(image, i)));
       return false;
     }
     if (!negative(c)) continue;
@@ -86,7 +86,7 @@ std::shared_ptr<const DirectionMap> LightImages::directions(const ParameterReade
                                      file));
   }
   const auto layout = square ? DirectionMap::Layout::kEqualArea : DirectionMap::Layout::kLatLong;
-  if (around == Around::kLamp) return std::make_shared<const DirectionMap>(grey_image(*image), layout);
+  if (around == Around::kLight) return std::make_shared<const DirectionMap>(grey_image(*image), layout);
   return std::make_shared<const DirectionMap>(std::move(image), layout, DirectionMap::Excess::kSampled);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The images that lamps emit, each read once.
+// The images that lights emit, each read once.
 
 #include <map>
 #include <memory>
@@ -19,9 +19,9 @@ class LightImages {
   std::shared_ptr<const LightImage> get(const ParameterReader& parameters, std::string_view name);
 
   // The same as a map of all directions: square images are equal-area, those twice as wide as high
-  // latitude-longitude, with a warning: pbrt-v4 refuses these. Others are errors. Of a lamp: by the mean of
+  // latitude-longitude, with a warning: pbrt-v4 refuses these. Others are errors. Of a light: by the mean of
   // the three channels. Of a sky: with its excess.
-  enum class Around { kLamp, kSky };
+  enum class Around { kLight, kSky };
   std::shared_ptr<const DirectionMap> directions(const ParameterReader& parameters, std::string_view name,
                                                  Around around);
 

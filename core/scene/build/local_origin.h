@@ -1,6 +1,6 @@
 #pragma once
 // Scenes far from the world's origin are built around an origin of their own, in which floats are fine
-// enough. All that is known in double, transforms, inline vertices, lamps and the camera, is moved before it
+// enough. All that is known in double, transforms, inline vertices, lights and the camera, is moved before it
 // is rounded.
 
 #include <glm/glm.hpp>

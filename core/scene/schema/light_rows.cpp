@@ -18,7 +18,7 @@ ParameterSpec scale() {
 }
 ParameterSpec power_spec() {
   return without_default(number("power", 0, "W", kPositive,
-                                "total power of a white lamp: the luminance of that of a coloured one is as "
+                                "total power of a white light: the luminance of that of a coloured one is as "
                                 "many times as much as its colour's, as in pbrt. `scale` multiplies it"),
                          "none");
 }
@@ -34,7 +34,7 @@ bool is_dark(float scale) {
 }
 
 // Scales `emission` by the parameter's value over `of_white` (luminance of what it gives where it is one),
-// where that is given, and by `scale`. So do pbrt's lamps: of colours it divides by the luminance of the
+// where that is given, and by `scale`. So do pbrt's lights: of colours it divides by the luminance of the
 // white alone. False, with an error, when there is nothing to scale.
 template <class Emission>
 bool scale_to(const LightInputs& in, std::string_view name, double of_white, Emission& emission) {
@@ -50,7 +50,7 @@ bool scale_to(const LightInputs& in, std::string_view name, double of_white, Emi
   return true;
 }
 
-// Of a lamp of intensity I.
+// Of a light of intensity I.
 template <class L>
 double white_power(L light) {
   light.I = Rgb(1);
@@ -123,10 +123,10 @@ std::optional<Light> make_goniometric(const LightInputs& in) {
   const auto map_to_world = rotation(in);
   if (!has_image(in) || !map_to_world) return std::nullopt;
   GoniometricLight light;
-  light.map = in.images.directions(p, "filename", LightImages::Around::kLamp);
+  light.map = in.images.directions(p, "filename", LightImages::Around::kLight);
   if (!light.map) return std::nullopt;
   light.position = Point3(to_scene(in)[3]);
-  // The map's +z is the lamp's +y, as in pbrt.
+  // The map's +z is the light's +y, as in pbrt.
   light.to_world = *map_to_world * glm::mat3(1, 0, 0, 0, 0, 1, 0, 1, 0);
   light.I = p.rgb("I");
   if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
@@ -252,7 +252,7 @@ std::vector<LightRow> make_light_rows() {
          number("conedeltaangle", 5, "degrees", {0, 180}, "width of the fall-off inside that edge")}},
        make_spot},
       {{"goniometric",
-        "Shines from a point, by an image of all directions whose +z is the lamp's +y.",
+        "Shines from a point, by an image of all directions whose +z is the light's +y.",
         {intensity, scale(), power_spec(),
          image(
              "factor of `I`, the mean of R, G and B: a square equal-area map, or a latitude-longitude map of "

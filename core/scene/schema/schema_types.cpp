@@ -59,7 +59,7 @@ std::vector<TypeSpec> make_shape_types() {
               list(Type::kInteger, "indices", 4, "0 1 2 3 when there are four corners", "",
                    "four corners per patch, from zero"),
               N, uv, face_indices,
-              ignored("emissionfilename", {Type::kString}, "lamps are sampled by their own image")})},
+              ignored("emissionfilename", {Type::kString}, "lights are sampled by their own image")})},
       {"loopsubdiv", "The limit surface of Loop's subdivision (Loop 1987), as triangles with its normals.",
        shape({P, list(Type::kInteger, "indices", 3, "required", "", "three vertices per triangle, from zero"),
               integer("levels", 3, "", {0, 12}, "how often each triangle is cut into four"),

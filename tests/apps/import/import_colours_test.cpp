@@ -26,8 +26,8 @@ Rgb reflectance(const Scene& scene) {
 }
 constexpr std::string_view kSphere = "Shape \"sphere\"\n";
 
-// A lamp of a spectrum has luminance 1 before `scale` and `power`, whatever the numbers of the spectrum.
-TEST_F(ImportColours, LampsHaveLuminanceOne) {
+// A light of a spectrum has luminance 1 before `scale` and `power`, whatever the numbers of the spectrum.
+TEST_F(ImportColours, LightsHaveLuminanceOne) {
   for (const std::string text : {"\"blackbody I\" 5500", "\"spectrum I\" \"stdillum-F11\"",
                                  "\"spectrum I\" [ 400 7 700 7 ]", "\"blackbody I\" 1200"}) {
     const Scene scene = world("LightSource \"point\" " + text);
@@ -63,9 +63,9 @@ TEST_F(ImportColours, SurfacesUnderDaylight) {
 }
 
 TEST_F(ImportColours, FilesOfSpectra) {
-  write("lamp.spd", "# wavelength value\n300 2\n 900 2 # flat\n");
+  write("light.spd", "# wavelength value\n300 2\n 900 2 # flat\n");
   const auto flat = Spectrum::from([](double) { return 2; });
-  expect_near(intensity(world("LightSource \"point\" \"spectrum I\" \"lamp.spd\"")), emitted_colour(flat));
+  expect_near(intensity(world("LightSource \"point\" \"spectrum I\" \"light.spd\"")), emitted_colour(flat));
   write("bad.spd", "300 2\n900");
   EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"bad.spd\""),
               testing::HasSubstr("a spectrum is pairs of wavelength and value, not 3 numbers"));

@@ -163,13 +163,14 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"png", "tiles.png", with_image(kTexture, "tiles.png"),
              [] { return of_gallery("images/tiles.png"); }},
         Kind{"exr", "slide.exr", with_image(kTexture, "slide.exr"), [] { return of_gallery("slide.exr"); }},
-        Kind{"sky", "lamp.exr",
-             with_image("LightSource \"infinite\" \"string filename\" \"image\"\n", "lamp.exr"),
-             [] { return of_gallery("lamp.exr"); }},
+        Kind{"sky", "light.exr",
+             with_image("LightSource \"infinite\" \"string filename\" \"image\"\n", "light.exr"),
+             [] { return of_gallery("light.exr"); }},
         Kind{"slide", "slide.exr",
              with_image("LightSource \"projection\" \"string filename\" \"image\"\n", "slide.exr"),
              [] { return of_gallery("slide.exr"); }},
-        Kind{"spectrum", "lamp.spd", kFilm + "LightSource \"point\" \"spectrum I\" \"lamp.spd\"\n", spectrum},
+        Kind{"spectrum", "light.spd", kFilm + "LightSource \"point\" \"spectrum I\" \"light.spd\"\n",
+             spectrum},
         Kind{"include", "part.pbrt", kFilm + "Include \"part.pbrt\"\n",
              [] {
                return of_gallery("rough-metal.pbrt")

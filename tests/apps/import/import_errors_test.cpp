@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(Scale 1e30 1 1 Scale 1e30 1 1 Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0])",
              R"(2:31: error: the transform of this shape cannot be inverted)"},
         Case{R"(Scale 1 2 1 AreaLightSource "diffuse" Shape "sphere")",
-             R"(2:39: error: a sphere or cylinder that is scaled unevenly cannot be a lamp)"},
+             R"(2:39: error: a sphere or cylinder that is scaled unevenly cannot be a light)"},
         Case{R"(Material "interface" AreaLightSource "diffuse" Shape "sphere")",
              R"(2:48: warning: the area light is ignored: material "interface" is no surface)"},
         Case{R"(LightSource "point" "rgb I" [0 0 0] "float power" 3)",
@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(LightSource "projection")",
              R"(2:1: error: light "projection" needs an image: "string filename")"},
         Case{
-            R"(Scale 1 2 1 LightSource "goniometric" "string filename" "lamp.exr")",
+            R"(Scale 1 2 1 LightSource "goniometric" "string filename" "light.exr")",
             R"(2:13: error: the transform of this light scales unevenly or shears: expected a rotation, with mirroring or even scaling)"},
         Case{R"(LightSource "infinite" "string filename" "sky.exr" "rgb L" [1 1 1])",
              R"(2:61: error: an infinite light has `L` or `filename`, not both)"},

@@ -79,7 +79,7 @@ TEST_F(ImportGltf, Glass) {
   EXPECT_THAT(numbers(pane, "eta"), ElementsAre(1.5));
 }
 
-TEST_F(ImportGltf, Lamps) {
+TEST_F(ImportGltf, Lights) {
   const auto s = describe(triangle(R"({ "emissiveFactor": [ 1, 0.5, 0 ], "doubleSided": true,
       "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 4 } } })"));
   ASSERT_EQ(s.area_lights.size(), 1u);

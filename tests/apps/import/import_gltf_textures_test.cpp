@@ -155,10 +155,10 @@ TEST_F(GltfTextures, EmissionIsTheImage) {
   const auto s = textured(R"({ "emissiveFactor": [ 1, 0.25, 1 ], "emissiveTexture": { "index": 0 },
       "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 6 } } })",
                           png({255, 0, 0, 255, 0, 255, 0, 255}));
-  const Directive& lamp = s.area_lights.at(0);
-  EXPECT_EQ(lamp.find("scale")->numbers, (std::vector<double>{6}));
-  EXPECT_FALSE(lamp.find("L"));
-  const std::vector<float> pixels = pixels_of(file_of(lamp, "filename"));
+  const Directive& light = s.area_lights.at(0);
+  EXPECT_EQ(light.find("scale")->numbers, (std::vector<double>{6}));
+  EXPECT_FALSE(light.find("L"));
+  const std::vector<float> pixels = pixels_of(file_of(light, "filename"));
   ASSERT_EQ(pixels.size(), 6u);
   EXPECT_EQ(pixels[0], 1);
   EXPECT_NEAR(pixels[4], 0.5371, 0.5 / 255);                                 // sRGB of a quarter
@@ -174,7 +174,7 @@ TEST_F(GltfTextures, EmissionThatPbrtHasNoWordsForIsItsMean) {
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("are rendered as their mean"));
 }
 
-TEST_F(GltfTextures, BlackEmissionIsNoLamp) {
+TEST_F(GltfTextures, BlackEmissionIsNoLight) {
   const auto s = textured(R"({ "emissiveFactor": [ 1, 1, 1 ], "emissiveTexture": { "index": 0 } })",
                           png({0, 0, 0, 255, 0, 0, 0, 255}));
   EXPECT_TRUE(s.area_lights.empty());

@@ -1,4 +1,4 @@
-// The images of lamps: found beside the scene, checked, and refused with their place.
+// The images of lights: found beside the scene, checked, and refused with their place.
 #include "render/picture/image_io.h"
 #include "tests/apps/import/import_support.h"
 
@@ -21,12 +21,12 @@ class ImportLightImages : public ImportTest {
 TEST_F(ImportLightImages, MapsBecomeLights) {
   write_exr("square.exr", 4, 4, {1, 2, 3});
   write_exr("wide.exr", 8, 4, {1, 2, 3});
-  write("sub/lamp.pbrt", R"(LightSource "projection" "string filename" "square.exr" "float power" 5)");
+  write("sub/light.pbrt", R"(LightSource "projection" "string filename" "square.exr" "float power" 5)");
   const Scene s = world(R"(LightSource "infinite" "string filename" "square.exr" "float scale" 2
     LightSource "infinite" "string filename" "wide.exr" "float illuminance" 7
     LightSource "goniometric" "string filename" "square.exr" "rgb I" [1 1 2] "float power" 3
     LightSource "infinite" "rgb L" [1 2 3] "point3 portal" [0 0 0  0 1 0  1 1 0  1 0 0]
-    Include "sub/lamp.pbrt" Shape "sphere")");
+    Include "sub/light.pbrt" Shape "sphere")");
   ASSERT_EQ(s.lights.size(), 5u);
   EXPECT_EQ(std::get<ImageInfiniteLight>(s.lights[0]).Le({{0, 0, 0}, {0, 0, 1}}), Rgb(2, 4, 6));
   const Rgb scaled = std::get<ImageInfiniteLight>(s.lights[1]).Le({{0, 0, 0}, {0, 0, 1}});
@@ -42,7 +42,7 @@ TEST_F(ImportLightImages, MapsBecomeLights) {
 }
 
 // `power` takes the mean of all pixels for what is emitted, as pbrt does, and `scale` multiplies it.
-TEST_F(ImportLightImages, AreaLampsShowImages) {
+TEST_F(ImportLightImages, AreaLightsShowImages) {
   write_exr("oblong.exr", 3, 1, {1, 2, 3}, {4, 5, 12});
   const Scene s = world(R"(AreaLightSource "diffuse" "string filename" "oblong.exr" "float scale" 2
     Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0]
@@ -51,17 +51,17 @@ TEST_F(ImportLightImages, AreaLampsShowImages) {
     AreaLightSource "diffuse" "rgb L" [1 2 3] Shape "sphere" "float alpha" 0
     Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0] "float alpha" 0.5)");
   ASSERT_EQ(s.lights.size(), 4u);
-  const auto lamp = [&](size_t i) { return std::get<DiffuseAreaLight>(s.lights[i]); };
-  EXPECT_EQ(lamp(0).image->value({0.1f, 0.5f}), Rgb(1, 2, 3));
-  EXPECT_EQ(lamp(0).image->mean_of_pixels(), Rgb(2, 3, 6));
-  EXPECT_EQ(lamp(0).L, Rgb(2));
-  EXPECT_NEAR(luminance(lamp(1).flux_of(lamp(1).area, lamp(1).L * Rgb(2, 3, 6))), 5, 1e-5);
-  EXPECT_TRUE(lamp(2).invisible && is_delta(s.lights[2]) && !lamp(2).image && !lamp(2).alpha);
-  EXPECT_TRUE(!lamp(3).invisible && lamp(3).alpha->constant == 0.5f);
+  const auto light = [&](size_t i) { return std::get<DiffuseAreaLight>(s.lights[i]); };
+  EXPECT_EQ(light(0).image->value({0.1f, 0.5f}), Rgb(1, 2, 3));
+  EXPECT_EQ(light(0).image->mean_of_pixels(), Rgb(2, 3, 6));
+  EXPECT_EQ(light(0).L, Rgb(2));
+  EXPECT_NEAR(luminance(light(1).flux_of(light(1).area, light(1).L * Rgb(2, 3, 6))), 5, 1e-5);
+  EXPECT_TRUE(light(2).invisible && is_delta(s.lights[2]) && !light(2).image && !light(2).alpha);
+  EXPECT_TRUE(!light(3).invisible && light(3).alpha->constant == 0.5f);
   EXPECT_EQ(diagnostics_.warning_count(), 0u);
 }
 
-TEST_F(ImportLightImages, AreaLampsWithBadImages) {
+TEST_F(ImportLightImages, AreaLightsWithBadImages) {
   write_exr("dark.exr", 2, 2, Rgb(0));
   const auto said = [&](const std::string& parameters) {
     const std::string all = first_lines("AreaLightSource \"diffuse\" " + parameters + " Shape \"sphere\"");

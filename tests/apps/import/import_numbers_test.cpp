@@ -32,9 +32,9 @@ TEST_F(ImportNumbers, BeyondTheRangeOfFloats) {
 TEST_F(ImportNumbers, PowerBeyondTheRangeOfFloats) {
   EXPECT_EQ(first_lines("AreaLightSource \"diffuse\" \"rgb L\" [1e38 1e38 1e38] Shape \"sphere\" "
                         "\"float radius\" 1000"),
-            "2:1: error: the power of this lamp is beyond the range of floats\n");
+            "2:1: error: the power of this light is beyond the range of floats\n");
   EXPECT_EQ(first_lines("LightSource \"point\" \"rgb I\" [1e38 1 1]"),
-            "2:1: error: the power of this lamp is beyond the range of floats\n");
+            "2:1: error: the power of this light is beyond the range of floats\n");
 }
 
 }  // namespace

@@ -49,11 +49,11 @@ TEST_F(ImportObj, Materials) {
         "newmtl wall\nKd 0.5 0.5 0.5\nKs 0 0 0\n"
         "newmtl glass\nd 0.25\nNi 1.33\n"
         "newmtl steel\nillum 3\nKs 0.5 0.5 0.5\n"
-        "newmtl lamp\nKe 4 2 1\n");
+        "newmtl light\nKe 4 2 1\n");
   const auto s =
       describe("mtllib scene.mtl\n" + std::string(kQuad) +
                "usemtl paint\nf 1 2 3\nusemtl wall\nf 1 3 4\nusemtl glass\nf 1 2 4\nusemtl steel\nf 2 3 4\n"
-               "usemtl lamp\nf 1 2 3\n");
+               "usemtl light\nf 1 2 3\n");
   const auto named = [&](std::string_view prefix) -> const MaterialDescription& {
     for (const MaterialDescription& m : s.materials) {
       if (m.name.starts_with(prefix)) return m;

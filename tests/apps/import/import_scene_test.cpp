@@ -1,4 +1,4 @@
-// What scenes mean: transforms, state, materials, lamps, objects, files.
+// What scenes mean: transforms, state, materials, lights, objects, files.
 #include <numbers>
 
 #include "apps/import/pbrt/transforms.h"
@@ -179,8 +179,8 @@ TEST_F(ImportScene, Lights) {
   EXPECT_EQ(s.infinite_lights, std::vector<uint32_t>{3});
 }
 
-// Of a white lamp; colours multiply it, as in pbrt-v4.
-TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatAWhiteLampEmits) {
+// Of a white light; colours multiply it, as in pbrt-v4.
+TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatAWhiteLightEmits) {
   const Scene s = world(R"(
     LightSource "point" "rgb I" [1 2 3] "float power" 7
     LightSource "spot" "rgb I" [3 2 1] "float power" 7 "float scale" 2
@@ -193,12 +193,13 @@ TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatAWhiteLampEmits) {
   const auto emitted = [&](size_t i) { return luminance(power(s.lights[i])); };
   // Each passes fewer than 32 roundings of relative size 2^-24.
   constexpr float kRelative = 32 * 0x1p-24f;
-  const float up = 7 * luminance({1, 2, 3}), down = 7 * luminance({3, 2, 1}), lamp = 7 * luminance({5, 4, 3});
+  const float up = 7 * luminance({1, 2, 3}), down = 7 * luminance({3, 2, 1}),
+              light = 7 * luminance({5, 4, 3});
   EXPECT_NEAR(emitted(0), up, up * kRelative);
   EXPECT_NEAR(emitted(1), 2 * down, 2 * down * kRelative);
   EXPECT_NEAR(luminance(std::get<DistantLight>(s.lights[2]).L), down, down * kRelative);
   EXPECT_NEAR(kPi * luminance(std::get<InfiniteLight>(s.lights[3]).L), down, down * kRelative);
-  for (size_t i = 4; i < 7; ++i) EXPECT_NEAR(emitted(i), lamp, lamp * kRelative) << i;
+  for (size_t i = 4; i < 7; ++i) EXPECT_NEAR(emitted(i), light, light * kRelative) << i;
   EXPECT_TRUE(std::get<DiffuseAreaLight>(s.lights[4]).twosided);
 }
 

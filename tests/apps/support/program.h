@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -57,7 +58,7 @@ class ProgramTest : public ::testing::Test {
     return names;
   }
 
-  // A lamp over a floor, with a glass sphere between them; `lines` come before WorldBegin.
+  // A light over a floor, with a glass sphere between them; `lines` come before WorldBegin.
   std::string small_scene(const std::string& lines = "") const {
     return write("small.pbrt", "LookAt 0 2 6  0 0.5 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\n" +
                                    lines +

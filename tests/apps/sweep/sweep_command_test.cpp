@@ -107,7 +107,7 @@ TEST_F(SweepCommand, CsvAndJsonHoldTheSame) {
     std::map<std::string, std::string> row;
     ASSERT_EQ(rows[i + 1].size(), rows[0].size());
     for (size_t k = 0; k < rows[0].size(); ++k) row[rows[0][k]] = rows[i + 1][k];
-    EXPECT_EQ(row["method"], cells[i]["method"]);
+    EXPECT_EQ(row["method"], cells[i]["method"].get<std::string>());
     EXPECT_EQ(row["photons"], cells[i]["photons"].is_null() ? "" : cells[i]["photons"].dump());
     EXPECT_EQ(row["radius"], cells[i]["radius"].is_null() ? "" : cells[i]["radius"].get<std::string>());
     for (const char* key : {"relmse", "relative_rmse", "bias2", "variance"})
@@ -231,7 +231,7 @@ TEST_F(SweepCommand, AnInterruptedReferenceIsGoneOnWith) {
 TEST_F(SweepCommand, ARenderedReferenceTellsItsNoise) {
   const Outcome outcome = run_kaustik(sweep({"--reference-time", "50ms", "--reference-method", "mc"}));
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("finds no light of point lamps through glass"));
+  EXPECT_THAT(outcome.err, HasSubstr("finds no light of point lights through glass"));
   const Json reference = result()["reference"];
   EXPECT_THAT(reference["source"].get<std::string>(), HasSubstr("method mc"));
   EXPECT_GE(reference["passes"], 2);

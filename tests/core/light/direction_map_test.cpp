@@ -202,10 +202,10 @@ TEST(DirectionMap, ConstantMapIsTheConstantLight) {
       EXPECT_NEAR(glm::distance(photon->flux, constant.power()), 0, 1e-5f * constant.power().z);
     }
     const PointLight point{{1, 2, 3}, {3, 2, 1}};
-    const GoniometricLight lamp{{1, 2, 3}, glm::mat3(1), map, {3, 2, 1}};
-    const auto a = point.sample_Li({0, 5, 1}, {}), b = lamp.sample_Li({0, 5, 1}, {});
+    const GoniometricLight light{{1, 2, 3}, glm::mat3(1), map, {3, 2, 1}};
+    const auto a = point.sample_Li({0, 5, 1}, {}), b = light.sample_Li({0, 5, 1}, {});
     EXPECT_EQ(a->Li, b->Li);
-    EXPECT_NEAR(glm::distance(point.power(), lamp.power()), 0, 1e-4);
+    EXPECT_NEAR(glm::distance(point.power(), light.power()), 0, 1e-4);
   }
 }
 

@@ -1,4 +1,4 @@
-// What a textured lamp emits, and how evenly photons share it.
+// What a textured light emits, and how evenly photons share it.
 
 #include "core/light/image/emission_image.h"
 
@@ -109,7 +109,7 @@ TEST(EmissionImage, DarkTrianglesAreSeldomChosen) {
   EXPECT_NEAR(dark, 10000 / 33.0, 5 * std::sqrt(10000 / 33.0));
 }
 
-TEST(EmissionImage, ABlackImageIsALampThatGivesNothing) {
+TEST(EmissionImage, ABlackImageIsALightThatGivesNothing) {
   const auto light = *DiffuseAreaLight::make(square(), Rgb(1), false, image_of(1, 1, {Rgb(0)}));
   EXPECT_EQ(light.power(), Rgb(0));
   const auto s = light.sample_Le({0.3f, 0.4f}, {0.5f, 0.6f}, EmissionMode::kCosine);

@@ -1,4 +1,4 @@
-// Irradiance of every lamp at a point against its closed form, as the mean over sample_Li with free view.
+// Irradiance of every light at a point against its closed form, as the mean over sample_Li with free view.
 
 #include <gtest/gtest.h>
 
@@ -43,16 +43,16 @@ double polygon_irradiance(double L, const std::vector<Point3>& vertices, const P
   return 0.5 * L * std::abs(glm::dot(sum, glm::dvec3(n)));
 }
 
-TEST(Irradiance, TriangleLamp) {
+TEST(Irradiance, TriangleLight) {
   const Point3 a(-0.5f, -0.3f, 1), b(0.2f, 0.9f, 1.3f), c(1, -0.2f, 0.8f);
   const Normal3 n(0, 0, 1);
   for (const Point3& ref : {Point3(0, 0, 0), Point3(2, 1, -1), Point3(-0.2f, 0.1f, 0.7f)}) {
-    const auto lamp = DiffuseAreaLight::make(test::triangle_shape(a, b, c), Rgb(4), true);
-    expect_mean(irradiance(*lamp, ref, n), polygon_irradiance(4, {a, b, c}, ref, n));
+    const auto light = DiffuseAreaLight::make(test::triangle_shape(a, b, c), Rgb(4), true);
+    expect_mean(irradiance(*light, ref, n), polygon_irradiance(4, {a, b, c}, ref, n));
   }
 }
 
-TEST(Irradiance, PolygonLampOfManyTriangles) {
+TEST(Irradiance, PolygonLightOfManyTriangles) {
   std::vector<Point3> hexagon;
   for (int i = 0; i < 6; ++i) {
     const double phi = i * std::numbers::pi / 3;
@@ -60,44 +60,44 @@ TEST(Irradiance, PolygonLampOfManyTriangles) {
   }
   Shape shape;
   shape.geometry = TriangleMesh{hexagon, {}, {}, {{0, 2, 1}, {0, 3, 2}, {0, 4, 3}, {0, 5, 4}}};
-  const auto lamp = DiffuseAreaLight::make(shape, Rgb(1), false);
+  const auto light = DiffuseAreaLight::make(shape, Rgb(1), false);
   const Normal3 n = glm::normalize(Vector3(0.2f, -0.1f, 1));
-  expect_mean(irradiance(*lamp, {0.4f, 0.2f, 0}, n), polygon_irradiance(1, hexagon, {0.4f, 0.2f, 0}, n));
+  expect_mean(irradiance(*light, {0.4f, 0.2f, 0}, n), polygon_irradiance(1, hexagon, {0.4f, 0.2f, 0}, n));
 }
 
 // E = pi L (r/d)^2 cos while the whole sphere is above the horizon: also for very near and very far ones.
-TEST(Irradiance, SphereLamp) {
+TEST(Irradiance, SphereLight) {
   for (const double distance : {1.01, 1.5, 10.0, 1e4, 1e7}) {
-    const auto lamp = DiffuseAreaLight::make(test::sphere_shape(Point3(0, 0, distance), 1), Rgb(2), false);
+    const auto light = DiffuseAreaLight::make(test::sphere_shape(Point3(0, 0, distance), 1), Rgb(2), false);
     const Normal3 facing(0, 0, 1);
-    expect_mean(irradiance(*lamp, Point3(0), facing), 2 * std::numbers::pi / (distance * distance));
+    expect_mean(irradiance(*light, Point3(0), facing), 2 * std::numbers::pi / (distance * distance));
     if (distance < 10) continue;
     const Normal3 tilted = glm::normalize(Vector3(1, 0, 1));
-    expect_mean(irradiance(*lamp, Point3(0), tilted),
+    expect_mean(irradiance(*light, Point3(0), tilted),
                 std::sqrt(2.0) * std::numbers::pi / (distance * distance));
   }
 }
 
-// Inside a closed lamp the radiance is L from everywhere: E = pi L.
-TEST(Irradiance, InsideSphereLamp) {
-  const auto lamp = DiffuseAreaLight::make(test::sphere_shape({1, 2, 3}, 5, true), Rgb(2), false);
-  expect_mean(irradiance(*lamp, {2, 1, 5}, {0, 0, 1}), 2 * std::numbers::pi);
+// Inside a closed light the radiance is L from everywhere: E = pi L.
+TEST(Irradiance, InsideSphereLight) {
+  const auto light = DiffuseAreaLight::make(test::sphere_shape({1, 2, 3}, 5, true), Rgb(2), false);
+  expect_mean(irradiance(*light, {2, 1, 5}, {0, 0, 1}), 2 * std::numbers::pi);
   const auto outward = DiffuseAreaLight::make(test::sphere_shape({1, 2, 3}, 5), Rgb(2), false);
   EXPECT_FALSE(outward->sample_Li({2, 1, 5}, {0.5f, 0.5f}));
 }
 
 // Coaxial disk: E = pi L r^2 / (r^2 + h^2); an annulus is the difference of two.
-TEST(Irradiance, DiskAndAnnulusLamp) {
-  const auto lamp = [](float inner) {
+TEST(Irradiance, DiskAndAnnulusLight) {
+  const auto light = [](float inner) {
     Shape shape;
     shape.geometry = Disk{Transform::from_matrix(test::affine(glm::dmat3(1.5), {0, 0, 2})), inner};
     shape.flip_normal = true;  // shines down
     return *DiffuseAreaLight::make(shape, Rgb(3), false);
   };
   const auto disk = [](double r) { return 3 * std::numbers::pi * r * r / (r * r + 4); };
-  expect_mean(irradiance(lamp(0), Point3(0), {0, 0, 1}), disk(1.5));
-  expect_mean(irradiance(lamp(0.5f), Point3(0), {0, 0, 1}), disk(1.5) - disk(0.75));
-  EXPECT_FALSE(lamp(0).sample_Li({0, 0, 4}, {0.5f, 0.5f}));  // from behind
+  expect_mean(irradiance(light(0), Point3(0), {0, 0, 1}), disk(1.5));
+  expect_mean(irradiance(light(0.5f), Point3(0), {0, 0, 1}), disk(1.5) - disk(0.75));
+  EXPECT_FALSE(light(0).sample_Li({0, 0, 4}, {0.5f, 0.5f}));  // from behind
 }
 
 TEST(Irradiance, PointSpotDistantInfinite) {

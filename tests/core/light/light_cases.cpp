@@ -160,7 +160,7 @@ std::vector<LightCase> make_cases() {
   return cases;
 }
 
-// A cone about `frame.z` that holds every direction to the lamp.
+// A cone about `frame.z` that holds every direction to the light.
 struct Cone {
   Frame frame;
   double z_min = -1;
@@ -177,7 +177,7 @@ Cone cone_of(const LightCase& c, const Point3& ref) {
 
 double density(const LightCase& c, const LightReceiver& x, const Vector3& wi) {
   if (is_infinite(c.light)) return escaped_pdf(c.light, x, wi);
-  // Every part of the lamp along the ray counts: sample_Li knows no visibility.
+  // Every part of the light along the ray counts: sample_Li knows no visibility.
   const auto& area = std::get<DiffuseAreaLight>(c.light);
   double sum = 0;
   Ray ray{x.p, wi};

@@ -1,5 +1,5 @@
 #pragma once
-// Instances of every light and lamp surface, with reference points from which they are seen.
+// Instances of every light and light surface, with reference points from which they are seen.
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace kaustik::test {
 struct LightCase {
   std::string name;
   Light light;
-  std::vector<Shape> shapes;  // the one of an area lamp
+  std::vector<Shape> shapes;  // the one of an area light
   std::vector<Point3> refs;   // lit points; the receiver of fluxes lies at the first one
   Vector3 receiver_normal{0, 0, 1};
   float receiver_radius = 0.5f;
@@ -45,7 +45,7 @@ struct Receiver {
 };
 Receiver receiver_of(const LightCase& c);
 
-// sample_Li and pdf_Li of an area or infinite light at x, over the cone of directions that holds the lamp.
+// sample_Li and pdf_Li of an area or infinite light at x, over the cone of directions that holds the light.
 SquareCase direction_square(const LightCase& c, const LightReceiver& x);
 
 }  // namespace kaustik::test

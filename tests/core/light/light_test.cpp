@@ -72,7 +72,7 @@ TEST(Light, PhotonsAndIrradianceCarryTheSameFlux) {
   }
 }
 
-// sample_Li's directions against pdf_Li, evaluated where rays meet the lamp: chi-square, and mass one.
+// sample_Li's directions against pdf_Li, evaluated where rays meet the light: chi-square, and mass one.
 TEST(Light, DirectionsFollowTheirDensity) {
   std::vector<test::SquareCase> cases;
   for (const LightCase& c : test::light_cases()) {
@@ -84,7 +84,7 @@ TEST(Light, DirectionsFollowTheirDensity) {
         cases.push_back(test::direction_square(c, {ref, glm::normalize(Vector3(1, -2, 0.5f)), false}));
     }
   }
-  // A lamp's outline crosses bins: 40 subdivisions of 16 bins resolve its area to better than a percent.
+  // A light's outline crosses bins: 40 subdivisions of 16 bins resolve its area to better than a percent.
   test::expect_all_accepted(cases, 40000, 0.01);
 }
 
@@ -103,9 +103,9 @@ TEST(Light, SampledDensityIsTheQueriedOne) {
         const Hit hit = test::brute_force(c.shapes, ray);
         if (!hit.valid()) continue;  // the very rim
         const SurfaceInteraction on_light = make_interaction(c.shapes, ray, hit);
-        // Another part of the lamp hides the sampled point: its own density is meant.
+        // Another part of the light hides the sampled point: its own density is meant.
         if (glm::distance(on_light.p, s->p_light) > 1e-4f * glm::distance(ref, s->p_light)) continue;
-        // The cosine at the lamp loses its relative precision at grazing angles.
+        // The cosine at the light loses its relative precision at grazing angles.
         const float cosine = abs_dot(on_light.n, s->wi);
         const float found = area->pdf_Li(ref, s->wi, on_light), error = std::abs(found - s->pdf);
         ++compared;
@@ -120,8 +120,9 @@ TEST(Light, SampledDensityIsTheQueriedOne) {
   }
 }
 
-// The shadow ray's end lies on the side of the lamp that shines on the point: nothing of the lamp is between.
-TEST(Light, SampledPointIsNotBehindItsOwnLamp) {
+// The shadow ray's end lies on the side of the light that shines on the point: nothing of the light is
+// between.
+TEST(Light, SampledPointIsNotBehindItsOwnLight) {
   for (const LightCase& c : test::light_cases()) {
     const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
     if (!area || std::holds_alternative<TriangleEmitter>(area->surface)) continue;
@@ -137,12 +138,12 @@ TEST(Light, SampledPointIsNotBehindItsOwnLamp) {
   }
 }
 
-TEST(Light, EmittedRaysDoNotMeetTheirConvexLamp) {
+TEST(Light, EmittedRaysDoNotMeetTheirConvexLight) {
   for (const LightCase& c : test::light_cases()) {
     const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
     const auto* sphere = area ? std::get_if<SphereEmitter>(&area->surface) : nullptr;
     const bool mesh = area && std::holds_alternative<TriangleEmitter>(area->surface);
-    // Inner sides of spheres and of bent meshes may well shine on the lamp itself.
+    // Inner sides of spheres and of bent meshes may well shine on the light itself.
     const auto* quadric = area ? std::get_if<QuadricEmitter>(&area->surface) : nullptr;
     const bool hollow = quadric && quadric->quadric.kind != QuadricKind::kDisk;
     if (!area || hollow || (sphere && sphere->inward) || (area->twosided && (sphere || mesh))) continue;

@@ -1,4 +1,4 @@
-// The choice of a lamp among many: probabilities that sum to one, are those by which lamps are chosen, and
+// The choice of a light among many: probabilities that sum to one, are those by which lights are chosen, and
 // are zero only where nothing arrives.
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ Point3 point_in_box(IndependentRandom& random, float size) {
   return size * Point3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
 }
 
-DiffuseAreaLight triangle_lamp(IndependentRandom& random, float size) {
+DiffuseAreaLight triangle_light(IndependentRandom& random, float size) {
   const Point3 p = point_in_box(random, size);
   const auto corner = [&] { return p + 0.05f * size * random.direction(); };
   const Shape shape = test::triangle_shape(p, corner(), corner());
@@ -34,7 +34,7 @@ SpotLight spot(IndependentRandom& random, float size) {
 }
 
 // One of each kind in turn; coordinates and distances go with size.
-std::vector<Light> lamps(int count, float size = 1, uint64_t seed = 8) {
+std::vector<Light> lights(int count, float size = 1, uint64_t seed = 8) {
   IndependentRandom random(seed);
   std::vector<Light> out;
   for (int i = 0; i < count; ++i) {
@@ -51,7 +51,7 @@ std::vector<Light> lamps(int count, float size = 1, uint64_t seed = 8) {
             false));
         break;
       default:
-        out.push_back(triangle_lamp(random, size));
+        out.push_back(triangle_light(random, size));
     }
   }
   return out;
@@ -63,18 +63,18 @@ LightReceiver receiver(IndependentRandom& random, float size = 1) {
 
 double sum_of_probabilities(const LightTree& tree, const LightReceiver& x, int count) {
   double sum = 0;
-  for (int lamp = 0; lamp < count; ++lamp) sum += double(tree.probability(x, uint32_t(lamp)));
+  for (int light = 0; light < count; ++light) sum += double(tree.probability(x, uint32_t(light)));
   return sum;
 }
 
-// Each step down multiplies by a factor rounded once: at most about 40 steps of 2^-24 for 1000 lamps.
+// Each step down multiplies by a factor rounded once: at most about 40 steps of 2^-24 for 1000 lights.
 TEST(LightTree, ProbabilitiesSumToOne) {
   constexpr double kRounding = 40 * 0x1p-24;
   for (const int count : {1, 2, 17, 1000}) {
     std::vector<Light> points;
-    for (const Light& light : lamps(5 * count))
+    for (const Light& light : lights(5 * count))
       if (std::holds_alternative<PointLight>(light)) points.push_back(light);
-    const LightTree of_points(points), of_all(lamps(count));
+    const LightTree of_points(points), of_all(lights(count));
     IndependentRandom random(9);
     for (int i = 0; i < 50; ++i) {
       LightReceiver x = receiver(random);
@@ -88,11 +88,11 @@ TEST(LightTree, ProbabilitiesSumToOne) {
   }
 }
 
-// Every number leads to a lamp with the probability that is stated for it, and the numbers that lead to one
-// lamp are an interval of that length.
+// Every number leads to a light with the probability that is stated for it, and the numbers that lead to one
+// light are an interval of that length.
 TEST(LightTree, ChoosesByTheProbabilityItStates) {
   const int count = 200;
-  const LightTree tree(lamps(count));
+  const LightTree tree(lights(count));
   IndependentRandom random(10);
   for (int i = 0; i < 5; ++i) {
     const LightReceiver x = receiver(random);
@@ -101,38 +101,38 @@ TEST(LightTree, ChoosesByTheProbabilityItStates) {
     for (int k = 0; k < kSteps; ++k) {
       const auto choice = tree.choose(x, (float(k) + 0.5f) / kSteps);
       if (!choice) continue;
-      ++chosen[choice->lamp];
-      ASSERT_EQ(choice->probability, tree.probability(x, choice->lamp));
+      ++chosen[choice->light];
+      ASSERT_EQ(choice->probability, tree.probability(x, choice->light));
       ASSERT_TRUE(choice->u_remapped >= 0 && choice->u_remapped < 1);
     }
-    for (int lamp = 0; lamp < count; ++lamp)
-      EXPECT_NEAR(chosen[size_t(lamp)] / double(kSteps), double(tree.probability(x, uint32_t(lamp))),
+    for (int light = 0; light < count; ++light)
+      EXPECT_NEAR(chosen[size_t(light)] / double(kSteps), double(tree.probability(x, uint32_t(light))),
                   2.0 / kSteps);
   }
 }
 
-TEST(LightTree, IsNeverZeroWhereALampContributes) {
-  const std::vector<Light> all = lamps(300);
+TEST(LightTree, IsNeverZeroWhereALightContributes) {
+  const std::vector<Light> all = lights(300);
   const LightTree tree(all);
   IndependentRandom random(11);
   int contributing = 0;
   for (int i = 0; i < 60; ++i) {
     const LightReceiver x = receiver(random);
-    for (uint32_t lamp = 0; lamp < all.size(); ++lamp)
+    for (uint32_t light = 0; light < all.size(); ++light)
       for (int k = 0; k < 20; ++k) {
         const Point2 u = random.next_2d();
-        const auto s = sample_Li(all[lamp], x, u);
+        const auto s = sample_Li(all[light], x, u);
         if (!s || is_black(s->Li)) continue;
         if (!x.two_sided && !(glm::dot(x.n, s->wi) > 0)) continue;
         ++contributing;
-        ASSERT_GT(tree.probability(x, lamp), 0) << lamp;
+        ASSERT_GT(tree.probability(x, light), 0) << light;
       }
   }
   EXPECT_GT(contributing, 50000);
 }
 
-// Lamps in one place, lamps on a line, lamps whose powers differ by many orders: all are found.
-TEST(LightTree, FindsLampsOfAnyArrangement) {
+// Lights in one place, lights on a line, lights whose powers differ by many orders: all are found.
+TEST(LightTree, FindsLightsOfAnyArrangement) {
   std::vector<Light> all;
   for (int i = 0; i < 3000; ++i) {
     const float x = i < 1000 ? 0 : i < 2000 ? float(i) : std::ldexp(1.0f, i % 10);
@@ -141,20 +141,20 @@ TEST(LightTree, FindsLampsOfAnyArrangement) {
   const LightTree tree(all);
   const LightReceiver x{{3, 100, 5}, {0, -1, 0}, false};
   double sum = 0;
-  for (uint32_t lamp = 0; lamp < all.size(); ++lamp) {
-    const float p = tree.probability(x, lamp);
-    EXPECT_GT(p, 0) << lamp;
+  for (uint32_t light = 0; light < all.size(); ++light) {
+    const float p = tree.probability(x, light);
+    EXPECT_GT(p, 0) << light;
     sum += double(p);
   }
   EXPECT_NEAR(sum, 1, 1e-4);
 }
 
-// The same lamps by the same probabilities in a scene that is 2^k times as large.
+// The same lights by the same probabilities in a scene that is 2^k times as large.
 TEST(LightTree, ScalesByPowersOfTwo) {
-  const LightTree one(lamps(100));
+  const LightTree one(lights(100));
   for (const int k : {-30, 20}) {
     const float size = std::ldexp(1.0f, k);
-    const LightTree scaled(lamps(100, size));
+    const LightTree scaled(lights(100, size));
     IndependentRandom random(12), same(12);
     for (int i = 0; i < 1000; ++i) {
       const LightReceiver x = receiver(random), y = receiver(same, size);
@@ -163,27 +163,27 @@ TEST(LightTree, ScalesByPowersOfTwo) {
       const auto a = one.choose(x, u), b = scaled.choose(y, u);
       ASSERT_EQ(a.has_value(), b.has_value());
       if (!a) continue;
-      ASSERT_EQ(a->lamp, b->lamp);
+      ASSERT_EQ(a->light, b->light);
       ASSERT_EQ(a->probability, b->probability);
     }
   }
 }
 
-TEST(LightSampler, FewLampsAreChosenByPower) {
-  const std::vector<Light> all = lamps(int(LightSampler::kMostByPower));
+TEST(LightSampler, FewLightsAreChosenByPower) {
+  const std::vector<Light> all = lights(int(LightSampler::kMostByPower));
   const LightSampler sampler(all);
   const DiscreteDistribution by_power = light_power_distribution(all);
   const LightReceiver x{{0, 0, 0}, {0, 0, 1}, true};
-  for (uint32_t lamp = 0; lamp < all.size(); ++lamp)
-    EXPECT_EQ(sampler.probability(x, lamp), by_power.pdf(lamp));
+  for (uint32_t light = 0; light < all.size(); ++light)
+    EXPECT_EQ(sampler.probability(x, light), by_power.pdf(light));
   for (const float u : {0.0f, 0.25f, 0.77f, kOneMinusEpsilon}) {
-    EXPECT_EQ(sampler.choose(x, u)->lamp, by_power.sample(u).index);
+    EXPECT_EQ(sampler.choose(x, u)->light, by_power.sample(u).index);
     EXPECT_EQ(sampler.choose(x, u)->u_remapped, by_power.sample(u).u_remapped);
   }
 }
 
-TEST(LightSampler, LampsWithoutAPlaceStandBesideTheTree) {
-  std::vector<Light> all = lamps(40);
+TEST(LightSampler, LightsWithoutAPlaceStandBesideTheTree) {
+  std::vector<Light> all = lights(40);
   all.insert(all.begin() + 3, DistantLight{{0, 0, 1}, Rgb(1), {0, 0, 0}, 2});
   all.insert(all.begin() + 9, InfiniteLight{Rgb(1), {0, 0, 0}, 2});
   all.push_back(InfiniteLight{Rgb(0), {0, 0, 0}, 2});  // gives nothing
@@ -191,16 +191,16 @@ TEST(LightSampler, LampsWithoutAPlaceStandBesideTheTree) {
   const LightReceiver x{{0, 0, 0}, {0, 0, 1}, true};
   // One choice in eight is made by power.
   const DiscreteDistribution by_power = light_power_distribution(all);
-  for (const uint32_t lamp : {3u, 9u})
-    EXPECT_FLOAT_EQ(sampler.probability(x, lamp), 0.875f / 3 + 0.125f * by_power.pdf(lamp));
+  for (const uint32_t light : {3u, 9u})
+    EXPECT_FLOAT_EQ(sampler.probability(x, light), 0.875f / 3 + 0.125f * by_power.pdf(light));
   EXPECT_EQ(sampler.probability(x, uint32_t(all.size() - 1)), 0);
   double sum = 0;
-  for (uint32_t lamp = 0; lamp < all.size(); ++lamp) sum += double(sampler.probability(x, lamp));
+  for (uint32_t light = 0; light < all.size(); ++light) sum += double(sampler.probability(x, light));
   EXPECT_LE(sum, 1 + 1e-5);
   for (int k = 0; k < 1000; ++k) {
     const auto choice = sampler.choose(x, (float(k) + 0.5f) / 1000);
     if (!choice) continue;
-    ASSERT_EQ(choice->probability, sampler.probability(x, choice->lamp));
+    ASSERT_EQ(choice->probability, sampler.probability(x, choice->light));
   }
   const LightSampler none(std::vector<Light>(20, PointLight{{0, 0, 0}, Rgb(0)}));
   EXPECT_FALSE(none.choose(x, 0.5f));

@@ -77,7 +77,7 @@ glm::dmat4 translation(const glm::dvec3& v) {
   return glm::translate(glm::dmat4(1), v);
 }
 
-// At `move`, by transforms or by the coordinates of vertices and lamps themselves.
+// At `move`, by transforms or by the coordinates of vertices and lights themselves.
 enum class Way { kTransforms, kCoordinates };
 
 std::vector<double> moved(std::vector<double> coordinates, const glm::dvec3& move) {
@@ -108,11 +108,11 @@ SceneDescription everything(const glm::dvec3& move, Way way) {
   d.objects[0].shapes[0].parameters[0].numbers.resize(9);
   if (way == Way::kTransforms) d.objects[0].shapes[0].object_to_world = glm::dmat4(1);
   d.instances.push_back({"object", {}, m});
-  LightDescription lamp;
-  static_cast<Directive&>(lamp) = directive(
+  LightDescription light;
+  static_cast<Directive&>(light) = directive(
       "point", {numbers(ParameterType::kPoint3, "from", moved({0.5, 0.75, 0.1240234375}, by_number))});
-  lamp.light_to_world = m;
-  d.lights.push_back(lamp);
+  light.light_to_world = m;
+  d.lights.push_back(light);
   d.camera.emplace();
   static_cast<Directive&>(*d.camera) = directive("perspective");
   d.camera->camera_to_world = translation(move + glm::dvec3(0, 0, -3.0009765625));

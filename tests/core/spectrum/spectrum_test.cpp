@@ -24,9 +24,9 @@ TEST(Spectrum, ObserverIntegral) {
   EXPECT_NEAR(tristimulus(Spectrum::from([](double) { return 1; })).y, 106.856895, 0.002);
 }
 
-// CIE 15:2004, table T.3: chromaticities of the illuminants, four digits as printed there. F lamps are tables
-// in steps of 5 nm, summed by the CIE at these steps; we interpolate, which moves peaked spectra by up to
-// 0.0003.
+// CIE 15:2004, table T.3: chromaticities of the illuminants, four digits as printed there. F lights are
+// tables in steps of 5 nm, summed by the CIE at these steps; we interpolate, which moves peaked spectra by up
+// to 0.0003.
 TEST(Spectrum, IlluminantChromaticities) {
   const struct {
     const char* name;
@@ -76,7 +76,7 @@ TEST(Spectrum, DaylightIsWhite) {
   expect_near(reflected_colour(Spectrum::from([](double) { return 0.3; })), glm::dvec3(0.3), 1e-12);
 }
 
-TEST(Spectrum, LampsHaveLuminanceOne) {
+TEST(Spectrum, LightsHaveLuminanceOne) {
   for (const std::string_view name : spectrum_names()) {
     const glm::dvec3 c = emitted_colour(*named_spectrum(name));
     // The middle row of the matrix from Rec. 709 to XYZ.
@@ -107,9 +107,9 @@ TEST(Spectrum, WhiteSurfacesStayWhite) {
   for (const ColourSpace& space : colour_spaces())
     expect_near(space.surface_to_ours() * glm::dvec3(1), glm::dvec3(1), 1e-12, space.name);
   // The white of ACES is warmer than ours.
-  const glm::dvec3 lamp = find_colour_space("aces2065-1")->light_to_ours() * glm::dvec3(1);
-  EXPECT_GT(lamp.r, 1.03);
-  EXPECT_LT(lamp.b, 0.95);
+  const glm::dvec3 light = find_colour_space("aces2065-1")->light_to_ours() * glm::dvec3(1);
+  EXPECT_GT(light.r, 1.03);
+  EXPECT_LT(light.b, 0.95);
   EXPECT_EQ(find_colour_space("rec709"), find_colour_space("srgb"));
   EXPECT_EQ(find_colour_space("prophoto"), nullptr);
 }

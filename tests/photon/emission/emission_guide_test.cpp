@@ -98,7 +98,7 @@ LearnedGuide learn(const Scene& scene, int threads = 2, uint64_t photons = 100'0
   return learned;
 }
 
-// A room with a small glass sphere below the lamp, `size` of the room's half width.
+// A room with a small glass sphere below the light, `size` of the room's half width.
 Scene room_with_marble(float size, float s = 1) {
   Scene scene = testing::lit_room(Rgb(0.5f), Rgb(4, 2, 1), s);
   scene.materials.push_back(Dielectric{1.5f});
@@ -163,9 +163,9 @@ TEST(GuidedEmission, FindsASmallTarget) {
   expect_equal_flux(flux_over_seeds(scene, nullptr), flux_over_seeds(scene, &learned.guide));
 }
 
-TEST(GuidedEmission, LampsThatNobodySawKeepTheirLight) {
+TEST(GuidedEmission, LightsThatNobodySawKeepTheirLight) {
   Scene scene = room_with_marble(0.3f);
-  testing::add_lamp(scene, testing::quad({-0.9f, 0.5f, -0.9f}, {0.1f, 0, 0}, {0, 0, 0.1f}), Rgb(40));
+  testing::add_light(scene, testing::quad({-0.9f, 0.5f, -0.9f}, {0.1f, 0, 0}, {0, 0, 0.1f}), Rgb(40));
   finalize_scene(scene);
   ASSERT_EQ(scene.lights.size(), 2u);
   std::vector<GuideHit> hits;
@@ -187,7 +187,7 @@ TEST(GuidedEmission, IsOffWhereNothingIsFoundOrAllIs) {
   finalize_scene(dark);
   EXPECT_TRUE(learn(dark).guide.empty());
   EXPECT_EQ(learn(testing::lit_room(Rgb(0.5f), Rgb(1))).hits, 0u);
-  // A plate of glass below the lamp, as wide as the room.
+  // A plate of glass below the light, as wide as the room.
   Scene covered = testing::lit_room(Rgb(0.5f), Rgb(1));
   covered.materials.push_back(Dielectric{1.5f});
   covered.shapes.push_back(testing::quad({-1, 0.5f, -1}, {2, 0, 0}, {0, 0, 2}, 1));

@@ -55,7 +55,7 @@ void expect_power(const Scene& scene, EmissionMode mode = EmissionMode::kCosine)
   }
 }
 
-TEST(Emission, SumOfFluxIsThePowerOfEachKindOfLamp) {
+TEST(Emission, SumOfFluxIsThePowerOfEachKindOfLight) {
   expect_power(with_light(PointLight{{0.1f, 0.2f, 0.3f}, {1, 2, 3}}));
   expect_power(with_light(SpotLight{{0, 0, 0}, Frame::from_z({0, -1, 0}), {3, 2, 1}, 0.9f, 0.7f}));
   expect_power(with_light(DistantLight{glm::normalize(Vector3(1, 2, 3)), {1, 1, 2}}));
@@ -73,7 +73,7 @@ TEST(Emission, SumOfFluxIsTheClosedForm) {
   EXPECT_NEAR(point.sum.y, 8 * M_PI, 8e-6 * M_PI);
 }
 
-TEST(Emission, LampsAreChosenByPowerAndShareTheFlux) {
+TEST(Emission, LightsAreChosenByPowerAndShareTheFlux) {
   Scene scene = testing::lit_room(Rgb(0.5f), {1, 1, 1});
   scene.lights.emplace_back(PointLight{{0, 0, 0}, Rgb(0.5f)});
   scene.lights.emplace_back(PointLight{{0.5f, 0, 0}, Rgb(0)});
@@ -82,15 +82,15 @@ TEST(Emission, LampsAreChosenByPowerAndShareTheFlux) {
   const double area = M_PI / 4, point = 2 * M_PI, p = point / (area + point);
   uint64_t from_point = 0;
   for (const auto& s : e.samples) {
-    EXPECT_NEAR(s.flux.x, (area + point) / kCount, 1e-5 / kCount);  // equal flux whichever lamp
+    EXPECT_NEAR(s.flux.x, (area + point) / kCount, 1e-5 / kCount);  // equal flux whichever light
     if (s.ray.o == Point3(0)) ++from_point;
-    EXPECT_NE(s.ray.o, Point3(0.5f, 0, 0));  // no photon from the black lamp
+    EXPECT_NE(s.ray.o, Point3(0.5f, 0, 0));  // no photon from the black light
   }
   EXPECT_EQ(e.samples.size(), kCount);
   EXPECT_NEAR(double(from_point), kCount * p, 4 * std::sqrt(kCount * p * (1 - p)));
 }
 
-TEST(Emission, AreaLampEmitsFromItsSurfaceByTheCosine) {
+TEST(Emission, AreaLightEmitsFromItsSurfaceByTheCosine) {
   const Emitted e = emit_all(testing::lit_room(Rgb(0.5f), {1, 2, 3}));
   double mean_cosine = 0;
   for (const auto& s : e.samples) {
@@ -124,7 +124,7 @@ TEST(Emission, FluxIsDividedByTheTotalExactly) {
   EXPECT_FLOAT_EQ(many.samples[0].flux.x, static_cast<float>(M_PI / 4 / 17179869184.0));
 }
 
-TEST(Emission, NothingWithoutLampsOrPower) {
+TEST(Emission, NothingWithoutLightsOrPower) {
   Scene dark;
   dark.materials = {Lambertian{}};
   testing::add_box(dark, 1);
@@ -134,8 +134,8 @@ TEST(Emission, NothingWithoutLampsOrPower) {
   EXPECT_EQ(black.sum, glm::dvec3(0));
 }
 
-// Several kinds of lamp side by side, a two-sided one of many triangles among them.
-Scene many_lamps() {
+// Several kinds of light side by side, a two-sided one of many triangles among them.
+Scene many_lights() {
   Scene scene = testing::lit_room(Rgb(0.5f), {1, 2, 3});
   TriangleMesh mesh;
   for (int i = 0; i <= 40; ++i) {
@@ -165,7 +165,7 @@ void expect_lanes_are_emit_photon(const Scene& scene, EmissionMode mode, std::op
         const EmissionNumbers u = emission_numbers(scene, sampler);
         const float numbers[] = {u.position.x, u.position.y, u.direction.x, u.direction.y};
         for (int d = 0; d < 4; ++d) lanes->position_direction.u[d][k] = numbers[d];
-        lanes->u_lamp[k] = u.lamp;
+        lanes->u_light[k] = u.light;
         expected.push_back(emit_photon(scene, u, kCount, mode, only));
       }
       emit_lanes(scene, kCount, mode, count, *lanes, only);
@@ -186,8 +186,8 @@ TEST(EmissionLanes, AreEmitPhotonBitForBit) {
   for (const EmissionMode mode : {EmissionMode::kCosine, EmissionMode::kUniformAngle}) {
     expect_lanes_are_emit_photon(testing::lit_room(Rgb(0.5f), {1, 2, 3}), mode);
     expect_lanes_are_emit_photon(with_light(PointLight{{0, 0, 0}, {1, 2, 3}}), mode);
-    expect_lanes_are_emit_photon(many_lamps(), mode);
-    for (uint32_t lamp = 0; lamp < 4; ++lamp) expect_lanes_are_emit_photon(many_lamps(), mode, lamp);
+    expect_lanes_are_emit_photon(many_lights(), mode);
+    for (uint32_t light = 0; light < 4; ++light) expect_lanes_are_emit_photon(many_lights(), mode, light);
   }
 }
 

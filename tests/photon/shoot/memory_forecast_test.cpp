@@ -1,4 +1,4 @@
-// What a shoot will take, foretold, and the limit that it is held to.
+// What a shoot will take, predicted, and the limit that it is held to.
 
 #include "photon/shoot/memory_forecast.h"
 
@@ -45,7 +45,7 @@ TEST(MemoryForecast, PeakIsTheLargestMapsBuildBesideTheRest) {
   EXPECT_DOUBLE_EQ(peak_bytes({10, 20, 30, 40}, PhotonUse::kMaps), 26.4 * 60 + 52 * 40);
 }
 
-// In a closed room every photon of the lamp leaves one direct photon.
+// In a closed room every photon of the light leaves one direct photon.
 TEST(MemoryForecast, RefusesWhatDoesNotFitAndSaysWhatWould) {
   const TraceSettings settings = settings_for(1'000'000'000, kDirectOnly);
   EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kMaps, 52'000'000'000), "");

@@ -41,19 +41,19 @@ inline void add_box(Scene& scene, float s, uint32_t material = 0) {
 }
 
 // Adds a shape that emits radiance L on its outside.
-inline void add_lamp(Scene& scene, Shape shape, const Rgb& L) {
+inline void add_light(Scene& scene, Shape shape, const Rgb& L) {
   shape.light = static_cast<uint32_t>(scene.lights.size());
   scene.lights.emplace_back(*DiffuseAreaLight::make(shape, L, false));
   scene.shapes.push_back(std::move(shape));
 }
 
-// A closed diffuse room of half width `s` with a square lamp under its ceiling, facing down, of power
+// A closed diffuse room of half width `s` with a square light under its ceiling, facing down, of power
 // pi L s^2 / 4.
 inline Scene lit_room(const Rgb& reflectance, const Rgb& L, float s = 1) {
   Scene scene;
   scene.materials = {Lambertian{reflectance}};
   add_box(scene, s);
-  add_lamp(scene, quad({-0.25f * s, 0.9f * s, -0.25f * s}, {0.5f * s, 0, 0}, {0, 0, 0.5f * s}), L);
+  add_light(scene, quad({-0.25f * s, 0.9f * s, -0.25f * s}, {0.5f * s, 0, 0}, {0, 0, 0.5f * s}), L);
   finalize_scene(scene);
   return scene;
 }
@@ -69,7 +69,8 @@ inline Scene full_room(float s = 1) {
   scene.shapes.push_back(sphere({0.5f * s, -0.3f * s, -0.3f * s}, 0.3f * s, 2));
   scene.shapes.push_back(
       quad({0.1f * s, -0.2f * s, 0.2f * s}, {0.5f * s, 0.1f * s, 0}, {0, 0.2f * s, 0.5f * s}, 3));
-  add_lamp(scene, quad({-0.25f * s, 0.9f * s, -0.25f * s}, {0.5f * s, 0, 0}, {0, 0, 0.5f * s}), Rgb(3, 2, 1));
+  add_light(scene, quad({-0.25f * s, 0.9f * s, -0.25f * s}, {0.5f * s, 0, 0}, {0, 0, 0.5f * s}),
+            Rgb(3, 2, 1));
   finalize_scene(scene);
   return scene;
 }

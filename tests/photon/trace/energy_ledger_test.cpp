@@ -23,13 +23,13 @@ EnergyLedger ledger_of(const Scene& scene, const TraceSettings& settings) {
   return shoot(scene, accel::Bvh(scene), settings).counters.energy;
 }
 
-double lamps_power(const Scene& scene) {
+double lights_power(const Scene& scene) {
   Rgb total(0);
   for (const Light& light : scene.lights) total += power(light);
   return double{total.x} + double{total.y} + double{total.z};
 }
 
-// Rounding of n photons' fluxes to units, and of their float sums over three channels and lamps.
+// Rounding of n photons' fluxes to units, and of their float sums over three channels and lights.
 double rounding(const EnergyLedger& e, uint64_t photons) {
   return 0.5 * static_cast<double>(photons) * e.watts(1) + 0x1p-20 * e.watts(e.emitted);
 }
@@ -57,7 +57,7 @@ TEST(EnergyLedger, BalancesToTheLastUnit) {
         const EnergyLedger e = ledger_of(scene, settings);
         EXPECT_EQ(e.unaccounted(), 0);
         EXPECT_EQ(e.invalid, 0);
-        EXPECT_NEAR(e.watts(e.emitted), lamps_power(scene), rounding(e, settings.photons));
+        EXPECT_NEAR(e.watts(e.emitted), lights_power(scene), rounding(e, settings.photons));
       }
     }
   }
@@ -100,8 +100,8 @@ TEST(EnergyLedger, HasTheEntriesOfAClosedRoom) {
   Scene nothing = testing::lit_room(Rgb(0.5f), Rgb(1));
   nothing.shapes.erase(nothing.shapes.begin(), nothing.shapes.begin() + 6);
   nothing.shapes[0].light = 0;
-  const EnergyLedger lamp_alone = ledger_of(nothing, settings_for(10'000, kAllKinds));
-  EXPECT_EQ(lamp_alone.escaped, lamp_alone.emitted);
+  const EnergyLedger light_alone = ledger_of(nothing, settings_for(10'000, kAllKinds));
+  EXPECT_EQ(light_alone.escaped, light_alone.emitted);
 }
 
 // Of reflectance rho: each of the paths' visits absorbs 1 - rho of what arrives, and there are 1 / (1 - rho)
@@ -154,10 +154,10 @@ TEST(EnergyLedger, MillionsOfPathsStayValid) {
   EXPECT_EQ(all.dropped_invalid, 0u);
   EXPECT_EQ(bad, 0u);
   EXPECT_EQ(all.energy.unaccounted(), 0);
-  EXPECT_NEAR(all.energy.watts(all.energy.emitted), lamps_power(scene), rounding(all.energy, photons));
+  EXPECT_NEAR(all.energy.watts(all.energy.emitted), lights_power(scene), rounding(all.energy, photons));
 }
 
-// A point lamp inside a glass cube: light that meets all faces beyond the critical angle c never leaves. It
+// A point light inside a glass cube: light that meets all faces beyond the critical angle c never leaves. It
 // is 1 - 3 (1 - cos c) of the sphere, for cos c > 1/sqrt(2), where the six cones of escape do not overlap.
 // The rest visits the faces that it may leave by at least 48 times on 110 segments (their share of the visits
 // is cos c / (cos c + sqrt(2) sin c) or more), each time reflected with R ~ exp(-4 cos t / (eta cos c)) next

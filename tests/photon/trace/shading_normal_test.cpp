@@ -66,17 +66,17 @@ void expect_agree(const Estimate& a, const Estimate& b) {
   EXPECT_LT(std::hypot(a.error, b.error), 0.02 * a.mean) << "too noisy to say anything";
 }
 
-// A point lamp near the octahedron, in a black room. Camera paths weigh light from wi at a surface point by
+// A point light near the octahedron, in a black room. Camera paths weigh light from wi at a surface point by
 // |wi.ns|, where wi lies on one side of n and ns.
 TEST(ShadingNormals, DepositsAndReflectionAgreeWithCameraPaths) {
-  const Point3 lamp(0.8f, 1.0f, 0.7f);
+  const Point3 light(0.8f, 1.0f, 0.7f);
   const float rho = 0.8f;
   Scene scene;
   scene.materials = {Lambertian{Rgb(rho)}, Lambertian{Rgb(0)}};
   scene.shapes = {smooth_octahedron(0)};
   scene.shapes[0].surface_group = 100;
   testing::add_box(scene, 5, 1);
-  scene.lights = {PointLight{lamp, Rgb(1)}};
+  scene.lights = {PointLight{light, Rgb(1)}};
   finalize_scene(scene);
   const accel::Bvh bvh(scene);
 
@@ -90,14 +90,14 @@ TEST(ShadingNormals, DepositsAndReflectionAgreeWithCameraPaths) {
   for (int i = 0; i < 200000; ++i) {
     const Hit at{1, 0, static_cast<uint32_t>(8 * uniform()), sample_uniform_triangle({uniform(), uniform()})};
     const SurfaceInteraction si = make_interaction(scene.shapes, {}, at);
-    const Vector3 to_lamp = lamp - si.p;
-    const Vector3 wi = glm::normalize(to_lamp);
+    const Vector3 to_light = light - si.p;
+    const Vector3 wi = glm::normalize(to_light);
     const bool one_side = glm::dot(wi, si.n) * glm::dot(wi, si.ns) > 0;
-    // An octahedron is convex: what faces the lamp sees it, what does not is shadowed.
+    // An octahedron is convex: what faces the light sees it, what does not is shadowed.
     const bool visible = glm::dot(wi, si.n) > 0;
     const double E =
-        one_side && visible ? static_cast<double>(glm::dot(wi, si.ns) / length_squared(to_lamp)) : 0;
-    const double E_n = visible ? static_cast<double>(glm::dot(wi, si.n) / length_squared(to_lamp)) : 0;
+        one_side && visible ? static_cast<double>(glm::dot(wi, si.ns) / length_squared(to_light)) : 0;
+    const double E_n = visible ? static_cast<double>(glm::dot(wi, si.n) / length_squared(to_light)) : 0;
     const double rho_half = 0.5 * static_cast<double>(rho);
     const auto n_ns = static_cast<double>(glm::dot(si.n, si.ns));
     received.add(area * E);
@@ -113,19 +113,19 @@ TEST(ShadingNormals, DepositsAndReflectionAgreeWithCameraPaths) {
   expect_agree(flux_of(t[kIndirect]), reflected.estimate());
 }
 
-// Light from a wide lamp by a smooth-shaded specular octahedron onto a wall. The camera's way: from a random
+// Light from a wide light by a smooth-shaded specular octahedron onto a wall. The camera's way: from a random
 // point of the wall in a cosine direction to the octahedron, by its delta lobes through ns, until it meets
-// the lamp.
+// the light.
 void expect_specular_agrees(const Bsdf& bsdf) {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0)}, bsdf};
   scene.shapes = {smooth_octahedron(1), testing::quad({-1, -3, -3}, {0, 6, 0}, {0, 0, 6})};
   std::get<TriangleMesh>(scene.shapes[1].geometry).P = {
       {-1.5f, -3, -4}, {-1.5f, 3, -4}, {-1.5f, 3, 4}, {-1.5f, -3, 4}};
-  testing::add_lamp(scene, testing::quad({-1.4f, 1.5f, -2.5f}, {4, 0, 0}, {0, 0, 5}), Rgb(1));
+  testing::add_light(scene, testing::quad({-1.4f, 1.5f, -2.5f}, {4, 0, 0}, {0, 0, 5}), Rgb(1));
   finalize_scene(scene);
   const accel::Bvh bvh(scene);
-  const uint32_t wall = 1, lamp = 2;
+  const uint32_t wall = 1, light = 2;
 
   Accumulator camera;
   std::mt19937_64 engine(4);
@@ -143,7 +143,7 @@ void expect_specular_agrees(const Bsdf& bsdf) {
     double radiance = 0, weight = area * static_cast<double>(d.x / uniform_cone_pdf(one_minus_cos));
     bool specular = false;
     for (int bounce = 0; bounce < 20 && bvh.intersect(ray, &si); ++bounce) {
-      if (si.shape == lamp && specular) radiance = weight * (glm::dot(si.n, ray.d) < 0 ? 1 : 0);
+      if (si.shape == light && specular) radiance = weight * (glm::dot(si.n, ray.d) < 0 ? 1 : 0);
       if (si.material == 0) break;
       specular = true;
       const Frame frame = Frame::from_z(si.ns);

@@ -21,7 +21,7 @@ bool same(const Photon& a, const Photon& b) {
 }
 
 // Every photon meets the closed room once. Fluxes are equal floats, each off by a few roundings.
-TEST(Tracer, FirstHitsCarryTheLampsPower) {
+TEST(Tracer, FirstHitsCarryTheLightsPower) {
   const Traced t =
       trace_all(testing::lit_room(Rgb(0.5f), {1, 2, 3}), settings_for(20000, {true, false, false, false}));
   EXPECT_EQ(t[kDirect].size(), 20000u);
@@ -38,7 +38,7 @@ TEST(Tracer, FirstHitsCarryTheLampsPower) {
 
 // Irradiance I h / (r^2 + h^2)^(3/2): the flux within radius r is that of the cone, 2 pi I (1 - h / sqrt(r^2
 // + h^2)).
-TEST(Tracer, PointLampOverAPlaneGivesTheClosedForm) {
+TEST(Tracer, PointLightOverAPlaneGivesTheClosedForm) {
   Scene scene;
   scene.materials = {Lambertian{}};
   scene.shapes = {testing::quad({-100, 0, -100}, {0, 0, 200}, {200, 0, 0})};
@@ -59,7 +59,7 @@ TEST(Tracer, PointLampOverAPlaneGivesTheClosedForm) {
   }
 }
 
-// A lamp at height 3 over a square plate (half width 0.5, height 2), a floor (height 0) and a lower floor
+// A light at height 3 over a square plate (half width 0.5, height 2), a floor (height 0) and a lower floor
 // (-3).
 Scene plate_over_floors(Bsdf plate) {
   Scene scene;
@@ -85,11 +85,11 @@ TEST(Tracer, ShadowPhotonsLieBehindTheFirstSurfaceOnTheStraightRay) {
   EXPECT_EQ(shadow[2], 0u);
   EXPECT_EQ(shadow[0], direct[2]);  // behind the plate: the floor, inside its shadow
   EXPECT_EQ(t.counters.stored[1], shadow[0] + shadow[1]);
-  const Point3 lamp(0, 3, 0);
+  const Point3 light(0, 3, 0);
   for (const Photon& p : t[kShadow]) {
-    // On the straight line from the lamp, with its flux, facing it. The ray left the floor, 100 m wide, by
+    // On the straight line from the light, with its flux, facing it. The ray left the floor, 100 m wide, by
     // that triangle's error bound: at most gamma(16) * 200 m = 0.2 mm, seen from 3 m or more.
-    ASSERT_LT(glm::length(p.wi - glm::normalize(lamp - p.p)), 7e-5f);
+    ASSERT_LT(glm::length(p.wi - glm::normalize(light - p.p)), 7e-5f);
     EXPECT_EQ(p.n, Normal3(0, 1, 0));
     EXPECT_EQ(p.flux, t[kDirect][0].flux);
     // The plate's shadow on the floor is three times its size.
@@ -138,9 +138,9 @@ TEST(Tracer, SpecularSurfacesCastShadowPhotonsIfAsked) {
   }
 }
 
-// The mirror's image of the lamp at (0, 1, 0) in the plane y = 0 is (0, -1, 0): every caustic photon on the
+// The mirror's image of the light at (0, 1, 0) in the plane y = 0 is (0, -1, 0): every caustic photon on the
 // ceiling comes from there.
-TEST(Tracer, MirrorCausticComesFromTheImageOfTheLamp) {
+TEST(Tracer, MirrorCausticComesFromTheImageOfTheLight) {
   Scene scene;
   scene.materials = {Lambertian{}, Mirror{Rgb(0.75f)}};
   scene.shapes = {testing::quad({-50, 2, -50}, {100, 0, 0}, {0, 0, 100}),
@@ -163,9 +163,9 @@ TEST(Tracer, MirrorCausticComesFromTheImageOfTheLamp) {
   }
 }
 
-// Smooth glass absorbs nothing: direct and caustic photons together carry the lamp's power. Only paths caught
-// inside the sphere by grazing reflection for 60 bounces are lost; internal reflectance above 0.9 (so that
-// 0.9^60 = 0.2 % last) needs incidence beyond 88 degrees, a thousandth of those that enter.
+// Smooth glass absorbs nothing: direct and caustic photons together carry the light's power. Only paths
+// caught inside the sphere by grazing reflection for 60 bounces are lost; internal reflectance above 0.9 (so
+// that 0.9^60 = 0.2 % last) needs incidence beyond 88 degrees, a thousandth of those that enter.
 TEST(Tracer, GlassSphereFocusesAndLosesNothing) {
   Scene scene = testing::lit_room(Rgb(0.5f), Rgb(1));
   scene.materials.emplace_back(Dielectric{1.5f});
@@ -210,8 +210,9 @@ TEST(Tracer, OnlyWhatIsAskedForIsTraced) {
   EXPECT_LT(caustic.counters.rays, 1000u + 10 * (1000u - direct[kDirect].size()));
 }
 
-// In a closed room of reflectance rho the flux of order j is rho^(j-1) of the lamp's, so the indirect photons
-// carry rho / (1 - rho) of it. The number of records per photon is geometric: variance rho / (1 - rho)^2.
+// In a closed room of reflectance rho the flux of order j is rho^(j-1) of the light's, so the indirect
+// photons carry rho / (1 - rho) of it. The number of records per photon is geometric: variance rho / (1 -
+// rho)^2.
 TEST(Tracer, RouletteIsUnbiasedInAClosedFurnace) {
   const double rho = 0.75, n = 20000;
   TraceSettings settings = settings_for(20000, {false, false, false, true});

@@ -1,4 +1,4 @@
-// What photons foretell of visibility, and how often they err.
+// What photons predict of visibility, and how often they err.
 
 #include "photon/visibility/visibility_tree.h"
 
@@ -23,12 +23,12 @@ MortonCube unit_cube() {
 
 // Votes spread evenly over the unit square of the floor; seen(p) says what each found.
 template <class Seen>
-std::vector<uint64_t> floor_votes(const MortonCube& cube, int count, Seen&& seen, uint32_t lamp = 0) {
+std::vector<uint64_t> floor_votes(const MortonCube& cube, int count, Seen&& seen, uint32_t light = 0) {
   PhotonMaker make(5);
   std::vector<uint64_t> votes;
   for (int i = 0; i < count; ++i) {
     const Point3 p(make.uniform(), make.uniform(), 0);
-    votes.push_back(VisibilityTree::vote(cube, lamp, p, kUp, seen(p)));
+    votes.push_back(VisibilityTree::vote(cube, light, p, kUp, seen(p)));
   }
   return votes;
 }
@@ -47,14 +47,14 @@ TEST(ProbabilityExponent, FourTimesTheVotesHalveTheProbability) {
   EXPECT_EQ(probability_exponent(uint64_t{1} << 40), kMostExponent);
 }
 
-TEST(VisibilityTree, ForetellsNothingWithoutVotes) {
+TEST(VisibilityTree, PredictsNothingWithoutVotes) {
   EXPECT_EQ(VisibilityTree().guess(0, Point3(0.5f), kUp).p, 1);
   const VisibilityTree tree(unit_cube(), floor_votes(unit_cube(), 10000, in_disc, 3));
   EXPECT_LT(tree.guess(3, {0.1f, 0.1f, 0}, kUp).p, 1);
-  EXPECT_EQ(tree.guess(2, {0.1f, 0.1f, 0}, kUp).p, 1);     // another lamp
+  EXPECT_EQ(tree.guess(2, {0.1f, 0.1f, 0}, kUp).p, 1);     // another light
   EXPECT_EQ(tree.guess(3, {0.1f, 0.1f, 0}, -kUp).p, 1);    // the underside
   EXPECT_EQ(tree.guess(3, {0.1f, 0.1f, 0.9f}, kUp).p, 1);  // another place
-  EXPECT_EQ(tree.guess(VisibilityTree::kMostLamps, {0.1f, 0.1f, 0}, kUp).p, 1);
+  EXPECT_EQ(tree.guess(VisibilityTree::kMostLights, {0.1f, 0.1f, 0}, kUp).p, 1);
 }
 
 // A cell of which a share a is hidden has only votes for "seen" with probability (1 - a)^n, and then errs in
@@ -101,7 +101,7 @@ TEST(VisibilityTree, TheOrderOfTheVotesDoesNotMatter) {
 }
 
 // A cell that cannot be divided any further: all votes at one point.
-TEST(VisibilityTree, VotesThatDifferAtOnePointForetellNothing) {
+TEST(VisibilityTree, VotesThatDifferAtOnePointPredictNothing) {
   const MortonCube cube = unit_cube();
   std::vector<uint64_t> votes;
   for (int i = 0; i < 1000; ++i)
@@ -109,13 +109,13 @@ TEST(VisibilityTree, VotesThatDifferAtOnePointForetellNothing) {
   EXPECT_EQ(VisibilityTree(cube, votes).guess(0, Point3(0.3f), kUp).p, 1);
 }
 
-// The room's glass and mirror sphere hide the lamp, as the tilted block does.
+// The room's glass and mirror sphere hide the light, as the tilted block does.
 VisibilityTree room_tree(const Scene& scene, int threads) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, size_t(threads));
-  return foretell_visibility(scene, accel::Bvh(scene, threads), {.seed = 1, .photons = 100000});
+  return predict_visibility(scene, accel::Bvh(scene, threads), {.seed = 1, .photons = 100000});
 }
 
-TEST(ForetellVisibility, BehindGlassAndMirrorLampsAreHidden) {
+TEST(PredictVisibility, BehindGlassAndMirrorLightsAreHidden) {
   const Scene scene = testing::full_room();
   const VisibilityTree tree = room_tree(scene, 2);
   const Normal3 up(0, 1, 0);
@@ -129,7 +129,7 @@ TEST(ForetellVisibility, BehindGlassAndMirrorLampsAreHidden) {
   EXPECT_LT(lit.p, 1);
 }
 
-TEST(ForetellVisibility, NeitherThreadsNorScaleChangeAnything) {
+TEST(PredictVisibility, NeitherThreadsNorScaleChangeAnything) {
   const VisibilityTree one = room_tree(testing::full_room(), 1), many = room_tree(testing::full_room(), 3),
                        large = room_tree(testing::full_room(1024), 2);
   PhotonMaker make(8);
@@ -144,7 +144,7 @@ TEST(ForetellVisibility, NeitherThreadsNorScaleChangeAnything) {
   }
 }
 
-TEST(ForetellVisibility, NothingIsForetoldInTheDark) {
+TEST(PredictVisibility, NothingIsPredictedInTheDark) {
   Scene dark = testing::full_room();
   dark.lights.clear();
   for (Shape& shape : dark.shapes) shape.light = kNoIndex;

@@ -176,15 +176,15 @@ TEST(SampleCounts, LeaveTheMapsOutWhereTheyTellLess) {
   const auto counts_for = [](const LightSpread& all, const LightSpread& traced) {
     return counts_of([&](int, int, int) { return spread_by(all, traced); }, 4, 3.5);
   };
-  const auto by_lamps = counts_for({1.0, 2.0}, {0.8, 1.0}), by_maps = counts_for({1.0, 2.0}, {0.4, 1.0});
-  EXPECT_EQ(by_lamps.light(0, 0, 0), SampleLight::kTraced);
-  EXPECT_EQ(by_lamps.count(0, 0, 0), 32u);
+  const auto by_lights = counts_for({1.0, 2.0}, {0.8, 1.0}), by_maps = counts_for({1.0, 2.0}, {0.4, 1.0});
+  EXPECT_EQ(by_lights.light(0, 0, 0), SampleLight::kTraced);
+  EXPECT_EQ(by_lights.count(0, 0, 0), 32u);
   EXPECT_EQ(by_maps.light(0, 0, 0), SampleLight::kAll);
   EXPECT_EQ(by_maps.count(0, 0, 0), 16u);
 }
 
-// The lamp's edges and its image in the glass ball differ most within pixels. Seeds of both ways are compared
-// by blocks of pixels: no mean is shifted, and the picture's noise is less.
+// The light's edges and its image in the glass ball differ most within pixels. Seeds of both ways are
+// compared by blocks of pixels: no mean is shifted, and the picture's noise is less.
 class SpreadSamples : public ::testing::Test {
  protected:
   static constexpr int kSide = 48, kSeeds = 40, kPart = 16;

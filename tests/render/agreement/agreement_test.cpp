@@ -32,7 +32,7 @@ void PrintTo(Eye eye, std::ostream* out) {
   *out << name_of(eye);
 }
 
-// A wide pool: water of index 1.33 over a diffuse bottom, under a wide lamp. Radiance scales by eta^2 along
+// A wide pool: water of index 1.33 over a diffuse bottom, under a wide light. Radiance scales by eta^2 along
 // the camera path and along the paths of mc, flux does not: the classes agree only if both do it right, for
 // an eye above and one below the surface.
 Scene pool(Eye looking_from) {
@@ -42,7 +42,7 @@ Scene pool(Eye looking_from) {
   const uint32_t water = add_material(scene, Dielectric{1.33f});
   add_shape(scene, horizontal({0, 0, 0}, 2, 2, true, white));
   add_shape(scene, horizontal({0, 0.5f, 0}, 2, 2, true, water));
-  make_lamp(scene, add_shape(scene, horizontal({0, 2, 0}, 1, 1, false, black)), Rgb(2));
+  make_light(scene, add_shape(scene, horizontal({0, 2, 0}, 1, 1, false, black)), Rgb(2));
   const Point3 eye = looking_from == Eye::kBelow ? Point3(0, 0.45f, 0.3f) : Point3(0.1f, 1.2f, 0.8f);
   look_at(scene, eye, {0, 0, 0}, {0, 1, 0}, 30, kSize, kSize);
   finalize_scene(scene);
@@ -118,7 +118,7 @@ TEST(Lecture, CountsEveryShadingPointOnce) {
   EXPECT_GT(answers, result.statistics.rays.camera * 99 / 100);
   EXPECT_GT(l.from_photons, 0u);
   EXPECT_GT(l.fallback_shadow, 0u);
-  // One shadow ray for each fallback at most (none where the lamp lies behind the surface).
+  // One shadow ray for each fallback at most (none where the light lies behind the surface).
   EXPECT_LE(result.statistics.rays.shadow, answers - l.from_photons);
   EXPECT_GT(result.statistics.rays.shadow, 0u);
 }

@@ -17,8 +17,9 @@ namespace {
 
 using namespace test;
 
-// A plate that casts a shadow, glass and mirror that do, the square lamp, and a weaker point lamp elsewhere.
-Scene two_lamps(int size) {
+// A plate that casts a shadow, glass and mirror that do, the square light, and a weaker point light
+// elsewhere.
+Scene two_lights(int size) {
   Scene scene = cornell_with_table(size);
   scene.lights.push_back(PointLight{{0.7f, 1.5f, 0.6f}, Rgb(0.3f, 0.4f, 0.5f)});
   finalize_scene(scene);
@@ -32,7 +33,7 @@ RenderSettings direct_settings(DirectEstimator direct, int spp, uint64_t seed = 
   return settings;
 }
 
-// Differences of films that share their camera rays and lamp samples, seed by seed.
+// Differences of films that share their camera rays and light samples, seed by seed.
 Estimate paired_difference(const std::vector<Film>& a, const std::vector<Film>& b, Layer layer, int block) {
   std::vector<double> differences;
   for (size_t i = 0; i < a.size(); ++i)
@@ -45,7 +46,7 @@ constexpr int kManySeeds = 12;
 constexpr double kManyErrors = 5;
 
 TEST(Predicted, IsUnbiasedInEveryBlock) {
-  const Scene scene = two_lamps(kSize);
+  const Scene scene = two_lights(kSize);
   const auto rays = films(scene, direct_settings(DirectEstimator::kShadowRays, 64), kManySeeds);
   const auto predicted = films(scene, direct_settings(DirectEstimator::kPredicted, 64), kManySeeds);
   for (int block = -1; block < kSize / kBlock * (kSize / kBlock); ++block) {
@@ -60,7 +61,7 @@ TEST(Predicted, IsUnbiasedInEveryBlock) {
 
 // Paths that leave x anyway share the direct light, and their own shadow rays are predicted, too.
 TEST(Predicted, IsUnbiasedBesidePaths) {
-  const Scene scene = two_lamps(kSize);
+  const Scene scene = two_lights(kSize);
   RenderSettings settings = test::settings_of(Method::kMc, 32, 0.1f, 1);
   const auto rays = films(scene, settings, kManySeeds);
   settings.direct = DirectEstimator::kPredicted;
@@ -76,7 +77,7 @@ TEST(Predicted, IsUnbiasedBesidePaths) {
 // On both documents' scenes: at least 70 % less, and the difference of the pictures, which share all other
 // random numbers, is no error that counts.
 TEST(Predicted, MostShadowRaysAreNotTraced) {
-  for (const char* file : {"tncg15-room/tncg15-room.pbrt", "cornell-spheres/square-lamp-2.pbrt"}) {
+  for (const char* file : {"tncg15-room/tncg15-room.pbrt", "cornell-spheres/square-light-2.pbrt"}) {
     Scene scene = scene_from(file);
     scene.camera.width = scene.camera.height = 200;
     const auto rays = render_with_threads(scene, direct_settings(DirectEstimator::kShadowRays, 32));
@@ -90,7 +91,7 @@ TEST(Predicted, MostShadowRaysAreNotTraced) {
   }
 }
 
-// A point on the floor at which half of the lamp is hidden.
+// A point on the floor at which half of the light is hidden.
 class WrongForecast : public ::testing::Test {
  protected:
   static Scene half_hidden() {
@@ -98,7 +99,7 @@ class WrongForecast : public ::testing::Test {
     const uint32_t white = add_material(scene, Lambertian{Rgb(0.5f)});
     add_shape(scene, horizontal({0, 0, 0}, 4, 4, true, white));
     add_shape(scene, horizontal({0.5f, 0.5f, 0}, 0.5f, 0.5f, true, white));
-    make_lamp(scene, add_shape(scene, horizontal({0, 1, 0}, 0.3f, 0.3f, false, white)), Rgb(2));
+    make_light(scene, add_shape(scene, horizontal({0, 1, 0}, 0.3f, 0.3f, false, white)), Rgb(2));
     look_at(scene, {-1, 0.3f, 0}, {0, 0, 0}, {0, 1, 0}, 1, 8, 8);
     finalize_scene(scene);
     return scene;
@@ -154,7 +155,7 @@ TEST_F(WrongForecast, IsUnbiasedAllTheSame) {
 constexpr float kReflectance = 0.5f;
 constexpr double kFootprint = 3 * 7e-5;
 
-Scene plane_under_point_lamp(bool plate) {
+Scene plane_under_point_light(bool plate) {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(kReflectance)});
   add_shape(scene, horizontal({0, 0, 0}, 4, 4, true, white));
@@ -167,9 +168,9 @@ Scene plane_under_point_lamp(bool plate) {
 
 // Where there is no shadow photon there is no noise: every pixel is the closed form.
 TEST(Signed, LitRegionsHaveNoNoise) {
-  const double expected = kReflectance * PointLampOverPlane{3, 1}.irradiance(0.3125) / double(kPi);
+  const double expected = kReflectance * PointLightOverPlane{3, 1}.irradiance(0.3125) / double(kPi);
   for (const auto direct : {DirectEstimator::kSigned, DirectEstimator::kPredicted}) {
-    const auto result = render_with_threads(plane_under_point_lamp(false), direct_settings(direct, 2));
+    const auto result = render_with_threads(plane_under_point_light(false), direct_settings(direct, 2));
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x)
         EXPECT_NEAR(double(result.film.at(x, y).direct.x), expected, expected * kFootprint);
@@ -194,16 +195,16 @@ void expect_files_show(const Film& film) {
 }
 
 // In the umbra the shadow photons must take everything away: the bounds are those of an estimate by direct
-// photons, see PointLampPhotons.WithinKernelBiasAndNoise. What is left may be negative, and is kept.
+// photons, see PointLightPhotons.WithinKernelBiasAndNoise. What is left may be negative, and is kept.
 TEST(Signed, ShadowsAreDarkWithinKernelBiasAndNoise) {
   constexpr double kRadius = 0.05, kPhotons = 1e6, kPacked = 1.0 / 512;
-  const PointLampOverPlane form{3, 1};
+  const PointLightOverPlane form{3, 1};
   double lowest = 0;
   for (const uint64_t seed : {1, 2, 3, 4}) {
     RenderSettings settings = direct_settings(DirectEstimator::kSigned, 1, seed);
     settings.photons = uint64_t(kPhotons);
     settings.radius = float(kRadius);
-    const auto result = render_with_threads(plane_under_point_lamp(true), settings);
+    const auto result = render_with_threads(plane_under_point_light(true), settings);
     const double rho = std::sqrt(0.3125);
     double curvature = 0;
     for (double d = -kRadius; d <= kRadius; d += kRadius / 16)
@@ -224,16 +225,16 @@ TEST(Signed, ShadowsAreDarkWithinKernelBiasAndNoise) {
   EXPECT_LT(lowest, 0);  // by chance all four lie above in one case of sixteen; these seeds do not
 }
 
-// More lamps than are summed: one is chosen, and the mean is the closed form of all.
-TEST(Signed, OneOfManyLampsIsChosen) {
-  Scene scene = plane_under_point_lamp(false);
+// More lights than are summed: one is chosen, and the mean is the closed form of all.
+TEST(Signed, OneOfManyLightsIsChosen) {
+  Scene scene = plane_under_point_light(false);
   scene.lights.clear();
   double expected = 0;
-  for (int i = 0; i < int(kMostLampsSummed) + 4; ++i) {
+  for (int i = 0; i < int(kMostLightsSummed) + 4; ++i) {
     const Point3 p(0.2f * float(i) - 2, 1 + 0.05f * float(i), 0.1f * float(i % 5));
     scene.lights.push_back(PointLight{p, Rgb(1 + 0.3f * float(i % 7))});
     const double dx = double(p.x) - 0.5, dz = double(p.z) - 0.25;
-    expected += PointLampOverPlane{1 + 0.3 * (i % 7), double(p.y)}.irradiance(dx * dx + dz * dz);
+    expected += PointLightOverPlane{1 + 0.3 * (i % 7), double(p.y)}.irradiance(dx * dx + dz * dz);
   }
   expected *= kReflectance / double(kPi);
   finalize_scene(scene);
@@ -246,10 +247,10 @@ TEST(Signed, OneOfManyLampsIsChosen) {
   EXPECT_LT(found.standard_error, 0.01 * expected);
 }
 
-// Several lamps, one of them a point; glass, mirror and a plate that block; borders of surfaces. Against
+// Several lights, one of them a point; glass, mirror and a plate that block; borders of surfaces. Against
 // shadow rays in every block, within the noise and the kernel's bias.
 TEST(Signed, AgreesWithShadowRaysInEveryBlock) {
-  const Scene scene = two_lamps(kSize);
+  const Scene scene = two_lights(kSize);
   const auto rays = films(scene, direct_settings(DirectEstimator::kShadowRays, 256, 100));
   for (const Kernel kernel : {Kernel::kConstant, Kernel::kEpanechnikov}) {
     RenderSettings settings = direct_settings(DirectEstimator::kSigned, 16, 200);
@@ -276,7 +277,7 @@ TEST(Signed, AgreesWithShadowRaysInEveryBlock) {
 
 // Threads, and passes split over two calls, with the same bits and the same counts.
 TEST(DirectEstimators, AnyNumberOfThreadsAndAnySplitGivesTheSameBits) {
-  const Scene scene = two_lamps(20);
+  const Scene scene = two_lights(20);
   for (const auto direct : {DirectEstimator::kPredicted, DirectEstimator::kSigned}) {
     RenderSettings settings = direct_settings(direct, 6);
     settings.method = Method::kMc;

@@ -32,16 +32,16 @@ TEST(DocumentScenes, LectureRoomAgreesWithPaths) {
   expect_programs_agree_with_paths(document_scene("tncg15-room/tncg15-room.pbrt"), 512, 0.3f, "lecture");
 }
 
-TEST(DocumentScenes, ReportSquareLampAgreesWithPaths) {
-  expect_programs_agree_with_paths(document_scene("cornell-spheres/square-lamp-2.pbrt"), 256, 0.06f,
+TEST(DocumentScenes, ReportSquareLightAgreesWithPaths) {
+  expect_programs_agree_with_paths(document_scene("cornell-spheres/square-light-2.pbrt"), 256, 0.06f,
                                    "report");
 }
 
-// Paths cannot meet a point lamp through glass. So the direct class is compared with shadow rays, and the
+// Paths cannot meet a point light through glass. So the direct class is compared with shadow rays, and the
 // others of the two photon programs with each other: paths that read the caustic map against indirect
 // photons.
-TEST(DocumentScenes, ReportPointLampsAgree) {
-  for (const char* name : {"point-lamp", "square-lamp-1"}) {
+TEST(DocumentScenes, ReportPointLightsAgree) {
+  for (const char* name : {"point-light", "square-light-1"}) {
     const Scene scene = document_scene("cornell-spheres/" + std::string(name) + ".pbrt");
     const auto by_paths = films(scene, settings_of(Method::kHybrid, 256, 0.03f, 100));
     const Comparison c(scene, by_paths, Method::kPhoton, 0.06f);
@@ -53,7 +53,7 @@ TEST(DocumentScenes, ReportPointLampsAgree) {
   }
 }
 
-// Eta 1.8 and a wide lamp: radiance scales by eta^2 below the water, flux does not, and photons need Veach's
+// Eta 1.8 and a wide light: radiance scales by eta^2 below the water, flux does not, and photons need Veach's
 // correction for interpolated normals.
 TEST(DocumentScenes, LightUnderWavesByPhotonsAgreesWithPaths) {
   const Scene scene = wave_scene(kSize);

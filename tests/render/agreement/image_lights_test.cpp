@@ -1,4 +1,4 @@
-// Lamps that emit images, portals, and very many lamps: photons and paths give the same light, and closed
+// Lights that emit images, portals, and very many lights: photons and paths give the same light, and closed
 // forms.
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(ImageLights, PhotonsOfAProjectorAgreeWithPaths) {
   expect_photons_agree_with_paths(floor_and_ball(light), 64, "projector");
 }
 
-TEST(ImageLights, PhotonsOfAGoniometricLampAgreeWithPaths) {
+TEST(ImageLights, PhotonsOfAGoniometricLightAgreeWithPaths) {
   const GoniometricLight light{{-0.3f, 1.5f, 0.5f}, kUpright, sky_map(), Rgb(1)};
   expect_photons_agree_with_paths(floor_and_ball(light), 64, "goniometric");
 }
@@ -138,7 +138,7 @@ TEST(ImageLights, ProjectorLightsARectangle) {
   }
 }
 
-// A hall whose ceiling has columns x rows small square lamps of different colours and powers.
+// A hall whose ceiling has columns x rows small square lights of different colours and powers.
 Scene hall(int columns, int rows) {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(0.6f)});
@@ -152,17 +152,17 @@ Scene hall(int columns, int rows) {
       const Point3 at(2 * (float(i) + 0.5f) / float(columns) - 1, 1.19f,
                       10 * (float(j) + 0.5f) / float(rows) - 5);
       const float L = 200.0f * float(1 + (i * 7 + j * 3) % 5);
-      make_lamp(scene, add_shape(scene, horizontal(at, half, half, false, black)), {L, 0.8f * L, 0.5f * L});
+      make_light(scene, add_shape(scene, horizontal(at, half, half, false, black)), {L, 0.8f * L, 0.5f * L});
     }
   look_at(scene, {0, 0.6f, 4.8f}, {0, 0.3f, 0}, {0, 1, 0}, 50, kSize, kSize);
   finalize_scene(scene);
   return scene;
 }
 
-TEST(ManyLamps, PhotonsOfTenThousandAgreeWithPaths) {
+TEST(ManyLights, PhotonsOfTenThousandAgreeWithPaths) {
   const Scene scene = hall(40, 250);
   ASSERT_EQ(scene.lights.size(), 10'000u);
-  expect_photons_agree_with_paths(scene, 256, "many_lamps");
+  expect_photons_agree_with_paths(scene, 256, "many_lights");
 }
 
 // Of the pixels' first channel, over seeds.
@@ -177,8 +177,8 @@ double mean_variance(const std::vector<Film>& of) {
   return sum / (kSize * kSize);
 }
 
-// One lamp chosen by the tree: alone, and sharing with BSDF samples that must know the same probabilities.
-TEST(ManyLamps, SharedAndUnsharedShadowRaysAgree) {
+// One light chosen by the tree: alone, and sharing with BSDF samples that must know the same probabilities.
+TEST(ManyLights, SharedAndUnsharedShadowRaysAgree) {
   const Scene scene = hall(4, 25);
   const auto alone = films(scene, settings_of(Method::kRaytrace, 256, 0.1f, 1));
   const auto shared = films(scene, settings_of(Method::kMc, 256, 0.1f, 50));
@@ -195,7 +195,7 @@ TEST(ManyLamps, SharedAndUnsharedShadowRaysAgree) {
 }
 
 // The same bits by any number of threads.
-TEST(ManyLamps, AnyNumberOfThreadsGivesTheSameBits) {
+TEST(ManyLights, AnyNumberOfThreadsGivesTheSameBits) {
   const Scene scene = hall(4, 25);
   for (const Method method : {Method::kMc, Method::kPhoton}) {
     RenderSettings settings = settings_of(method, 4, 0.1f, 1);

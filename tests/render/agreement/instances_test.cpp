@@ -13,7 +13,8 @@ namespace {
 
 enum class Placing { kShared, kCopied };
 
-// A box under a lamp with bumpy balls in it, as instances or copies of one mesh; one is mirrored, one uneven.
+// A box under a light with bumpy balls in it, as instances or copies of one mesh; one is mirrored, one
+// uneven.
 Scene balls(Placing placing, double scale = 1) {
   Scene scene = cornell(32, float(scale));
   TriangleMesh mesh = testing::icosphere(3);

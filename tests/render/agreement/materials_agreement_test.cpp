@@ -12,7 +12,7 @@ using namespace test;
 const Rgb kCopperEta(0.2f, 0.92f, 1.1f), kCopperK(3.9f, 2.45f, 2.14f);
 constexpr std::array<Layer, 4> kLayers = {Layer::kEmitted, Layer::kDirect, Layer::kCaustic, Layer::kIndirect};
 
-// A closed box with a lamp below its ceiling; of the material are a plate in its middle, with light on both
+// A closed box with a light below its ceiling; of the material are a plate in its middle, with light on both
 // sides, and a ball.
 Scene box_with(const Bsdf& bsdf) {
   Scene scene;
@@ -27,7 +27,7 @@ Scene box_with(const Bsdf& bsdf) {
   add_shape(scene, quad({1, 0, -1}, {1, 0, 1}, {1, 2, 1}, {1, 2, -1}, white));
   add_shape(scene, horizontal({-0.3f, 0.9f, -0.2f}, 0.6f, 0.6f, true, tested));
   add_shape(scene, sphere({0.55f, 0.4f, 0.1f}, 0.35f, tested));
-  make_lamp(scene, add_shape(scene, horizontal({0.2f, 1.9f, 0}, 0.5f, 0.5f, false, black)), Rgb(5));
+  make_light(scene, add_shape(scene, horizontal({0.2f, 1.9f, 0}, 0.5f, 0.5f, false, black)), Rgb(5));
   look_at(scene, {0, 1.5f, 0.95f}, {0, 0.6f, -0.2f}, {0, 1, 0}, 75, kSize, kSize);
   finalize_scene(scene);
   return scene;
@@ -113,9 +113,9 @@ TEST(RoughnessThreshold, TheSumDoesNotJump) {
   }
 }
 
-// A point lamp has no size: a ray never meets it, yet it shows in metal that is nearly smooth. By shadow rays
-// both sides of the threshold are the same integral, without noise but for the pixel's.
-TEST(RoughnessThreshold, PointLampsShowInGlossyMetal) {
+// A point light has no size: a ray never meets it, yet it shows in metal that is nearly smooth. By shadow
+// rays both sides of the threshold are the same integral, without noise but for the pixel's.
+TEST(RoughnessThreshold, PointLightsShowInGlossyMetal) {
   double sums[2];
   for (const int above : {0, 1}) {
     const float alpha = Ggx::kNarrowAlpha * (above ? 1.0005f : 0.9995f);

@@ -20,7 +20,7 @@ void add_mixture(Scene& scene, const Bsdf& first, const Bsdf& second, float amou
   scene.material_names.push_back("mixture");
 }
 
-Scene plane_under_point_lamp(float scale = 1) {
+Scene plane_under_point_light(float scale = 1) {
   Scene scene;
   add_mixture(scene, Lambertian{Rgb(0.8f)}, Lambertian{Rgb(0)}, 0.25f);
   Shape floor = horizontal({0, 0, 0}, scale, scale, true, 2);
@@ -32,7 +32,7 @@ Scene plane_under_point_lamp(float scale = 1) {
 }
 
 TEST(Mix, DirectLightIsTheMean) {
-  Scene mixed = plane_under_point_lamp(), plain = plane_under_point_lamp();
+  Scene mixed = plane_under_point_light(), plain = plane_under_point_light();
   plain.materials[2] = Lambertian{Rgb(0.6f)};
   const RenderSettings settings = settings_of(Method::kRaytrace, 64, 0.1f, 1);
   const double found = total_mean(render_with_threads(mixed, settings).film);
@@ -46,8 +46,8 @@ TEST(Mix, DirectLightIsTheMean) {
 // The choice is a function of mantissas.
 TEST(Mix, PowersOfTwoGiveTheSamePicture) {
   const RenderSettings settings = settings_of(Method::kRaytrace, 4, 0.1f, 1);
-  const Film one = render_with_threads(plane_under_point_lamp(), settings).film;
-  const Film large = render_with_threads(plane_under_point_lamp(0x1p9f), settings).film;
+  const Film one = render_with_threads(plane_under_point_light(), settings).film;
+  const Film large = render_with_threads(plane_under_point_light(0x1p9f), settings).film;
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) ASSERT_EQ(one.at(x, y).direct, large.at(x, y).direct);
 }
@@ -61,14 +61,15 @@ TEST(Mix, PhotonsAgreeWithPaths) {
   add_shape(scene, horizontal({0, 0, 0}, 1, 1, true, 2));
   add_shape(scene, quad({-1, 0, -1}, {1, 0, -1}, {1, 2, -1}, {-1, 2, -1}, white));
   add_shape(scene, sphere({0.3f, 0.4f, 0.1f}, 0.35f, 2));
-  make_lamp(scene, add_shape(scene, horizontal({0.2f, 1.9f, 0}, 0.5f, 0.5f, false, black)), Rgb(5));
+  make_light(scene, add_shape(scene, horizontal({0.2f, 1.9f, 0}, 0.5f, 0.5f, false, black)), Rgb(5));
   look_at(scene, {0, 1.2f, 1.8f}, {0, 0.5f, -0.2f}, {0, 1, 0}, 60, kSize, kSize);
   finalize_scene(scene);
   const auto by_paths = films(scene, settings_of(Method::kMc, 128, 0.08f, 100));
   for (const Method method : {Method::kPhoton, Method::kHybrid, Method::kAuto}) {
     const Comparison c(scene, by_paths, method, 0.08f);
     for (const Layer layer : {Layer::kEmitted, Layer::kDirect, Layer::kCaustic, Layer::kIndirect})
-      c.expect_agreement(layer, -1, layer == Layer::kEmitted ? 10 : 0.3);  // the lamp is small in the picture
+      c.expect_agreement(layer, -1,
+                         layer == Layer::kEmitted ? 10 : 0.3);  // the light is small in the picture
   }
 }
 

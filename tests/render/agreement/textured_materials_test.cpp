@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// A room with a lamp; of the material "tested" are a plate in its middle, with light on both sides, and a
+// A room with a light; of the material "tested" are a plate in its middle, with light on both sides, and a
 // ball.
 std::string room(const std::string& tested) {
   return "LookAt 0 1.5 0.95  0 0.6 -0.2  0 1 0 Camera \"perspective\" \"float fov\" 75\n" +
@@ -169,7 +169,7 @@ TEST(TexturedMix, FollowsItsTexture) {
       EXPECT_EQ(both.at(x, y).radiance(), (x < 8 ? red : blue).at(x, y).radiance()) << x << " " << y;
 }
 
-// A disk of brushed metal under a lamp and a camera that both stand on its axis: normals half way lean along
+// A disk of brushed metal under a light and a camera that both stand on its axis: normals half way lean along
 // the radius, which is v. So the picture is the same all around, and where facets lean far along v it shines
 // out to the rim; where they lean along u, that is around the axis, in the middle alone. By the BSDF itself.
 TEST(Anisotropy, HighlightsFollowUvOnADisk) {

@@ -113,7 +113,7 @@ TEST(Textures, ScalingByAPowerOfTwoChangesNothing) {
   }
 }
 
-// A screen half way between lamp and floor. The camera stands between them and looks down.
+// A screen half way between light and floor. The camera stands between them and looks down.
 Scene screened(const std::string& screen) {
   return scene_of(std::string(kFromAbove) +
                   "LightSource \"point\" \"point3 from\" [0 0 4] \"rgb I\" [9 9 9]\n" +

@@ -25,7 +25,7 @@ Scene bright_disk(float z, float radius, const Projection& projection) {
   const glm::dmat4 m = glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, double(z))),
                                   glm::dvec3(double(radius), double(radius), -double(radius)));
   disk.geometry = Disk{Transform::from_matrix(m), 0};
-  make_lamp(scene, add_shape(scene, std::move(disk)), {1, 1, 1});
+  make_light(scene, add_shape(scene, std::move(disk)), {1, 1, 1});
   scene.camera.width = scene.camera.height = kSide;
   scene.camera.set_default_screen_window();
   scene.camera.projection = projection;
@@ -120,8 +120,8 @@ TEST(PixelFilters, AnEdgeIsTheFiltersIntegral) {
     Scene scene;
     const uint32_t black = add_material(scene, Lambertian{{0, 0, 0}});
     // Bright below the image's middle line.
-    make_lamp(scene, add_shape(scene, quad({-9, -9, 5}, {-9, 0, 5}, {9, 0, 5}, {9, -9, 5}, black)), {1, 1, 1},
-              true);
+    make_light(scene, add_shape(scene, quad({-9, -9, 5}, {-9, 0, 5}, {9, 0, 5}, {9, -9, 5}, black)),
+               {1, 1, 1}, true);
     scene.camera.width = scene.camera.height = kRows;
     scene.camera.projection = OrthographicProjection{};
     finalize_scene(scene);

@@ -89,7 +89,7 @@ TEST(Progressive, StopsWhenThePassesAreEnough) {
   expect_same(sums_of(scene, settings, task), sums_of(scene, settings, {.passes = PassSet(0, 3)}));
 }
 
-// The units scale with the scene, so the multiples stay: depth and lamps that are points, too.
+// The units scale with the scene, so the multiples stay: depth and lights that are points, too.
 TEST(Progressive, AScaledSceneHasTheSameMultiples) {
   const auto sums = [](float scale) {
     Scene scene = cornell(12, scale);
@@ -158,7 +158,7 @@ TEST(PassSets, AreSetsOfRanges) {
   EXPECT_TRUE(PassSet::parse("0:2147483647"));
 }
 
-// A point lamp at height 1 over a plane, seen below the lamp. The estimate of radius r is the mean of
+// A point light at height 1 over a plane, seen below the light. The estimate of radius r is the mean of
 // E = I h / (rho^2 + h^2)^(3/2) over the disc of radius r: 2 I h / r^2 (1 / h - 1 / sqrt(r^2 + h^2)), so with
 // r = 0.5 it is 16 % low, in every pass. With alpha = 2/3 it is what the mean over the passes' radii says,
 // and goes to zero.

@@ -53,7 +53,7 @@ TEST(Plan, PresetsOfASceneThatNeedsEverything) {
   }
 }
 
-TEST(Plan, AutoForetellsVisibilityUnlessTheSkyIsAlone) {
+TEST(Plan, AutoPredictsVisibilityUnlessTheSkyIsAlone) {
   SceneNeeds needs = needs_of(true);
   needs.infinite_light = true;
   EXPECT_EQ(make_plan({}, needs).direct, Direct::kPredicted);
@@ -118,7 +118,7 @@ TEST(Plan, NotesNameWhatIsMissing) {
   settings.direct = Direct::kPredicted;
   EXPECT_FALSE(mentions(make_plan(settings, needs_of(true)), "shadow photons are not traced"));
   settings.direct.reset();
-  EXPECT_TRUE(mentions(make_plan(settings, SceneNeeds{}), "no lamp: the image is black"));
+  EXPECT_TRUE(mentions(make_plan(settings, SceneNeeds{}), "no light: the image is black"));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ inline RenderSettings settings_of(Method method, int spp, float radius, uint64_t
 }
 
 // Powers are stored with 9 bits of mantissa shared by the three channels: a channel is off by at most 1/1022
-// of the largest one. The lamp of the box is (17, 12, 4), so means over channels of light on the coloured
+// of the largest one. The light of the box is (17, 12, 4), so means over channels of light on the coloured
 // walls are off by at most 17/4 of that, where only blue counts.
 inline constexpr double kPackedFlux = 17.0 / 4 / 1022;
 

@@ -7,8 +7,9 @@
 
 namespace kaustik::render::test {
 
-// E(rho) = I h / (rho^2 + h^2)^(3/2) under a point lamp at height h, and bounds of its Laplacian by sampling.
-struct PointLampOverPlane {
+// E(rho) = I h / (rho^2 + h^2)^(3/2) under a point light at height h, and bounds of its Laplacian by
+// sampling.
+struct PointLightOverPlane {
   double I = 1, h = 1;
   double irradiance(double rho2) const { return I * h / std::pow(rho2 + h * h, 1.5); }
   // d2E/drho2 + (1/rho) dE/drho = I h (9 rho^2 - 6 h^2) / (rho^2 + h^2)^(7/2)

@@ -27,7 +27,7 @@ inline Shape& add_shape(Scene& scene, Shape shape) {
   return scene.shapes.back();
 }
 
-inline void make_lamp(Scene& scene, Shape& shape, const Rgb& L, bool twosided = false) {
+inline void make_light(Scene& scene, Shape& shape, const Rgb& L, bool twosided = false) {
   auto light = DiffuseAreaLight::make(shape, L, twosided);
   if (!light) throw std::logic_error("this shape cannot emit");
   shape.light = uint32_t(scene.lights.size());
@@ -86,7 +86,7 @@ inline void look_at(Scene& scene, const Point3& eye, const Point3& target, const
   scene.camera.set_default_screen_window();
 }
 
-// A closed box [-1, 1] x [0, 2] x [-1, 1] with a red and a green wall, a lamp of side 0.5 just below the
+// A closed box [-1, 1] x [0, 2] x [-1, 1] with a red and a green wall, a light of side 0.5 just below the
 // ceiling, a glass sphere and a mirror sphere. No front wall's back is seen: the camera stands inside.
 inline Scene cornell(int size, float scale = 1) {
   const float s = scale;
@@ -106,15 +106,15 @@ inline Scene cornell(int size, float scale = 1) {
   add_shape(scene, quad(p(1, 0, -1), p(1, 0, 1), p(1, 2, 1), p(1, 2, -1), green));
   add_shape(scene, sphere(p(0.45f, 0.36f, 0.25f), 0.35f * s, glass));
   add_shape(scene, sphere(p(-0.45f, 0.41f, -0.4f), 0.4f * s, mirror));
-  Shape& lamp = add_shape(scene, horizontal(p(0, 1.98f, 0), 0.25f * s, 0.25f * s, false, black));
-  make_lamp(scene, lamp, {17, 12, 4});
+  Shape& light = add_shape(scene, horizontal(p(0, 1.98f, 0), 0.25f * s, 0.25f * s, false, black));
+  make_light(scene, light, {17, 12, 4});
   look_at(scene, p(0, 1, 0.99f), p(0, 0.8f, -1), {0, 1, 0}, 80, size, size);
   finalize_scene(scene);
   return scene;
 }
 
-// The box with a diffuse plate under the lamp: something that casts shadow photons, which mirror and glass do
-// not.
+// The box with a diffuse plate under the light: something that casts shadow photons, which mirror and glass
+// do not.
 inline Scene cornell_with_table(int size) {
   Scene scene = cornell(size);
   add_shape(scene, horizontal({-0.3f, 1.2f, 0}, 0.3f, 0.3f, true, 0));

@@ -48,8 +48,8 @@ inline Scene wave_scene(int size) {
   surface.geometry = waves(24);
   surface.material = water;
   add_shape(scene, std::move(surface));
-  Shape& lamp = add_shape(scene, horizontal({0, 1.95f, 0}, 0.4f, 0.4f, false, black));
-  make_lamp(scene, lamp, {10, 10, 10});
+  Shape& light = add_shape(scene, horizontal({0, 1.95f, 0}, 0.4f, 0.4f, false, black));
+  make_light(scene, light, {10, 10, 10});
   look_at(scene, {0, 1.6f, 0.95f}, {0, 0.2f, -0.3f}, {0, 1, 0}, 70, size, size);
   finalize_scene(scene);
   return scene;

@@ -45,18 +45,18 @@ Film render_file(const Scene& scene, Method method, int spp, uint64_t seed = 1) 
   return render_with_threads(scene, settings).film;
 }
 
-// A point lamp has no noise: each sample of a pixel lies between the least and the largest radiance on the
+// A point light has no noise: each sample of a pixel lies between the least and the largest radiance on the
 // pixel, but for the grid's resolution (a sixteenth of the range, generously for a smooth form) and float
 // rounding.
 TEST(AnalyticScenes, PointOverPlaneHoldsInEveryPixel) {
   const Scene scene = scene_from("point-over-plane/point-over-plane.pbrt");
-  const PointLampOverPlane lamp{1, 1};
+  const PointLightOverPlane light{1, 1};
   for (const Method method : {Method::kRaytrace, Method::kMc}) {
     const Film film = render_file(scene, method, 4);
     for (int y = 0; y < film.height(); ++y)
       for (int x = 0; x < film.width(); ++x) {
         const auto [low, high] = over_pixel(scene.camera, x, y, [&](const glm::dvec3& p) {
-          return kRho / double(kPi) * lamp.irradiance(p.x * p.x + p.z * p.z);
+          return kRho / double(kPi) * light.irradiance(p.x * p.x + p.z * p.z);
         });
         const double slack = (high - low) / 16 + 1e-5 * high;
         const double found = double(film.at(x, y).radiance().x);
@@ -72,7 +72,7 @@ TEST(AnalyticScenes, PointOverPlaneHoldsInEveryPixel) {
 // larger). 256 blocks: 5 standard errors of 63 degrees of freedom are 1 in 1000 over all of them.
 TEST(AnalyticScenes, PolygonOverPlaneHoldsInEveryBlock) {
   const Scene scene = scene_from("polygon-over-plane/polygon-over-plane.pbrt");
-  const std::vector<glm::dvec3> lamp = {{-0.3, 1, -0.2}, {0.4, 1, -0.1}, {-0.1, 1, 0.3}};
+  const std::vector<glm::dvec3> light = {{-0.3, 1, -0.2}, {0.4, 1, -0.1}, {-0.1, 1, 0.3}};
   constexpr int kBlock = 8;
   const Film film = render_file(scene, Method::kRaytrace, 64);
   int blocks = 0;
@@ -82,10 +82,10 @@ TEST(AnalyticScenes, PolygonOverPlaneHoldsInEveryBlock) {
       double mean = 0;
       for (int y = by; y < by + kBlock; ++y)
         for (int x = bx; x < bx + kBlock; ++x) {
-          // Pixels that show the lamp's back, in part or whole, are left out.
+          // Pixels that show the light's back, in part or whole, are left out.
           if (film.at(x, y).albedo.x != float(kRho)) continue;
           const glm::dvec3 p = on_plane(scene.camera, x + 0.5, y + 0.5);
-          const double expected = kRho / double(kPi) * lambert_polygon(lamp, p, {0, 1, 0}, 10);
+          const double expected = kRho / double(kPi) * lambert_polygon(light, p, {0, 1, 0}, 10);
           differences.push_back(double(film.at(x, y).radiance().x) - expected);
           mean += expected;
         }

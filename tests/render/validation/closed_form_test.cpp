@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 // The image of a camera with a tiny field of view shows one point: over the footprint of fov 0.001 degrees
-// seen from 4 m, 7e-5 m, the irradiance of lamps 1 m away changes by less than 3 * 7e-5 (|grad ln E| <= 3 /
+// seen from 4 m, 7e-5 m, the irradiance of lights 1 m away changes by less than 3 * 7e-5 (|grad ln E| <= 3 /
 // distance).
 constexpr float kPointFov = 0.001f;
 constexpr double kFootprint = 3 * 7e-5;
@@ -35,28 +35,28 @@ RenderSettings settings_of(Method method, int spp) {
   return settings;
 }
 
-class PointLamp : public ::testing::TestWithParam<Method> {};
+class PointLight : public ::testing::TestWithParam<Method> {};
 
-TEST_P(PointLamp, RaysGiveTheClosedForm) {
+TEST_P(PointLight, RaysGiveTheClosedForm) {
   for (const Point3 seen : {Point3(0, 0, 0), Point3(0.5f, 0, 0.25f), Point3(-1.5f, 0, 1)}) {
     Scene scene = plane(seen);
     scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(3)});
     finalize_scene(scene);
     const auto result = render_with_threads(scene, settings_of(GetParam(), 2));
     const double expected =
-        kReflectance * PointLampOverPlane{3, 1}.irradiance(seen.x * seen.x + seen.z * seen.z) / double(kPi);
+        kReflectance * PointLightOverPlane{3, 1}.irradiance(seen.x * seen.x + seen.z * seen.z) / double(kPi);
     EXPECT_NEAR(total_mean(result.film), expected, expected * kFootprint) << seen.x << " " << seen.z;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Methods, PointLamp,
+INSTANTIATE_TEST_SUITE_P(Methods, PointLight,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
 
 // The estimate averages E over a disc of radius r: its bias is r^2/8 times the Laplacian, at most the largest
 // value on the disc (second-order Taylor with remainder). M photons in reach scatter like a Poisson number at
 // most.
-TEST(PointLampPhotons, WithinKernelBiasAndNoise) {
+TEST(PointLightPhotons, WithinKernelBiasAndNoise) {
   constexpr double kRadius = 0.1, kPhotons = 1e6;
-  const PointLampOverPlane form{3, 1};
+  const PointLightOverPlane form{3, 1};
   for (const Point3 seen : {Point3(0, 0, 0), Point3(0.5f, 0, 0.25f), Point3(-1.0f, 0, 0.5f)}) {
     Scene scene = plane(seen);
     scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(3)});
@@ -77,11 +77,11 @@ TEST(PointLampPhotons, WithinKernelBiasAndNoise) {
     EXPECT_NEAR(total_mean(result.film), kReflectance * E / double(kPi), kReflectance * bound / double(kPi));
     EXPECT_GT(result.film.at(0, 0).photons, in_reach / 2);
     EXPECT_EQ(result.statistics.radius, float(kRadius));
-    write_if_failed(result.film, "point_lamp_photons");
+    write_if_failed(result.film, "point_light_photons");
   }
 }
 
-struct TriangleLamp {
+struct TriangleLight {
   Point3 a{-0.4f, 1, -0.3f}, b{0.6f, 1.2f, -0.2f}, c{0.1f, 0.9f, 0.7f};
   double irradiance(const Point3& x) const {
     return lambert_polygon({glm::dvec3(a), glm::dvec3(b), glm::dvec3(c)}, glm::dvec3(x), {0, 1, 0}, 5);
@@ -89,49 +89,49 @@ struct TriangleLamp {
   Scene scene(const Point3& seen) const {
     Scene s = plane(seen);
     const uint32_t black = add_material(s, Lambertian{Rgb(0)});
-    make_lamp(s, add_shape(s, triangle(a, b, c, black)), Rgb(5));
+    make_light(s, add_shape(s, triangle(a, b, c, black)), Rgb(5));
     finalize_scene(s);
     return s;
   }
 };
 
-class PolygonLamp : public ::testing::TestWithParam<Method> {};
+class PolygonLight : public ::testing::TestWithParam<Method> {};
 
-TEST_P(PolygonLamp, RaysGiveLambertsFormula) {
+TEST_P(PolygonLight, RaysGiveLambertsFormula) {
   for (const Point3 seen : {Point3(0.1f, 0, 0.05f), Point3(1, 0, 0.5f)}) {
-    const TriangleLamp lamp;
-    const auto result = render_with_threads(lamp.scene(seen), settings_of(GetParam(), 512));
+    const TriangleLight light;
+    const auto result = render_with_threads(light.scene(seen), settings_of(GetParam(), 512));
     std::vector<double> pixels;
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x) pixels.push_back(double(result.film.at(x, y).direct.x));
     const Estimate direct = estimate_of(pixels);
-    const double expected = kReflectance * lamp.irradiance(seen) / double(kPi);
+    const double expected = kReflectance * light.irradiance(seen) / double(kPi);
     EXPECT_NEAR(direct.mean, expected, 4 * direct.standard_error + expected * kFootprint);
     EXPECT_LT(direct.standard_error, 0.01 * expected);
-    write_if_failed(result.film, "polygon_lamp");
+    write_if_failed(result.film, "polygon_light");
   }
 }
-INSTANTIATE_TEST_SUITE_P(Methods, PolygonLamp, ::testing::Values(Method::kRaytrace, Method::kMc));
+INSTANTIATE_TEST_SUITE_P(Methods, PolygonLight, ::testing::Values(Method::kRaytrace, Method::kMc));
 
-// As for the point lamp; the Laplacian of Lambert's formula by central differences (step 1e-3, error below
+// As for the point light; the Laplacian of Lambert's formula by central differences (step 1e-3, error below
 // 1e-4 of it: fourth derivatives are of the order of 100 E at this distance).
-TEST(PolygonLampPhotons, WithinKernelBiasAndNoise) {
+TEST(PolygonLightPhotons, WithinKernelBiasAndNoise) {
   constexpr double kRadius = 0.1, kPhotons = 1e6;
-  const TriangleLamp lamp;
+  const TriangleLight light;
   const Point3 seen(0.1f, 0, 0.05f);
   RenderSettings settings = settings_of(Method::kPhoton, 1);
   settings.photons = uint64_t(kPhotons);
   settings.radius = float(kRadius);
-  const Scene scene = lamp.scene(seen);
+  const Scene scene = light.scene(seen);
   const auto result = render_with_threads(scene, settings);
 
   const auto laplacian = [&](const Point3& x) {
     constexpr float kStep = 1e-2f;
-    const double center = lamp.irradiance(x);
+    const double center = light.irradiance(x);
     double sum = 0;
     for (const Vector3 d :
          {Vector3(kStep, 0, 0), Vector3(-kStep, 0, 0), Vector3(0, 0, kStep), Vector3(0, 0, -kStep)})
-      sum += lamp.irradiance(x + d) - center;
+      sum += light.irradiance(x + d) - center;
     return sum / double(kStep * kStep);
   };
   double curvature = 0;
@@ -141,21 +141,21 @@ TEST(PolygonLampPhotons, WithinKernelBiasAndNoise) {
       curvature =
           std::max(curvature, std::abs(laplacian(seen + d * Vector3(std::cos(angle), 0, std::sin(angle)))));
     }
-  const double E = lamp.irradiance(seen), flux = double(power(scene.lights[0]).x) / kPhotons;
+  const double E = light.irradiance(seen), flux = double(power(scene.lights[0]).x) / kPhotons;
   const double in_reach = E * double(kPi) * kRadius * kRadius / flux;
   const double bound =
       kRadius * kRadius / 8 * curvature + 4 * E / std::sqrt(in_reach) + E * (kPackedFlux + kFootprint);
   EXPECT_LT(bound, 0.2 * E);  // the bound says something
   EXPECT_NEAR(total_mean(result.film), kReflectance * E / double(kPi), kReflectance * bound / double(kPi));
-  write_if_failed(result.film, "polygon_lamp_photons");
+  write_if_failed(result.film, "polygon_light_photons");
 }
 
-// A lamp seen by the camera shows its radiance on its outside, and nothing on its back.
-TEST(Emitted, LampShowsItsRadianceOnItsOutside) {
+// A light seen by the camera shows its radiance on its outside, and nothing on its back.
+TEST(Emitted, LightShowsItsRadianceOnItsOutside) {
   for (const bool outside : {true, false}) {
     Scene scene;
     const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
-    make_lamp(scene, add_shape(scene, horizontal({0, 0, 0}, 1, 1, outside, black)), {1, 2, 3});
+    make_light(scene, add_shape(scene, horizontal({0, 0, 0}, 1, 1, outside, black)), {1, 2, 3});
     look_at(scene, {0, 2, 0}, {0, 0, 0}, {0, 0, 1}, 1, 4, 4);
     finalize_scene(scene);
     for (const Method method : {Method::kRaytrace, Method::kMc, Method::kHybrid, Method::kPhoton}) {
@@ -169,15 +169,15 @@ TEST(Emitted, LampShowsItsRadianceOnItsOutside) {
   }
 }
 
-// A sample that meets glass goes on by both rays: what it reflects of a lamp is Fresnel's share, 4 % at right
-// angles for eta = 1.5, in every sample, and what shines through the rest. The cosine of a 0.1 degree view
-// and float rounding leave 1e-5.
+// A sample that meets glass goes on by both rays: what it reflects of a light is Fresnel's share, 4 % at
+// right angles for eta = 1.5, in every sample, and what shines through the rest. The cosine of a 0.1 degree
+// view and float rounding leave 1e-5.
 TEST(Emitted, GlassReflectsAndTransmitsInEverySample) {
   Scene scene;
   const uint32_t black = add_material(scene, Lambertian{Rgb(0)}),
                  glass = add_material(scene, Dielectric{1.5f});
-  make_lamp(scene, add_shape(scene, horizontal({0, 3, 0}, 1, 1, false, black)), {100, 0, 0});
-  make_lamp(scene, add_shape(scene, horizontal({0, -1, 0}, 1, 1, true, black)), {0, 225, 0});
+  make_light(scene, add_shape(scene, horizontal({0, 3, 0}, 1, 1, false, black)), {100, 0, 0});
+  make_light(scene, add_shape(scene, horizontal({0, -1, 0}, 1, 1, true, black)), {0, 225, 0});
   add_shape(scene, horizontal({0, 0, 0}, 1, 1, true, glass));
   look_at(scene, {0, 2, 0}, {0, 0, 0}, {0, 0, 1}, 0.1f, 4, 4);
   finalize_scene(scene);
@@ -194,7 +194,7 @@ TEST(Emitted, GlassReflectsAndTransmitsInEverySample) {
 
 // Lambertian floor under a constant sky: L = rho E / pi = rho L_sky, without noise in the mean; seen past the
 // floor is the sky itself.
-TEST(InfiniteLamp, ConvexReceiverReflectsTheSky) {
+TEST(InfiniteLight, ConvexReceiverReflectsTheSky) {
   for (const Method method : {Method::kRaytrace, Method::kMc, Method::kPhoton}) {
     Scene scene;
     const uint32_t white = add_material(scene, Lambertian{Rgb(kReflectance)});

@@ -40,12 +40,12 @@ Scene room_with_window() {
   return scene;
 }
 
-// The only lamp is inside a ball of glass: all light is caustic at first.
+// The only light is inside a ball of glass: all light is caustic at first.
 Scene room_with_bulb() {
   Scene scene = cornell(kSize);
-  scene.shapes.pop_back();  // the lamp
+  scene.shapes.pop_back();  // the light
   scene.lights.clear();
-  make_lamp(scene, add_shape(scene, sphere({0, 1.5f, 0}, 0.1f, 3)), {40, 34, 24});
+  make_light(scene, add_shape(scene, sphere({0, 1.5f, 0}, 0.1f, 3)), {40, 34, 24});
   add_shape(scene, sphere({0, 1.5f, 0}, 0.2f, 4));
   finalize_scene(scene);
   return scene;
@@ -81,7 +81,7 @@ RenderSettings settings_for(Method method, int spp, uint64_t photons, uint64_t s
   return settings;
 }
 
-// Means over a block, channels and pixels: of the picture less what lamps show by themselves, and of the
+// Means over a block, channels and pixels: of the picture less what lights show by themselves, and of the
 // bias that is stated.
 struct BlockMeans {
   std::vector<double> light, bias;

@@ -65,30 +65,30 @@ Scene furnace_box(float rho = 0.5f) {
                      quad({-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}, wall),
                      quad({-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1}, wall),
                      quad({1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}, wall)})
-    make_lamp(scene, add_shape(scene, std::move(face)), Rgb(1));
+    make_light(scene, add_shape(scene, std::move(face)), Rgb(1));
   look_at(scene, {0, 0, 0}, {1, 0.5f, 0.25f}, {0, 1, 0}, 90, 32, 32);
   finalize_scene(scene);
   return scene;
 }
 
-// A plate of 1 m under a square lamp of half side a at height h, seen in its middle.
-Scene plate_under_lamp(float a, float h, float L) {
+// A plate of 1 m under a square light of half side a at height h, seen in its middle.
+Scene plate_under_light(float a, float h, float L) {
   Scene scene;
   const uint32_t wall = add_material(scene, Lambertian{Rgb(0.5f)});
   add_shape(scene, horizontal({0, 0, 0}, 0.5f, 0.5f, true, wall));
-  make_lamp(scene, add_shape(scene, horizontal({0, h, 0}, a, a, false, wall)), Rgb(L));
+  make_light(scene, add_shape(scene, horizontal({0, h, 0}, a, a, false, wall)), Rgb(L));
   look_at(scene, {0.2f, 0.3f, 0}, {0, 0, 0}, {0, 1, 0}, 0.1f, 4, 4);
   finalize_scene(scene);
   return scene;
 }
 
 // Irradiance in the middle under a parallel square, in closed form; the radiance is half of it over pi. The
-// lamp is sampled by its area, so samples vary by cos^4 over it: for a = h between 1 and 1/9, that is a
+// light is sampled by its area, so samples vary by cos^4 over it: for a = h between 1 and 1/9, that is a
 // standard deviation below one mean. Seen points lie within 1e-3 of the middle: below 1e-5.
-TEST(Extremes, LampsOfAMillionthAndAMillionScenes) {
+TEST(Extremes, LightsOfAMillionthAndAMillionScenes) {
   for (const auto& [a, h] : {std::pair{1e-6f, 1.0f}, {1e6f, 1e6f}}) {
     const float L = a < 1 ? 1e12f : 1.0f;
-    const auto result = render_with_threads(plate_under_lamp(a, h, L), settings_of(Method::kRaytrace, 4096));
+    const auto result = render_with_threads(plate_under_light(a, h, L), settings_of(Method::kRaytrace, 4096));
     expect_sound(result);
     const double x = double(a) / std::hypot(double(a), double(h));
     const double expected = 0.5 / M_PI * double(L) * 4 * x * std::atan(x);
@@ -97,11 +97,11 @@ TEST(Extremes, LampsOfAMillionthAndAMillionScenes) {
   }
 }
 
-// The same with photons of the tiny lamp: all is finite. Of the huge lamp hardly a photon meets the plate.
-TEST(Extremes, PhotonsOfLampsOfAMillionthAndAMillionScenes) {
+// The same with photons of the tiny light: all is finite. Of the huge light hardly a photon meets the plate.
+TEST(Extremes, PhotonsOfLightsOfAMillionthAndAMillionScenes) {
   for (const auto& [a, h] : {std::pair{1e-6f, 1.0f}, {1e6f, 1e6f}})
     for (const Method method : kAllMethods)
-      expect_sound(render_with_threads(plate_under_lamp(a, h, 1), settings_of(method)));
+      expect_sound(render_with_threads(plate_under_light(a, h, 1), settings_of(method)));
 }
 
 // r0 of 1e-7 to 1e3 scene sizes. At 1e3 every query reads all photons of its surface.
@@ -219,8 +219,8 @@ TEST(Extremes, RoughnessAndAlbedoAtTheirEnds) {
 }
 
 // The ledger of every scene that comes with the program: emitted = absorbed + escaped + terminated + roulette
-// to the last unit, and emitted is the lamps' power up to the rounding of each photon by half a unit, and of
-// float sums. In the gallery lamps have many colours, and photons start in proportion to luminance: the sum
+// to the last unit, and emitted is the lights' power up to the rounding of each photon by half a unit, and of
+// float sums. In the gallery lights have many colours, and photons start in proportion to luminance: the sum
 // over channels has noise. Its spread from photon to photon is below its mean there, so that four standard
 // errors are at most its mean times 4 / sqrt(photons). Guided photons are not in the ledger.
 TEST(Extremes, EnergyLedgerOfEveryScene) {

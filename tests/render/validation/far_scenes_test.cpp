@@ -127,13 +127,13 @@ void expect_same_depth(const Film& film, const Film& reference, double sizes) {
   EXPECT_LE(different, film.width() * film.height() / 100);
 }
 
-// Displacements move the smallest things, lamp and spheres of a quarter of the scene's size, and so change
+// Displacements move the smallest things, light and spheres of a quarter of the scene's size, and so change
 // their solid angles by up to 4 * 2 of them; seen points are lost as in the furnace, 4 at most: 12 in all, in
 // both pictures. The random numbers are the same, so noise shows only where a path meets something else:
 // 0.1 %, and 1 % of the classes whose paths have fireflies.
 TEST(FarScenes, BoxWithSpheresKeepsItsLight) {
   const SceneDescription cornell =
-      imported(std::filesystem::path(KAUSTIK_SCENES_DIR) / "cornell-spheres/square-lamp-2.pbrt");
+      imported(std::filesystem::path(KAUSTIK_SCENES_DIR) / "cornell-spheres/square-light-2.pbrt");
   for (const Method method : {Method::kMc, Method::kPhoton}) {
     const auto settings = settings_of(method, 100'000);
     const auto reference = render_with_threads(moved(cornell, {}, Way::kTransforms, 48), settings);

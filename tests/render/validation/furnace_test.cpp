@@ -23,7 +23,7 @@ void finish(Scene& scene) {
 Scene sphere_furnace() {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(kRho)});
-  make_lamp(scene, add_shape(scene, sphere({0, 0, 0}, 1, white, true)), Rgb(1));
+  make_light(scene, add_shape(scene, sphere({0, 0, 0}, 1, white, true)), Rgb(1));
   finish(scene);
   return scene;
 }

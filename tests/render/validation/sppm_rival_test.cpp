@@ -18,7 +18,7 @@ constexpr double kExpected = 1 / (1 - double(kRho));
 Scene furnace() {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(kRho)});
-  make_lamp(scene, add_shape(scene, sphere({0, 0, 0}, 1, white, true)), Rgb(1));
+  make_light(scene, add_shape(scene, sphere({0, 0, 0}, 1, white, true)), Rgb(1));
   add_shape(scene, sphere({0.5f, 0.2f, 0.1f}, 0.2f, add_material(scene, Dielectric{1.5f})));
   add_shape(scene, sphere({0.3f, 0.4f, -0.4f}, 0.2f, add_material(scene, Mirror{Rgb(1)})));
   look_at(scene, {0.1f, -0.2f, 0.3f}, {1, 0.5f, 0}, {0, 1, 0}, 70, 16, 16);

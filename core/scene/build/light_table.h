@@ -1,5 +1,5 @@
 #pragma once
-// The area lights of a description, and the lamps that they make of shapes.
+// The area lights of a description, and the lights that they make of shapes.
 
 #include <optional>
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace kaustik {
 
-// False, with an error: a lamp of infinite power would emit nothing, since no photon can carry its share.
+// False, with an error: a light of infinite power would emit nothing, since no photon can carry its share.
 bool is_power(const Rgb& power, const SourceLocation& where, DiagnosticList& diagnostics);
 
-class LampTable {
+class LightTable {
  public:
   // Checks every area light and reads its image. All must outlive the table.
-  LampTable(const SceneDescription& description, LightImages& images, const TextureTable& textures,
-            WarnedOnce& warned, DiagnosticList& diagnostics);
+  LightTable(const SceneDescription& description, LightImages& images, const TextureTable& textures,
+             WarnedOnce& warned, DiagnosticList& diagnostics);
 
-  // Adds the lamp that the described shape is and notes it in `shape`, which is placed and has its alpha.
+  // Adds the light that the described shape is and notes it in `shape`, which is placed and has its alpha.
   // False, with an error added, where it cannot shine.
   bool make(const ShapeDescription& description, Shape& shape, std::vector<Light>& lights) const;
 

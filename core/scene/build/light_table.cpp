@@ -1,4 +1,4 @@
-#include "core/scene/build/lamp_table.h"
+#include "core/scene/build/light_table.h"
 
 namespace kaustik {
 namespace {
@@ -8,7 +8,7 @@ std::shared_ptr<const LightImage> white_pixel() {
   return white;
 }
 
-// Alpha zero everywhere is pbrt's way to hide a lamp, which shines as if it were there.
+// Alpha zero everywhere is pbrt's way to hide a light, which shines as if it were there.
 bool is_hidden(const Shape& shape) {
   return shape.alpha_texture == kNoIndex && shape.alpha == 0;
 }
@@ -17,17 +17,17 @@ bool is_hidden(const Shape& shape) {
 
 bool is_power(const Rgb& power, const SourceLocation& where, DiagnosticList& diagnostics) {
   if (is_finite(power)) return true;
-  diagnostics.error(where, "the power of this lamp is beyond the range of floats");
+  diagnostics.error(where, "the power of this light is beyond the range of floats");
   return false;
 }
 
-LampTable::LampTable(const SceneDescription& description, LightImages& images, const TextureTable& textures,
-                     WarnedOnce& warned, DiagnosticList& diagnostics)
+LightTable::LightTable(const SceneDescription& description, LightImages& images, const TextureTable& textures,
+                       WarnedOnce& warned, DiagnosticList& diagnostics)
     : description_(description), textures_(textures), diagnostics_(diagnostics) {
   for (const Directive& light : description.area_lights) area_lights_.push_back(check(light, images, warned));
 }
 
-LampTable::AreaLight LampTable::check(const Directive& directive, LightImages& images, WarnedOnce& warned) {
+LightTable::AreaLight LightTable::check(const Directive& directive, LightImages& images, WarnedOnce& warned) {
   const TypeSpec* spec = find_type(category("AreaLightSource"), directive, diagnostics_);
   if (!spec || !check_parameters("area light", *spec, directive, warned, diagnostics_)) return {};
   const ParameterReader parameters(directive, *spec);
@@ -39,9 +39,9 @@ LampTable::AreaLight LampTable::check(const Directive& directive, LightImages& i
   return {spec, images.get(parameters, "filename")};
 }
 
-// By the luminance of what a white lamp emits, as in pbrt: an image's is the mean of its pixels, whatever of
+// By the luminance of what a white light emits, as in pbrt: an image's is the mean of its pixels, whatever of
 // them the surface shows.
-bool LampTable::scale(const ParameterReader& parameters, DiffuseAreaLight& light) const {
+bool LightTable::scale(const ParameterReader& parameters, DiffuseAreaLight& light) const {
   if (parameters.has("power")) {
     const Rgb white = light.image ? light.image->mean_of_pixels() : Rgb(1);
     const float emitted = luminance(light.flux_of(light.area, white));
@@ -55,7 +55,7 @@ bool LampTable::scale(const ParameterReader& parameters, DiffuseAreaLight& light
   return true;
 }
 
-bool LampTable::make(const ShapeDescription& description, Shape& shape, std::vector<Light>& lights) const {
+bool LightTable::make(const ShapeDescription& description, Shape& shape, std::vector<Light>& lights) const {
   const Directive& directive = description_.area_lights[*description.area_light];
   const auto& [spec, image] = area_lights_[*description.area_light];
   const ParameterReader parameters(directive, *spec);
@@ -66,8 +66,8 @@ bool LampTable::make(const ShapeDescription& description, Shape& shape, std::vec
     const bool sphere =
         std::holds_alternative<Sphere>(shape.geometry) || std::holds_alternative<Quadric>(shape.geometry);
     diagnostics_.error(description.location,
-                       sphere ? "a sphere or cylinder that is scaled unevenly cannot be a lamp"
-                              : "the area of this lamp is zero or not finite",
+                       sphere ? "a sphere or cylinder that is scaled unevenly cannot be a light"
+                              : "the area of this light is zero or not finite",
                        {{directive.location, "the area light"}});
     return false;
   }

@@ -1,4 +1,4 @@
-// Area lamps that show images, lamps with holes, and hidden ones: photons and paths give the same light.
+// Area lights that show images, lights with holes, and hidden ones: photons and paths give the same light.
 
 #include <cstring>
 
@@ -73,35 +73,35 @@ void expect_photons_agree_with_paths(const std::string& text, const std::string&
   c.write_pictures(name);
 }
 
-TEST(ImageLamps, PhotonsOfAScreenAgreeWithPaths) {
+TEST(EmissionImages, PhotonsOfAScreenAgreeWithPaths) {
   expect_photons_agree_with_paths(room(1, kScreen, "", with_glass(1)), "screen");
 }
-TEST(ImageLamps, PhotonsOfABallAgreeWithPaths) {
+TEST(EmissionImages, PhotonsOfABallAgreeWithPaths) {
   expect_photons_agree_with_paths(room(1, kScreen, "", with_ball()), "glowing_ball");
 }
-TEST(ImageLamps, PhotonsOfALampWithHolesAgreeWithPaths) {
+TEST(EmissionImages, PhotonsOfALightWithHolesAgreeWithPaths) {
   const std::string plain = "AreaLightSource \"diffuse\" \"rgb L\" [8 4 2]\n";
   expect_photons_agree_with_paths(room(1, plain, "\"texture alpha\" \"holes\"", with_glass(1)), "holes");
 }
 
-TEST(ImageLamps, TheSumDoesNotDependOnTheEstimators) {
+TEST(EmissionImages, TheSumDoesNotDependOnTheEstimators) {
   write_screen();
   expect_the_same_sum_by_all_estimators(scene_of(room(1, kScreen, "", with_glass(1))), 0.1f);
 }
-TEST(LampsWithAlpha, TheSumDoesNotDependOnTheEstimators) {
+TEST(LightsWithAlpha, TheSumDoesNotDependOnTheEstimators) {
   write_screen();
   expect_the_same_sum_by_all_estimators(
       scene_of(room(1, kScreen, "\"texture alpha\" \"holes\"", with_glass(1))), 0.1f);
 }
-// Without glass: like a point lamp, a hidden one is not met by paths behind it.
-TEST(HiddenLamps, TheSumDoesNotDependOnTheEstimators) {
+// Without glass: like a point light, a hidden one is not met by paths behind it.
+TEST(HiddenLights, TheSumDoesNotDependOnTheEstimators) {
   write_screen();
   expect_the_same_sum_by_all_estimators(scene_of(room(1, kScreen, "\"float alpha\" 0")), 0.1f);
 }
 
 // Seen straight on: (0, 0) of uv is the lower left corner, and the image's last row. A pixel of the picture
 // is a twelfth of the screen; its centre is that of a pixel of the image.
-TEST(ImageLamps, ShowTheirImageUpright) {
+TEST(EmissionImages, ShowTheirImageUpright) {
   write_screen();
   const Scene scene = scene_of(std::string(R"(Scale -1 1 1 LookAt 0 0 1  0 0 0  0 1 0
     Camera "orthographic" "float screenwindow" [-2 2 -1.5 1.5]
@@ -109,12 +109,12 @@ TEST(ImageLamps, ShowTheirImageUpright) {
                                kScreen + rectangle("-2 -1.5 0  2 -1.5 0  2 1.5 0  -2 1.5 0"));
   RenderSettings settings = settings_of(Method::kRaytrace, 16, 0.1f, 1);
   const Film film = render_with_threads(scene, settings).film;
-  const auto& lamp = std::get<DiffuseAreaLight>(scene.lights[0]);
+  const auto& light = std::get<DiffuseAreaLight>(scene.lights[0]);
   const auto expect_pixel = [&](int x, int y, const Rgb& c) {
     for (int k = 0; k < 3; ++k) {
       const double encoded = double(c[k]) / 255;
       const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-      EXPECT_NEAR(lamp.image->value({(x + 0.5f) / 4, 1 - (y + 0.5f) / 3})[k], linear, 1e-5) << x << y;
+      EXPECT_NEAR(light.image->value({(x + 0.5f) / 4, 1 - (y + 0.5f) / 3})[k], linear, 1e-5) << x << y;
       // A third of an image's pixel about its centre: the neighbours' share is a twelfth on each of two axes.
       EXPECT_NEAR(film.at(3 * x + 1, 3 * y + 1).emitted[k], 40 * linear, 40 * (0.17 * linear + 0.17))
           << x << y;
@@ -132,7 +132,7 @@ RenderSettings quick(float radius) {
   return settings;
 }
 
-TEST(ImageLamps, AnyNumberOfThreadsGivesTheSameBits) {
+TEST(EmissionImages, AnyNumberOfThreadsGivesTheSameBits) {
   write_screen();
   const Scene scene = scene_of(room(1, kScreen, "", with_ball()));
   const Film one = render_with_threads(scene, quick(0.1f), 1).film;
@@ -142,7 +142,7 @@ TEST(ImageLamps, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
-TEST(ImageLamps, ScalingByAPowerOfTwoChangesNothing) {
+TEST(EmissionImages, ScalingByAPowerOfTwoChangesNothing) {
   write_screen();
   for (const Method method : {Method::kPhoton, Method::kMc}) {
     RenderSettings settings = quick(0.125f);
@@ -158,8 +158,8 @@ TEST(ImageLamps, ScalingByAPowerOfTwoChangesNothing) {
   }
 }
 
-// A hidden lamp gives the light of the one that is seen, and the camera looks through it at the wall.
-TEST(HiddenLamps, ShineLikeOthersButAreNotSeen) {
+// A hidden light gives the light of the one that is seen, and the camera looks through it at the wall.
+TEST(HiddenLights, ShineLikeOthersButAreNotSeen) {
   write_screen();
   const auto by_rays = [&](const std::string& on_screen) {
     return films(scene_of(room(1, kScreen, on_screen)), settings_of(Method::kRaytrace, 64, 0.1f, 1));
@@ -167,7 +167,7 @@ TEST(HiddenLamps, ShineLikeOthersButAreNotSeen) {
   const auto seen = by_rays(""), hidden = by_rays("\"float alpha\" 0");
   EXPECT_GT(block_estimate(seen, Layer::kEmitted, -1).mean, 0);
   EXPECT_EQ(block_estimate(hidden, Layer::kEmitted, -1).mean, 0);
-  // Pixels of the floor: the wall behind the lamp is lit by nothing, the lamp's own front is nearly black.
+  // Pixels of the floor: the wall behind the light is lit by nothing, the light's own front is nearly black.
   for (const int block : {6, 7, 8}) {
     const Estimate a = block_estimate(seen, Layer::kDirect, block),
                    b = block_estimate(hidden, Layer::kDirect, block);
@@ -176,9 +176,9 @@ TEST(HiddenLamps, ShineLikeOthersButAreNotSeen) {
   }
 }
 
-// Of a lamp of one colour: half of it cut out by an image, or a constant alpha of a half, is half of the
+// Of a light of one colour: half of it cut out by an image, or a constant alpha of a half, is half of the
 // light.
-TEST(LampsWithAlpha, ShineByTheirShare) {
+TEST(LightsWithAlpha, ShineByTheirShare) {
   write_screen();
   const std::string plain = "AreaLightSource \"diffuse\" \"rgb L\" [8 4 2]\n";
   for (const Method method : {Method::kRaytrace, Method::kMc, Method::kPhoton}) {
