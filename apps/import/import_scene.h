@@ -1,5 +1,5 @@
 #pragma once
-// Reads scenes: pbrt-v4's text format (docs/scene_format.md), and by their ending glTF and OBJ.
+// Reads scenes: pbrt-v4's text format (docs/reference/scene_format.md), and by their ending glTF and OBJ.
 
 #include <filesystem>
 #include <optional>

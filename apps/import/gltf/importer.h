@@ -1,5 +1,5 @@
 #pragma once
-// glTF 2.0 scenes as directives of pbrt (docs/scene_format.md says what becomes of what).
+// glTF 2.0 scenes as directives of pbrt (docs/reference/scene_format.md says what becomes of what).
 
 #include <filesystem>
 #include <optional>

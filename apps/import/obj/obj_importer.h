@@ -1,6 +1,6 @@
 #pragma once
-// Wavefront OBJ files with their MTL materials, read by assimp, as directives of pbrt (docs/scene_format.md
-// says what becomes of what).
+// Wavefront OBJ files with their MTL materials, read by assimp, as directives of pbrt
+// (docs/reference/scene_format.md says what becomes of what).
 
 #include <filesystem>
 #include <optional>

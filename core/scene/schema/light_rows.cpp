@@ -272,8 +272,8 @@ std::vector<LightRow> make_light_rows() {
         "Radiance from every direction: the same, or by an image.",
         {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(),
          illuminance("irradiance of a plane that faces the light's +z, of white light, which `L` and `scale` "
-                     "multiply; "
-                     "of images and portals the luminance of that irradiance, which `scale` multiplies"),
+                     "multiply; for images and portals the luminance of that irradiance, which `scale` "
+                     "multiplies"),
          image("radiance: a square equal-area map as in pbrt-v4, or a latitude-longitude map of 2:1 as in "
                "pbrt-v3, both about +z"),
          portal()}},

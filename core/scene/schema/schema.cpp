@@ -67,17 +67,15 @@ std::vector<MaterialRow> make_material_rows() {
             {number("eta", 1.5, "", kPositive, "index of refraction of the pane over its surroundings")})},
        [](const MaterialInputs& p) -> Bsdf { return ThinDielectric{static_cast<float>(p.number("eta"))}; }},
       {{"diffusetransmission",
-        "A sheet that scatters light evenly to both sides. Where both shares add up to more than one, they "
-        "are "
-        "scaled to one; pbrt lets such a sheet make light.",
+        "A sheet that scatters light evenly to both sides. Shares that add up to more than one are scaled to "
+        "one; pbrt lets such a sheet create light.",
         material({rgb("reflectance", 0.25, "", kUnit, "share of the light that is reflected"),
                   rgb("transmittance", 0.25, "", kUnit, "share that comes through"),
                   number("scale", 1, "", kNotNegative, "multiplies both shares, up to one each")})},
        make_diffuse_transmission},
       {{"coateddiffuse",
-        "Diffuse under a coat of glass or varnish, both sides. All reflections between coat and base, in "
-        "closed "
-        "form; pbrt walks at random and stops after `maxdepth`, so that it is darker by a little.",
+        "Diffuse under a coat of glass or varnish, both sides. All reflections between coat and base are "
+        "summed in closed form; pbrt's random walk stops after `maxdepth` and is slightly darker.",
         coat({reflectance,
               number("eta", 1.5, "", {kLeastCoatEta, kLargestCoatEta}, "index of refraction of the coat")})},
        [](const MaterialInputs& p) -> Bsdf {
@@ -85,9 +83,8 @@ std::vector<MaterialRow> make_material_rows() {
                                                 facets_of(p));
        }},
       {{"mix",
-        "At each hit one of two materials, the second as often as `amount` says. Both are named materials "
-        "defined "
-        "before it; mixtures may be mixed.",
+        "At each hit one of two materials; the second with probability `amount`. Both are named materials "
+        "defined before it, and may be mixtures themselves.",
         {two_names("materials", "names of the first and the second material"),
          textured(number("amount", 0.5, "", kUnit, "share of the second material"))}},
        nullptr},

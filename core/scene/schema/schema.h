@@ -1,9 +1,8 @@
 #pragma once
 // What a scene may say: one table per kind of directive, one row per type, one entry per parameter. The
-// checks, the error messages, the defaults and the tables of docs/scene_format.md all come from here. A new
-// material is a row of schema.cpp, a light one of light_rows.cpp; the row holds the function that makes it
-// from its parameters.
-// from its parameters.
+// checks, the error messages, the defaults and the tables of docs/reference/scene_format.md all come from
+// here. A new material is a row of schema.cpp, a light one of light_rows.cpp; the row holds the function that
+// makes it from its parameters. from its parameters.
 
 #include <functional>
 #include <limits>
@@ -149,7 +148,7 @@ const TypeSpec* find_type(const Category& category, const Directive& directive, 
 bool check_parameters(std::string_view noun, const TypeSpec& spec, const Directive& directive,
                       WarnedOnce& warned, DiagnosticList& diagnostics);
 
-// The tables of docs/scene_format.md.
+// The tables of docs/reference/scene_format.md.
 std::string schema_markdown();
 
 }  // namespace kaustik

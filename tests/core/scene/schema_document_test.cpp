@@ -1,4 +1,4 @@
-// docs/scene_format.md holds the schema's own tables.
+// docs/reference/scene_format.md holds the schema's own tables.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,15 +11,15 @@ namespace kaustik {
 namespace {
 
 TEST(SchemaDocument, HoldsTheTablesOfTheSchema) {
-  std::ifstream in(KAUSTIK_SOURCE_DIR "/docs/scene_format.md");
-  ASSERT_TRUE(in) << "docs/scene_format.md is missing";
+  std::ifstream in(KAUSTIK_SOURCE_DIR "/docs/reference/scene_format.md");
+  ASSERT_TRUE(in) << "docs/reference/scene_format.md is missing";
   std::stringstream text;
   text << in.rdbuf();
   const std::string tables = schema_markdown();
   if (text.str().find(tables) == std::string::npos) {
     std::ofstream(KAUSTIK_TEST_OUTPUT_DIR "/scene_format_tables.md") << tables;
-    FAIL() << "the reference in docs/scene_format.md is out of date: replace it by " KAUSTIK_TEST_OUTPUT_DIR
-              "/scene_format_tables.md";
+    FAIL() << "the reference in docs/reference/scene_format.md is out of date: replace it "
+              "by " KAUSTIK_TEST_OUTPUT_DIR "/scene_format_tables.md";
   }
 }
 
