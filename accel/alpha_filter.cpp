@@ -11,7 +11,8 @@ uint64_t hash_of_ray(RTCRayN* rays, unsigned N, unsigned i) {
 
 namespace {
 
-// Rejects what is not there of a triangle. What is rebuilt of it follows from its barycentrics alone.
+// Rejects triangle hits at points where alpha says there is no surface. The hit point follows from the
+// barycentrics alone, so an empty Ray will do.
 void filter_alpha(const RTCFilterFunctionNArguments* args) {
   const auto& mesh = *static_cast<const AlphaMesh*>(args->geometryUserPtr);
   const uint32_t shape = mesh.shape == kNoIndex ? args->context->instID[0] : mesh.shape;

@@ -1,5 +1,6 @@
 #pragma once
-// Surfaces that are there in part, decided inside Embree's traversal: rejected hits do not end a ray.
+// Partly transparent (alpha-masked) surfaces, decided inside Embree's traversal: a rejected hit does not end
+// the ray.
 
 #include <cstdint>
 
@@ -8,14 +9,14 @@
 
 namespace kaustik::accel {
 
-// A mesh with alpha. Embree points to it while rays are traced.
+// User data of a mesh with alpha. Embree keeps a pointer to it, so it must not move while rays are traced.
 struct AlphaMesh {
   const Scene* scene = nullptr;
-  uint32_t shape = kNoIndex;  // none: that of the instance
+  uint32_t shape = kNoIndex;  // kNoIndex: the hit's instance names the shape
 };
 void set_alpha_filter(RTCGeometry geometry, const AlphaMesh* mesh);
 
-// Of ray i of N, by Embree's own coordinates, which are the same at every scale of scene.
+// Hash of ray i of N, from the coordinates that Embree sees, which are the same at every scale of the scene.
 uint64_t hash_of_ray(RTCRayN* rays, unsigned N, unsigned i);
 
 }  // namespace kaustik::accel

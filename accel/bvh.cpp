@@ -1,14 +1,16 @@
-// Bvh on Embree. Geometry ids: a triangle mesh has its shape's index; all spheres are one user geometry, all
-// disks another and all other quadrics a third, behind them, whose hits name the shape as well. An instanced
-// mesh is a scene of its own, which all its instances share; an instance has its shape's index.
+// Bvh, implemented with Embree. Geometry ids: a triangle mesh has the index of its shape. All spheres
+// together are one user geometry, all disks another and all other quadrics a third; their ids follow those of
+// the shapes, and their hits name the shape as well. An instanced mesh is an Embree scene of its own, shared
+// by all its instances; an instance has the index of its shape.
 //
-// Embree sees the scene divided by a power of two that brings its largest coordinate into [1, 2): exact, and
-// undone exactly. So Embree's few absolute thresholds (it gives up barycentrics when area falls below 1e-18)
-// mean the same at every scale of scene. Coordinates beyond 2^100 are not supported.
+// Embree sees the scene divided by a power of two that brings its largest coordinate into [1, 2): scaling by
+// it and back is exact. So Embree's few absolute thresholds (it gives up barycentrics when an area falls
+// below 1e-18) have the same effect at every scale of the scene. Coordinates beyond 2^100 are not supported.
 //
-// Flush-to-zero and denormals-are-zero stay off, against Embree's advice for speed: they would make hits of
-// very small scenes differ from those of their scaled copies. Embree orders the primitives of a leaf, so the
-// tree, and which of two equally near triangles wins, does not depend on the number of build threads.
+// Flush-to-zero and denormals-are-zero stay off, although Embree recommends them for speed: they would make
+// hits of very small scenes differ from those of their scaled copies. Embree orders the primitives of a leaf,
+// so neither the BVH nor the choice between two equally near triangles depends on the number of build
+// threads.
 
 #include "accel/bvh.h"
 
@@ -38,8 +40,8 @@ bool count_memory(void* user, ssize_t bytes, bool /*post*/) {
   return true;
 }
 
-// In trees so small, packets of rays from all over the scene are fastest as bundles of like directions; in
-// larger ones their rays soon part (measured: docs/performance.md).
+// Up to this many primitives, packets of rays from all over the scene are fastest when traversed coherently;
+// in larger scenes their rays soon diverge (measured: docs/performance.md).
 constexpr uint64_t kFewPrimitives = 64;
 
 uint64_t primitive_count(const std::vector<Shape>& shapes) {
@@ -52,21 +54,22 @@ uint64_t primitive_count(const std::vector<Shape>& shapes) {
 
 static_assert(kRayLanes % kPacket == 0 && kNoIndex == RTC_INVALID_GEOMETRY_ID);
 
-// Embree accepts tnear <= t <= tfar where we want 0 < t < t_max: the next floats inside. An empty range stays
-// empty.
+// Embree accepts tnear <= t <= tfar where we want 0 < t < t_max, so both ends are moved inward to the next
+// float. An empty range stays empty.
 constexpr float kNear = std::numeric_limits<float>::min();
 float far_end(float t_max) {
   return t_max > 0 ? std::bit_cast<float>(std::bit_cast<uint32_t>(t_max) - 1) : -1.0f;
 }
 
-// Four floats in one register: Embree reads origin and direction so, and would wait for floats that have just
-// been stored one by one.
+// Four floats in one register. Embree loads origin and direction this way, and would stall on floats that
+// have just been stored one by one.
 using Float4 = float __attribute__((vector_size(16)));
 void store4(float* to, Float4 values) {
   std::memcpy(to, &values, sizeof(values));
 }
 
-// Of components beyond Embree gives up, and builds of it with assertions end the program.
+// Largest coordinate that Embree handles: it drops rays with larger ones, and debug builds of it abort on
+// them.
 constexpr float kFarthest = 1.8e18f;
 
 bool within_reach(Float4 o, Float4 d) {
@@ -77,7 +80,8 @@ bool within_reach(Float4 o, Float4 d) {
   return (halves[0] & halves[1]) == ~uint64_t{0};
 }
 
-// False for rays from out of Embree's reach, or that are not finite: they meet nothing.
+// Fills an Embree ray. False for rays that are not finite or have a coordinate beyond kFarthest: they meet
+// nothing.
 bool fill(RTCRay& r, const Ray& ray, float to_embree) {
   static_assert(offsetof(RTCRay, tnear) == 3 * sizeof(float) && offsetof(RTCRay, time) == 7 * sizeof(float));
   const Float4 o = Float4{ray.o.x, ray.o.y, ray.o.z, kNear} * Float4{to_embree, to_embree, to_embree, 1};
@@ -99,7 +103,7 @@ RTCScene new_scene(RTCDevice device) {
   return scene;
 }
 
-// The one that brings the largest coordinate into [1, 2) when it is divided by it; 1 for boxes without
+// The power of two whose quotient brings the box's largest coordinate into [1, 2); 1 for boxes without
 // extent.
 float power_of_two_of(const Bounds3& bounds) {
   if (bounds.empty()) return 1;
@@ -108,7 +112,7 @@ float power_of_two_of(const Bounds3& bounds) {
   return std::ldexp(1.0f, std::clamp(std::ilogb(largest), -100, 100));
 }
 
-// An instanced mesh, divided by a power of two of its own.
+// The Embree scene of an instanced mesh, divided by a power of two of its own.
 struct OwnScene {
   RTCScene scene = nullptr;
   float scale = 1;
@@ -126,12 +130,12 @@ struct OwnScene {
 struct Bvh::Impl {
   std::atomic<int64_t> bytes{0};
   EmbreeHandles embree;
-  float to_scene = 1, to_embree = 1;  // lengths: powers of two
+  float to_scene = 1, to_embree = 1;  // lengths, as powers of two
   QuadricGroup spheres, disks, others;
-  std::map<const TriangleMesh*, OwnScene> own_scenes;  // of instanced meshes
-  std::deque<AlphaMesh> alpha_meshes;                  // Embree points to them
-  bool coherent = false;                               // how packets of mixed rays go through the tree
-  bool instances = false;                              // hits may name one
+  std::map<const TriangleMesh*, OwnScene> own_scenes;  // one for each instanced mesh
+  std::deque<AlphaMesh> alpha_meshes;                  // a deque, since Embree keeps pointers to its elements
+  bool coherent = false;                               // traverse packets of mixed rays coherently
+  bool instances = false;                              // hits may name an instance
 
   void open();
   void set_scale(const Bounds3& bounds);
@@ -149,7 +153,7 @@ struct Bvh::Impl {
 };
 
 void Bvh::Impl::open() {
-  // No "threads=" here: Embree would cap the whole process by it. commit() caps the build alone.
+  // No "threads=" here: Embree would apply it to the whole process. commit() limits the build alone.
   embree.open_device();
   rtcSetDeviceMemoryMonitorFunction(embree.device, count_memory, &bytes);
   embree.scene = new_scene(embree.device);
@@ -164,7 +168,7 @@ void Bvh::Impl::attach(RTCScene scene, RTCGeometry geometry, unsigned geometry_i
 
 RTCGeometry Bvh::Impl::make_geometry(const TriangleMesh& mesh, float scale) {
   RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  // Embree pads its own buffer: it reads 16 bytes at each vertex, 4 past the last one.
+  // The buffer is Embree's own, which it pads: it reads 16 bytes at each vertex, 4 past the last one.
   auto* vertices = static_cast<Point3*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Point3), mesh.P.size()));
   check(embree.device, "copying vertices");
@@ -193,7 +197,7 @@ void Bvh::Impl::add_instance(const Scene& scene, const InstancedMesh& instance, 
       set_alpha_filter(geometry, &alpha_meshes.emplace_back(AlphaMesh{&scene}));
     attach(own.scene, geometry, 0);
     rtcCommitScene(own.scene);
-    check(embree.device, "building an instance's tree");
+    check(embree.device, "building the BVH of an instance");
   }
   RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, own.scene);
@@ -246,7 +250,7 @@ void Bvh::Impl::commit(int threads) {
   std::optional<tbb::global_control> cap;
   if (threads > 0) cap.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   rtcCommitScene(embree.scene);
-  check(embree.device, "building the tree");
+  check(embree.device, "building the BVH");
 }
 
 Bvh::Bvh(const Scene& scene, int threads) : scene_(&scene), impl_(std::make_unique<Impl>()) {
@@ -256,7 +260,7 @@ Bvh::Bvh(const Scene& scene, int threads) : scene_(&scene), impl_(std::make_uniq
     impl_->add_shapes(scene);
     impl_->commit(threads);
   } catch (const std::bad_alloc&) {
-    throw_embree(RTC_ERROR_OUT_OF_MEMORY, "building the tree");
+    throw_embree(RTC_ERROR_OUT_OF_MEMORY, "building the BVH");
   }
 }
 
@@ -280,7 +284,7 @@ Hit Bvh::intersect(const Ray& ray) const {
   return hit;
 }
 
-// What packets share.
+// Sets the fields that are the same for all packets.
 void Bvh::Impl::start_packets(RTCRayHit16* query) const {
   std::fill_n(query->ray.tnear, kPacket, kNear);
   std::fill_n(query->ray.time, kPacket, 0.0f);
@@ -289,7 +293,7 @@ void Bvh::Impl::start_packets(RTCRayHit16* query) const {
   std::fill_n(query->ray.flags, kPacket, 0u);
 }
 
-// valid: -1 for rays that are to be traced, 0 for the others; rays out of reach become such.
+// valid: -1 for rays to trace, 0 for the others; set to 0 for rays with a coordinate beyond kFarthest.
 void Bvh::Impl::load_packet(const RayLanes& rays, size_t first, RTCRayHit16* query, int* valid) const {
   float* const o[] = {query->ray.org_x, query->ray.org_y, query->ray.org_z};
   float* const d[] = {query->ray.dir_x, query->ray.dir_y, query->ray.dir_z};

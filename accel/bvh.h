@@ -1,6 +1,7 @@
 #pragma once
-// Every ray of the renderer goes through here: Embree's BVH (3.13 and 4) behind a small header. Robust mode,
-// medium build quality. Spheres and disks are exact: user geometry, intersected by core/geometry.
+// All rays of the renderer are traced here: Embree's BVH (3.13 or 4) behind a small interface, in robust mode
+// and with medium build quality. Spheres, disks and other quadrics are exact: user geometry that
+// core/geometry intersects.
 
 #include <memory>
 
@@ -9,16 +10,17 @@
 
 namespace kaustik::accel {
 
-// How the rays of a packet lie: decides how it goes through the tree, hence its speed.
+// How the rays of a packet are related. It decides how the packet is traversed, and so only the speed.
 enum class RayOrder {
-  kMixed,      // like nothing but perhaps a common octant of directions
-  kNeighbours  // next to each other from one point, as from the camera: they stay together as a bundle
+  kMixed,      // unrelated, but for an octant of directions that they may share
+  kNeighbours  // adjacent rays from one point, such as camera rays, traversed together as a bundle
 };
 
 // Immutable after construction; every const member may be called from any thread.
 class Bvh {
  public:
-  // threads: upper bound on build threads, 0 = all. Keeps a pointer to scene, which must outlive it.
+  // threads: upper bound on build threads, 0 = all. Keeps a pointer to scene, which must outlive the Bvh.
+  // Throws std::runtime_error when Embree fails, for want of memory for example.
   explicit Bvh(const Scene& scene, int threads = 0);
   ~Bvh();
   Bvh(Bvh&&) noexcept;
@@ -28,8 +30,9 @@ class Bvh {
   Hit intersect(const Ray& ray) const;
   // True when anything blocks the open segment 0 < t < ray.t_max.
   bool occluded(const Ray& ray) const;
-  // Nearest hits of the first `count` rays, in packets: the bits of intersect(), save that of surfaces met at
-  // exactly the same distance (a ray through an edge) another may be named, depending on the other rays.
+  // Nearest hits of the first `count` rays, traced in packets. The results have the same bits as those of
+  // intersect() for single rays, except where surfaces are met at exactly the same distance (a ray through an
+  // edge): which of them is named may then depend on the other rays.
   void intersect(const RayLanes& rays, size_t count, HitLanes* hits, RayOrder order = RayOrder::kMixed) const;
   // Nearest hit as a surface point; false when the ray escapes.
   bool intersect(const Ray& ray, SurfaceInteraction* si) const;

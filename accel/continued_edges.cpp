@@ -1,4 +1,5 @@
-// Does a surface go on behind an edge that no two triangles share?
+// Tells the true ends of a surface from edges behind which it continues although no second triangle shares
+// them.
 
 #include <tbb/parallel_for.h>
 
@@ -9,11 +10,11 @@ namespace kaustik::accel {
 
 namespace {
 
-constexpr float kStep = 1e-3f;        // of the facet's edge or height, whichever is shorter
+constexpr float kStep = 1e-3f;        // relative to the facet's edge or height, whichever is shorter
 constexpr float kSameSurface = 0.5f;  // cosine
-constexpr int kMaxLayers = 8;         // of other surfaces between the probe's start and its end
+constexpr int kMaxLayers = 8;         // surfaces of other groups between the probe's start and its end
 
-// A facet of the edge's group within `reach` of p along the edge's normal.
+// Whether there is a facet of the edge's surface group within `reach` of p along the edge's normal.
 bool finds_surface(const Bvh& bvh, const BoundaryEdge& edge, const Point3& p, float reach) {
   Ray ray{p + reach * edge.n, -edge.n, 2 * reach};
   for (int layer = 0; layer < kMaxLayers && ray.t_max > 0; ++layer) {
@@ -33,7 +34,7 @@ bool goes_on(const Bvh& bvh, const BoundaryEdge& edge) {
   int found = 0;
   for (const float t : {0.25f, 0.5f, 0.75f}) {
     const Point3 p = edge.a + t * (edge.b - edge.a);
-    // Well above the rounding of p, of the moved point and of the hit.
+    // The step must be well above the rounding errors of p, of the moved point and of the hit.
     const float resolution = 4 * surface_error(max_abs_component(p), length);
     const float step = std::max(kStep * std::min(length, edge.height), resolution);
     found += finds_surface(bvh, edge, p + step * edge.outward, 2 * step);

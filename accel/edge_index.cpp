@@ -1,4 +1,5 @@
-// As in Bvh, Embree sees coordinates divided by a power of two, so that it answers alike at every scale.
+// As in Bvh, Embree sees coordinates divided by a power of two, so that the results are the same at every
+// scale.
 
 #include "accel/edge_index.h"
 
@@ -12,7 +13,7 @@ namespace kaustik::accel {
 
 namespace {
 
-constexpr uint32_t kFewEdges = 16;  // a walk over these costs no more than a descent of the tree
+constexpr uint32_t kFewEdges = 16;  // up to this many, a linear walk is no slower than a descent of the BVH
 
 bool reaches(const BoundaryEdge& edge, const glm::dvec3& p, double radius) {
   const glm::dvec3 a = glm::dvec3(edge.a) - p, along = glm::dvec3(edge.b) - glm::dvec3(edge.a);
@@ -26,7 +27,7 @@ bool reaches(const BoundaryEdge& edge, const glm::dvec3& p, double radius) {
 struct EdgeIndex::Impl {
   EmbreeHandles embree;
   float to_embree = 1;
-  std::vector<BoundaryEdge> const* edges = nullptr;  // while the tree is built
+  std::vector<BoundaryEdge> const* edges = nullptr;  // set only while the BVH is built
 
   void set_scale();
   void build();
@@ -62,7 +63,7 @@ void EdgeIndex::Impl::build() {
   rtcAttachGeometry(embree.scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(embree.scene);
-  check(embree.device, "building the tree of edges");
+  check(embree.device, "building the BVH of edges");
   edges = nullptr;
 }
 
@@ -97,7 +98,7 @@ size_t EdgeIndex::find(const Point3& p, float radius, uint32_t surface_group, st
     for (uint32_t i = begin; i < end && visit(i); ++i) continue;
     return count;
   }
-  // Embree rounds differences and their squares: a few parts in 2^23.
+  // Slack for Embree, which rounds differences and their squares by a few parts in 2^23.
   constexpr float kSlack = 1 + 0x1p-16f;
   const Point3 scaled = impl_->to_embree * p;
   embree_visit_near(impl_->embree.scene, scaled.x, scaled.y, scaled.z, kSlack * impl_->to_embree * radius,
@@ -107,7 +108,7 @@ size_t EdgeIndex::find(const Point3& p, float radius, uint32_t surface_group, st
   return count;
 }
 
-// Embree's tree of boxes takes about two boxes and a reference per edge.
+// An estimate: Embree's BVH takes about two boxes and a reference per edge.
 uint64_t EdgeIndex::memory_bytes() const {
   return edges_.size() * (sizeof(BoundaryEdge) + 2 * 6 * sizeof(float) + 2 * sizeof(void*)) +
          group_begin_.size() * sizeof(uint32_t);

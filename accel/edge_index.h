@@ -1,6 +1,6 @@
 #pragma once
-// Finds the boundary edges near a point: a walk over the edges of a surface group with few of them (walls,
-// tables), Embree's point query over the boxes of all for the others.
+// Finds the boundary edges near a point: by a linear walk in surface groups that have few edges (walls,
+// tables), and by Embree's point query over the boxes of all edges in the others.
 
 #include <memory>
 #include <span>
@@ -15,15 +15,16 @@ class Bvh;
 // Immutable after construction; const members may be called from any thread.
 class EdgeIndex {
  public:
-  // Sorts the edges by surface group and keeps their order within one.
+  // Sorts the edges by surface group and keeps their order within a group.
   explicit EdgeIndex(std::vector<BoundaryEdge> edges);
   ~EdgeIndex();
   EdgeIndex(EdgeIndex&&) noexcept;
   EdgeIndex& operator=(EdgeIndex&&) noexcept;
 
-  // Edges of the surface group with a point within radius (metres, closed) of p. Writes their indices in
-  // ascending order and returns how many there are; out.size() + 1 when there are more than fit, and then out
-  // holds nothing of use. The result does not depend on the tree, and scales with the scene by powers of two.
+  // Finds the edges of the surface group that have a point within radius (metres, closed) of p. Writes their
+  // indices in ascending order and returns their number, or out.size() + 1 when they do not all fit; the
+  // contents of out are then unspecified. The result does not depend on the BVH, and scales with the scene by
+  // powers of two.
   size_t find(const Point3& p, float radius, uint32_t surface_group, std::span<uint32_t> out) const;
 
   const BoundaryEdge& operator[](uint32_t i) const { return edges_[i]; }
@@ -33,15 +34,16 @@ class EdgeIndex {
  private:
   struct Impl;
   std::vector<BoundaryEdge> edges_;
-  std::vector<uint32_t> group_begin_;  // into edges_, by surface group; one more entry than groups with edges
-  std::unique_ptr<Impl> impl_;         // null without edges
+  // The first edge of each surface group in edges_, and the end of the last one.
+  std::vector<uint32_t> group_begin_;
+  std::unique_ptr<Impl> impl_;  // null when there are no edges
 };
 
-// The edges but those behind which the same surface group goes on although no triangle shares them: at
-// T-junctions and between unwelded facets. Looks from three points of the edge, moved outward by 1/1000 of
-// the facet (more where coordinates round more coarsely), for a facet within 60 degrees and twice that
-// distance; two finds of three drop the whole edge. Only edges with nothing behind them are looked at. Keeps
-// the order.
+// Returns the edges that are true ends, in their order: drops those behind which the same surface group
+// continues although no triangle shares them, as at T-junctions and between unwelded facets. From three
+// points of each edge, moved outward by 1/1000 of the facet (more where coordinates round more coarsely), it
+// looks for a facet within 60 degrees of the edge's normal and twice that distance away; two finds out of
+// three drop the whole edge. Only edges with nothing beyond them are tested.
 std::vector<BoundaryEdge> without_continued(std::vector<BoundaryEdge> edges, const Bvh& bvh);
 
 }  // namespace kaustik::accel

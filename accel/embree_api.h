@@ -1,6 +1,6 @@
 #pragma once
-// The only place that knows which Embree it is: 3.13 and 4 differ in the include path and in how a query's
-// options travel (a context filled per call, or optional arguments).
+// The only file that depends on Embree's version: 3.13 and 4 differ in the include path and in how a query's
+// options are passed (a context filled per call, or optional arguments).
 
 #include <cstddef>
 #include <limits>
@@ -13,7 +13,7 @@
 
 namespace kaustik::accel {
 
-// Rays that embree_intersect() takes at once.
+// Number of rays in a packet of embree_intersect().
 inline constexpr size_t kPacket = 16;
 
 #if RTC_VERSION_MAJOR >= 4
@@ -23,7 +23,7 @@ inline void embree_intersect(RTCScene scene, RTCRayHit* query) {
 inline void embree_occluded(RTCScene scene, RTCRay* query) {
   rtcOccluded1(scene, query, nullptr);
 }
-// coherent: traverse as a bundle, which pays in small trees when the directions are alike.
+// coherent: traverse the packet as one bundle, which pays in small BVHs when the directions are alike.
 inline void embree_intersect(RTCScene scene, const int* valid, bool coherent, RTCRayHit16* query) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -50,7 +50,8 @@ inline void embree_intersect(RTCScene scene, const int* valid, bool coherent, RT
 #endif
 
 // Calls fn(primitive) for every primitive whose box comes within radius of the point, in any order; stops
-// when fn returns false. Box distances are rounded: make the radius a little larger than what matters.
+// when fn returns false. Embree rounds the distances to boxes, so make the radius a little larger than
+// needed.
 template <class Fn>
 void embree_visit_near(RTCScene scene, float x, float y, float z, float radius, Fn& fn) {
   RTCPointQuery query;
@@ -63,13 +64,13 @@ void embree_visit_near(RTCScene scene, float x, float y, float z, float radius, 
   rtcInitPointQueryContext(&context);
   const auto visit = [](RTCPointQueryFunctionArguments* args) {
     if ((*static_cast<Fn*>(args->userPtr))(args->primID)) return false;
-    args->query->radius = 0;  // reaches nothing more
+    args->query->radius = 0;  // a radius of zero ends the query
     return true;
   };
   rtcPointQuery(scene, &query, &context, visit, &fn);
 }
 
-// Embree marks an occluded ray by this far end.
+// Embree marks an occluded ray by this value of tfar.
 inline constexpr float kEmbreeOccluded = -std::numeric_limits<float>::infinity();
 
 }  // namespace kaustik::accel

@@ -1,5 +1,5 @@
 #pragma once
-// Embree's error codes as exceptions.
+// Embree's error codes as C++ exceptions.
 
 #include <stdexcept>
 #include <string>
@@ -13,7 +13,8 @@ namespace kaustik::accel {
   throw std::runtime_error("Embree: error " + std::to_string(static_cast<int>(code)) + " while " + what);
 }
 
-// Throws the device's oldest pending error, if any.
+// Throws std::runtime_error for the device's oldest pending error, if there is one. `what` completes "...
+// while ".
 inline void check(RTCDevice device, const std::string& what) {
   const RTCError code = rtcGetDeviceError(device);
   if (code != RTC_ERROR_NONE) throw_embree(code, what);

@@ -1,11 +1,12 @@
 #pragma once
-// An Embree device and scene that are released with their owner.
+// Owns an Embree device and scene.
 
 #include "accel/embree_error.h"
 
 namespace kaustik::accel {
 
-// Releasing the device still calls its memory monitor: declare what that writes to before this member.
+// Releasing the device still calls its memory monitor, so declare the counter that the monitor writes to
+// before this member.
 struct EmbreeHandles {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
@@ -18,7 +19,7 @@ struct EmbreeHandles {
     if (device) rtcReleaseDevice(device);
   }
 
-  // Throws std::runtime_error when Embree gives no device.
+  // Throws std::runtime_error when Embree provides no device.
   void open_device() {
     device = rtcNewDevice(nullptr);
     if (!device) throw_embree(rtcGetDeviceError(nullptr), "opening the device");

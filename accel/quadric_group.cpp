@@ -10,7 +10,7 @@ namespace kaustik::accel {
 
 namespace {
 
-// Ray i of N in scene units, its range half-open again: the inverse of how Bvh hands rays to Embree.
+// Ray i of N in scene units, with its range open again: the inverse of how Bvh passes rays to Embree.
 Ray to_ray(RTCRayN* rays, unsigned N, unsigned i, float to_scene) {
   const float t_max = std::bit_cast<float>(std::bit_cast<uint32_t>(RTCRayN_tfar(rays, N, i)) + 1);
   const Point3 o(RTCRayN_org_x(rays, N, i), RTCRayN_org_y(rays, N, i), RTCRayN_org_z(rays, N, i));
@@ -28,7 +28,7 @@ float intersect_geometry(const Quadric& quadric, const Ray& ray, Point2* uv) {
   return kaustik::intersect_quadric(quadric, ray, uv);
 }
 
-// The first point of the shape that is there. A ray meets a sphere or a disk twice at most.
+// Nearest crossing that alpha does not reject, or infinity. A ray meets a sphere or a disk at most twice.
 template <class Geometry>
 float intersect_with_alpha(const QuadricGroup& group, uint32_t primitive, Ray ray, uint64_t ray_hash,
                            Point2* uv) {
@@ -45,7 +45,7 @@ float intersect_with_alpha(const QuadricGroup& group, uint32_t primitive, Ray ra
   return kInfinity;
 }
 
-// t in Embree's units.
+// Nearest intersection of ray i of N; t in Embree's units.
 template <class Geometry>
 float intersect_quadric(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, unsigned i,
                         Point2* uv) {
@@ -64,12 +64,12 @@ void quadric_bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
 }
 
-// Whether a hit replaces what the ray holds: when it is nearer, or as near and earlier in the scene.
+// Whether a hit replaces the ray's current one: it is nearer, or as near and of a shape earlier in the scene.
 bool replaces(float held_t, unsigned held_shape, float t, unsigned shape) {
   return t < held_t || (t == held_t && held_shape > shape);
 }
 
-// Of all N rays, valid or not: t in Embree's units, and uv of disks.
+// Intersects all N rays, valid or not: t in Embree's units; uv for disks.
 template <class Geometry>
 void intersect_all(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, float* t,
                    Point2* uv) {
@@ -83,7 +83,7 @@ void intersect_all<Sphere>(const QuadricGroup& group, uint32_t primitive, RTCRay
     for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<Sphere>(group, primitive, rays, N, i, &uv[i]);
     return;
   }
-  // to_ray() of a whole packet.
+  // The same conversion as to_ray(), for a whole packet.
   const auto& packet = *reinterpret_cast<const RTCRay16*>(rays);
   alignas(64) float x[kPacket], y[kPacket], z[kPacket], t_max[kPacket];
   for (size_t i = 0; i < kPacket; ++i) {

@@ -9,12 +9,12 @@
 
 namespace kaustik::accel {
 
-// The shapes behind one user geometry, one primitive each.
+// The shapes behind one Embree user geometry, one primitive each.
 struct QuadricGroup {
   const Scene* scene = nullptr;
   std::vector<uint32_t> members;
   float to_scene = 1, to_embree = 1;  // lengths
-  bool has_alpha = false;             // some of them
+  bool has_alpha = false;             // at least one member has alpha
 
   const Shape& shape(uint32_t primitive) const { return scene->shapes[members[primitive]]; }
 
@@ -24,8 +24,9 @@ struct QuadricGroup {
   }
 };
 
-// All members are of type Geometry: Sphere, Disk or Quadric. Their hits name the shape. Embree points to the
-// group while rays are traced.
+// Makes the Embree geometry of a group whose members are all of type Geometry (Sphere, Disk or Quadric). Hits
+// name the shape in place of the geometry id. Embree keeps a pointer to the group, which must not move while
+// rays are traced.
 template <class Geometry>
 RTCGeometry make_geometry(RTCDevice device, QuadricGroup& group);
 

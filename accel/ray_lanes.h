@@ -1,5 +1,5 @@
 #pragma once
-// Rays side by side, by columns, and what they meet.
+// Rays as structure of arrays, and their hits.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,14 +10,14 @@ namespace kaustik::accel {
 
 inline constexpr size_t kRayLanes = 64;
 
-// Rays without an end. Directions need not be of unit length.
+// Rays with t_max = infinity. Directions need not be of unit length.
 struct RayLanes {
   alignas(64) float o[3][kRayLanes], d[3][kRayLanes];
 
   Ray get(size_t k) const { return {{o[0][k], o[1][k], o[2][k]}, {d[0][k], d[1][k], d[2][k]}}; }
 };
 
-// A Hit per lane; shape is kNoIndex where a ray escapes, and the rest then means nothing.
+// A Hit per lane. shape is kNoIndex where a ray escapes; the lane's other values are then unspecified.
 struct HitLanes {
   alignas(64) float t[kRayLanes], u[kRayLanes], v[kRayLanes];
   uint32_t shape[kRayLanes], primitive[kRayLanes];

@@ -1,5 +1,5 @@
 #pragma once
-// Wall-clock seconds since it was made.
+// Measures wall-clock time in seconds from its construction.
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which kaustik this is; defined in a source that the build writes.
+// Version of this build; defined in a source file that the build generates.
 
 #include <string_view>
 

@@ -24,7 +24,7 @@ double decode(double encoded, const ImageEncoding& encoding) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-// Decodes integers of `steps` + 1 values, read as floats of 0 to 1.
+// Decodes integers in 0..steps, which were read as floats from 0 to 1, by way of a table.
 void decode_integers(std::vector<float>& values, int steps, const ImageEncoding& encoding) {
   std::vector<float> table(static_cast<size_t>(steps) + 1);
   for (size_t i = 0; i < table.size(); ++i)
@@ -33,7 +33,8 @@ void decode_integers(std::vector<float>& values, int steps, const ImageEncoding&
   for (float& v : values) v = table[static_cast<size_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * scale))];
 }
 
-// Where R, G and B are among the channels: all the first one where they are not.
+// Indices of the channels named R, G and B; without these names the first three channels, or three times the
+// first one where there are fewer.
 std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
   const std::array<int, 3> named{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
   if (named[0] >= 0 && named[1] >= 0 && named[2] >= 0) return named;
@@ -41,19 +42,21 @@ std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
 }
 
 std::string refusal(const OIIO::ImageSpec& spec) {
-  if (spec.deep) return "deep images are no textures";
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) return "it has no pixels";
+  if (spec.deep) return "deep images are not supported as textures";
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
+    return "it has no pixels or is three-dimensional";
   const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
   if (pixels > kMostImagePixels || spec.nchannels > 64)
-    return fmt::format("{} x {} pixels of {} channels are too large: at most {} pixels of 64 channels",
-                       spec.width, spec.height, spec.nchannels, kMostImagePixels);
+    return fmt::format(
+        "{} x {} pixels of {} channels are too large: at most {} pixels of 64 channels are supported",
+        spec.width, spec.height, spec.nchannels, kMostImagePixels);
   return {};
 }
 
-// Whether a PNG of so many pixels cannot be whole: deflate packs to no less than 1/1032. OpenImageIO takes
-// memory for all of it before it finds out.
+// Whether a PNG file is too short for its number of pixels: deflate compresses to no less than 1/1032.
+// OpenImageIO would allocate memory for all pixels before it notices.
 bool is_cut_png(const std::string& path, const OIIO::ImageSpec& spec) {
-  std::array<char, 26> head{};  // signature, then IHDR with its bits per channel and type of colour
+  std::array<char, 26> head{};  // signature, then IHDR with bit depth and colour type
   if (!std::ifstream(path, std::ios::binary).read(head.data(), head.size())) return false;
   const int type = head[25], channels = type == 2 ? 3 : type == 4 ? 2 : type == 6 ? 4 : 1;
   const uint64_t row =
@@ -63,7 +66,7 @@ bool is_cut_png(const std::string& path, const OIIO::ImageSpec& spec) {
   return std::filesystem::file_size(path, none) < row * static_cast<uint64_t>(spec.height) / kMostPacked;
 }
 
-// The channels that count, of all pixels.
+// Reads all pixels and keeps the chosen channels. Values that are not finite become zero.
 bool read_values(OIIO::ImageInput& in, const std::array<int, 3>& channels, bool grey,
                  std::vector<float>& values) {
   const OIIO::ImageSpec& spec = in.spec();
@@ -94,10 +97,10 @@ std::optional<DecodedImage> decode_image(const std::string& path, const ImageEnc
     return std::nullopt;
   };
   OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);  // colours as they are stored
+  config.attribute("oiio:UnassociatedAlpha", 1);  // keep colours as they are stored
   const auto in = OIIO::ImageInput::open(path, &config);
   if (!in) return fail(OIIO::geterror());
-  in->threads(1);  // otherwise the library makes a pool of threads of its own
+  in->threads(1);  // otherwise the library starts a thread pool of its own
   const OIIO::ImageSpec spec = in->spec();
   if (const std::string why = refusal(spec); !why.empty()) return fail(why);
   if (in->format_name() == std::string_view("png") && is_cut_png(path, spec)) return fail("it ends early");

@@ -1,5 +1,5 @@
 #pragma once
-// Image files as linear pixels, read by OpenImageIO.
+// Image files decoded to linear pixels by OpenImageIO.
 
 #include <OpenImageIO/imageio.h>
 
@@ -11,19 +11,19 @@
 
 namespace kaustik::images {
 
-// What is refused by its header, before memory is taken: images of more pixels than this, and deep ones.
+// Images of more pixels than this, and deep images, are refused by their header, before memory is allocated.
 inline constexpr uint64_t kMostImagePixels = uint64_t{1} << 27;
 
 struct DecodedImage {
-  OIIO::ImageSpec spec;  // one or three channels: HALF where the file has 8 bits, else FLOAT
+  OIIO::ImageSpec spec;  // one or three channels: HALF where the file has 8 bits, FLOAT otherwise
   std::vector<unsigned char> pixels;
 
   size_t row_bytes() const { return static_cast<size_t>(spec.width) * spec.pixel_bytes(); }
 };
 
-// The first image of a file, in full, its first channel or R, G and B. Integers are decoded by the encoding,
-// by default as sRGB; numbers that are not finite become zero. Nothing, with a sentence in `error` that names
-// the file, where it cannot be read. Thread-safe; makes no threads.
+// Reads the first image of a file in full: its channels R, G and B, or one grey channel. Integers are decoded
+// by `encoding` (sRGB by default); values that are not finite become zero. If the file cannot be read,
+// returns nothing and stores a sentence in `error` that names the file. Thread-safe; starts no threads.
 std::optional<DecodedImage> decode_image(const std::string& path, const ImageEncoding& encoding,
                                          std::string& error);
 

@@ -1,4 +1,5 @@
-// Linked into the program itself: for tests and benchmarks, which may start slowly.
+// image_formats() for executables that link OpenImageIO: tests and benchmarks, where a slow start does not
+// matter.
 
 #include "images/openimageio.h"
 

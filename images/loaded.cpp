@@ -1,5 +1,6 @@
-// Loaded when it is first asked for: for the program. The library lies beside the program or where the
-// installation puts it; the program's run path, relative to itself, says where (apps/CMakeLists.txt).
+// image_formats() for the program, which loads OpenImageIO when it is first needed. The library lies beside
+// the program or in the installation's library folder; the program's relative run path names both
+// (apps/CMakeLists.txt).
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -12,11 +13,12 @@ namespace kaustik::render {
 
 namespace {
 
-// Never closed: what it made may live as long as the process. RTLD_NOW: what does not fit is found here.
+// The library is never closed, since objects that it made may live as long as the process. RTLD_NOW reports
+// missing symbols here rather than at a later call.
 const ImageFormats& load() {
   const auto fail = [] {
     return std::runtime_error(
-        fmt::format("cannot load {}, which reads and writes pictures other than EXR: {}",
+        fmt::format("cannot load {}, which reads and writes image files other than EXR: {}",
                     KAUSTIK_IMAGES_MODULE, dlerror()));
   };
   void* const library = dlopen(KAUSTIK_IMAGES_MODULE, RTLD_NOW | RTLD_LOCAL);

@@ -1,4 +1,4 @@
-// The entry of the library that images/loaded.cpp loads.
+// Entry point of the library that images/loaded.cpp loads.
 
 #include "images/openimageio.h"
 

@@ -22,7 +22,7 @@ std::string write_pixels(const std::string& path, const OIIO::ImageSpec& spec, O
                          const void* pixels) {
   auto out = OIIO::ImageOutput::create(path);
   if (!out) return reason(out);
-  out->threads(1);  // otherwise the library makes a pool of threads of its own
+  out->threads(1);  // otherwise the library starts a thread pool of its own
   if (!out->open(path, spec)) return reason(out);
   const bool written = out->write_image(type, pixels);
   const std::string message = written ? "" : reason(out);
@@ -31,8 +31,8 @@ std::string write_pixels(const std::string& path, const OIIO::ImageSpec& spec, O
   return message.empty() ? reason(out) : message;
 }
 
-// First channel and number of channels that hold the colour: R, G, B of the default layer, else the first
-// three, else one grey.
+// First channel and number of channels that hold the colour: R, G and B of the default layer, else the first
+// three channels, else one grey channel.
 std::pair<int, int> colour_channels(const OIIO::ImageSpec& spec) {
   for (int c = 0; c + 2 < spec.nchannels; ++c)
     if (spec.channelnames[size_t(c)] == "R" && spec.channelnames[size_t(c) + 1] == "G" &&
@@ -41,24 +41,24 @@ std::pair<int, int> colour_channels(const OIIO::ImageSpec& spec) {
   return {0, spec.nchannels >= 3 ? 3 : 1};
 }
 
-// What a broken or hostile header may say; empty when it is fine.
+// Why an image is refused by its header, which may be broken or hostile; empty if it is accepted.
 std::string refusal(const OIIO::ImageSpec& spec, Channels channels, uint64_t most_pixels) {
   constexpr int kLongestSide = 1 << 16;
-  if (spec.deep || spec.depth > 1) return "deep or three-dimensional images are not read";
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it holds no pixels";
+  if (spec.deep || spec.depth > 1) return "deep and three-dimensional images are not supported";
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
   const uint64_t pixels = uint64_t(spec.width) * uint64_t(spec.height);
   if (spec.width > kLongestSide || spec.height > kLongestSide || pixels > most_pixels)
-    return fmt::format("{} x {} pixels are more than the {} that are read, or more than {} a side",
+    return fmt::format("{} x {} pixels are too large: at most {} pixels and {} a side are supported",
                        spec.width, spec.height, most_pixels, kLongestSide);
   if (channels == Channels::kAll && spec.nchannels > 4)
-    return fmt::format("{} channels are more than the 4 that are read", spec.nchannels);
+    return fmt::format("{} channels are too many: at most 4 are supported", spec.nchannels);
   return {};
 }
 
 class OpenImageIo final : public render::ImageFormats {
  public:
-  // OpenEXR's own pool stays empty. OpenImageIO's is never made: its attribute "threads" would first make it
-  // with a thread per core, then shrink it.
+  // Keeps OpenEXR's thread pool empty. OpenImageIO's own pool is never made: to set its attribute "threads"
+  // would first make a pool with a thread per core and then shrink it.
   OpenImageIo() { OIIO::attribute("exr_threads", -1); }
 
   std::string version() const override {

@@ -1,11 +1,11 @@
 #pragma once
-// The image formats by OpenImageIO.
+// render::ImageFormats implemented with OpenImageIO.
 
 #include "render/picture/image_formats.h"
 
 namespace kaustik::images {
 
-// One for the process.
+// The only instance in the process.
 const render::ImageFormats& openimageio();
 
 }  // namespace kaustik::images

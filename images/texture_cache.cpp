@@ -12,10 +12,10 @@ namespace {
 
 using Options = OIIO::TextureOpt;
 
-constexpr const char* kPixels = "kaustik:pixels";  // attribute that carries a DecodedImage
+constexpr const char* kPixels = "kaustik:pixels";  // name of the attribute that carries a DecodedImage*
 constexpr int kTile = 64;
 
-// Hands decoded pixels to the cache.
+// An ImageInput that passes decoded pixels to OpenImageIO's cache.
 class DecodedInput final : public OIIO::ImageInput {
  public:
   const char* format_name() const override { return "decoded"; }
@@ -41,7 +41,8 @@ class DecodedInput final : public OIIO::ImageInput {
   const DecodedImage* image_ = nullptr;
 };
 
-// The library's classes come as shared pointers from version 3 on.
+// OpenImageIO returns raw pointers before version 3 and shared pointers from then on; owned() and lent() hide
+// it.
 template <class T>
 auto owned(T* library) {
   return std::unique_ptr<T, void (*)(T*)>(library, [](T* l) { T::destroy(l); });
@@ -82,13 +83,13 @@ Options options_of(const ImageSampling& sampling, bool point) {
   return o;
 }
 
-// Into the range that the library computes in, with the same texels.
+// Moves a coordinate into the range in which the library computes accurately; the texels read are the same.
 float reduced(float x, ImageWrap wrap) {
   if (wrap == ImageWrap::kRepeat) return x - std::floor(x);
   return std::clamp(x, -2.0f, 3.0f);
 }
 
-// A footprint beyond the image is as good as all of it.
+// Clamps a footprint to the size of the image, beyond which it averages the whole image anyway.
 Vector2 reduced(const Vector2& v) {
   return {std::clamp(v.x, -1.0f, 1.0f), std::clamp(v.y, -1.0f, 1.0f)};
 }
@@ -99,17 +100,17 @@ bool is_finite(const Point2& p) {
 
 }  // namespace
 
-// One cache for the process, never destroyed: the library keeps a record for each thread and cache, which
-// outlives the cache and is taken for that of a later one at the same address.
+// One cache for the process, never destroyed: OpenImageIO keeps a record per thread and cache, which outlives
+// the cache and would be mistaken for that of a later cache at the same address.
 struct TextureCache::System {
   using Cache = decltype(owned(OIIO::ImageCache::create(false)));
   using Textures = decltype(owned(OIIO::TextureSystem::create(false)));
 
   Cache cache = owned(OIIO::ImageCache::create(false));
   Textures textures = owned(OIIO::TextureSystem::create(false, lent(cache)));
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;  // guards bytes and files
   uint64_t bytes = 0;
-  uint64_t files = 0;  // ever added: names are not used again
+  uint64_t files = 0;  // number of files ever added; names are not reused
 
   static System& get() {
     static System* const system = new System;
@@ -125,7 +126,7 @@ struct TextureCache::System {
   OIIO::ustring add(uint64_t image_bytes) {
     const std::lock_guard lock(mutex);
     bytes += image_bytes;
-    // MIP levels are a third of an image; tiles at the edges are whole.
+    // MIP levels add a third of an image, and tiles at its edges are stored whole.
     constexpr float kMegabyte = 1 << 20, kSpare = 256;
     cache->attribute("max_memory_MB", 2 * static_cast<float>(bytes) / kMegabyte + kSpare);
     return OIIO::ustring(fmt::format("image {}", files++));
@@ -152,7 +153,7 @@ ImageResult TextureCache::load(const std::string& path, const ImageEncoding& enc
   }
   const auto image = decode_image(path, encoding, result.error);
   const std::lock_guard lock(mutex_);
-  const auto found = loaded_.find({path, encoding});  // another thread may have been faster
+  const auto found = loaded_.find({path, encoding});  // another thread may have loaded it meanwhile
   if (found != loaded_.end()) return found->second;
   if (image) add(*image, path, &result);
   loaded_.emplace(Key{path, encoding}, result);
@@ -162,7 +163,7 @@ ImageResult TextureCache::load(const std::string& path, const ImageEncoding& enc
 void TextureCache::add(const DecodedImage& image, const std::string& path, ImageResult* result) {
   if (bytes_ + image.pixels.size() > kMostImageBytes) {
     result->error =
-        fmt::format("cannot read the image \"{}\": the scene's images are more than {} bytes in all", path,
+        fmt::format("cannot read the image \"{}\": the images of the scene exceed {} bytes in all", path,
                     kMostImageBytes);
     return;
   }
@@ -172,7 +173,7 @@ void TextureCache::add(const DecodedImage& image, const std::string& path, Image
   OIIO::ImageSpec config;
   config.attribute(kPixels, OIIO::TypeDesc::PTR, &pointer);
   bool ok = system_.cache->add_file(name, DecodedInput::create, &config);
-  // All tiles, now: the pixels are not kept. A row of them at a time.
+  // The pixels are not kept, so all tiles are made now, a row of them at a time.
   std::vector<unsigned char> strip(image.row_bytes() * kTile);
   for (int y = 0; ok && y < image.spec.height; y += kTile) {
     const int end = std::min(y + kTile, image.spec.height);

@@ -1,5 +1,5 @@
 #pragma once
-// The images of a scene in a cache of OpenImageIO.
+// The images of a scene in OpenImageIO's texture cache.
 
 #include <OpenImageIO/texture.h>
 
@@ -12,12 +12,12 @@
 
 namespace kaustik::images {
 
-// All images of a scene together are decoded to so many bytes at most, MIP levels apart; more are refused by
-// their headers.
+// Limit on the decoded size of all images of a scene together, without MIP levels. Further images are refused
+// by their headers.
 inline constexpr uint64_t kMostImageBytes = uint64_t{8} << 30;
 
-// Images live in the cache as tiles of linear half or float pixels; MIP levels are made there when they are
-// first read. It has room for all of them, and makes no threads.
+// Holds images as tiles of linear half or float pixels; their MIP levels are made when they are first read.
+// The cache has room for all images and starts no threads.
 class TextureCache final : public render::TextureImages {
  public:
   TextureCache();
@@ -45,10 +45,10 @@ class TextureCache final : public render::TextureImages {
   void add(const DecodedImage& image, const std::string& path, ImageResult* result);
 
   System& system_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::map<Key, ImageResult> loaded_;
   std::vector<Entry> entries_;
-  std::vector<OIIO::ustring> names_;  // in the cache
+  std::vector<OIIO::ustring> names_;  // names of the images in the cache
   uint64_t bytes_ = 0;
 };
 

@@ -14,7 +14,7 @@ Point2 image_size(const Camera& camera) {
   return {static_cast<float>(camera.width), static_cast<float>(camera.height)};
 }
 
-// Camera space has +y up, the maps of the sphere +z.
+// Camera space has +y up, whereas the maps of the sphere have +z up.
 Vector3 spherical_direction(SphericalMapping mapping, const Point2& uv) {
   if (mapping == SphericalMapping::kEqualArea) {
     const Vector3 d = equal_area_square_to_sphere(wrap_equal_area_square(uv));
@@ -31,7 +31,7 @@ Point2 spherical_square(SphericalMapping mapping, const Vector3& d) {
   return {turns < 0 ? turns + 1 : turns, std::acos(std::clamp(d.y, -1.0f, 1.0f)) * kInvPi};
 }
 
-// Where a point of camera space is in screen coordinates, or in the unit square; false behind the camera.
+// Maps a point of camera space to the unit square of the image; false if the point is behind the camera.
 bool to_square(const PerspectiveProjection& p, const glm::vec4& w, const Point3& c, Point2* square) {
   if (!(c.z > 0)) return false;
   const float scale = c.z * fov_scale(p.fov_degrees);
@@ -96,8 +96,8 @@ Point2 RayGenerator::screen(const Point2& raster) const {
           w.w - (w.w - w.z) * (raster.y / static_cast<float>(camera_->height))};
 }
 
-// All rays of one place of the image meet where the one through the middle of the lens is at the focal
-// distance. Divided by that distance, no length is left in the direction.
+// All rays through one raster position meet where the ray through the middle of the lens reaches the focal
+// distance. Dividing by that distance leaves no unit of length in the direction.
 Ray RayGenerator::make(const PerspectiveProjection& p, const Point2& raster, const Point2& lens) const {
   const Transform& t = camera_->to_world;
   const Point2 s = screen(raster);

@@ -12,7 +12,7 @@ double normal_density(double x, double sigma) {
   return std::exp(-x * x / (2 * sigma * sigma)) / std::sqrt(2 * std::numbers::pi * sigma * sigma);
 }
 
-// Mitchell and Netravali 1988, equation 8; x in [0, 2].
+// The Mitchell filter (Mitchell and Netravali 1988, equation 8), for x >= 0.
 double mitchell(double x, double B, double C) {
   if (x <= 1) return ((12 - 9 * B - 6 * C) * x * x * x + (-18 + 12 * B + 6 * C) * x * x + (6 - 2 * B)) / 6;
   if (x > 2) return 0;
@@ -25,7 +25,7 @@ double sinc(double x) {
   return std::abs(a) < 1e-8 ? 1 : std::sin(a) / a;
 }
 
-// Inverse of the cumulative sum of the tent on [-1, 1].
+// Inverse of the cumulative distribution of the tent on [-1, 1].
 float sample_tent(float u) {
   return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
 }
@@ -70,7 +70,7 @@ PixelFilter::Axis::Axis(const FilterAxis& a) : axis(a) {
 float PixelFilter::Axis::sample(float u, int* weight) const {
   if (axis.kind == FilterKind::kBox) return axis.radius * (2 * u - 1);
   if (axis.kind == FilterKind::kTriangle) return axis.radius * sample_tent(u);
-  // The cell with cdf[i] <= u < cdf[i + 1]; cells of weight zero are none.
+  // Finds the cell with cdf[i] <= u < cdf[i + 1], so cells of weight zero are never chosen.
   const auto above = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, u);
   const size_t i = static_cast<size_t>(above - cdf.begin()) - 1;
   if (sign[i] < 0) *weight = -*weight;

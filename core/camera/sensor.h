@@ -3,8 +3,8 @@
 
 namespace kaustik {
 
-// What the film makes of radiance, as one matrix on linear Rec. 709: exposure and white balance. It applies
-// to whole samples; light, photons and their powers know nothing of it.
+// The sensor's response to radiance as one matrix on linear Rec. 709: exposure and white balance. It is
+// applied to whole samples; lights, photons and their powers are not affected.
 struct Sensor {
   glm::mat3 response{1};
   bool neutral = true;  // response is the identity

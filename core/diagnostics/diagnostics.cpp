@@ -8,14 +8,14 @@
 namespace kaustik {
 namespace {
 
-// A line longer than this is cut to a window around the caret: inline meshes fill lines of megabytes.
+// A longer line is cut to a window around the caret, since inline meshes fill lines of megabytes.
 constexpr size_t kWindow = 100;
 
 bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u;
 }
 
-// The line as it can be printed: control characters other than tabs as blanks.
+// The line with control characters other than tabs replaced by blanks.
 std::string printable(std::string_view text) {
   std::string out(text);
   for (char& c : out) {
@@ -25,7 +25,8 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-// Blanks, and the tabs of the text before the caret, so that the caret lands below its character.
+// Replaces the text before the caret by blanks, but keeps its tabs, so that the caret appears below its
+// character.
 std::string caret_line(std::string_view before) {
   std::string out;
   for (const char c : before) {

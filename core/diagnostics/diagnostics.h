@@ -1,6 +1,6 @@
 #pragma once
-// Errors and warnings as data. Stages add to a list and go on, so that one run reports everything that is
-// wrong with its input; nothing here prints or ends the program.
+// Errors and warnings as data. Each stage adds to a list and continues, so that one run reports everything
+// that is wrong with its input. Nothing here prints or ends the program.
 
 #include <deque>
 #include <string>
@@ -13,7 +13,7 @@ namespace kaustik {
 
 enum class Severity { kWarning, kError };
 
-// A second place that explains a diagnostic, e.g. where a name was defined first.
+// A second location that explains a diagnostic, for example where a name was defined first.
 struct DiagnosticNote {
   SourceLocation location;
   std::string message;
@@ -22,18 +22,19 @@ struct DiagnosticNote {
 struct Diagnostic {
   Severity severity = Severity::kError;
   SourceLocation location;
-  std::string message;  // one sentence without a final stop; what was expected comes with it
+  std::string message;  // one sentence without a full stop, which also says what was expected
   std::vector<DiagnosticNote> notes;
 };
 
-// Diagnostics in the order in which they were found. Not thread-safe: parallel work fills one list per item
-// and appends them in item order.
+// Diagnostics in the order in which they were found. Not thread-safe: parallel code fills one list per item
+// and appends the lists in the order of the items.
 class DiagnosticList {
  public:
   void error(const SourceLocation& where, std::string message, std::vector<DiagnosticNote> notes = {});
   void warning(const SourceLocation& where, std::string message, std::vector<DiagnosticNote> notes = {});
   void append(DiagnosticList other);
-  // Orders by file (in order of opening), line and column; keeps the order of finding within one place.
+  // Sorts by file (in the order of opening), line and column; keeps the order of entries with the same
+  // location.
   void sort_by_location();
 
   const std::vector<Diagnostic>& entries() const { return entries_; }
@@ -45,19 +46,18 @@ class DiagnosticList {
   std::vector<Diagnostic> entries_;
 };
 
-// Names and texts of the files that locations refer to. Texts stay where they are: views into them remain
-// valid.
+// Names and texts of the files that locations refer to. Texts never move, so views into them remain valid.
 class SourceFiles {
  public:
-  // name: as the user gave it (printed as it is); text may be empty when the file is not a text.
+  // name: as the user gave it (printed unchanged). text may be empty when the file is not a text file.
   uint32_t add(std::string name, std::string text);
-  // Empty for a file that is not one of these, as where a description outlives what it was read with.
+  // Empty for an unknown file, for example when a description outlives the importer that read it.
   std::string_view name(uint32_t file) const {
     return file < files_.size() ? std::string_view(files_[file].name) : std::string_view();
   }
   std::string_view text(uint32_t file) const { return files_[file].text; }
   size_t size() const { return files_.size(); }
-  // The text of a line (from one) without its line end; empty when there is none.
+  // The text of a line (counted from one) without its line end; empty when there is no such line.
   std::string_view line(uint32_t file, uint32_t line) const;
 
  private:
@@ -68,16 +68,16 @@ class SourceFiles {
   std::deque<File> files_;
 };
 
-// Everything that a run has to say about its input.
+// Everything that a run reports about its input.
 class Diagnostics : public DiagnosticList {
  public:
   SourceFiles files;
 
-  // "scene.pbrt:12:8: error: message", the source line, a caret under the column (tabs kept, so that both
-  // lines shift alike; long lines are cut to a window around the caret); then the notes in the same form.
-  // Ends with a newline.
+  // Formats "scene.pbrt:12:8: error: message", the source line and a caret under the column (tabs are kept,
+  // so that both lines are indented alike; long lines are cut to a window around the caret), then the notes
+  // in the same form. Ends with a newline.
   std::string format(const Diagnostic& diagnostic) const;
-  // All of them, one after the other.
+  // Formats all diagnostics, one after the other.
   std::string format_all() const;
 };
 

@@ -9,7 +9,7 @@
 namespace kaustik {
 namespace {
 
-// Longer words are not names: comparing them would cost time in proportion to the product of the lengths.
+// Longer words are not compared: the time grows with the product of the lengths.
 constexpr size_t kLongestName = 64;
 constexpr size_t kShortList = 8;
 

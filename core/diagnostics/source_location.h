@@ -1,6 +1,6 @@
 #pragma once
-// Where a value was written. Kept with every value of a scene description, so that any later stage can point
-// at it.
+// Where a value was written. A location is kept with every value of a scene description, so that any later
+// stage can point to it.
 
 #include <cstdint>
 
@@ -8,12 +8,12 @@ namespace kaustik {
 
 inline constexpr uint32_t kNoFile = 0xffffffffu;
 
-// Both count from one; a column counts bytes. Zero: the whole file.
+// Line and column, counted from one; a column counts bytes. Line zero means the whole file.
 struct LineColumn {
   uint32_t line = 0, column = 0;
 };
 
-// file: id given by SourceFiles::add. kNoFile: no place (a default, the command line).
+// file: id returned by SourceFiles::add; kNoFile if there is no file (a default value, the command line).
 struct SourceLocation {
   uint32_t file = kNoFile;
   uint32_t line = 0, column = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// 128 bits that tell contents apart: files that changed, bytes that were damaged. Not for adversaries.
+// A 128-bit hash that detects changed files and damaged data. It is not cryptographic.
 
 #include <array>
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace kaustik {
 
-// Two independent chains of hash_combine over the bytes, eight at a time, and their number. However the bytes
-// are cut into calls, the value is the same.
+// Two independent chains of hash_combine over the bytes, eight at a time, and their number. The value does
+// not depend on how the bytes are split into calls.
 class ContentHash {
  public:
   void add(const void* bytes, size_t size);

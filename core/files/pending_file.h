@@ -6,8 +6,8 @@
 
 namespace kaustik {
 
-// Whoever writes it does so under temporary(), in the same folder; commit() renames. Without it the temporary
-// file is removed, and a previous file of the final name is untouched.
+// The file is written under temporary(), in the folder of the final name; commit() renames it. Without
+// commit() the temporary file is removed, and an existing file of the final name is left untouched.
 class PendingFile {
  public:
   PendingFile(std::filesystem::path final_name, std::filesystem::path temporary)
@@ -17,7 +17,7 @@ class PendingFile {
   ~PendingFile();
 
   std::string temporary() const { return temporary_.string(); }
-  // Why the file could not be renamed; empty when it was.
+  // Returns why the file could not be renamed, or an empty string on success.
   std::string commit();
 
  private:
@@ -25,8 +25,8 @@ class PendingFile {
   bool done_ = false;
 };
 
-// A name in the folder of `path` that keeps its extension (which chooses a picture's format) and that no
-// other writer of this machine uses.
+// A name in the folder of `path` that keeps its extension (which chooses an image's format) and that no other
+// process on this machine uses.
 std::filesystem::path unique_temporary_name(const std::filesystem::path& path);
 
 }  // namespace kaustik

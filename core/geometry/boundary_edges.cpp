@@ -1,5 +1,5 @@
-// Two stages, to keep memory low: flat edges inside one mesh go by vertex index; what is left is matched by
-// position over all meshes of a group.
+// Works in two stages to keep memory low: smooth edges inside one mesh are matched by vertex index, and the
+// remaining ones by position over all meshes of a surface group.
 
 #include "core/geometry/boundary_edges.h"
 
@@ -22,7 +22,7 @@ namespace {
 using PointBits = std::array<uint32_t, 3>;
 
 PointBits bits_of(const Point3& p) {
-  // Adding zero makes -0 and 0 one position.
+  // Adding zero maps -0 and 0 to the same bits.
   return {std::bit_cast<uint32_t>(p.x + 0.0f), std::bit_cast<uint32_t>(p.y + 0.0f),
           std::bit_cast<uint32_t>(p.z + 0.0f)};
 }
@@ -36,20 +36,20 @@ Normal3 winding_normal(const TriangleMesh& mesh, uint32_t triangle) {
   return triangle_normal(mesh.P[i1] - mesh.P[i0], mesh.P[i2] - mesh.P[i0]);
 }
 
-// The side from corner % 3 to the next vertex of triangle corner / 3.
+// A side of triangle corner / 3, from its vertex corner % 3 to the next one.
 struct MeshSide {
-  uint64_t vertices;  // welded, the lower one first
+  uint64_t vertices;  // welded vertex indices, the lower one first
   uint32_t corner;
   bool forward;  // the winding runs from the lower vertex to the higher one
 };
 
-// A side that needs a look at the other meshes.
+// A side that must be compared with other meshes.
 struct OpenSide {
   std::array<PointBits, 2> ends;  // sorted
   uint32_t surface_group, shape, corner;
 };
 
-// For each vertex the first vertex at its position.
+// For each vertex, the first vertex at the same position.
 std::vector<uint32_t> weld(const std::vector<Point3>& P) {
   std::vector<uint32_t> order(P.size()), welded(P.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -86,7 +86,7 @@ std::pair<Point3, Point3> ends_of(const TriangleMesh& mesh, const MeshSide& side
   return {mesh.P[side.vertices >> 32], mesh.P[side.vertices & 0xffffffffu]};
 }
 
-// Two triangles at a side of both.
+// How two triangles meet at their common side.
 struct Bend {
   bool smooth = false;
   bool oriented = true;
@@ -95,7 +95,7 @@ struct Bend {
 
 Bend bend_of(const TriangleMesh& mesh, const MeshSide& a, const MeshSide& b) {
   const Normal3 na = winding_normal(mesh, a.corner / 3), nb = winding_normal(mesh, b.corner / 3);
-  // Windings that agree run along their common side in opposite directions.
+  // If windings agree, they run along the common side in opposite directions.
   const Normal3 turned = a.forward != b.forward ? nb : -nb;
   if (!(glm::dot(na, turned) > kBendCosine)) return {};
   const bool oriented = outside_of(mesh, mesh.indices[a.corner / 3], na, false) *
@@ -126,7 +126,7 @@ void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, st
   }
 }
 
-// The sides of one edge, seen over all meshes.
+// All sides that meet at one edge, over all meshes.
 class Joint {
  public:
   Joint(const std::vector<Shape>& shapes, std::span<const OpenSide> sides) : sides_(sides) {
@@ -150,7 +150,7 @@ class Joint {
       BoundaryEdge edge = make_edge(point_of(sides_[i].ends[0]), point_of(sides_[i].ends[1]), facet.third,
                                     facet.orientation * facet.n, sides_[i].surface_group);
       if (!(edge.height > 0)) continue;
-      // Where the partner goes on in a third facet, this one just ends at both.
+      // If the partner continues in a third facet, this facet simply ends here.
       if (j != i && partner(j) == i) edge.beyond = facet.orientation * turned(i, j);
       edges->push_back(edge);
     }
@@ -164,11 +164,11 @@ class Joint {
     Point3 third;
   };
 
-  // The winding normal of j, turned to the side of i's.
+  // The winding normal of j, oriented to the side of i's.
   Normal3 turned(size_t i, size_t j) const {
     return facets_[i].forward != facets_[j].forward ? facets_[j].n : -facets_[j].n;
   }
-  // The other facet that bends least from i; i itself when it is alone.
+  // The other facet that bends least from i; i itself if there is no other.
   size_t partner(size_t i) const {
     size_t best = i;
     float best_cosine = -kInfinity;
@@ -185,7 +185,7 @@ class Joint {
   std::vector<Facet> facets_;
 };
 
-// More triangles at one edge make no surface; matching them takes cubic time.
+// Edges of more triangles are skipped: they are no part of a proper surface, and matching takes cubic time.
 constexpr size_t kMaxSidesOfJoint = 64;
 
 void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges,
@@ -206,7 +206,7 @@ void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>*
   }
 }
 
-// Of an instanced mesh, in its own space.
+// Edges of an instanced mesh in its own space.
 struct OwnEdges {
   std::vector<BoundaryEdge> edges;
   std::vector<SurfaceBend> bends{1};
@@ -254,7 +254,7 @@ void add_instance_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEd
   });
 }
 
-// Of an ellipsoid as of a ball of its mean radius.
+// Integral of the bend of a quadric (see SurfaceBend). An ellipsoid counts as a ball of its mean radius.
 double bend_of_quadric(const Shape& shape) {
   const auto quadric = quadric_of(shape);
   if (!quadric || quadric->kind == QuadricKind::kDisk) return 0;

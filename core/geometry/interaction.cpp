@@ -5,7 +5,8 @@
 namespace kaustik {
 namespace {
 
-// Shading normal from the vertices', where there is one; the geometric normal is turned to its side.
+// Sets the shading normal from the vertices', if that is not zero, and turns the geometric normal to its
+// side.
 bool shade(const Normal3& ns, SurfaceInteraction& si) {
   const float length2 = length_squared(ns);
   if (!(length2 > 0 && std::isfinite(length2))) return false;
@@ -58,7 +59,7 @@ void fill(const Quadric& q, const Shape& shape, const Ray& ray, const Hit& hit, 
   Point3 p(hit.uv.x, hit.uv.y, 0);
   if (q.kind != QuadricKind::kDisk) p = t.inverse_point(ray.o) + hit.t * t.inverse_vector(ray.d);
   const Normal3 local(normal_at(q, glm::dvec3(p)));
-  // Back to the surface: only along it does the ray's length matter.
+  // Project back onto the surface, so that the length of the ray affects the position along it only.
   if (q.kind == QuadricKind::kSphere) p = local;
   if (q.kind == QuadricKind::kCylinder) p = {local.x, local.y, p.z};
   const Normal3 n = glm::normalize(t.normal(local));

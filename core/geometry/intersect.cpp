@@ -1,4 +1,5 @@
-// Ray against sphere and disk, both in object space: exact shapes, ellipsoids included.
+// Intersections of a ray with a sphere and a disk. Both work in object space and are exact, including
+// ellipsoids.
 
 #include "core/geometry/interaction.h"
 
@@ -9,14 +10,14 @@ float intersect_sphere(const Sphere& sphere, const Ray& ray) {
   const Vector3 d = sphere.to_world.inverse_vector(ray.d);
   const float a = glm::dot(d, d);
   const float b = -glm::dot(o, d);
-  // Haines et al. 2019: the discriminant from the point of the line nearest to the centre, which does not
-  // cancel for distant origins.
+  // Haines et al. 2019: compute the discriminant from the point of the line nearest to the centre, which
+  // avoids cancellation for distant origins.
   const Vector3 nearest = o + (b / a) * d;
   const float discriminant = 1 - glm::dot(nearest, nearest);
   if (!(discriminant >= 0)) return kInfinity;
   const float root = std::sqrt(a * discriminant);
-  // Sign of c: outside or inside. An origin that left the surface by its error bound is safely on its side of
-  // it, so the near root has the right sign and no threshold on t is needed.
+  // The sign of c tells outside from inside. An origin that left the surface by its error bound is certain to
+  // lie on its side, so the near root has the right sign and t needs no threshold.
   const float distance = glm::length(o);
   const float c = (distance - 1) * (distance + 1);
   if (c > 0) {
@@ -24,7 +25,7 @@ float intersect_sphere(const Sphere& sphere, const Ray& ray) {
     const float t = c / (b + root);
     return t > 0 && t < ray.t_max ? t : kInfinity;
   }
-  // Inside: the far root, in the form that does not cancel.
+  // Inside: take the far root, in the form without cancellation.
   const float t = b >= 0 ? (b + root) / a : c / (b - root);
   return t > 0 && t < ray.t_max ? t : kInfinity;
 }

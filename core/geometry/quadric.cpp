@@ -15,7 +15,7 @@ bool within_turn(const Quadric& q, float x, float y) {
 }
 
 bool holds(const Quadric& q, const Point3& p) {
-  // Poles that are not cut off are not lost to a rounding.
+  // Do not lose poles that are not cut off to rounding.
   const bool sphere = q.kind == QuadricKind::kSphere;
   const bool above = p.z >= q.z_min || (sphere && q.z_min <= -1);
   const bool below = p.z <= q.z_max || (sphere && q.z_max >= 1);
@@ -32,7 +32,7 @@ float intersect_flat(const Quadric& q, const Point3& o, const Vector3& d, float 
   return t;
 }
 
-// As intersect_sphere (Haines et al. 2019), in three dimensions or, for cylinders, in the two across the
+// Like intersect_sphere (Haines et al. 2019), in three dimensions or, for cylinders, in the two across the
 // axis. The part that is met first may be cut away, so both roots are tried.
 float intersect_round(const Quadric& q, const Point3& o, const Vector3& d, float t_max) {
   const Vector3 round = q.kind == QuadricKind::kSphere ? Vector3(1) : Vector3(1, 1, 0);
@@ -42,7 +42,7 @@ float intersect_round(const Quadric& q, const Point3& o, const Vector3& d, float
   const float discriminant = 1 - glm::dot(nearest, nearest);
   if (!(discriminant >= 0)) return kInfinity;
   const float root = std::sqrt(a * discriminant), distance = glm::length(oc);
-  const float c = (distance - 1) * (distance + 1);  // sign: outside or inside
+  const float c = (distance - 1) * (distance + 1);  // positive outside, negative inside
   float t[2] = {kInfinity, kInfinity};
   if (c > 0) {
     if (b <= 0) return kInfinity;
@@ -102,8 +102,8 @@ Point3 sample_uniform(const Quadric& q, const Point2& u) {
   return {r * cs.x, r * cs.y, 0};
 }
 
-// Of cylinders: the map's inverse is rounded relative to the whole length, what of that is across the axis is
-// amplified by the map across the axis.
+// For cylinders, the map's inverse is rounded relative to the whole length, and the part of that error across
+// the axis is amplified by the map across the axis.
 float quadric_error(const Quadric& q) {
   const Transform& t = q.to_world;
   if (q.kind == QuadricKind::kSphere) return sphere_error(t);
@@ -115,7 +115,7 @@ float quadric_error(const Quadric& q) {
   return surface_error(max_abs_component(t.translation) + extent, extent * std::max(1.0f, amplified));
 }
 
-// The corners of the box that is cut by z alone.
+// Maps the corners of the local box, which z_min and z_max cut but phi_max does not.
 Bounds3 bounds_of(const Quadric& q) {
   const bool flat = q.kind == QuadricKind::kDisk;
   Bounds3 box;
@@ -129,8 +129,8 @@ Bounds3 bounds_of(const Quadric& q) {
   return box;
 }
 
-// The area element |det M| |M^-T n| per local area. It depends on phi and z smoothly; the midpoint rule is
-// exact for similarities, and for cylinders and disks along s.
+// Integrates the area element |det M| |M^-T n| per local area. It depends smoothly on phi and z; the midpoint
+// rule is exact for similarities, and along s for cylinders and disks.
 double area_of(const Quadric& q) {
   constexpr int kRings = 128, kSectors = 256;
   const glm::dmat3 m(q.to_world.linear);

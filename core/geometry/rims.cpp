@@ -7,9 +7,10 @@
 namespace kaustik {
 namespace {
 
-constexpr int kSides = 64;  // of a full turn
+constexpr int kSides = 64;  // per full turn
 
-// A polygon about the disk's outer rim, or inside its inner one: no point of the disk lies beyond its edges.
+// Adds a polygon around the disk's outer rim, or inside its inner one, so that no point of the disk lies
+// beyond its edges.
 void add_rim(const Disk& disk, const Shape& shape, bool outer, std::vector<BoundaryEdge>* edges) {
   const double step = 2 * std::numbers::pi / kSides;
   const double radius = outer ? 1 / std::cos(0.5 * step) : double(disk.inner);
@@ -32,12 +33,12 @@ void add_rim(const Disk& disk, const Shape& shape, bool outer, std::vector<Bound
   }
 }
 
-// A place on a quadric as of point_at.
+// Coordinates of a point on a quadric, as for point_at().
 struct Place {
   double s, phi;
 };
 
-// From one end of a rim to the other, with the surface on the side of `inward`.
+// One rim of a quadric from begin to end; the surface lies on the side of `inward`.
 struct Rim {
   Place begin, end, inward;
   int sides;
@@ -59,7 +60,7 @@ std::vector<Rim> rims_of(const Quadric& q) {
 }
 
 void add_rim(const Quadric& q, const Rim& rim, const Shape& shape, std::vector<BoundaryEdge>* edges) {
-  constexpr double kStep = 1e-4;  // of s, or radians: to find which way the surface goes
+  constexpr double kStep = 1e-4;  // of s, or radians: a small step to find the direction of the surface
   const auto place = [&](double t) {
     return Place{rim.begin.s + t * (rim.end.s - rim.begin.s),
                  rim.begin.phi + t * (rim.end.phi - rim.begin.phi)};
@@ -67,7 +68,7 @@ void add_rim(const Quadric& q, const Rim& rim, const Shape& shape, std::vector<B
   const auto world = [&](const glm::dvec3& p) { return q.to_world.point(Point3(p)); };
   for (int i = 0; i < rim.sides; ++i) {
     const Place a = place(i / double(rim.sides)), b = place((i + 1) / double(rim.sides));
-    // Away from the ends of the rim, where a sphere's parts may meet in a pole.
+    // Use the middle of the side: at its ends, parts of a sphere may meet in a pole.
     const Place m = place((i + 0.5) / rim.sides);
     const glm::dvec3 middle = point_at(q, m.s, m.phi);
     const glm::dvec3 in = point_at(q, m.s + kStep * rim.inward.s, m.phi + kStep * rim.inward.phi) - middle;

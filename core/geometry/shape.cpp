@@ -14,7 +14,8 @@ Bounds3 bounds_about(const Point3& center, const Vector3& half, float error) {
   return b;
 }
 
-// Of the image of a disk of the first two axes or a ball of all three: sqrt of the sum of squares per row.
+// Half extent of the image of the unit disk (two columns) or ball (three): the root of the sum of squares of
+// each row.
 Vector3 half_extent(const glm::mat3& m, int columns) {
   glm::dvec3 sum(0);
   for (int c = 0; c < columns; ++c) sum += glm::dvec3(m[c]) * glm::dvec3(m[c]);
@@ -45,8 +46,9 @@ double area(const TriangleMesh& mesh) {
   return sum;
 }
 
-// Area element of an ellipsoid: |det M| |M^-T n| per solid angle of the unit sphere. The integrand is smooth
-// and periodic in phi, so the midpoint rule converges fast; a round sphere is exact.
+// Integrates the area element of an ellipsoid, |det M| |M^-T n| per solid angle of the unit sphere. The
+// integrand is smooth and periodic in phi, so the midpoint rule converges fast; it is exact for a round
+// sphere.
 double area(const Sphere& s) {
   constexpr int kRings = 128, kSectors = 64;
   const glm::dmat3 m(s.to_world.linear);
@@ -63,7 +65,8 @@ double area(const Sphere& s) {
   return std::abs(glm::determinant(m)) * sum * 4 * kPiDouble / (kRings * kSectors);
 }
 
-// Of the mapped box's corners: larger than need be, but found without a look at the triangles.
+// Bounds of the corners of the mapped local box: larger than necessary, but found without visiting the
+// triangles.
 Bounds3 bounds(const InstancedMesh& instance) {
   const Bounds3& local = instance.local;
   Bounds3 b;

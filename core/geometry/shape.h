@@ -1,6 +1,6 @@
 #pragma once
-// Geometry as plain data in world space. Orientation: a shape's outside is where its oriented geometric
-// normal points; one-sided lights emit there, dielectrics have their exterior medium there.
+// Geometry as plain data in world space. The outside of a shape is where its oriented geometric normal
+// points: one-sided lights emit to that side, and dielectrics have their exterior medium there.
 
 #include <array>
 #include <cstdint>
@@ -16,9 +16,8 @@
 
 namespace kaustik {
 
-// Indexed triangles. N and uv are empty or one per vertex. Unless N says otherwise the outside is the side of
-// cross(p1 - p0, p2 - p0); where N is given, the geometric normal is turned into N's hemisphere (pbrt's
-// rule).
+// Indexed triangles. N and uv are empty or have one entry per vertex. The outside is the side of cross(p1 -
+// p0, p2 - p0); where N is given, the geometric normal is turned into the hemisphere of N (pbrt's rule).
 struct TriangleMesh {
   std::vector<Point3> P;
   std::vector<Normal3> N;
@@ -26,20 +25,20 @@ struct TriangleMesh {
   std::vector<std::array<uint32_t, 3>> indices;
 };
 
-// A mesh in a space of its own, placed by to_world; any number of instances share it. Where N is given its
-// vectors are of unit length, and turned over if the shape's orientation is reversed.
+// A mesh in a space of its own, placed by to_world; any number of instances share it. If N is given, its
+// vectors have unit length, and are negated if the shape's orientation is reversed.
 struct InstancedMesh {
   std::shared_ptr<const TriangleMesh> mesh;
   Bounds3 local;  // of the mesh
   Transform to_world;
 };
 
-// Image of the unit sphere about the origin under to_world: exact, ellipsoids included.
+// The unit sphere about the origin mapped by to_world: exact, including ellipsoids.
 struct Sphere {
   Transform to_world;
 };
 
-// Image of the annulus inner <= |xy| <= 1, z = 0 under to_world; outside is the side of +z (mapped as a
+// The annulus inner <= |xy| <= 1, z = 0 mapped by to_world. The outside is the side of +z (mapped as a
 // normal).
 struct Disk {
   Transform to_world;
@@ -51,24 +50,24 @@ inline constexpr uint32_t kNoIndex = 0xffffffffu;
 struct Shape {
   std::variant<TriangleMesh, Sphere, Disk, InstancedMesh, Quadric> geometry;
   uint32_t material = 0;       // into Scene::materials
-  uint32_t light = kNoIndex;   // into Scene::lights when the shape emits
-  uint32_t surface_group = 0;  // photons are shared within a group only
-  bool flip_normal =
-      false;  // ReverseOrientation xor handedness of the transform (not applied where N is given)
-  // Share of the surface that is there: a constant, or a float texture of the scene. core/scene/alpha.h.
+  uint32_t light = kNoIndex;   // into Scene::lights; kNoIndex unless the shape emits
+  uint32_t surface_group = 0;  // photons are shared only within a group
+  // ReverseOrientation xor the handedness of the transform (not applied where N is given).
+  bool flip_normal = false;
+  // Opacity of the surface: a constant, or a float texture of the scene (core/scene/alpha.h).
   float alpha = 1;
   uint32_t alpha_texture = kNoIndex;
 
   bool has_alpha() const { return alpha < 1 || alpha_texture != kNoIndex; }
 
-  // Its triangles, in the world or in a space of their own; null where there are none.
+  // Its triangles, in world space or in an instance's own space; null for other shapes.
   const TriangleMesh* mesh() const {
     if (const auto* instance = std::get_if<InstancedMesh>(&geometry)) return instance->mesh.get();
     return std::get_if<TriangleMesh>(&geometry);
   }
 };
 
-// Spheres and disks as the quadrics that they are; nothing for meshes.
+// Converts spheres and disks to quadrics; nothing for meshes.
 std::optional<Quadric> quadric_of(const Shape& shape);
 
 Bounds3 bounds_of(const Shape& shape);

@@ -1,5 +1,5 @@
-// Spheres in SIMD lanes (Google Highway): the operations of core/geometry/intersect.cpp in the same order.
-// Nothing is fused.
+// Sphere intersection in SIMD lanes (Google Highway), with the operations of core/geometry/intersect.cpp in
+// the same order and no fused ones, so that the bits are the same.
 
 #include "core/geometry/sphere_lanes.h"
 
@@ -32,7 +32,7 @@ HWY_INLINE Vec3 Multiply(const glm::mat3& m, const Vec3& v) {
   return {row(0), row(1), row(2)};
 }
 
-// Of rays in the sphere's own space.
+// Intersects rays in the sphere's own space.
 HWY_INLINE Vf IntersectUnitSphere(const Vec3& o, const Vec3& d, Vf t_max) {
   const Floats f;
   const Vf zero = hn::Zero(f), one = hn::Set(f, 1.0f), none = hn::Set(f, kInfinity);

@@ -1,5 +1,5 @@
 #pragma once
-// intersect_sphere() for many rays at once in SIMD lanes.
+// intersect_sphere() for many rays at once, in SIMD lanes.
 
 #include <cstddef>
 
@@ -7,16 +7,16 @@
 
 namespace kaustik {
 
-// Most rays per call.
+// The largest number of rays per call.
 inline constexpr size_t kSphereLanes = 16;
 
-// By columns, aligned to 64 bytes and readable for kSphereLanes rays.
+// Rays as structure of arrays, aligned to 64 bytes and readable for kSphereLanes rays.
 struct SphereRays {
   const float *o[3], *d[3], *t_max;
 };
 
-// t[k] = intersect_sphere(sphere, ray k) for the first `count` rays, bit for bit on every instruction set;
-// writes up to kSphereLanes. Thread-safe.
+// Sets t[k] = intersect_sphere(sphere, ray k) for the first `count` rays, with the same bits on every
+// instruction set. May write up to kSphereLanes values. Thread-safe.
 void intersect_sphere_lanes(const Sphere& sphere, const SphereRays& rays, size_t count, float* t);
 
 }  // namespace kaustik

@@ -6,7 +6,8 @@ namespace {
 
 constexpr float k2Pi = 2 * kPi;
 
-// Solves d = a du0 + b dv0 for the change per u and v of what changes by d1 and d2 along two edges.
+// Solves for the derivatives by u and v of a quantity that changes by d1 and d2 along two edges of a
+// triangle.
 struct UvSystem {
   Vector2 duv1, duv2;
   float determinant = 0;
@@ -20,12 +21,13 @@ struct UvSystem {
   }
 };
 
-// Of the normalised interpolated normal: what changes its length does not turn it.
+// Derivative of the normalised normal from derivative d of the interpolated one; the part along n only
+// changes the length.
 Vector3 turning(const Vector3& d, const Normal3& n, float length) {
   return (d - glm::dot(n, d) * n) / length;
 }
 
-// to_world, normal_to_world: of vectors and normals of the mesh.
+// to_world and normal_to_world map vectors and normals of the mesh to world space.
 template <class Vectors, class Normals>
 SurfaceParameters of_triangle(const TriangleMesh& mesh, const SurfaceInteraction& si, Vectors&& to_world,
                               Normals&& normal_to_world) {
@@ -72,7 +74,7 @@ SurfaceParameters parameters(const InstancedMesh& instance, const Shape& /*shape
       [&](const Normal3& n) { return t.normal(n); });
 }
 
-// In the space of the unit sphere, cylinder or disk.
+// Parametrisation in the space of the unit sphere, cylinder or disk.
 struct LocalParameters {
   Point2 uv{0};
   Vector3 dpdu{0}, dpdv{0};
@@ -92,7 +94,8 @@ LocalParameters local_parameters(const Quadric& q, Point3 p) {
   s.dpdu = q.phi_max * along;
   switch (q.kind) {
     case QuadricKind::kSphere: {
-      const float low = std::acos(q.z_min), turn = std::acos(q.z_max) - low;  // theta, from the lower end
+      // polar angle theta at v = 0, and its change to v = 1
+      const float low = std::acos(q.z_min), turn = std::acos(q.z_max) - low;
       s.uv.y = (std::atan2(r, p.z) - low) / turn;
       s.dpdv = turn * (p.z * outward - Vector3(0, 0, r));
       s.n = p;

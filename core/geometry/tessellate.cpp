@@ -5,10 +5,10 @@
 namespace kaustik {
 namespace {
 
-constexpr int kAround = 96;  // of a full turn
+constexpr int kAround = 96;  // per full turn
 
-// s of point_at for t in [0, 1]: even in the polar angle of a sphere, so that the poles are as fine as the
-// equator.
+// The s of point_at() for t in [0, 1]. Spheres are divided evenly in the polar angle, so that the poles are
+// as fine as the equator.
 double place_along(const Quadric& q, double t) {
   if (q.kind != QuadricKind::kSphere) return t;
   const double low = double(q.z_min), high = double(q.z_max);

@@ -18,7 +18,7 @@ struct Bounds3 {
   }
   Point3 center() const { return 0.5f * min + 0.5f * max; }
   Vector3 diagonal() const { return empty() ? Vector3(0) : max - min; }
-  // Radius of the sphere about center() that holds the box.
+  // Radius of the sphere about center() that contains the box.
   float radius() const { return 0.5f * glm::length(diagonal()); }
 };
 

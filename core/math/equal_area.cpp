@@ -7,7 +7,7 @@ namespace kaustik {
 Vector3 equal_area_square_to_sphere(const Point2& p) {
   const Point2 s = 2.0f * p - 1.0f;
   const Point2 a = glm::abs(s);
-  const float inner = 1 - (a.x + a.y);  // distance from the diagonals; below zero for z < 0
+  const float inner = 1 - (a.x + a.y);  // signed distance from the diagonals; negative for z < 0
   const float r = 1 - std::abs(inner);
   // The azimuth within its quadrant is pi/4 (1 + turn).
   const float turn = r > 0 ? (a.y - a.x) / r : 0;
@@ -23,7 +23,7 @@ Point2 equal_area_sphere_to_square(const Vector3& w) {
   const float r = std::sqrt((a.x * a.x + a.y * a.y) / (1 + a.z));  // sqrt(1 - |z|) without cancellation
   const float longer = std::max(a.x, a.y), shorter = std::min(a.x, a.y);
   const float octant = longer > 0 ? std::atan(shorter / longer) * (2 * kInvPi) : 0;
-  const float quadrant = a.x < a.y ? 1 - octant : octant;  // the azimuth, 1 a right angle
+  const float quadrant = a.x < a.y ? 1 - octant : octant;  // the azimuth in units of a right angle
   Point2 s(r - quadrant * r, quadrant * r);
   if (w.z < 0) s = Point2(1 - s.y, 1 - s.x);
   s = {std::copysign(s.x, w.x), std::copysign(s.y, w.y)};

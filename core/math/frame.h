@@ -7,7 +7,7 @@
 
 namespace kaustik {
 
-// Right-handed frame whose z axis is the unit vector it was made from.
+// Right-handed orthonormal frame with a given unit vector as its z axis.
 struct Frame {
   Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 
@@ -17,7 +17,7 @@ struct Frame {
     const float b = z.x * z.y * a;
     return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
   }
-  // x as near to `along` as it goes; any where that has no part across z.
+  // x is the projection of `along` onto the plane across z; arbitrary where the projection vanishes.
   static Frame from_z(const Vector3& z, const Vector3& along) {
     const Vector3 across = along - glm::dot(along, z) * z;
     const float length = glm::length(across);

@@ -15,8 +15,8 @@ bool Transform::invertible() const {
   for (int c = 0; c < 3; ++c) {
     if (!is_finite(linear[c]) || !is_finite(inverse_linear[c])) return false;
   }
-  // A singular matrix whose determinant rounds to something else than zero has an inverse that does not undo
-  // it.
+  // The inverse of a singular matrix may be finite if its determinant does not round to zero, but then the
+  // product is not the identity.
   const glm::dmat3 product = glm::dmat3(linear) * glm::dmat3(inverse_linear);
   for (int c = 0; c < 3; ++c) {
     for (int r = 0; r < 3; ++r) {

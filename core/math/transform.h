@@ -1,17 +1,17 @@
 #pragma once
-// Affine maps. A power-of-two scale of everything commutes with every operation here, bit for bit.
+// Affine maps. Scaling by a power of two commutes with every operation here, bit for bit.
 
 #include "core/math/vec.h"
 
 namespace kaustik {
 
-// x -> linear * x + translation; the inverse is kept beside it (both built in double by the importer).
+// The map x -> linear * x + translation, stored with its inverse (both built in double by the importer).
 struct Transform {
   glm::mat3 linear{1}, inverse_linear{1};
   Vector3 translation{0};
 
-  // Column-vector convention: m * (p, 1). Throws nothing; a singular m yields non-finite inverses (see
-  // invertible()).
+  // Column-vector convention: m * (p, 1). Does not throw: a singular m yields inverses that are not finite
+  // (see invertible()).
   static Transform from_matrix(const glm::dmat4& m);
 
   Point3 point(const Point3& p) const { return linear * p + translation; }
@@ -21,6 +21,7 @@ struct Transform {
   Point3 inverse_point(const Point3& p) const { return inverse_linear * (p - translation); }
   Vector3 inverse_vector(const Vector3& v) const { return inverse_linear * v; }
   bool swaps_handedness() const { return glm::determinant(linear) < 0; }
+  // Whether the map and its inverse are finite and their product is near the identity.
   bool invertible() const;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Vector vocabulary: GLM types under the names of the field. The aliases carry meaning for the reader only;
-// they share one representation. Units: metres; linear Rec. 709 for Rgb.
+// Vector types: GLM's under the field's names. The aliases inform the reader only; the types are the same.
+// Lengths are in metres; Rgb is linear Rec. 709.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ using Rgb = glm::vec3;
 inline constexpr float kPi = std::numbers::pi_v<float>;
 inline constexpr float kInvPi = std::numbers::inv_pi_v<float>;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// Largest float below one: keeps canonical random numbers inside [0, 1).
+// Largest float below one; clamping to it keeps canonical random numbers inside [0, 1).
 inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 
 inline float max_component(const glm::vec3& v) {
@@ -32,7 +32,7 @@ inline float abs_dot(const glm::vec3& a, const glm::vec3& b) {
 inline float length_squared(const glm::vec3& v) {
   return glm::dot(v, v);
 }
-// Relative luminance of linear Rec. 709.
+// Relative luminance of a linear Rec. 709 colour.
 inline float luminance(const Rgb& c) {
   return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }

@@ -1,4 +1,4 @@
-// madvise, where it exists.
+// Implemented with madvise where it exists.
 
 #include "core/memory/memory_pages.h"
 
@@ -19,7 +19,7 @@ void advise(void* data, size_t bytes, int advice) {
   const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
   const uintptr_t begin = (reinterpret_cast<uintptr_t>(data) + page - 1) / page * page;
   const uintptr_t end = (reinterpret_cast<uintptr_t>(data) + bytes) / page * page;
-  // A refusal leaves the pages as they are.
+  // If the call is refused, the pages stay as they are.
   if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, advice);
 }
 

@@ -1,16 +1,16 @@
 #pragma once
-// What the operating system is told about large arrays. Hints: where there is no madvise, nothing happens.
+// Hints to the operating system about large arrays. They have no effect where madvise does not exist.
 
 #include <cstddef>
 
 namespace kaustik::photon {
 
-// Asks for large pages, of which a big array needs few: they are faster to get, and to find again. Call it
-// before the memory is first written.
+// Asks for large pages. A big array then needs few of them, so they take less time to allocate and cause
+// fewer TLB misses. Call it before the memory is first written.
 void prefer_large_pages(void* data, size_t bytes);
 
-// Gives back the memory of the whole pages in [data, data + bytes), which then holds anything. The addresses
-// remain the caller's, to be freed as ever.
+// Returns the memory of the whole pages in [data, data + bytes) to the system; their contents are unspecified
+// afterwards. The address range remains the caller's, to be freed as usual.
 void give_back_pages(void* data, size_t bytes);
 
 }  // namespace kaustik::photon

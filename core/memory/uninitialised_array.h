@@ -1,5 +1,5 @@
 #pragma once
-// Arrays whose memory is first touched by the thread that fills it.
+// Arrays whose memory is first touched by the thread that fills it, so that it is allocated near that thread.
 
 #include <cstddef>
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace kaustik::photon {
 
-// Owns `size` values, uninitialised at first; move-only.
+// Owns `size` values, which are uninitialised at first. Move-only.
 template <class T>
 class UninitialisedArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -37,7 +37,7 @@ class UninitialisedArray {
   size_t size_ = 0;
 };
 
-// For vectors: values that are not given stay uninitialised.
+// Allocator for vectors whose default-initialised values stay uninitialised.
 template <class T>
 struct UninitialisedAllocator : std::allocator<T> {
   template <class U>

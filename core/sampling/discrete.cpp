@@ -13,12 +13,13 @@ DiscreteDistribution::DiscreteDistribution(const std::vector<double>& weights) :
   }
   if (!(total_ > 0)) return;
   for (size_t i = 0; i < last_positive; ++i) cdf_[i] /= total_;
-  // Exactly one, so that no u < 1 falls past the last entry that has weight.
+  // Exactly one, so that no u < 1 falls past the last entry with a positive weight.
   std::fill(cdf_.begin() + static_cast<ptrdiff_t>(last_positive), cdf_.end(), 1.0);
 }
 
 size_t DiscreteDistribution::first_above(double u) const {
-  // Few entries are counted instead of searched: a search branches on random numbers.
+  // Short tables are counted through without branches: a binary search would branch on random numbers, which
+  // cannot be predicted.
   constexpr size_t kFew = 16;
   if (cdf_.size() > kFew) {
     return static_cast<size_t>(std::upper_bound(cdf_.begin(), cdf_.end(), u) - cdf_.begin());

@@ -6,7 +6,8 @@
 
 namespace kaustik {
 
-// Sampling in proportion to non-negative weights, by inversion of their cumulative sum (held in double).
+// Samples indices in proportion to non-negative weights, by inversion of their cumulative sum (held in
+// double).
 class DiscreteDistribution {
  public:
   DiscreteDistribution() = default;
@@ -15,7 +16,7 @@ class DiscreteDistribution {
   struct Sample {
     uint32_t index;
     float pdf;         // probability of index
-    float u_remapped;  // the random number, uniform again in [0, 1)
+    float u_remapped;  // what is left of the random number, again uniform in [0, 1)
   };
   // u in [0, 1). Requires !empty() and total() > 0. An entry of weight zero is never chosen.
   Sample sample(float u) const;

@@ -3,8 +3,8 @@
 namespace kaustik {
 namespace {
 
-// In place: weights become cumulative probabilities. All zero: uniform, which is as good as any for a row
-// that is never chosen.
+// Writes the cumulative probabilities of the weights to cdf and returns the sum of the weights. If all are
+// zero the distribution is uniform; any would do, as such a row is never chosen.
 double accumulate(const std::vector<double>& weights, float* cdf) {
   double total = 0;
   for (const double w : weights) total += w;
@@ -37,7 +37,7 @@ PiecewiseConstant2D::PiecewiseConstant2D(int width, int height,
 }
 
 PiecewiseConstant2D::Choice PiecewiseConstant2D::choose(const float* cdf, int count, float u) {
-  const auto i = std::upper_bound(cdf, cdf + count, u) - cdf;  // the last is 1, above any u
+  const auto i = std::upper_bound(cdf, cdf + count, u) - cdf;  // the last entry is 1, which is above any u
   const float low = i > 0 ? cdf[i - 1] : 0;
   const float width = cdf[i] - low;
   return {static_cast<int>(i), width, std::min((u - low) / width, kOneMinusEpsilon)};

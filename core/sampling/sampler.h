@@ -1,7 +1,7 @@
 #pragma once
-// Counter-based Owen-scrambled Sobol points (Burley 2020, "Practical Hash-based Owen Scrambling").
-// Every value is a pure function of (seed, index, dimension): no state is shared between threads, so any
-// split of the work gives the same numbers.
+// Counter-based Owen-scrambled Sobol points (Burley 2020, "Practical Hash-based Owen Scrambling"). Every
+// value is a pure function of (seed, index, dimension) and threads share no state, so the numbers do not
+// depend on how the work is split.
 
 #include <cstdint>
 
@@ -20,22 +20,23 @@ constexpr uint64_t hash_combine(uint64_t a, uint64_t b) {
   return mix64(a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2)));
 }
 
-// What the points of one sequence share in one Sobol set: the seeds of its scramblings.
+// The scrambling seeds of one Sobol set, which all points of a sequence share.
 struct SobolSetKeys {
   uint32_t index;
   uint32_t dimensions[4];
 };
 
-// Of points whose index has this upper half (see Sampler), in dimensions 4 set .. 4 set + 3.
+// Keys of set `set` (dimensions 4 set to 4 set + 3) for the points whose index has this upper half (see
+// Sampler).
 inline SobolSetKeys sobol_set_keys(uint64_t seed, uint64_t upper_half, uint32_t set);
 
-// Point `index` of the sequence `seed`; dimensions are drawn in order. Index may use all 64 bits: the upper
-// 32 choose an independently scrambled sequence. Values lie in [0, 1).
+// Point `index` of the sequence `seed`, whose dimensions are drawn in order. The index may use all 64 bits:
+// its upper 32 bits choose an independently scrambled sequence. Values lie in [0, 1).
 //
-// Dimensions come in sets of four: dimensions 4k..4k+3 are one four-dimensional Sobol set, whose index is
-// shuffled by the set's own Owen scrambling (Burley 2020, section 5: padding). Every aligned block of 2^m
-// points is a (0, m, 2)-net in dimensions 4k and 4k+1 and a (3, m, 4)-net in the whole set. Whoever draws
-// position and direction of one thing best draws them from one set.
+// Dimensions come in sets of four: dimensions 4k to 4k+3 are one four-dimensional Sobol set, whose index is
+// shuffled by an Owen scrambling of its own (Burley 2020, section 5: padding). Every aligned block of 2^m
+// points is a (0, m, 2)-net in dimensions 4k and 4k+1, and a (3, m, 4)-net in the whole set. It is best to
+// draw the position and the direction of one sample from the same set.
 class Sampler {
  public:
   Sampler(uint64_t seed, uint64_t index, uint32_t first_dimension = 0)
@@ -44,8 +45,8 @@ class Sampler {
         dimension_(first_dimension) {}
 
   float next_1d() { return draw(dimension_++); }
-  // Always an aligned pair of one Sobol set, so that it is stratified in two dimensions. Skips a dimension
-  // when the last one drawn was even.
+  // Draws an aligned pair of dimensions of one Sobol set, which is stratified in two dimensions. Skips a
+  // dimension when the next one is odd.
   Point2 next_2d() {
     dimension_ += dimension_ & 1u;
     const float x = draw(dimension_);
@@ -68,7 +69,7 @@ class Sampler {
     }
     const uint32_t scrambled =
         reverse_bits(laine_karras(sobol_reversed(shuffled_, dimension & 3u), hash(seed_, dimension)));
-    // Truncated, not rounded: a point never moves into the next stratum, nor to 1.
+    // Truncated rather than rounded, so that a point never moves into the next stratum, nor to 1.
     return static_cast<float>(scrambled >> 8) * 0x1p-24f;
   }
   static constexpr uint64_t index_key(uint32_t set) { return (uint64_t{1} << 32) | set; }
@@ -90,7 +91,7 @@ inline SobolSetKeys sobol_set_keys(uint64_t seed, uint64_t upper_half, uint32_t 
   return keys;
 }
 
-// The value that Sampler draws; exposed for tests.
+// The value that Sampler draws in one dimension; exposed for tests.
 float sobol_owen(uint32_t index, uint64_t seed, uint32_t dimension);
 
 }  // namespace kaustik

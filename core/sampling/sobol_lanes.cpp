@@ -1,5 +1,5 @@
-// Sobol sets in SIMD lanes (Google Highway). Without tables: a lookup per lane costs more than the arithmetic
-// for all of them.
+// Sobol sets in SIMD lanes (Google Highway). No tables are used, because a lookup per lane costs more than
+// the arithmetic for all lanes.
 
 #include "core/sampling/sobol_lanes.h"
 
@@ -21,7 +21,7 @@ HWY_INLINE Vu ReverseBits(Vu x) {
   return hn::Set(Words(), reverse_bits(hn::GetLane(x)));
 }
 #else
-// reverse_bits() of each lane: nibbles by lookup, then the order of the bytes.
+// Applies reverse_bits() to each lane: reverses each nibble by table lookup, then the order of the bytes.
 HWY_INLINE Vu ReverseBits(Vu x) {
   const hn::Repartition<uint8_t, Words> b;
   alignas(16) static constexpr uint8_t kReversed[16] = {0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15};
@@ -35,7 +35,7 @@ HWY_INLINE Vu ReverseBits(Vu x) {
 }
 #endif
 
-// laine_karras() of each lane.
+// Applies laine_karras() to each lane.
 HWY_INLINE Vu LaineKarras(Vu x, Vu seed) {
   const Words d;
   x = hn::Xor(x, hn::Mul(x, hn::Set(d, 0x3d20adeau)));
@@ -50,8 +50,8 @@ HWY_INLINE Vu AddSupersets(Vu x, uint32_t positions) {
   return hn::Xor(x, hn::And(hn::ShiftRight<kShift>(x), hn::Set(Words(), positions)));
 }
 
-// Dimension 1. Its matrix is Pascal's triangle modulo 2, so bit j of the reversed value is the sum of the
-// bits i of the index whose binary digits contain those of j (Lucas's theorem).
+// Dimension 1. Its generator matrix is Pascal's triangle modulo 2, so bit j of the reversed value is the sum
+// of those bits i of the index for which the binary digits of i contain those of j (Lucas's theorem).
 HWY_INLINE Vu SobolPascal(Vu x) {
   x = AddSupersets<1>(x, 0x55555555u);
   x = AddSupersets<2>(x, 0x33333333u);
@@ -60,7 +60,8 @@ HWY_INLINE Vu SobolPascal(Vu x) {
   return AddSupersets<16>(x, 0x0000ffffu);
 }
 
-// Dimensions 2 and 3, whose columns are read off the tables: column i where bit i of the index is set.
+// Generator matrices of dimensions 2 and 3, taken from the tables: column i is added where bit i of the index
+// is set.
 struct Columns {
   uint32_t of[2][32];
 };

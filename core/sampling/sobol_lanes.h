@@ -8,20 +8,21 @@
 
 namespace kaustik {
 
-// Most points per call.
+// The largest number of points per call.
 inline constexpr size_t kSobolLanes = 64;
 
-// u[d][k]: dimension d of the set, point k.
+// u[d][k] is dimension d of point k.
 struct SobolLanes {
   alignas(64) float u[4][kSobolLanes];
 };
 
-// The keys of sets 0, 1, 2 ... of the points of one sequence whose index has one upper half: see Sampler.
+// The keys of the sets 0, 1, 2, ... of one sequence, for the points whose index has the given upper half (see
+// Sampler).
 class SobolKeyTable {
  public:
   explicit SobolKeyTable(uint64_t seed = 0, uint64_t upper_half = 0) : seed_(seed), upper_half_(upper_half) {}
   uint64_t upper_half() const { return upper_half_; }
-  // Makes the keys of the sets up to this one, where they are missing.
+  // Makes the missing keys of all sets up to and including this one.
   void make(uint32_t set) {
     for (auto next = static_cast<uint32_t>(words_.size() / kRowWords); next <= set; ++next) {
       const SobolSetKeys keys = sobol_set_keys(seed_, upper_half_, next);
@@ -38,10 +39,10 @@ class SobolKeyTable {
   std::vector<uint32_t> words_;
 };
 
-// The first `dimensions` (three or four) dimensions of a set for `count` points, as Sampler draws them.
-// set[k]: of point k, made in keys. reversed_index[k]: reverse_bits(lower half of its index). Both for all
-// kSobolLanes, those from `count` on being any that are valid. The same bits on every instruction set.
-// Thread-safe.
+// Draws the first `dimensions` (three or four) dimensions of a set for `count` points, with the values that
+// Sampler gives. set[k] is the set of point k, whose keys must have been made in `keys`; reversed_index[k] is
+// reverse_bits(lower half of its index). Both arrays need kSobolLanes valid entries, although those from
+// `count` on do not matter. The result has the same bits on every instruction set. Thread-safe.
 void draw_sobol_lanes(const SobolKeyTable& keys, const uint32_t set[kSobolLanes],
                       const uint32_t reversed_index[kSobolLanes], size_t count, int dimensions,
                       SobolLanes* numbers);

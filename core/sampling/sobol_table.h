@@ -1,6 +1,6 @@
 #pragma once
-// The first four dimensions of Sobol's sequence (direction numbers of Joe and Kuo 2008), as byte-wise XOR
-// tables. The values are stored with their bits reversed: that is the order in which Owen scrambling by
+// The first four dimensions of the Sobol sequence (direction numbers of Joe and Kuo 2008) as byte-wise XOR
+// tables. The values are stored with their bits reversed, which is the order in which Owen scrambling by
 // hashing works.
 
 #include <array>
@@ -31,14 +31,14 @@ constexpr std::array<uint32_t, 32> sobol_directions(int s, uint32_t a, const std
   return v;
 }
 
-// table[b][x]: the bit-reversed contribution of byte b of the index.
+// table[b][x] is the bit-reversed contribution of byte b of the index when its value is x.
 using SobolByteTable = std::array<std::array<uint32_t, 256>, 4>;
 
 constexpr SobolByteTable sobol_byte_table(const std::array<uint32_t, 32>& v) {
   SobolByteTable table{};
   for (int b = 0; b < 4; ++b) {
     for (uint32_t x = 1; x < 256; ++x) {
-      const uint32_t rest = x & (x - 1);  // without its lowest bit
+      const uint32_t rest = x & (x - 1);  // x without its lowest set bit
       int bit = 0;
       while (((x >> bit) & 1u) == 0) ++bit;
       table[b][x] = table[b][rest] ^ reverse_bits(v[8 * b + bit]);
@@ -47,20 +47,21 @@ constexpr SobolByteTable sobol_byte_table(const std::array<uint32_t, 32>& v) {
   return table;
 }
 
-// Dimensions 1 to 3; dimension 0 is van der Corput's sequence, whose reversed value is the index itself.
+// Tables of dimensions 1 to 3. Dimension 0 is van der Corput's sequence, whose reversed value is the index
+// itself.
 inline constexpr std::array<SobolByteTable, 3> kSobolTables = {
     sobol_byte_table(sobol_directions(1, 0, {1, 0, 0})), sobol_byte_table(sobol_directions(2, 1, {1, 3, 0})),
     sobol_byte_table(sobol_directions(3, 1, {1, 3, 1}))};
 
-// Bit-reversed Sobol value of `index` in dimension 0..3.
+// Bit-reversed Sobol value of `index` in dimension 0 to 3.
 inline uint32_t sobol_reversed(uint32_t index, uint32_t dimension) {
   if (dimension == 0) return index;
   const SobolByteTable& t = kSobolTables[dimension - 1];
   return t[0][index & 255u] ^ t[1][(index >> 8) & 255u] ^ t[2][(index >> 16) & 255u] ^ t[3][index >> 24];
 }
 
-// Laine and Karras's (2011) hash, with Vegdahl's (2021) better constants: bit i of the result depends on bits
-// 0..i of x only, so on bit-reversed numbers it is a random Owen scrambling.
+// The hash of Laine and Karras (2011) with better constants by Vegdahl (2021). Bit i of the result depends
+// only on bits 0 to i of x, so on bit-reversed numbers it is a random Owen scrambling.
 constexpr uint32_t laine_karras(uint32_t x, uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;

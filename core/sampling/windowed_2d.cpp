@@ -3,10 +3,11 @@
 namespace kaustik {
 namespace {
 
-// Where F, which rises linearly between the edges of n cells, reaches `level` in [from, to].
+// Position in [from, to] at which `integral`, a function that rises linearly between the edges of n cells,
+// reaches `level`.
 template <class F>
 double inverse(const F& integral, double level, double from, double to, int n) {
-  // Cell edges in (from, to), by bisection; then linear within the cell.
+  // Bisect over the cell edges in (from, to), then interpolate linearly within the cell.
   int low = static_cast<int>(from * n), high = static_cast<int>(std::ceil(to * n));
   const auto edge = [&](int i) { return std::clamp(static_cast<double>(i) / n, from, to); };
   while (high - low > 1) {
@@ -34,7 +35,7 @@ WindowedPiecewiseConstant2D::WindowedPiecewiseConstant2D(int width, int height,
 }
 
 double WindowedPiecewiseConstant2D::below(double x, double y) const {
-  // Bilinear between the corners of cells.
+  // The integral is bilinear between the corners of the cells.
   const double at_x = x * width_, at_y = y * height_;
   const int i = std::clamp(static_cast<int>(at_x), 0, width_ - 1);
   const int j = std::clamp(static_cast<int>(at_y), 0, height_ - 1);
@@ -67,7 +68,7 @@ std::optional<WindowedPiecewiseConstant2D::Sample> WindowedPiecewiseConstant2D::
   if (!(total > 0)) return std::nullopt;
   const double x =
       inverse([&](double at) { return within(x0, at, y0, y1); }, double(u.x) * total, x0, x1, width_);
-  // The column of cells of x, as wide as it lies in the window.
+  // The part inside the window of the column of cells that contains x.
   const double column = std::min(std::floor(x * width_), double(width_ - 1));
   const double left = std::max(x0, column / width_), right = std::min(x1, (column + 1) / width_);
   const double of_column = within(left, right, y0, y1);

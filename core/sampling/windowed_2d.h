@@ -15,21 +15,22 @@ struct Window {
   }
 };
 
-// A density on the unit square, constant over the cells of a grid, sampled within any window (Bitterli et al.
-// 2015, "Portal-Masked Environment Map Sampling"; Pharr et al. 2023, section A.5.6): by a summed-area table.
+// A density on the unit square that is constant over the cells of a grid, and can be sampled within any
+// window by means of a summed-area table (Bitterli et al. 2015, "Portal-Masked Environment Map Sampling";
+// Pharr et al. 2023, section A.5.6).
 class WindowedPiecewiseConstant2D {
  public:
   WindowedPiecewiseConstant2D() = default;
-  // weight(x, y) >= 0 and finite, called once a cell, row by row. 8 bytes a cell.
+  // Calls weight(x, y), which must be finite and >= 0, once per cell, row by row. Takes 8 bytes per cell.
   WindowedPiecewiseConstant2D(int width, int height, const std::function<double(int x, int y)>& weight);
 
   struct Sample {
     Point2 p;
-    float pdf;  // per area of the square
+    float pdf;  // per unit area of the square
   };
-  // u in [0, 1)^2. Nothing where the window holds no weight.
+  // u in [0, 1)^2. Returns nothing where the window holds no weight.
   std::optional<Sample> sample(const Window& window, const Point2& u) const;
-  // Zero outside the window.
+  // Density of p; zero outside the window.
   float pdf(const Window& window, const Point2& p) const;
 
  private:
@@ -38,7 +39,7 @@ class WindowedPiecewiseConstant2D {
   double weight_at(const Point2& p) const;
 
   int width_ = 0, height_ = 0;
-  std::vector<double> sums_;  // over all cells up to and including this one
+  std::vector<double> sums_;  // of all cells up to and including this one in x and in y
 };
 
 }  // namespace kaustik

@@ -1,12 +1,12 @@
-// Relative power of the fluorescent lights F1 to F12 (CIE 15:2004, table T.6), as in the data files of colord
-// 1.4.6.
+// Relative spectral power of the fluorescent illuminants F1 to F12 (CIE 15:2004, table T.6), as in the data
+// files of colord 1.4.6.
 
 #include "core/spectrum/cie_tables.h"
 
 namespace kaustik::cie {
 namespace {
 
-// From 380 nm to 780 nm in steps of 5 nm.
+// Values from 380 nm to 780 nm in steps of 5 nm.
 constexpr double kFluorescent[12][81] = {
     {1.87,  2.36,  2.94,  3.47,  5.17,  19.49, 6.13,  6.24,  7.01,  7.79,  8.56,  43.67, 16.94, 10.72,
      11.35, 11.89, 12.37, 12.75, 13,    13.15, 13.23, 13.17, 13.13, 12.85, 12.52, 12.2,  11.83, 11.5,

@@ -1,5 +1,5 @@
-// Tables of the CIE: the colour-matching functions of the 1931 2-degree observer and the components of
-// daylight (CIE 15:2004, tables T.4 and T.2), as in the data files of colord 1.4.6.
+// CIE tables: the colour-matching functions of the 1931 2-degree observer and the components of daylight (CIE
+// 15:2004, tables T.4 and T.2), as in the data files of colord 1.4.6.
 
 #include "core/spectrum/cie_tables.h"
 

@@ -1,20 +1,20 @@
 #pragma once
-// Published tables of the CIE as numbers.
+// Published tables of the CIE.
 
 #include <span>
 
 namespace kaustik::cie {
 
 inline constexpr int kFirst = 360, kStep = 5;  // nm
-inline constexpr int kRows = 95;               // to 830 nm
-// Of the 2-degree observer of 1931; 0: x, 1: y, 2: z.
+inline constexpr int kRows = 95;               // up to 830 nm
+// Colour-matching functions of the 1931 2-degree observer; 0: x, 1: y, 2: z.
 std::span<const double, kRows> matching(int function);
-// Mean and two components of the daylights, S0 to S2.
+// The components of daylight: its mean S0, and S1 and S2.
 std::span<const double, kRows> daylight(int component);
 
 inline constexpr int kFluorescentFirst = 380;
-inline constexpr int kFluorescentRows = 81;  // to 780 nm
-// Of light 1 to 12.
+inline constexpr int kFluorescentRows = 81;  // up to 780 nm
+// The fluorescent illuminants; light: 1 to 12.
 std::span<const double, kFluorescentRows> fluorescent(int light);
 
 }  // namespace kaustik::cie

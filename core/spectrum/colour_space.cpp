@@ -17,9 +17,9 @@ glm::dvec3 white_of(const Spectrum& illuminant) {
   return xyz / xyz.y;
 }
 
-// Primaries scaled so that they add up to the white.
+// The RGB-to-XYZ matrix of the given primaries (chromaticities), scaled so that they add up to the white.
 glm::dmat3 matrix_of(const glm::dvec2& r, const glm::dvec2& g, const glm::dvec2& b, const glm::dvec3& white) {
-  // Y = 1 is no unit for a primary of y = 0 or less: X + Y + Z = 1 is.
+  // Primaries are scaled to X + Y + Z = 1, as one with y <= 0 cannot be scaled to Y = 1.
   const glm::dmat3 m({r.x, r.y, 1 - r.x - r.y}, {g.x, g.y, 1 - g.x - g.y}, {b.x, b.y, 1 - b.x - b.y});
   const glm::dvec3 scale = glm::inverse(m) * white;
   return {m[0] * scale[0], m[1] * scale[1], m[2] * scale[2]};
@@ -28,7 +28,7 @@ glm::dmat3 matrix_of(const glm::dvec2& r, const glm::dvec2& g, const glm::dvec2&
 std::array<ColourSpace, 4> make_spaces() {
   const glm::dvec3 d65 = white_of(daylight(6500));
   const glm::dmat3 rec709 = matrix_of({0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, d65);
-  // The white of ACES, near D60 (SMPTE ST 2065-1).
+  // The white of ACES, which is near D60 (SMPTE ST 2065-1).
   const glm::dvec3 aces = from_chromaticity(0.32168, 0.33767);
   return {ColourSpace{"srgb", rec709},
           ColourSpace{"dci-p3", matrix_of({0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, d65)},

@@ -1,5 +1,6 @@
 #pragma once
-// RGB colour spaces: those that pbrt's ColorSpace knows, and the way from them to ours, linear Rec. 709.
+// The RGB colour spaces that pbrt's ColorSpace knows, and conversions from them to the renderer's own, linear
+// Rec. 709.
 
 #include <span>
 #include <string_view>
@@ -10,24 +11,25 @@ namespace kaustik {
 
 struct ColourSpace {
   std::string_view name;
-  glm::dmat3 to_xyz;  // columns: its primaries; (1, 1, 1) is its white, of Y = 1
+  glm::dmat3 to_xyz;  // columns: the primaries; (1, 1, 1) maps to the white, with Y = 1
 
   bool is_ours() const { return name == "srgb"; }
-  // A light stays what it is: white of another space is not our white.
+  // Conversion of emitted colours, without adaptation: the white of another space is not our white.
   glm::dmat3 light_to_ours() const;
-  // A surface that is white under the space's own illuminant is white under ours (Bradford's adaptation).
+  // Conversion of reflectances: a surface that is white under the space's own illuminant is white under ours
+  // (Bradford's adaptation).
   glm::dmat3 surface_to_ours() const;
 };
 
-// srgb (rec709 is another name for it), dci-p3, rec2020, aces2065-1.
+// srgb (also called rec709), dci-p3, rec2020 and aces2065-1.
 std::span<const ColourSpace> colour_spaces();
-// Null when nobody knows the name.
+// Null when the name is unknown.
 const ColourSpace* find_colour_space(std::string_view name);
 
-// From XYZ to linear Rec. 709 whose white is the D65 of the tables, so that D65 is (1, 1, 1).
+// From XYZ to linear Rec. 709 with the white of the tabulated D65, so that D65 is (1, 1, 1).
 const glm::dmat3& xyz_to_ours();
-// Maps XYZ seen under one white to what looks the same under another (Bradford; Lam 1985). Whites: XYZ of
-// Y = 1.
+// Maps XYZ under one white to XYZ of the same appearance under another (Bradford; Lam 1985). Both whites are
+// XYZ with Y = 1.
 glm::dmat3 adaptation(const glm::dvec3& from_white, const glm::dvec3& to_white);
 
 }  // namespace kaustik

@@ -1,6 +1,7 @@
-// Complex indices of metals and of two oxides: silver, gold and copper from Hagemann, Gudat and Kunz (1974),
-// aluminium from Smith, Shiles and Inokuti (in Palik 1985), magnesium oxide and titanium dioxide from Palik
-// (1985, 1991); the numbers are those that the SOPRA data base gives and renderers have used since.
+// Complex refractive indices of metals and of two oxides. Silver, gold and copper are from Hagemann, Gudat
+// and Kunz (1974), aluminium from Smith, Shiles and Inokuti (in Palik 1985), magnesium oxide and titanium
+// dioxide from Palik (1985, 1991). The numbers are those of the SOPRA database, which renderers have used
+// since.
 
 #include "core/spectrum/metal_tables.h"
 
@@ -10,7 +11,7 @@
 namespace kaustik {
 namespace {
 
-// At photon energies of 3.45 eV to 1.40 eV in steps of 0.05 eV.
+// Samples at photon energies from 3.45 eV to 1.40 eV in steps of 0.05 eV.
 constexpr int kRows = 42;
 struct Row {
   double eta[kRows], k[kRows];
@@ -62,7 +63,7 @@ constexpr Sample kMagnesiumOxide[] = {
     {502.35, 1.7453},   {508.532, 1.74446}, {514.44, 1.7439},   {546.167, 1.74077}, {589.259, 1.73737},
     {632.874, 1.7346},  {643.718, 1.734},   {656.326, 1.73335}, {667.636, 1.73277}, {690.696, 1.73191},
     {706.439, 1.73101}, {767.678, 1.72872}};
-// Its k is zero above 345 nm but for two stray samples of the table, which are left out.
+// The k of this oxide is zero above 345 nm except for two stray samples of the table, which are omitted.
 constexpr Sample kTitaniumDioxide[] = {
     {344.007, 4.36}, {359.988, 3.87}, {388.044, 3.49}, {399.935, 3.4},  {412.031, 3.24}, {419.986, 3.29},
     {439.957, 3.2},  {460.037, 3.13}, {479.985, 3.08}, {499.919, 3.03}, {520.05, 3.0},   {539.044, 2.95},
@@ -70,7 +71,7 @@ constexpr Sample kTitaniumDioxide[] = {
     {659.819, 2.85}, {680.088, 2.84}, {700.056, 2.83}, {719.977, 2.82}, {740.179, 2.81}, {760.147, 2.81},
     {779.748, 2.8},  {799.871, 2.79}, {819.974, 2.79}, {839.973, 2.78}};
 
-// Index by photon energy, as a spectrum.
+// Converts samples by photon energy to a spectrum by wavelength.
 Spectrum by_energy(const double (&values)[kRows]) {
   constexpr double kNanometreElectronvolts = 1239.84198;  // h c
   std::vector<double> wavelengths;
@@ -78,7 +79,7 @@ Spectrum by_energy(const double (&values)[kRows]) {
   return sampled_spectrum(wavelengths, values);
 }
 
-// The ends hold beyond the samples: an index of zero is no metal.
+// Beyond the samples the end values are repeated: an index of zero would not be a metal.
 Spectrum by_wavelength(std::span<const Sample> samples) {
   std::vector<double> wavelengths{double(kFirstNanometre) - 30}, values{samples.front().eta};
   for (const Sample& s : samples) {

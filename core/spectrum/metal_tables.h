@@ -1,5 +1,5 @@
 #pragma once
-// Measured indices of refraction.
+// Measured complex refractive indices.
 
 #include <array>
 #include <optional>
@@ -10,10 +10,10 @@
 namespace kaustik {
 
 struct MetalIndex {
-  std::string_view name;  // "Au"
+  std::string_view name;  // for example "Au"
   Spectrum eta, k;
 };
-// Ag, Al, Au, Cu, MgO, TiO2.
+// The tables for Ag, Al, Au, Cu, MgO and TiO2.
 const std::array<MetalIndex, 6>& metals();
 
 }  // namespace kaustik

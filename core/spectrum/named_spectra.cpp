@@ -10,8 +10,8 @@
 namespace kaustik {
 namespace {
 
-// Sellmeier's equation, n^2 = 1 + sum B l^2 / (l^2 - C) with l in micrometres; coefficients from the data
-// sheets of Schott.
+// Sellmeier's equation, n^2 = 1 + sum B l^2 / (l^2 - C) with l in micrometres. The coefficients are from
+// Schott's data sheets.
 struct Glass {
   std::string_view name;
   double b[3], c[3];
@@ -66,7 +66,7 @@ const std::vector<Named>& all_named() {
     for (const Glass& g : kGlasses) {
       const auto make = [&g] { return Spectrum::from([&g](double nm) { return g.index(nm); }); };
       all.push_back({fmt::format("glass-{}", g.name), make});
-      // pbrt leaves the S of Schott's flint glasses away.
+      // pbrt's names of Schott's flint glasses lack the S.
       if (g.name.starts_with("SF")) all.push_back({fmt::format("glass-{}", g.name.substr(1)), make});
     }
     return all;

@@ -1,5 +1,5 @@
 #pragma once
-// Spectra that pbrt-v4 knows by name.
+// The spectra that pbrt-v4 knows by name.
 
 #include <optional>
 #include <string_view>
@@ -9,12 +9,14 @@
 
 namespace kaustik {
 
-// "stdillum-D65", "illum-acesD60", "metal-Au-eta", "glass-BK7", ... Nothing for other names.
+// The spectrum called "stdillum-D65", "illum-acesD60", "metal-Au-eta", "glass-BK7" and so on; nothing for
+// other names.
 std::optional<Spectrum> named_spectrum(std::string_view name);
-// All that named_spectrum knows.
+// All names that named_spectrum() knows.
 std::vector<std::string_view> spectrum_names();
-// Of pbrt's spectra that have no numbers here, the name that comes nearest: copper for brass, none (empty)
-// for the sensitivities of cameras. Nothing for other names.
+// For a named spectrum of pbrt that is not implemented, the name of the nearest one that is: copper for
+// brass, and an empty name for camera sensitivities, which have none. Nothing for names that pbrt does not
+// know.
 std::optional<std::string_view> nearest_to_missing_spectrum(std::string_view name);
 
 }  // namespace kaustik

@@ -6,8 +6,8 @@
 namespace kaustik {
 namespace {
 
-// Cubic through the four rows about a wavelength: that is how a table in steps of 5 nm is refined to 1 nm
-// (CIE 167:2005 compares such methods). The ends of the table are repeated beyond it.
+// Refines a table in steps of 5 nm to 1 nm, by the cubic through the four nearest rows (CIE 167:2005 compares
+// such methods). Rows at the ends of the table are repeated beyond it.
 double refined(std::span<const double, cie::kRows> rows, int nanometre) {
   const int i = (nanometre - cie::kFirst) / cie::kStep;
   const double t = double(nanometre - cie::kFirst - i * cie::kStep) / cie::kStep;
@@ -40,7 +40,7 @@ const Spectrum& d65() {
   return s;
 }
 
-// Of a metal in air at normal incidence.
+// Reflectance of a metal in air at normal incidence.
 double normal_reflectance(double eta, double k) {
   return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
 }
@@ -96,7 +96,7 @@ Spectrum daylight(double kelvin) {
 }
 
 Spectrum illuminant_a() {
-  constexpr double kSecond = 1.435e7, kKelvin = 2848;  // of its definition
+  constexpr double kSecond = 1.435e7, kKelvin = 2848;  // constants of the illuminant's definition
   return Spectrum::from([&](double nm) {
     return 100 * std::pow(560 / nm, 5) * std::expm1(kSecond / (kKelvin * 560)) /
            std::expm1(kSecond / (kKelvin * nm));

@@ -6,7 +6,7 @@ namespace {
 
 constexpr float kInv2Pi = 0.5f * kInvPi;
 
-// The footprint in texture space.
+// The point and its footprint in texture space.
 struct TextureSpace {
   Point3 p;
   Vector3 dpdx, dpdy;

@@ -1,5 +1,5 @@
 #pragma once
-// From points of surfaces to coordinates of textures, as pbrt-v4 maps them (pharr 2023, section 10.2).
+// Maps from surface points to texture coordinates, as in pbrt-v4 (Pharr 2023, section 10.2).
 
 #include <variant>
 
@@ -8,21 +8,22 @@
 
 namespace kaustik {
 
-// Coordinates, and their change along the axes of the footprint.
+// Texture coordinates, and their change along the axes of the footprint.
 struct TextureCoordinates {
   Point2 st{0};
   Vector2 dstdx{0}, dstdy{0};
 };
 
-// (scale * uv + delta), uv of the shape.
+// scale * uv + delta, where uv are the shape's own parameters.
 struct UvMapping {
   Vector2 scale{1}, delta{0};
 };
-// About the origin of texture space: s = theta / pi from +z, t = phi / (2 pi) from +x towards +y.
+// Spherical coordinates about the origin of texture space: s = theta / pi from +z, t = phi / (2 pi) from +x
+// towards +y.
 struct SphereMapping {};
-// About the z axis of texture space: s = (pi + atan2(y, x)) / (2 pi), t = z.
+// Cylindrical coordinates about the z axis of texture space: s = (pi + atan2(y, x)) / (2 pi), t = z.
 struct CylinderMapping {};
-// s = delta.x + p . vs, t = delta.y + p . vt in texture space.
+// Parallel projection: s = delta.x + p . vs, t = delta.y + p . vt in texture space.
 struct PlanarMapping {
   Vector3 vs{1, 0, 0}, vt{0, 1, 0};
   Vector2 delta{0};
@@ -30,7 +31,8 @@ struct PlanarMapping {
 
 using TextureMapping = std::variant<UvMapping, SphereMapping, CylinderMapping, PlanarMapping>;
 
-// to_world: from texture space. Derivatives on the axis of a mapping, where they have no limit, are zero.
+// to_world maps from texture space to world space. Derivatives are zero on the axis of a mapping, where they
+// have no limit.
 TextureCoordinates map_to_texture(const TextureMapping& mapping, const Transform& to_world,
                                   const TexturePoint& x);
 

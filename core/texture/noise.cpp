@@ -29,7 +29,7 @@ uint32_t permuted(uint32_t i) {
   return kPermutation[i & 255];
 }
 
-// One of twelve directions to the edges of a cube, times d.
+// Dot product of (dx, dy, dz) with one of twelve directions to the edges of a cube.
 float gradient(uint32_t x, uint32_t y, uint32_t z, float dx, float dy, float dz) {
   const uint32_t h = permuted(permuted(permuted(x) + y) + z) & 15;
   const float u = h < 8 || h == 12 || h == 13 ? dx : dy;
@@ -60,7 +60,7 @@ float smooth_step(float low, float high, float x) {
   return t * t * (3 - 2 * t);
 }
 
-// How many octaves are coarser than the footprint, the last one in part.
+// Number of octaves that are coarser than the footprint; its fraction is the weight of the last one.
 float visible_octaves(const Vector3& dpdx, const Vector3& dpdy, int count) {
   const float squared = std::max(glm::dot(dpdx, dpdx), glm::dot(dpdy, dpdy));
   return std::clamp(-1 - 0.5f * std::log2(squared), 0.0f, float(count));

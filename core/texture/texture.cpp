@@ -10,16 +10,16 @@ float floor_of_half(float x) {
   return std::floor(x / 2);
 }
 
-// Second integral of the square wave that is 1 on even unit intervals and -1 on odd ones, but for a linear
-// part that the differences below cancel.
+// Second integral of the square wave that is 1 on even unit intervals and -1 on odd ones, up to a linear term
+// that cancels in the differences below.
 float second_integral(float x) {
   const float y = x / 2 - floor_of_half(x) - 0.5f;
   return x / 2 + y * (1 - 2 * std::abs(y));
 }
 
-// The square wave averaged by a triangle of half width r about x (pharr 2023, equation 10.11). One edge alone
-// in reach, at distance d, leaves 1 - (1 - d / r)^2 of the field that x is in: differences of the second
-// integral would be lost in rounding there.
+// The square wave convolved with a triangle filter of half width r at x (Pharr 2023, equation 10.11). If a
+// single edge is in reach, at distance d, the result is 1 - (1 - d / r)^2 times the field that x is in;
+// there, differences of the second integral would be lost to rounding.
 float square_wave(float x, float r) {
   x -= 2 * floor_of_half(x);
   const auto field = [](float floor_x) { return 1 - 2 * (floor_x - 2 * floor_of_half(floor_x)); };
@@ -32,12 +32,12 @@ float square_wave(float x, float r) {
   return (second_integral(x + r) - 2 * second_integral(x) + second_integral(x - r)) / (r * r);
 }
 
-// The triangle filter is wider than the footprint by half.
+// Half width of the triangle filter, 1.5 times the footprint.
 float filter_radius(float along_x, float along_y) {
   return 1.5f * std::max(std::abs(along_x), std::abs(along_y));
 }
 
-// Share of tex2.
+// Weight of tex2.
 float checkerboard_weight(const CheckerboardTexture& board, const TextureContext& c) {
   if (!board.solid) {
     const TextureCoordinates at = c.coordinates(board.mapping);
@@ -66,13 +66,13 @@ bool inside_dot(const Point2& st) {
   return glm::dot(d, d) < kRadius * kRadius;
 }
 
-// pbrt's colours of marble: six cubic Bezier curves over nine points, one after the other. NaN stays NaN.
+// pbrt's colours of marble: six cubic Bezier curves over nine points. NaN stays NaN.
 Rgb marble_colour(float t) {
   static const Rgb points[] = {{.58f, .58f, .6f}, {.58f, .58f, .6f}, {.58f, .58f, .6f},
                                {.5f, .5f, .5f},   {.6f, .59f, .58f}, {.58f, .58f, .6f},
                                {.58f, .58f, .6f}, {.2f, .2f, .33f},  {.58f, .58f, .6f}};
   constexpr int kCurves = 6;
-  const int first = t > 0 ? std::min(int(t * kCurves), kCurves - 1) : 0;  // of NaN, too
+  const int first = t > 0 ? std::min(int(t * kCurves), kCurves - 1) : 0;  // zero for NaN, too
   const float u = t * kCurves - float(first), v = 1 - u;
   const Rgb* b = points + first;
   return 1.5f * (v * v * v * b[0] + 3 * v * v * u * b[1] + 3 * v * u * u * b[2] + u * u * u * b[3]);

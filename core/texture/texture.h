@@ -1,6 +1,6 @@
 #pragma once
-// Textures of pbrt-v4 (pharr 2023, chapter 10) as value types; float textures are grey. Textures refer to
-// others by index; those come first.
+// The textures of pbrt-v4 (Pharr 2023, chapter 10) as value types; float textures are grey. A texture refers
+// to other textures by index, which must come before it.
 
 #include <memory>
 #include <string_view>
@@ -16,13 +16,13 @@ namespace kaustik {
 
 class TextureSet;
 
-// A constant, or another texture.
+// A constant, or the value of another texture.
 struct TextureOperand {
   Rgb value{0};
   uint32_t texture = kNoIndex;
 };
 
-// What evaluate() of a texture reads.
+// Arguments that evaluate() of a texture reads.
 struct TextureContext {
   const TextureSet& set;
   const Transform& to_world;  // from texture space
@@ -54,14 +54,14 @@ struct ScaleTexture {
   Rgb evaluate(const TextureContext& c) const { return c(tex) * c(scale); }
 };
 
-// (1 - amount) tex1 + amount tex2.
+// Blends linearly: (1 - amount) tex1 + amount tex2.
 struct MixTexture {
   static constexpr std::string_view kName = "mix";
   TextureOperand tex1{Rgb(0)}, tex2{Rgb(1)}, amount{Rgb(0.5f)};
   Rgb evaluate(const TextureContext& c) const;
 };
 
-// tex1 where the normal lies along dir, tex2 where it is perpendicular.
+// Blends by direction: tex1 where the normal is along dir, tex2 where it is perpendicular.
 struct DirectionMixTexture {
   static constexpr std::string_view kName = "directionmix";
   TextureOperand tex1{Rgb(0)}, tex2{Rgb(1)};
@@ -69,17 +69,17 @@ struct DirectionMixTexture {
   Rgb evaluate(const TextureContext& c) const;
 };
 
-// Fields of side one, of tex1 where the floors of the coordinates add up to an even number; the average over
-// the footprint is exact for a triangle filter (pharr 2023, section 10.4.3).
+// Checkerboard of fields with side one: tex1 where the floors of the coordinates add up to an even number,
+// else tex2. The average over the footprint is exact for a triangle filter (Pharr 2023, section 10.4.3).
 struct CheckerboardTexture {
   static constexpr std::string_view kName = "checkerboard";
   TextureMapping mapping;
-  bool solid = false;  // cubes of texture space
+  bool solid = false;  // cubes in texture space instead of squares in uv
   TextureOperand tex1{Rgb(1)}, tex2{Rgb(0)};
   Rgb evaluate(const TextureContext& c) const;
 };
 
-// Discs of radius 0.35, at most one in each field of side one, at random places.
+// Discs of radius 0.35 at random positions, at most one in each field of side one.
 struct DotsTexture {
   static constexpr std::string_view kName = "dots";
   TextureMapping mapping;
@@ -87,7 +87,7 @@ struct DotsTexture {
   Rgb evaluate(const TextureContext& c) const;
 };
 
-// Bilinear between the values at st = (0, 0), (0, 1), (1, 0), (1, 1).
+// Interpolates bilinearly between the values at st = (0, 0), (0, 1), (1, 0) and (1, 1).
 struct BilerpTexture {
   static constexpr std::string_view kName = "bilerp";
   TextureMapping mapping;
@@ -95,7 +95,7 @@ struct BilerpTexture {
   Rgb evaluate(const TextureContext& c) const;
 };
 
-// t points up in the image.
+// Looks up an image; t points up in the image.
 struct ImageTexture {
   static constexpr std::string_view kName = "imagemap";
   TextureMapping mapping;
@@ -103,7 +103,7 @@ struct ImageTexture {
   ImageSampling sampling;
   float scale = 1;
   bool invert = false;
-  bool grey = false;  // a float texture: the first channel
+  bool grey = false;  // float texture: uses the first channel
   Rgb evaluate(const TextureContext& c) const;
 };
 
@@ -119,13 +119,13 @@ struct WrinkledTexture {
   Rgb evaluate(const TextureContext& c) const;
 };
 
-// Waves of water, whose height follows the wind (pharr 2004, section 11.6.4).
+// Water waves whose height follows the wind (Pharr 2004, section 11.6.4).
 struct WindyTexture {
   static constexpr std::string_view kName = "windy";
   Rgb evaluate(const TextureContext& c) const;
 };
 
-// Veins across y of texture space, displaced by noise (pharr 2004, section 11.6.5).
+// Veins across the y axis of texture space, displaced by noise (Pharr 2004, section 11.6.5).
 struct MarbleTexture {
   static constexpr std::string_view kName = "marble";
   Octaves octaves;
@@ -137,12 +137,12 @@ using Texture = std::variant<ConstantTexture, ScaleTexture, MixTexture, Directio
                              CheckerboardTexture, DotsTexture, BilerpTexture, ImageTexture, FbmTexture,
                              WrinkledTexture, WindyTexture, MarbleTexture>;
 
-// All textures of a scene. Immutable once built; thread-safe then.
+// All textures of a scene. Thread-safe once it is built and no longer changed.
 class TextureSet {
  public:
-  // Operands must name textures that are there already.
+  // Adds a texture and returns its index. Its operands must refer to textures already added.
   uint32_t add(Texture texture, const Transform& to_world);
-  // For scenes that get an origin of their own after their textures were made.
+  // Changes a texture's transform, for scenes that get a local origin after their textures were made.
   void set_transform(uint32_t texture, const Transform& to_world) { nodes_[texture].to_world = to_world; }
   void set_images(std::shared_ptr<const ImageLibrary> images) { images_ = std::move(images); }
   Texture& texture(uint32_t index) { return nodes_[index].texture; }
