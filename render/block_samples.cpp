@@ -10,7 +10,7 @@ bool valid(const Rgb& c, bool signed_light) {
   return is_finite(c) && (signed_light || (c.x >= 0 && c.y >= 0 && c.z >= 0));
 }
 
-// Estimates that subtract may fall below zero, and are right on average only if they may.
+// Estimators that subtract may give negative radiance, and are unbiased only if negative values are kept.
 bool valid_radiance(const PixelResult& s, DirectEstimator direct) {
   const bool predicted = direct == DirectEstimator::kPredicted;
   return valid(s.emitted, false) && valid(s.direct, predicted || direct == DirectEstimator::kSigned) &&
@@ -22,7 +22,7 @@ void expose(const Sensor& sensor, PixelResult* s) {
   for (Rgb* light : {&s->emitted, &s->direct, &s->caustic, &s->indirect, &s->bias}) *light = sensor(*light);
 }
 
-// Samples of the pixels of one block of rays, pixel by pixel: neighbours in a block see much the same
+// Samples of the pixels of one block of rays, pixel by pixel, since neighbouring pixels see much the same
 // photons.
 class BlockSamples {
  public:
@@ -38,13 +38,14 @@ class BlockSamples {
       batch->begin_pixel(pixel_of_block(x, y));
       const uint64_t stream = pixel_stream(ctx_.settings.seed, ctx_.scene.camera, x, y);
       Sampler sampler(stream, i, ray_dimensions(ctx_.scene.camera));
-      // Once a pass: most of its noise is that of the photons, which all samples share.
+      // Once per pixel and pass: most of the estimate's noise is that of the photons, which all samples
+      // share.
       const bool with_bias = ctx_.settings.estimate_bias.value_or(false) && i == ctx_.samples.first;
       const CameraSample ray{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch, samples_.light};
-      const auto readings = [&] { return counters.gather.queries + batch->readings(); };
-      const uint64_t rays_before = counters.rays.all(), readings_before = readings();
+      const auto gathers = [&] { return counters.gather.queries + batch->readings(); };
+      const uint64_t rays_before = counters.rays.all(), gathers_before = gathers();
       trace_camera_ray(ctx_, ray, sampler, counters, &sample.result);
-      sample.rays = counters.rays.all() - rays_before, sample.readings = readings() - readings_before;
+      sample.rays = counters.rays.all() - rays_before, sample.gathers = gathers() - gathers_before;
     });
     batch->flush(counters.gather);
   }
@@ -66,15 +67,15 @@ class BlockSamples {
  private:
   struct Sample {
     PixelResult result;
-    uint64_t rays = 0, readings = 0;  // what it took; readings are of a map
+    uint64_t rays = 0, gathers = 0;  // cost: rays traced, gathers from a map
   };
 
-  // Traced light varies not at all where it cannot be told from what the maps say, or where weights may
-  // cancel.
+  // Traced light (kTraced) is what shadow rays and emission contribute. Its variance is reported as zero
+  // where it cannot be separated from what the maps contribute, or where weights may cancel.
   void add_to(SampleMoments* moments, const Sample& sample) const {
     const bool apart = samples_lights(ctx_.plan.direct) && !ctx_.scene.camera.filter.is_negative();
     const Rgb traced = apart ? sample.result.emitted + sample.result.direct : Rgb(0);
-    moments->light[size_t(SampleLight::kAll)].add(sample.result.radiance(), sample.rays + sample.readings);
+    moments->light[size_t(SampleLight::kAll)].add(sample.result.radiance(), sample.rays + sample.gathers);
     moments->light[size_t(SampleLight::kTraced)].add(traced, sample.rays);
     ++moments->count;
   }

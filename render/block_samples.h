@@ -1,5 +1,5 @@
 #pragma once
-// Camera samples of one block of neighbouring pixels, rendered together.
+// Renders the camera samples of one block of neighbouring pixels together.
 
 #include <array>
 #include <vector>
@@ -13,22 +13,23 @@
 
 namespace kaustik::render {
 
-// What the samples of a tile leave besides the film.
+// Results of a tile's samples besides the film.
 struct TileResult {
   TileCounters counters;
   uint64_t dropped = 0;
   std::vector<DroppedSample> examples;
 };
 
-// Numbers of samples of each pixel of a part of a block, and what they bring.
+// Sample numbers [first, end) of each pixel in one part of a block, and which light they compute.
 struct SampleRange {
   BlockPart part;
   uint64_t first, end;
   SampleLight light = SampleLight::kAll;
 };
 
-// Adds samples of pixels of one block of rays to film and tile, and to moments if there are any. pixels: of
-// the full image. batch.begin_block() comes first.
+// Renders the samples of the pixels in one block of rays, and adds them to film, tile and (unless null)
+// moments. pixels: in coordinates of the full image, within one block. batch.begin_block() must have been
+// called for this block.
 void render_block(const RenderContext& ctx, const PixelRange& pixels, const SampleRange& samples,
                   photon::EstimateBatch* batch, FilmSums* film, BlockMoments* moments, TileResult* tile);
 

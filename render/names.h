@@ -1,6 +1,6 @@
 #pragma once
-// The names of the choices in RenderSettings, as the command line, the scene file, the metadata and the
-// statistics spell them.
+// Names of the enumerators in RenderSettings, as they are written on the command line and in scene files,
+// metadata and statistics.
 
 #include <array>
 #include <optional>

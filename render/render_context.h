@@ -1,5 +1,5 @@
 #pragma once
-// What every estimator reads (const, shared by all threads) and what it counts (one per tile).
+// What every estimator reads (const, shared by all threads), and what it counts (one object per tile).
 
 #include "render/camera/ray_cone.h"
 #include "render/maps/photon_maps.h"
@@ -16,10 +16,10 @@ struct RenderContext {
   const PhotonMaps& maps;
   PassShare pass;
   PassSamples samples{};
-  RayCone cone{};  // of a camera ray
+  RayCone cone{};  // cone of a camera ray
 };
 
-// Exact counters of one tile, merged by integer sums.
+// Exact counters of one tile; merging them adds integers.
 struct TileCounters {
   RayCounters rays;
   LectureCounters lecture;

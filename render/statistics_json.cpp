@@ -18,7 +18,7 @@ uint64_t stored(const RenderStatistics& s, int kind) {
   return s.photons.stored[size_t(kind)] + s.guided.stored[size_t(kind)];
 }
 
-// Photons emitted for one kind alone, and the photons, hits and boxes that they were learned from.
+// Counts of guided shoots: photons emitted, and the photons, hits and boxes of the guide that they used.
 Json guided_json(const RenderStatistics& s) {
   return {{"emitted", s.guided.emitted},
           {"learned_from", s.guide_photons},
@@ -39,7 +39,7 @@ Json photons_json(const RenderStatistics& s) {
           {"passes", s.passes}};
 }
 
-// Watts of a pass on the mean, over the three channels.
+// Mean watts per pass, summed over the three channels.
 Json energy_json(const RenderStatistics& s) {
   const photon::EnergyLedger& e = s.photons.energy;
   const double passes = static_cast<double>(std::max<uint64_t>(1, s.passes));
@@ -124,7 +124,7 @@ Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
   return out;
 }
 
-// null where it is unknown.
+// The estimated error, or null where it is unknown.
 Json error_json(const RenderResult& result, const RenderSettings& settings) {
   if (!std::isfinite(result.error)) return nullptr;
   return {{"relative", result.error}, {"holds_bias", settings.estimate_bias.value_or(false)}};

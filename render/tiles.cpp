@@ -15,7 +15,7 @@ namespace kaustik::render {
 
 namespace {
 
-// Integer sums and a sorted list: the order in which tiles finish leaves no trace.
+// Merges tiles by integer sums and a sorted list, so that the order in which they finish does not matter.
 struct MergedTiles {
   TileResult total;
 
@@ -38,7 +38,7 @@ struct MergedTiles {
   }
 };
 
-// A pass's samples of the film's window.
+// Renders one pass's samples of all pixels in the film's window.
 class TilePass {
  public:
   TilePass(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film)
@@ -49,7 +49,7 @@ class TilePass {
     to_do_ = tiles_.size() * (counts_ ? 2 : 1);
   }
 
-  // False when progress cancelled.
+  // False when the progress callback cancelled.
   bool render() {
     if (!each_tile(&TilePass::first_samples)) return false;
     if (!counts_) return true;
@@ -61,7 +61,7 @@ class TilePass {
   void fill(RenderStatistics* statistics) const { merged_.fill(statistics); }
 
  private:
-  uint64_t samples() const { return ctx_.samples.end - ctx_.samples.first; }  // of each pixel, at first
+  uint64_t samples() const { return ctx_.samples.end - ctx_.samples.first; }  // first samples of each pixel
 
   void first_samples(const PixelRange& block, photon::EstimateBatch* batch, TileResult* tile) {
     const SampleRange range{BlockPart::kWhole, ctx_.samples.first, ctx_.samples.end};
@@ -82,7 +82,7 @@ class TilePass {
     }
   }
 
-  // The longest tiles first, so that no thread is left with one at the end.
+  // Starts with the tiles that take most samples, so that no thread is left with a long one at the end.
   void sort_by_work() {
     const auto counts = [&](const PixelRange& tile) {
       uint64_t sum = 0;
@@ -106,7 +106,7 @@ class TilePass {
     return result;
   }
 
-  // False when progress cancelled.
+  // Renders all tiles in parallel. False when the progress callback cancelled.
   bool each_tile(BlockRenderer add_samples) {
     std::mutex mutex;
     std::atomic<size_t> next{0};
@@ -129,7 +129,7 @@ class TilePass {
   const ProgressCallback& progress_;
   FilmSums& film_;
   std::vector<PixelRange> tiles_;
-  std::optional<SampleCounts> counts_;  // where further samples are taken
+  std::optional<SampleCounts> counts_;  // set if adaptive samples follow
   MergedTiles merged_;
   uint64_t done_ = 0, to_do_ = 0;
   std::atomic<bool> cancelled_{false};

@@ -14,7 +14,7 @@
 #include "apps/session/scene_loading.h"
 #include "core/diagnostics/nearest_name.h"
 #include "photon/record/ply_export.h"
-#include "photon/shoot/memory_forecast.h"
+#include "photon/shoot/memory_estimate.h"
 #include "photon/shoot/shoot.h"
 #include "render/picture/image_io.h"
 #include "render/picture/photon_view.h"

@@ -8,32 +8,33 @@ namespace kaustik::photon {
 
 namespace {
 
-constexpr size_t kBins = 16;      // between them a box can be split
-constexpr double kLeastHits = 4;  // of a box that is split
-// How significant a split must be: about chi-square, of the best of 60 to 75 splits.
+constexpr size_t kBins = 16;      // a box can be split between any two
+constexpr double kLeastHits = 4;  // a box with fewer is not split
+// Least significance of a split: about chi-square, for the best of 60 to 75 candidates.
 constexpr double kLeastScore = 16;
-// Hits that a box is taken to have had beside its own, spread evenly: an empty part of it need not be empty.
+// Each box is credited with this many evenly spread hits beside its own, since a part without hits need not
+// be empty.
 constexpr double kPriorHits = 2;
 constexpr int kMostDepth = 48;
 
 struct Split {
-  size_t bin = 0;  // of the part above the first one; 0: none
+  size_t bin = 0;  // the first bin of the upper part; 0: no split
   uint32_t dimension = 0;
-  double below = 0, score = 0;  // below: share of the hits
+  double below = 0, score = 0;  // below: share of the hits in the lower part
 };
 
-// What hits say of a box.
+// Statistics of the hits in a box.
 struct Counts {
   double total = 0, squares = 0;
   std::array<std::array<double, kBins>, kEmissionNumbers> bins{};
 
-  // As many equal hits would tell as much (Kish 1965, "Survey Sampling").
+  // Number of hits of equal weight that would carry as much information (Kish 1965, "Survey Sampling").
   double effective() const { return squares > 0 ? total * total / squares : 0; }
 };
 
-// Freeman and Tukey's statistic, 8 n (1 - BC), of the Bhattacharyya coefficient BC between the hits and a
-// uniform distribution over two parts, `share` and `volume` of the one below. BC is also what the split makes
-// of the root of the variance.
+// Freeman and Tukey's statistic 8 n (1 - BC), where BC is the Bhattacharyya coefficient between the hits and
+// a uniform distribution over the two parts of a split; `share` and `volume` are those of the lower part. BC
+// is also the factor by which the split reduces the standard deviation.
 double score_of(double hits, double share, double volume) {
   const double above = std::max(0.0, 1 - share);
   return 8 * hits * (1 - std::sqrt(share * volume) - std::sqrt(above * (1 - volume)));
@@ -57,7 +58,7 @@ Split best_split(const Counts& counts, uint32_t dimensions) {
 
 }  // namespace
 
-// Grows the tree from the root.
+// Grows an EmissionGuide's tree from the root.
 class GuideBuilder {
  public:
   GuideBuilder(EmissionGuide* guide, uint32_t dimensions) : guide_(*guide), dimensions_(dimensions) {}
@@ -82,8 +83,9 @@ class GuideBuilder {
   struct Part {
     size_t node = 0;
     Box box;
-    double volume = 1, mass = 1;  // mass: share of all weight
-    // Of a mean weight w the best density is the root: so of a part's probability.
+    double volume = 1, mass = 1;  // share of the weight of all hits
+    // Unnormalised probability. The best density is proportional to the root of the mean weight mass /
+    // volume; times volume this is sqrt(volume * mass).
     double root() const { return std::sqrt(volume * mass); }
   };
 
@@ -130,7 +132,7 @@ class GuideBuilder {
     leaves_.push_back(part);
   }
 
-  // Probability of a node; sum: of all roots.
+  // Computes the probability of a node and those below it; `sum` is that of root() over all leaves.
   double add_up(size_t index, double sum) {
     constexpr double kUniform = EmissionGuide::kUniformShare;
     const Node& node = guide_.nodes_[index];
@@ -144,7 +146,8 @@ class GuideBuilder {
     return probabilities_[index] = p;
   }
 
-  // By the rounded probabilities with which warp() goes down.
+  // Sets the nodes' branch probabilities and the boxes' weights. `reached` is the product of the rounded
+  // probabilities by which warp() reaches the node.
   void weigh(size_t index, double reached) {
     Node& node = guide_.nodes_[index];
     if (node.dimension == EmissionGuide::kLeaf) {
@@ -171,8 +174,8 @@ class GuideBuilder {
 
   EmissionGuide& guide_;
   uint32_t dimensions_;
-  std::vector<Part> leaves_;           // in the order of boxes
-  std::vector<double> probabilities_;  // of nodes
+  std::vector<Part> leaves_;           // in the order of boxes_
+  std::vector<double> probabilities_;  // of each node
 };
 
 EmissionGuide::EmissionGuide(std::vector<GuideHit> hits, uint32_t dimensions) {

@@ -1,13 +1,12 @@
 #pragma once
-// Guided emission: a density of the random numbers from which photons start, learned from photons that served
-// (after Grittmann et al. 2018, "Efficient Caustic Rendering with Lightweight Photon Mapping"; the tree after
-// Ram and Gray 2011, "Density Estimation Trees"; the warp after McCool and Harwood 1997, "Probability
-// Trees").
+// Guided emission: a density for the random numbers of emission, learned from photons that were useful (after
+// Grittmann et al. 2018, "Efficient Caustic Rendering with Lightweight Photon Mapping"; the tree after Ram
+// and Gray 2011, "Density Estimation Trees"; the warp after McCool and Harwood 1997, "Probability Trees").
 //
-// A photon starts from numbers u in the unit cube: position, direction, light. Instead of uniformly they are
+// A photon's start is a point u of the unit cube: position, direction, light. Instead of uniformly, u is
 // drawn with a density p(u) that is constant over boxes, and the flux is divided by p. Lights and emission
-// know nothing of it, and each number is warped monotonically on the way to its box, so that points which are
-// spread evenly stay so.
+// need not know about this. Each coordinate is warped monotonically on its way into a box, so
+// well-distributed points stay well distributed.
 
 #include <array>
 #include <cstdint>
@@ -17,52 +16,54 @@
 
 namespace kaustik::photon {
 
-// Position, direction, light: EmissionNumbers as a point.
+// EmissionNumbers as a point of the unit cube: position (2), direction (2), light.
 inline constexpr uint32_t kEmissionNumbers = 5;
 using EmissionPoint = std::array<float, kEmissionNumbers>;
 
-// A start that served.
+// A start whose photons were useful.
 struct GuideHit {
   EmissionPoint u{};
-  double weight = 1;  // above zero: flux^2, divided by the density at u of all starts that were tried
+  double weight = 1;  // > 0: flux^2 divided by the density, at u, of all starts that were tried
 };
 
 class EmissionGuide {
  public:
-  // Of the starts that are drawn uniformly, whatever was learned: no flux grows by more than the inverse.
+  // Share of the starts drawn uniformly, whatever was learned: flux grows at most by the inverse of this.
   static constexpr double kUniformShare = 1.0 / 3;
 
   EmissionGuide() = default;  // nothing learned: uniform
-  // Boxes are split where the hits say so with significance, and drawn in proportion to the root of their
-  // mean weight: then the sum of flux^2 / p, the variance, is least. Numbers beyond `dimensions` are not
-  // warped. A pure function of the hits and their order; the same when all weights are multiplied by 2^k.
+  // Splits boxes where the hits are significantly uneven, and draws a box with a density proportional to the
+  // root of its mean weight, which minimises the variance, the sum of flux^2 / p. Coordinates from
+  // `dimensions` on are not warped. The result is a pure function of the hits and their order, and does not
+  // change when all weights are multiplied by 2^k.
   EmissionGuide(std::vector<GuideHit> hits, uint32_t dimensions);
 
   bool empty() const { return nodes_.empty(); }
   size_t boxes() const { return boxes_.size(); }
-  // Sum of flux^2 / p over that of flux^2, as the hits have it: the variance of guided photons over that of
-  // as many uniform ones. At most 1 / (1 - kUniformShare).
+  // Predicted ratio of the variance of guided photons to that of as many uniform ones: the sum of flux^2 / p
+  // over that of flux^2, for the hits. At most 1 / (1 - kUniformShare).
   double variance() const { return variance_; }
 
-  // Uniform u becomes one of density p; returns 1/p. Thread-safe.
+  // Warps a uniform u to one of density p; returns 1/p. Thread-safe.
   float warp(EmissionPoint& u) const;
-  // The same for the first `count` starts.
+  // Warps the first `count` starts; weights receive 1/p. Thread-safe.
   void warp(EmissionLanes& starts, size_t count, EmissionLanes::Column& weights) const;
-  // p(u). Thread-safe.
+  // Returns p(u). Thread-safe.
   float density(const EmissionPoint& u) const;
 
-  // The weights 1/p lie around 2^this.
+  // Exponent of two in the middle of the range of the weights 1/p.
   int middle_exponent() const { return middle_exponent_; }
 
  private:
   friend class GuideBuilder;
   static constexpr uint32_t kLeaf = kEmissionNumbers;
-  // A box that is split along one dimension, or a leaf.
+  // An inner node, split along one dimension, or a leaf.
   struct Node {
-    float at = 0;                           // where it is split
-    float left = 0;                         // probability of the part below
-    float to_left = 0, to_right = 0;        // inverses of both parts' probabilities
-    uint32_t dimension = kLeaf, child = 0;  // child: the part below, the other follows; of a leaf, its box
+    float at = 0;                     // coordinate of the split
+    float left = 0;                   // probability of the lower part
+    float to_left = 0, to_right = 0;  // inverse probabilities of the lower and the upper part
+    // child: an inner node's lower part, which the upper part follows; a leaf's box.
+    uint32_t dimension = kLeaf, child = 0;
   };
   struct Box {
     EmissionPoint low{}, extent{};

@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
-// surface_error() of a point of a triangle.
+// Same operations as surface_error() for a point on a triangle.
 HWY_INLINE Vf TriangleError(const Vec3<Vf>& p, const Vec3<Vf>& e1, const Vec3<Vf>& e2) {
   const Floats d;
   const Vf extent = hn::Add(LargestMagnitude(e1), LargestMagnitude(e2));
@@ -48,7 +48,8 @@ HWY_EXPORT(StartOnTriangles);
 
 namespace {
 
-// The light that the photons of a group choose, mostly the same one again.
+// The light that a photon of the group chooses. What depends on the light alone is kept, since the next
+// photon mostly chooses the same one.
 class ChosenLight {
  public:
   ChosenLight(const Scene& scene, uint64_t total, EmissionMode mode, std::optional<uint32_t> only)
@@ -59,7 +60,7 @@ class ChosenLight {
     const DiscreteDistribution::Sample chosen = scene_.light_power.sample(u_light);
     set(chosen.index, chosen.pdf);
   }
-  // Null when the light's photons cannot start in lanes.
+  // Null when the light's photons cannot be started in lanes.
   const TriangleEmitter* triangles() const { return triangles_; }
   bool twosided() const { return area_->twosided; }
   const Rgb& flux() const { return flux_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Photon starts, many at once: lights of triangles in SIMD lanes, the others one by one.
+// Emission of a group of photons: area lights of triangles in SIMD lanes, all others one by one.
 
 #include "photon/emission/emission.h"
 #include "photon/trace/vertex_lanes.h"
@@ -9,22 +9,24 @@ namespace kaustik::photon {
 struct EmissionLanes {
   using Column = VertexLanes::Column;
 
-  // In: the random numbers of emit_photon(). u_light is needed when there are several lights.
+  // In: the random numbers of emit_photon(). u_light is used only if there are several lights.
   SobolLanes position_direction;
   Column u_light;
 
-  // Out: rays and fluxes as emit_photon() makes them; emitted is zero where it makes none.
+  // Out: rays and fluxes as emit_photon() makes them.
   accel::RayLanes ray;
   alignas(64) Column flux[3];
-  int32_t emitted[VertexLanes::kLanes];  // kFromSky: EmissionSample::from_sky
+  // 0: nothing is emitted; 1; or kFromSky (see EmissionSample::from_sky)
+  int32_t emitted[VertexLanes::kLanes];
   static constexpr int32_t kFromSky = 2;
 
-  // Between: for lights of triangles, the numbers left for the point and the direction, and the triangle
-  // chosen with its normal on the side that emits.
+  // Intermediate values for lights of triangles: the random numbers left for position and direction, the
+  // chosen triangle, and its normal on the emitting side.
   alignas(64) Column u[4], p0[3], e1[3], e2[3], n[3];
 };
 
-// Whether photon k comes from the sky (EmissionSample::from_sky) and something stands before its start.
+// Whether photon k comes from the sky through a portal (EmissionSample::from_sky) and an object outside
+// blocks it.
 template <class Accel>
 bool sky_hidden(const Accel& bvh, const EmissionLanes& starts, size_t k) {
   if (starts.emitted[k] != EmissionLanes::kFromSky) return false;
@@ -32,7 +34,7 @@ bool sky_hidden(const Accel& bvh, const EmissionLanes& starts, size_t k) {
   return bvh.intersect(Ray{start.o, -start.d}).valid();
 }
 
-// The first `count` starts, bit for bit those of emit_photon() on every instruction set. Thread-safe.
+// Emits the first `count` photons, bit for bit as emit_photon() does on every instruction set. Thread-safe.
 void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t count, EmissionLanes& lanes,
                 std::optional<uint32_t> only = {});
 

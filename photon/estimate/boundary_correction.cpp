@@ -11,14 +11,15 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-// Heights over si's plane up to this part of the radius lie in it.
+// A point counts as lying in si's plane up to this height, as a fraction of the radius.
 constexpr double kInPlane = 1e-3;
 
 double cube(double x) {
   return x * x * x;
 }
 
-// Integrals over theta from 0 to atan(t / d), as they stand in M: rho = d sec(theta).
+// Integrals over theta from 0 to atan(t / d) of powers of rho = d sec(theta), as needed for M (see the
+// header).
 double angle(double d, double t) {
   return std::atan2(t, d);
 }
@@ -37,7 +38,8 @@ double cone_slope(const KernelSpec& kernel) {
   return 2 / (3 * std::max(double(kernel.cone_k), 1.0));
 }
 
-// The kernel's mass on a plane at height h (in radii) over the centre: such photons count by their distance.
+// The kernel's mass on a plane at height h (in radii) above the centre, where photons count by their distance
+// to the centre.
 double mass_at_height(const KernelSpec& kernel, double h) {
   const double inside = 1 - h * h;
   switch (kernel.type) {
@@ -58,7 +60,7 @@ bool ends_here(const BoundaryEdge& edge, const Normal3& n) {
   return counts(edge.n, n) && !counts(edge.beyond, n);
 }
 
-// Mass off the surface by this edge: positive where the surface ends, negative where it begins.
+// The kernel's mass that this edge cuts off: positive where the surface ends, negative where it begins again.
 double missing_mass(const BoundaryEdge& edge, const SurfaceInteraction& si, const KernelSpec& kernel,
                     double radius) {
   const bool same_side = ends_here(edge, si.n);
@@ -69,16 +71,18 @@ double missing_mass(const BoundaryEdge& edge, const SurfaceInteraction& si, cons
   const double height = std::abs(glm::dot(a + nearest * along, n)) / radius;
   if (height >= 1 || (!same_side && height > kInPlane)) return 0;
 
-  // In the tangent plane.
+  // Project the edge to the tangent plane.
   const glm::dvec3 flat_along = along - glm::dot(along, n) * n;
   const double length = glm::length(flat_along);
   if (!(length > 0)) return 0;
   const glm::dvec3 u = flat_along / length;
   const double t1 = glm::dot(a, u);
   const glm::dvec3 foot = a - glm::dot(a, n) * n - t1 * u;
-  // si itself is on the surface: beyond an edge by no more than rounding, it is in front of it.
+  // si itself lies on the surface: if it is beyond an edge by no more than rounding, it counts as in front of
+  // it.
   const bool leaves = glm::dot(foot, glm::dvec3(edge.outward)) >= -2 * double(si.p_error);
-  const double unit = 1 / (radius * std::sqrt(1 - height * height));  // of the disc cut out at that height
+  // Inverse radius of the disc at that height.
+  const double unit = 1 / (radius * std::sqrt(1 - height * height));
   const double mass = mass_behind_edge(kernel, glm::length(foot) * unit, t1 * unit, (t1 + length) * unit);
   return (leaves ? 1 : -1) * mass_at_height(kernel, height) * mass;
 }

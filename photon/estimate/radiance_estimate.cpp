@@ -1,4 +1,4 @@
-// The sum over photons, one visit of the BSDF outside it.
+// Radiance estimate: the BSDF's type is resolved once, outside the sum over photons.
 
 #include "photon/estimate/radiance_estimate.h"
 
@@ -10,7 +10,7 @@ namespace kaustik::photon {
 
 namespace {
 
-// What depends on wo alone is computed once, by BSDFs that offer it.
+// Precomputes what depends on wo alone, for BSDFs that support it.
 template <class AnyBsdf>
 auto seen_from(const AnyBsdf& bsdf, const Vector3& wo) {
   if constexpr (requires { bsdf.seen_from(wo); }) {
@@ -25,7 +25,7 @@ auto seen_from(const AnyBsdf& bsdf, const Vector3& wo) {
   }
 }
 
-// Lr = sum of f_r(x, wo, wi_p) flux_p K(|x - x_p|), with f_r taken out of the sum where it is constant.
+// Lr = sum of f_r(x, wo, wi_p) flux_p K(|x - x_p|); f_r is taken out of the sum where it is constant.
 struct ReflectedRadiance {
   const PhotonMap& map;
   const GatherQuery& query;
@@ -61,7 +61,7 @@ struct ReflectedRadiance {
   }
 };
 
-// A point of the surface, how it scatters, and who looks at it.
+// A point of the surface, its BSDF, and the direction from which it is seen.
 struct SeenPoint {
   const SurfaceInteraction& si;
   const Vector3& wo;
@@ -77,7 +77,7 @@ Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery
   return Lr / float(share_of_disc(settings, x.si, disc.radius));
 }
 
-// Of the photons that arrived on the side of n.
+// Reflected (or transmitted) radiance due to the photons that arrived on the side of n.
 Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& n,
                        const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
   const SurfaceInteraction& si = x.si;

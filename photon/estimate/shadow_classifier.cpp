@@ -1,4 +1,4 @@
-// The three conditions of the lecture, from the leaf upwards.
+// The lecture's three conditions, checked from the leaf upwards.
 
 #include "photon/estimate/shadow_classifier.h"
 
@@ -12,7 +12,7 @@ LectureAnswer lecture_lookup(const PhotonMap& direct, const PhotonMap& shadow, c
   if (direct.cube() != shadow.cube()) {
     throw std::invalid_argument("direct and shadow photons must be built with the same bounds");
   }
-  // The leaf of the direct photons and its ancestors, and the shadow photons of the same cells.
+  // The leaf of the direct photons and its ancestors, and the ranges of shadow photons in the same cells.
   PhotonRange lit[kMortonBits + 1], dark[kMortonBits + 1];
   const uint64_t key = morton_key(octree.cube().cell(p));
   const int leaf = octree.descend(direct.positions(), key, lit, [&](int depth, PhotonRange range) {

@@ -1,5 +1,5 @@
-// Triangles are cut into cells no longer than a voxel; what then lies in one voxel with nearly the
-// same normal is one piece.
+// Triangles are cut into pieces no longer than a voxel; pieces in one voxel with nearly the same normal are
+// then joined.
 
 #include "photon/estimate/surface_areas.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kVoxelBits = 21;
 
-// Where a piece belongs: pieces of one place become one.
+// Key by which pieces are joined: voxel, surface group and quantised normal.
 struct Place {
   uint64_t voxel = 0;
   uint32_t group = 0, normals = 0;
@@ -58,13 +58,15 @@ class Cutter {
  private:
   using Corners = std::array<Point3, 3>;
 
-  // As SurfaceInteraction::n is placed: also where the map mirrors, the outside stays outside.
+  // Transforms an instance's triangle to world space as SurfaceInteraction::n is: the outside stays outside
+  // even if the transform mirrors.
   void place(const Transform& to_world, Corners* c) {
     for (Point3& p : *c) p = to_world.point(p);
     n_ = glm::normalize(to_world.normal(n_));
   }
 
-  // Into strips along the shortest side, and those into cells: needles stay few.
+  // Cuts the triangle into strips along its shortest side and those into cells, so that needles give few
+  // pieces.
   void cut(const Corners& c) {
     size_t k = 0;
     for (size_t i = 1; i < 3; ++i)
@@ -97,7 +99,8 @@ class Cutter {
     pieces_->push_back({{voxel, group_, bin_of(n_)}, float(area), Point3(p), n_});
   }
 
-  // Some four degrees wide: along a tube or fold all pieces at the limit of near normals count or do not.
+  // Normals are binned to about four degrees, so that along a tube or fold the pieces at the limit of near
+  // normals count or do not count together.
   static uint32_t bin_of(const Normal3& n) { return pack_surface(n, 0) & 0xfcfcu; }
 
   Point3 origin_;
@@ -107,7 +110,7 @@ class Cutter {
   Normal3 n_{0};
 };
 
-// The order of pieces by place, and of those of one place as they came.
+// The pieces sorted by place; pieces of one place keep their order.
 std::vector<std::pair<Place, uint32_t>> order_of(const std::vector<Piece>& pieces) {
   std::vector<std::pair<Place, uint32_t>> order(pieces.size());
   for (uint32_t i = 0; i < pieces.size(); ++i) order[i] = {pieces[i].place, i};
@@ -115,7 +118,7 @@ std::vector<std::pair<Place, uint32_t>> order_of(const std::vector<Piece>& piece
   return order;
 }
 
-// Pieces of one place become a photon whose flux is their area.
+// Joins the pieces of one place to one photon whose flux is their area.
 PhotonBuffer joined(const std::vector<Piece>& pieces, float unit) {
   const auto order = order_of(pieces);
   PhotonBuffer buffer;
@@ -137,7 +140,7 @@ PhotonBuffer joined(const std::vector<Piece>& pieces, float unit) {
   return buffer;
 }
 
-// Those that are worth the sum, while there is room for their pieces.
+// Chooses the groups that are curved enough to be summed, as long as their pieces fit into kMostPieces.
 std::vector<bool> curved_groups(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius) {
   std::vector<double> pieces(bends.size());
   std::vector<bool> curved(bends.size());

@@ -14,8 +14,8 @@ namespace {
 constexpr uint32_t kBoxes = BoxNode::kBoxes, kBlock = BoxTree::kBlockPhotons;
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
-// Of a block's coordinates along one axis. Eight intervals side by side, which the compiler puts into
-// vectors.
+// Smallest interval that holds a block's coordinates along one axis. Eight partial intervals side by side let
+// the compiler use vectors.
 void find_interval(const float* column, uint64_t photons, float* lo, float* hi) {
   constexpr uint32_t kSide = 8;
   float low[kSide], high[kSide];
@@ -35,7 +35,7 @@ void find_interval(const float* column, uint64_t photons, float* lo, float* hi) 
   *hi = *std::max_element(high, high + kSide);
 }
 
-// Along one axis, of a node whose photons begin with column[0].
+// Intervals of all blocks of a node along one axis; column[0] is the node's first photon.
 void find_intervals(const float* column, uint64_t photons, float* lo, float* hi) {
   for (uint64_t b = 0; b < kBoxes; ++b) {
     const uint64_t first = std::min(photons, b * kBlock);
@@ -43,7 +43,7 @@ void find_intervals(const float* column, uint64_t photons, float* lo, float* hi)
   }
 }
 
-// Around the boxes of each of the children, along one axis.
+// Intervals along one axis that enclose all boxes of each child.
 void join_intervals(std::span<const BoxNode> children, int axis, BoxNode& node) {
   std::fill_n(node.lo[axis], kBoxes, kNone);
   std::fill_n(node.hi[axis], kBoxes, -kNone);
@@ -73,7 +73,7 @@ void for_each_index(size_t size, const Fn& fn) {
 
 BoxTree::BoxTree(const PhotonColumns& columns, uint64_t size) {
   for (uint64_t boxes = (size + kBlock - 1) / kBlock; boxes > 1 || (boxes == 1 && levels_ == 0); ++levels_) {
-    boxes = (boxes + kBoxes - 1) / kBoxes;  // of the next level
+    boxes = (boxes + kBoxes - 1) / kBoxes;  // number of nodes at the level above
     first_[levels_ + 1] = first_[levels_] + boxes;
   }
   if (levels_ == 0) return;
@@ -101,13 +101,13 @@ BoxTree::BoxTree(const PhotonColumns& columns, uint64_t size) {
 }
 
 bool BoxTree::Start::list(const CellRanges& ranges, int shift) {
-  size_t listed = 0;  // a node may lie in several ranges
+  size_t listed = 0;  // counts a node once per range, although several ranges may share it
   uint32_t next = 0;
   size = 0;
   for (size_t r = 0; r < ranges.size; ++r) {
     const uint32_t begin = ranges.first[r] >> shift, end = (ranges.last[r] >> shift) + 1;
     if ((listed += end - begin) > kMost) return false;
-    // Mostly none, one or two are new, which a branch could not predict.
+    // Usually none, one or two nodes are new. Branchless, since a branch on that would be mispredicted.
     const uint32_t first = std::max(next, begin);
     nodes[size] = first;
     size += first < end;

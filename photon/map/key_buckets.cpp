@@ -1,4 +1,4 @@
-// Where buckets begin, from a sample.
+// Chooses the buckets' first keys from a sorted sample, and indexes them by key prefix.
 
 #include "photon/map/key_buckets.h"
 
@@ -9,8 +9,8 @@ namespace kaustik::photon {
 
 namespace {
 
-// The key in (lo, hi] with the most trailing zeros: most often the corner of a large cell, which the first
-// bits of a key tell apart from its neighbours.
+// The key in (lo, hi] with the most trailing zeros. It is mostly the corner of a large cell, which a short
+// prefix separates from its neighbours.
 uint64_t roundest(uint64_t lo, uint64_t hi) {
   return hi & ~(std::bit_floor(lo ^ hi) - 1);
 }
@@ -31,7 +31,8 @@ std::vector<uint64_t> find_first_keys(std::span<const uint64_t> sample, size_t w
   return keys;
 }
 
-// Bits of a key that tell most buckets apart: on surfaces, photons fill few of the cells of a level.
+// Length of a key prefix that separates most buckets. On surfaces, photons fill only few of the cells of a
+// level.
 int prefix_bits(size_t buckets) {
   return std::min(int(std::bit_width(buckets)) + 6, 3 * kMortonBits);
 }
@@ -42,7 +43,7 @@ KeyBuckets::KeyBuckets(std::span<const uint64_t> sample, size_t wanted)
     : prefix_shift_(3 * kMortonBits - prefix_bits(wanted)),
       first_keys_(find_first_keys(sample, wanted)),
       prefixes_(size_t(1) << prefix_bits(wanted)) {
-  size_t next = 0;  // the first bucket that begins after the prefix at hand
+  size_t next = 0;  // the first bucket that begins after prefix p
   for (size_t p = 0; p < prefixes_.size(); ++p) {
     const uint64_t lowest = uint64_t(p) << prefix_shift_,
                    highest = lowest + ((uint64_t(1) << prefix_shift_) - 1);

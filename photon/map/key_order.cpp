@@ -1,5 +1,5 @@
-// Least-significant-digit radix sort of the keys' highest 32 bits that vary; the rare ties are sorted by the
-// bits below. An item is 32 bits of a key, high, and an index.
+// Least-significant-digit radix sort by the highest 32 key bits that vary; the rare ties are then sorted by
+// the lower bits. An item is 64 bits: 32 bits of a key in its high half, an index in its low half.
 
 #include "photon/map/key_order.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kDigits = 3, kDigitBits = 11;
 constexpr size_t kDigitValues = size_t(1) << kDigitBits;
-constexpr size_t kFew = 512;  // items: histograms would cost more than they save
+constexpr size_t kFew = 512;  // with fewer items histograms cost more than they save
 
 using Items = std::span<uint64_t>;
 using Histogram = std::array<uint32_t, kDigitValues>;
@@ -32,8 +32,8 @@ void sort_digit(Items from, uint64_t* to, int d, Histogram& counts) {
   for (const uint64_t item : from) to[counts[digit(item, d)]++] = item;
 }
 
-// By all 64 bits, given that the indices of equal high halves ascend. Returns where the result is: in items
-// or in as much of spare.
+// Sorts by all 64 bits, provided that the indices of items with equal high halves ascend. The result is
+// either in items or at the start of spare.
 Items sort_items(Items items, uint64_t* spare) {
   if (items.size() <= kFew) {
     std::sort(items.begin(), items.end());
@@ -53,7 +53,7 @@ Items sort_items(Items items, uint64_t* spare) {
   return from;
 }
 
-// Items of equal high halves by the bits of their keys below.
+// Sorts runs of items with equal high halves by the `below` lower bits of their keys.
 void sort_ties(Items items, std::span<const uint64_t> keys, int below, uint64_t* spare) {
   const uint64_t mask = (uint64_t(1) << below) - 1;
   for (size_t begin = 0, end = 1; end < items.size(); begin = end++) {
@@ -76,7 +76,7 @@ std::span<const uint64_t> KeyOrder::sort(std::span<const uint64_t> keys) {
   }
   uint64_t varying = 0;
   for (const uint64_t key : keys) varying |= key ^ keys[0];
-  // Bits above those that vary change nothing: they are the same in all items.
+  // Bits above the varying ones are the same in all items and do not affect the order.
   const int below = std::max(0, int(std::bit_width(varying)) - 32);
   for (size_t i = 0; i < size; ++i) items_[i] = keys[i] >> below << 32 | i;
   const Items sorted = sort_items({items_.data(), size}, spare_.data());

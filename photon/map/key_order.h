@@ -1,5 +1,5 @@
 #pragma once
-// The order of a few thousand keys: a sort that stays within the caches of one core.
+// Sorts a few thousand keys within the caches of one core.
 
 #include <cstdint>
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace kaustik::photon {
 
-// Keeps its memory from one call to the next. Not for several threads at a time.
+// Keeps its memory between calls. Not thread-safe.
 class KeyOrder {
  public:
-  // The indices 0 ... keys.size() - 1 in ascending order of (key, index), in the low halves; valid until the
-  // next call. Fewer than 2^32 keys below 2^63.
+  // Returns the indices 0 ... keys.size() - 1 in ascending order of (key, index), in the low halves of the
+  // items; valid until the next call. Requires fewer than 2^32 keys, all below 2^63.
   std::span<const uint64_t> sort(std::span<const uint64_t> keys);
 
  private:

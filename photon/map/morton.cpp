@@ -1,4 +1,4 @@
-// The cube that keys are relative to.
+// Chooses the cube that Morton keys are relative to.
 
 #include "photon/map/morton.h"
 
@@ -9,11 +9,12 @@ MortonCube MortonCube::around(const Bounds3& bounds) {
   if (bounds.empty() || !is_finite(bounds.min) || !is_finite(bounds.max)) return cube;
   constexpr float kMargin = 1.0f / 12;
   const float extent = max_component(bounds.diagonal());
-  // A box without extent still needs a cube that is large against the rounding of its coordinates.
+  // Bounds without extent still need a cube that is large compared with the rounding errors of its
+  // coordinates.
   const float magnitude = max_component(glm::max(glm::abs(bounds.min), glm::abs(bounds.max)));
   const float needed = std::max(extent * (1 / (1 - kMargin)), magnitude * 0x1p-20f);
   if (!(needed > 0) || !std::isfinite(needed)) return cube;
-  // Within the exponents at which side, cell and reciprocal are all normal numbers.
+  // Limits the exponent so that side, cell size and reciprocal are normal numbers.
   const int exponent = std::clamp(std::ilogb(needed) + 1, -100, 126);
   cube.size = std::ldexp(1.0f, exponent);
   cube.cells_per_metre = std::ldexp(1.0f, kMortonBits - exponent);

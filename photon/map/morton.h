@@ -1,6 +1,6 @@
 #pragma once
 // 63-bit Morton keys: 21 bits per axis, interleaved, within a cube whose side is a power of two. Scaling a
-// scene by a power of two scales origin and side exactly, so the keys stay the same bits.
+// scene by a power of two scales origin and side exactly, so the keys do not change.
 
 #include <array>
 #include <cstdint>
@@ -14,32 +14,33 @@ inline constexpr uint32_t kMortonMax = (1u << kMortonBits) - 1;
 
 using MortonCell = std::array<uint32_t, 3>;  // integer coordinates at level kMortonBits
 
-// The octree's root.
+// The cube that keys are relative to; also the octree's root.
 struct MortonCube {
   Point3 origin{0};
   float size = 1;                             // side, metres: a power of two
   float cells_per_metre = 1u << kMortonBits;  // 2^21 / size
 
-  // The smallest such cube that holds the bounds with a margin of size/12 below them. The margin keeps walls
-  // off the faces of cells: at every level from the second on, a wall at the lower bound lies a third of a
-  // cell away from the nearest face. Empty or non-finite bounds give the unit cube.
+  // The smallest cube of power-of-two side that holds the bounds with a margin of size/12 below them. The
+  // margin keeps walls off the faces of cells: at every level from the second on, a wall at the lower bound
+  // is a third of a cell away from the nearest face. Empty or non-finite bounds give the unit cube.
   static MortonCube around(const Bounds3& bounds);
 
-  // Position in cells along an axis, in [0, 2^21] for points of the cube. Monotone in p.
+  // Coordinate in cells along an axis, in [0, 2^21] for points in the cube. Monotone in p.
   float to_cells(float p, int axis) const { return (p - origin[axis]) * cells_per_metre; }
-  // Clamped to the cube; NaN gives 0. Monotone in p, so that an interval of p maps to an interval of cells.
+  // Integer cell coordinate, clamped to the cube; NaN gives 0. Monotone in p, so that an interval of p maps
+  // to an interval of cells.
   uint32_t quantise(float p, int axis) const {
     const float t = to_cells(p, axis);
     return t > 0 ? (t < float(kMortonMax) ? uint32_t(t) : kMortonMax) : 0u;
   }
   MortonCell cell(const Point3& p) const { return {quantise(p.x, 0), quantise(p.y, 1), quantise(p.z, 2)}; }
-  // Box of the cell of side size / 2^depth that holds the integer coordinates.
+  // Bounds, in metres, of the cell of side size / 2^depth that contains these integer coordinates.
   Bounds3 cell_bounds(const MortonCell& cell, int depth) const;
 
   bool operator==(const MortonCube&) const = default;
 };
 
-// Two zero bits between any two of the lower 21 bits of v.
+// Inserts two zero bits between any two of the lower 21 bits of v.
 constexpr uint64_t spread_bits(uint32_t v) {
   uint64_t x = v & kMortonMax;
   x = (x | x << 32) & 0x001f00000000ffffull;
@@ -60,14 +61,14 @@ constexpr uint32_t compact_bits(uint64_t x) {
   return uint32_t(x);
 }
 
-// x in the lowest bit of each triple, then y, then z.
+// Interleaves the coordinates: x in the lowest bit of each triple, then y, then z.
 constexpr uint64_t morton_key(const MortonCell& cell) {
   return spread_bits(cell[0]) | spread_bits(cell[1]) << 1 | spread_bits(cell[2]) << 2;
 }
 constexpr MortonCell morton_cell(uint64_t key) {
   return {compact_bits(key), compact_bits(key >> 1), compact_bits(key >> 2)};
 }
-// Which of its parent's eight children the cell of depth (1..21) is on the way to key.
+// Octant of its parent in which the cell of this depth (1 to 21) on the way to the key lies.
 constexpr uint32_t morton_octant(uint64_t key, int depth) {
   return uint32_t(key >> (3 * (kMortonBits - depth))) & 7u;
 }

@@ -1,4 +1,4 @@
-// The steps of MortonCube::quantise and spread_bits in SIMD lanes (Google Highway).
+// MortonCube::quantise and spread_bits in SIMD lanes (Google Highway).
 
 #include "photon/map/morton_lanes.h"
 
@@ -37,7 +37,7 @@ HWY_INLINE Vk SpreadCells(const MortonCube& cube, const float* p, int axis) {
   return SpreadBits(hn::PromoteTo(Keys(), hn::BitCast(Words(), hn::ConvertTo(Ints(), cell))));
 }
 
-// As many as fill whole vectors; returns how many.
+// Computes as many keys as fill whole vectors, and returns their number.
 size_t MortonKeys(const MortonCube& cube, const float* x, const float* y, const float* z, size_t count,
                   uint64_t* keys) {
   const Keys d;
@@ -65,7 +65,7 @@ void morton_keys(const MortonCube& cube, const float* x, const float* y, const f
 }
 
 void morton_keys(const MortonCube& cube, const PhotonRecord* records, std::span<uint64_t> keys) {
-  constexpr size_t kPart = 256;  // whose columns stay in the nearest cache
+  constexpr size_t kPart = 256;  // chosen so that the columns fit into the L1 cache
   float x[kPart], y[kPart], z[kPart];
   for (size_t begin = 0; begin < keys.size(); begin += kPart) {
     const size_t count = std::min(kPart, keys.size() - begin);

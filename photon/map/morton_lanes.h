@@ -14,7 +14,7 @@ namespace kaustik::photon {
 void morton_keys(const MortonCube& cube, const float* x, const float* y, const float* z,
                  std::span<uint64_t> keys);
 
-// The same of records; as many as there are keys.
+// Computes the keys of records, of which there must be as many as keys.
 void morton_keys(const MortonCube& cube, const PhotonRecord* records, std::span<uint64_t> keys);
 
 }  // namespace kaustik::photon

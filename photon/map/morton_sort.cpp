@@ -1,4 +1,4 @@
-// Blocks arranged by buckets, then buckets sorted.
+// Parallel sort of photon records by Morton key: blocks are arranged by buckets, then buckets are sorted.
 
 #include "photon/map/morton_sort.h"
 
@@ -19,12 +19,14 @@ namespace kaustik::photon {
 
 namespace {
 
-constexpr size_t kBlock = size_t(1) << 16;  // records; fixed, so that blocks do not depend on the threads
-constexpr size_t kBucketPhotons = 16384;    // on average: with their keys, most of a megabyte
-constexpr size_t kMaxBuckets = 2048;        // asked for: a block must not be spread too thin
+// Records; a constant, so that the result does not depend on the number of threads.
+constexpr size_t kBlock = size_t(1) << 16;
+constexpr size_t kBucketPhotons = 16384;  // on average; with their keys they take most of a megabyte
+// Upper bound of the wanted number, to keep the pieces of a block from getting too small.
+constexpr size_t kMaxBuckets = 2048;
 constexpr size_t kSamplesPerBucket = 16;
 
-// What a thread works with; grows as needed.
+// Working memory of one thread; grows as needed.
 struct Scratch {
   UninitialisedArray<PhotonRecord> records;
   UninitialisedArray<uint64_t> keys;
@@ -37,7 +39,7 @@ struct Scratch {
   }
 };
 
-// The sample is spread by a hash: no order of the records can hide from it.
+// Chooses buckets from a sample of records at hashed positions, so that no order of the records can bias it.
 KeyBuckets find_buckets(std::span<const PhotonRecord> records, const MortonCube& cube) {
   const size_t wanted = std::min(records.size() / kBucketPhotons, kMaxBuckets);
   if (wanted < 2) return KeyBuckets({}, 1);
@@ -66,11 +68,11 @@ class MortonSort {
   std::span<PhotonRecord> block(size_t b) const {
     return records_.subspan(b * kBlock, std::min(kBlock, records_.size() - b * kBlock));
   }
-  // Where in block b the buckets begin, and the last one ends.
+  // Positions in block b at which the buckets begin, followed by the end of the last one.
   std::span<uint32_t> offsets(size_t b) {
     return {offsets_.data() + b * (buckets_.size() + 1), buckets_.size() + 1};
   }
-  // Of block b, the records of buckets [begin, end).
+  // Records of buckets [begin, end) in block b.
   std::span<PhotonRecord> piece(size_t b, size_t begin, size_t end) {
     const std::span<const uint32_t> at = offsets(b);
     return block(b).subspan(at[begin], at[end] - at[begin]);
@@ -105,7 +107,7 @@ void MortonSort::arrange_block(size_t b, Scratch& scratch) {
   scratch.reserve(records.size());
   const std::span<uint64_t> keys{scratch.keys.data(), records.size()};
   morton_keys(cube_, records.data(), keys);
-  // place[bucket + 1] counts, then is where the bucket begins.
+  // place[bucket + 1] is first a count, then the position at which the bucket begins.
   std::vector<uint32_t> place(buckets_.size() + 1);
   for (uint64_t& key : keys) {
     key = buckets_.of(key);
@@ -117,7 +119,7 @@ void MortonSort::arrange_block(size_t b, Scratch& scratch) {
   std::copy_n(scratch.records.data(), records.size(), records.data());
 }
 
-// Of the buckets in the columns.
+// Positions in the columns at which the buckets begin.
 std::vector<uint64_t> MortonSort::find_starts() {
   std::vector<uint64_t> starts(buckets_.size() + 1);
   for (size_t b = 0; b < blocks(); ++b) {
@@ -127,9 +129,10 @@ std::vector<uint64_t> MortonSort::find_starts() {
   return starts;
 }
 
-// The bucket's records from all blocks, in the order of the blocks.
+// Copies the bucket's records from all blocks, in the order of the blocks.
 std::span<const PhotonRecord> MortonSort::collect(size_t bucket, Scratch& scratch) {
-  constexpr size_t kAhead = 4;  // pieces are too short for the hardware to foresee the next one
+  // Pieces to prefetch ahead, since they are too short for the hardware prefetcher.
+  constexpr size_t kAhead = 4;
   size_t count = 0;
   for (size_t b = 0; b < blocks(); ++b) count += piece(b, bucket, bucket + 1).size();
   scratch.reserve(count);
@@ -151,7 +154,7 @@ void MortonSort::write_bucket(size_t bucket, uint64_t start, Scratch& scratch) {
   for (const uint64_t item : scratch.order.sort(keys)) to_.write(start++, records[uint32_t(item)]);
 }
 
-// Nothing to sort, however many.
+// Copies a bucket that covers a single key, which needs no sorting whatever its size.
 void MortonSort::write_single_key(size_t bucket, uint64_t start) {
   std::vector<uint64_t> place(blocks() + 1, start);
   for (size_t b = 0; b < blocks(); ++b) place[b + 1] = place[b] + piece(b, bucket, bucket + 1).size();
@@ -168,9 +171,9 @@ void MortonSort::write_buckets(size_t begin, size_t end, std::span<const uint64_
   });
 }
 
-// When the first photons are written, the memory of their records is given back: more than the sort needs for
-// itself, so records, columns and the rest together stay below twice the records. By one thread: several
-// would wait for each other.
+// After the first part is written, the memory of its records is returned to the system. That is more than the
+// sort itself needs, so that records, columns and scratch together stay below twice the records' size. One
+// thread does it, since several would wait for each other.
 void MortonSort::write_columns() {
   constexpr size_t kFirstPart = 8;
   const std::vector<uint64_t> starts = find_starts();

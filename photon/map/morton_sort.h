@@ -1,5 +1,5 @@
 #pragma once
-// Photon records into columns, in the order of their Morton keys.
+// Sorts photon records into columns, in the order of their Morton keys.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace kaustik::photon {
 
-// Where the records go: one array per member, each with room for all.
+// Destination of the records: one array per member, each with room for all.
 struct RecordColumns {
   float *x = nullptr, *y = nullptr, *z = nullptr;
   uint32_t *direction = nullptr, *power = nullptr, *surface = nullptr;
@@ -24,13 +24,13 @@ struct RecordColumns {
   }
 };
 
-// Writes the records by ascending Morton key; those of one key keep their order. Fewer than 2^32. The records
-// are used up: they are left in another order, and the memory of some is given back on the way. The result
-// does not depend on the number of threads.
+// Writes the records in ascending order of Morton keys; records with the same key keep their order. Fewer
+// than 2^32 records. The input is consumed: it is left in another order, and part of its memory is returned
+// to the system. The result does not depend on the number of threads.
 //
-// Most significant digits first. Blocks of records are each arranged by buckets of keys, in place; then each
-// bucket is collected from the blocks and sorted within the caches of one core. Every record moves three
-// times, whatever the length of its key.
+// This is a radix sort, most significant digit first. Each block of records is arranged in place by buckets
+// of keys; then each bucket is collected from the blocks and sorted within the caches of one core. Every
+// record moves three times, whatever the length of its key.
 void sort_into_columns(std::span<PhotonRecord> records, const MortonCube& cube, const RecordColumns& to);
 
 }  // namespace kaustik::photon

@@ -1,5 +1,5 @@
 #pragma once
-// The descent of the octree. Included by octree.h only.
+// Octree::descend(). Included by octree.h only.
 
 #include "photon/map/octree.h"
 
@@ -14,7 +14,7 @@ int Octree::descend(const PhotonPositions& positions, uint64_t key, PhotonRange 
   while (depth < kMortonBits && !stop(depth, ranges[depth])) {
     const PhotonRange parent = ranges[depth++];
     const uint32_t octant = morton_octant(key, depth);
-    if (node == nullptr || node->leaf()) {  // below what is stored
+    if (node == nullptr || node->leaf()) {  // below the stored nodes
       ranges[depth] = child_range(positions, parent, key, depth);
     } else if (node->has_child(octant)) {
       node = &nodes_[node->child(octant)];

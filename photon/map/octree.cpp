@@ -1,4 +1,4 @@
-// The octree from sorted photons, and the lecture's cell rules.
+// Builds the octree from sorted photons, and implements the lecture's cell rules.
 
 #include "photon/map/octree.h"
 
@@ -11,10 +11,10 @@ namespace kaustik::photon {
 
 namespace {
 
-// Where the octants of one node begin; the ninth entry is the node's end.
+// Photon indices at which the octants of one node begin; the ninth entry is the node's end.
 using Splits = std::array<uint64_t, 9>;
 
-// Of a node of `depth` whose photons are [begin, end); key_at(i) is the key of photon i.
+// Splits of a node of `depth` whose photons are [begin, end); key_at(i) is the key of photon i.
 template <class KeyAt>
 Splits find_splits(const KeyAt& key_at, uint64_t begin, uint64_t end, int depth) {
   const auto split = [&](uint64_t from, uint64_t to, uint32_t octant) {
@@ -39,7 +39,7 @@ Splits find_splits(const KeyAt& key_at, uint64_t begin, uint64_t end, int depth)
   return s;
 }
 
-// OctreeNode::children of a node with these splits.
+// Value of OctreeNode::children for these splits.
 uint32_t children_of(const Splits& splits) {
   uint32_t bits = 0, before = 0;
   for (uint32_t o = 0; o < 8; ++o) {
@@ -50,7 +50,7 @@ uint32_t children_of(const Splits& splits) {
   return bits;
 }
 
-// Divides the node and appends its children.
+// Splits the node and appends its children to `nodes`.
 template <class KeyAt>
 void divide(const KeyAt& key_at, size_t index, int depth, std::vector<OctreeNode>& nodes) {
   const Splits splits = find_splits(key_at, nodes[index].begin, nodes[index].end, depth);
@@ -61,8 +61,8 @@ void divide(const KeyAt& key_at, size_t index, int depth, std::vector<OctreeNode
   }
 }
 
-// Divides the last of `nodes`, of `depth`, and its descendants, level by level, while they hold more than
-// `limit` photons. leave(node, depth) is called for the others.
+// Splits the last of `nodes`, which has depth `depth`, and its descendants level by level while they hold
+// more than `limit` photons. Calls leave(node, depth) for the nodes that are not split.
 template <class KeyAt, class Fn>
 void divide_levels(const KeyAt& key_at, uint64_t limit, int depth, std::vector<OctreeNode>& nodes,
                    const Fn& leave) {
@@ -78,12 +78,12 @@ void divide_levels(const KeyAt& key_at, uint64_t limit, int depth, std::vector<O
   }
 }
 
-// A node whose descendants are made on their own, from keys that are computed once.
+// A node whose descendants are built independently of others, from keys that are computed once.
 struct Subtree {
   size_t root;
   int depth;
-  std::vector<OctreeNode> nodes;  // from the root on; first_child counts from here
-  size_t first = 0;               // place in the octree of the nodes below the root
+  std::vector<OctreeNode> nodes;  // the root first; first_child is relative to this array
+  size_t first = 0;               // index, in the octree, of the first node below the root
 };
 constexpr uint64_t kSubtreePhotons = 1 << 15;
 
@@ -96,7 +96,8 @@ void build_subtree(const MortonCube& cube, const PhotonPositions& p, Subtree& su
   divide_levels(key_at, Octree::kLeafPhotons, subtree.depth, subtree.nodes, [](size_t, int) {});
 }
 
-// The nodes above the subtrees, level by level; the subtrees, with nothing but their roots.
+// Builds the nodes above the subtrees, level by level, and lists the subtrees, which hold only their roots
+// yet.
 std::vector<OctreeNode> build_top(const MortonCube& cube, const PhotonPositions& p, uint64_t size,
                                   std::vector<Subtree>& subtrees) {
   std::vector<OctreeNode> top{{0, uint32_t(size), 0, 0}};

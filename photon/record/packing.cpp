@@ -1,4 +1,4 @@
-// Octahedral unit vectors and shared-exponent powers.
+// Packing of unit vectors (octahedral) and powers (shared exponent).
 
 #include "photon/record/packing.h"
 
@@ -20,7 +20,8 @@ uint32_t pack_octahedral(const Vector3& w) {
   const float scale = 1 / sum, x = w.x * scale, y = w.y * scale;
   const float folded_x = std::copysign(1 - std::abs(y), x), folded_y = std::copysign(1 - std::abs(x), y);
   const bool below = w.z < 0;
-  // Rounds by truncating a non-negative value: one instruction, where std::lround is a call.
+  // Rounds a non-negative value by adding one half and truncating: one instruction, where std::lround would
+  // be a call.
   const auto quantise = [](float t) {
     constexpr int kM = kMiddle<kBits>;
     return uint32_t(std::clamp(int(t * float(kM) + (float(kM) + 0.5f)), 0, 2 * kM));
@@ -44,8 +45,8 @@ uint32_t pack_rgb9e5(const Rgb& c) {
   const Rgb v(clamp(c.x), clamp(c.y), clamp(c.z));
   const float largest = max_component(v);
   if (!(largest > 0)) return 0;
-  // value = mantissa 2^(exponent - 24), with the largest mantissa in [256, 511] where the exponent allows.
-  // Powers of two by their bits: std::ilogb, std::ldexp and std::lround are calls.
+  // value = mantissa 2^(exponent - 24), with the largest mantissa in [256, 511] where the exponent allows it.
+  // Powers of two are made from their bits, since std::ilogb, std::ldexp and std::lround are function calls.
   const auto power_of_two = [](int e) { return std::bit_cast<float>(uint32_t(127 + e) << 23); };
   const auto round = [](float x) { return uint32_t(int(x + 0.5f)); };
   int exponent = std::clamp(int(std::bit_cast<uint32_t>(largest) >> 23) - 127 + 16, 0, 31);

@@ -1,5 +1,5 @@
 #pragma once
-// The number formats of the photon record.
+// Number formats of the photon record.
 
 #include <bit>
 #include <cmath>
@@ -11,11 +11,12 @@ namespace kaustik::photon {
 
 namespace detail {
 
-// Upper limit of both coordinates: even, so that zero is a value.
+// Value that stands for coordinate zero; coordinates range from 0 to twice this, an even number, so that zero
+// is exact.
 template <int kBits>
 inline constexpr int kMiddle = (1 << (kBits - 1)) - 1;
 
-// Not normalised: the L1 norm is kMiddle.
+// Not normalised: the result's L1 norm is kMiddle.
 template <int kBits>
 Vector3 unpack_octahedral(uint32_t bits) {
   const float a = float(int(bits & ((1u << kBits) - 1)) - kMiddle<kBits>);
@@ -30,21 +31,21 @@ Vector3 unpack_octahedral(uint32_t bits) {
 // Octahedral map of unit vectors to two integers of `kBits` bits (Cigolle et al. 2014, "A Survey of Efficient
 // Representations for Independent Unit Vectors"). Axis directions are exact.
 uint32_t pack_direction(const Vector3& w);  // 2 x 16 bits
-// Unit; off by less than 7e-5 rad.
+// Unit vector; the angular error is below 7e-5 rad.
 inline Vector3 unpack_direction(uint32_t bits) {
   return glm::normalize(detail::unpack_octahedral<16>(bits));
 }
 
-// Octahedral 2 x 8 bits of n in the low half, the group modulo 2^16 in the high half.
+// Packs n into 2 x 8 octahedral bits (low half), and the surface group modulo 2^16 (high half).
 uint32_t pack_surface(const Normal3& n, uint32_t surface_group);
-// Unit; off by less than 0.0175 rad.
+// Unit vector; the angular error is below 0.0175 rad.
 inline Normal3 unpack_surface_normal(uint32_t surface) {
   return glm::normalize(detail::unpack_octahedral<8>(surface));
 }
 
-// Three 9-bit mantissas and a shared 5-bit exponent (the format of GL_EXT_texture_shared_exponent). Each
-// component is off by at most 1/511 of the largest one, for largest ones from 2^-16 to kRgb9e5Max; larger
-// values are clamped to kRgb9e5Max, negative values and NaN to zero.
+// Three 9-bit mantissas and a shared 5-bit exponent (the format of GL_EXT_texture_shared_exponent). The error
+// of each component is at most 1/511 of the largest component, if that is between 2^-16 and kRgb9e5Max;
+// larger values are clamped to kRgb9e5Max, negative values and NaN to zero.
 inline constexpr float kRgb9e5Max = 65408;  // 511/512 2^16
 uint32_t pack_rgb9e5(const Rgb& c);
 inline Rgb unpack_rgb9e5(uint32_t bits) {
@@ -52,8 +53,8 @@ inline Rgb unpack_rgb9e5(uint32_t bits) {
   return {float(bits & 511) * scale, float(bits >> 9 & 511) * scale, float(bits >> 18 & 511) * scale};
 }
 
-// Does the stored normal count for a query normal, see kNormalCosine? Defines what the SIMD loops compute: in
-// exact small integers up to the dot product.
+// Whether a photon with this packed surface counts for a query with normal n, see kNormalCosine. Defines the
+// result of the SIMD loops; exact in small integers up to the dot product.
 bool normal_counts(uint32_t surface, const Normal3& n);
 
 }  // namespace kaustik::photon

@@ -22,7 +22,7 @@ using Vf = hn::Vec<Floats>;
 using Vu = hn::Vec<Words>;
 using Vi = hn::Vec<Ints>;
 
-// Of values in the range of int.
+// Truncates to integers; x must be in the range of int.
 HWY_INLINE Vu Truncate(Vf x) {
   return hn::BitCast(Words(), hn::ConvertTo(Ints(), x));
 }
@@ -47,7 +47,7 @@ HWY_INLINE Vu PackOctahedral(Vf wx, Vf wy, Vf wz) {
   return hn::Or(a, hn::ShiftLeft<kBits>(b));
 }
 
-// The float 2^e.
+// Returns 2^e as a float.
 HWY_INLINE Vf PowerOfTwo(Vi e) {
   return hn::BitCast(Floats(), hn::ShiftLeft<23>(hn::Add(e, hn::Set(Ints(), 127))));
 }
@@ -66,7 +66,7 @@ HWY_INLINE Vu PackRgb9e5(const float* const (&flux)[3], size_t k, float per_unit
   exponent = hn::Min(hn::Max(hn::Sub(exponent, hn::Set(i, 127 - 16)), hn::Zero(i)), hn::Set(i, 31));
   const auto mantissa_scale = [&](Vi e) HWY_ATTR { return PowerOfTwo(hn::Sub(hn::Set(i, 24), e)); };
   const Vf trial = hn::Add(hn::Mul(largest, mantissa_scale(exponent)), half);
-  // Where the largest mantissa rounds to 512, one exponent more.
+  // If the largest mantissa would round to 512, the exponent is one larger.
   const auto over = hn::RebindMask(i, hn::Ge(trial, hn::Set(d, 512.0f)));
   exponent = hn::Add(exponent, hn::IfThenElseZero(over, hn::Set(i, 1)));
   const Vf scale = mantissa_scale(exponent);

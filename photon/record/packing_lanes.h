@@ -1,5 +1,5 @@
 #pragma once
-// Packing of photons into records, many at once in SIMD lanes.
+// Packs photons into records, many at once in SIMD lanes.
 
 #include <cstddef>
 #include <vector>
@@ -9,22 +9,22 @@
 
 namespace kaustik::photon {
 
-// Where photons lie side by side, by columns aligned to 64 bytes: d points away from where a photon came
-// from.
+// Photons as columns aligned to 64 bytes. d points away from where the photon came from (the opposite of
+// Photon::wi).
 struct PhotonLanes {
   const float *d[3], *flux[3], *n[3];
   const uint32_t* surface_group;
 };
-// Their records' words, aligned as well.
+// Words of the photons' records, as aligned columns.
 struct PackedLanes {
   alignas(64) uint32_t direction[VertexLanes::kLanes], power[VertexLanes::kLanes],
       surface[VertexLanes::kLanes];
 };
 
-// The first `count` lanes; at most VertexLanes::kLanes, and whole multiples of 16 are read and written.
+// Packs the first `count` lanes, at most VertexLanes::kLanes. Reads and writes whole multiples of 16 lanes.
 void pack_lanes(const PhotonLanes& photons, size_t count, float flux_unit, PackedLanes* packed);
 
-// Photons of one kind on their way into records: as they are added, packed kLanes at a time.
+// Collects photons of one kind and packs kLanes at a time into records.
 class RecordPacker {
  public:
   static constexpr size_t kLanes = 16;
@@ -42,7 +42,7 @@ class RecordPacker {
     surface_group_[waiting_] = photon.surface_group;
     if (++waiting_ == kLanes) flush(records);
   }
-  // Packs what waits.
+  // Packs the photons that are still waiting.
   void flush(PhotonRecords& records);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// One photon as the tracer hands it over, and the compact record that the maps hold.
+// A photon as the tracer produces it. The maps store it as a PhotonRecord.
 
 #include <array>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace kaustik::photon {
 
-// The path that brought it (Heckbert): direct L D, shadow (behind the first surface of a straight path),
-// caustic L S+ D, indirect L (S|D)* D (S|D)* D.
+// Class of the path that brought the photon, in Heckbert's notation: direct L D, shadow (behind the first
+// surface of a straight path), caustic L S+ D, indirect L (S|D)* D (S|D)* D.
 enum class PhotonKind : uint8_t { kDirect, kShadow, kCaustic, kIndirect };
 inline constexpr int kPhotonKinds = 4;
 inline constexpr std::array<std::string_view, kPhotonKinds> kPhotonKindNames = {"direct", "shadow", "caustic",
                                                                                 "indirect"};
 
-// As traced: exact values.
+// Photon with the exact values that were traced.
 struct Photon {
   Point3 p{0};
   Vector3 wi{0};  // unit, towards where the photon came from

@@ -1,4 +1,4 @@
-// Packing of photons into 24 bytes.
+// Packs photons into 24 bytes.
 
 #include "photon/record/photon_record.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The 24-byte photon record, as it is shot and stored.
+// The 24-byte photon record that shoots produce and maps store.
 
 #include <cstdint>
 #include <vector>
@@ -20,11 +20,11 @@ struct PhotonRecord {
 };
 static_assert(sizeof(PhotonRecord) == 24);
 
-// resize() leaves new records unwritten, for the threads that fill them.
+// resize() leaves new records uninitialised, for threads to fill.
 using PhotonRecords = std::vector<PhotonRecord, UninitialisedAllocator<PhotonRecord>>;
 
-// Photons of one kind before the build, as shoot() left them. flux_unit is a power of two near the mean flux
-// of one photon, so that the shared-exponent format keeps its range at any scale of scene and any photon
+// Photons of one kind as shoot() returns them, before the map is built. flux_unit is a power of two near the
+// mean flux of one photon, so that the shared-exponent format keeps its range at any scene scale and photon
 // count.
 struct PhotonBuffer {
   PhotonRecords records;

@@ -1,4 +1,4 @@
-// Binary PLY of photons.
+// Writes photons as binary PLY.
 
 #include "photon/record/ply_export.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "vertices are written as they lie in memory");
 
-// x y z nx ny nz, then red green blue kind.
+// Bytes of a vertex: x y z nx ny nz, then red green blue kind.
 template <class Coordinate>
 constexpr size_t kVertexBytes = 3 * sizeof(Coordinate) + 3 * sizeof(float) + 4;
 
@@ -74,7 +74,7 @@ glm::u8vec3 photon_colour(PhotonKind kind, const Rgb& flux, float mean_flux) {
   if (kind == PhotonKind::kShadow) return kShadowColour;
   glm::u8vec3 colour(0);
   for (int c = 0; c < 3; ++c) {
-    // Reinhard's curve, the mean at one half, with a display gamma of 2.2.
+    // Reinhard's curve, which maps the mean to one half, followed by a display gamma of 2.2.
     const float v = mean_flux > 0 ? flux[c] / mean_flux : 0;
     colour[c] = uint8_t(std::lround(255 * std::pow(v / (1 + v), 1 / 2.2f)));
   }

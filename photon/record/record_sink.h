@@ -1,5 +1,5 @@
 #pragma once
-// What the tracer hands over, packed into records.
+// Sink for trace_photons() that packs photons into records by kind.
 
 #include <array>
 
@@ -11,7 +11,7 @@ using RecordsByKind = std::array<PhotonRecords, kPhotonKinds>;
 
 class RecordSink {
  public:
-  // Appends to records, which must outlive it.
+  // Appends to `records`, which must outlive the sink.
   RecordSink(float flux_unit, RecordsByKind& records) : flux_unit_(flux_unit), records_(records) {
     packers_.fill(RecordPacker(flux_unit));
   }
@@ -19,10 +19,10 @@ class RecordSink {
   void operator()(PhotonKind kind, const Photon& photon) {
     packers_[static_cast<size_t>(kind)].add(photon, records_[static_cast<size_t>(kind)]);
   }
-  // The first `count` lanes, whose flux is what they leave at p. kind[k] is a PhotonKind, or kPhotonKinds for
-  // nothing.
+  // Adds the first `count` lanes with their flux at p. kind[k] is a PhotonKind, or kPhotonKinds for no
+  // photon.
   void operator()(const VertexLanes& lanes, const uint8_t* kind, size_t count);
-  // Packs what still waits.
+  // Packs the photons that are still waiting.
   void flush() {
     for (size_t k = 0; k < packers_.size(); ++k) packers_[k].flush(records_[k]);
   }

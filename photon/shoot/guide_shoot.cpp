@@ -10,14 +10,15 @@ namespace kaustik::photon {
 
 namespace {
 
-// Keeps these photons apart from those of any pass that can be.
+// Pass number that keeps these photons' random sequences apart from those of any real pass.
 constexpr uint64_t kGuidePass = 0x6775696465640000;
-constexpr uint64_t kRounds = 5, kMostRounds = 12;  // more, each twice as large, where few have served yet
-// A guide is of use where the variance falls to so much of it, by light that is not guided well, too.
+// Further rounds, each twice as large, follow while few photons have been useful.
+constexpr uint64_t kRounds = 5, kMostRounds = 12;
+// A guide is used only if it reduces the variance, that of poorly guided light included, to this fraction.
 constexpr double kMostVariance = 0.75;
 
-// A start that served, and what its photons are worth: the sum of importance times flux^2, were it the only
-// one.
+// A start whose photons were useful. `square` is the sum of importance times flux^2 over them, as if it were
+// the only start.
 struct Start {
   EmissionPoint u{};
   double square = 0;
@@ -48,11 +49,11 @@ class GuideLearner {
   }
 
  private:
-  // Many photons have served, and nearly evenly.
+  // Nothing to gain: many photons were useful, and their starts are nearly uniform.
   bool is_vain(const EmissionGuide& guide) const {
     return starts_.size() >= (1u << 12) && guide.variance() > 0.9;
   }
-  // In the first round, the uniform one.
+  // The first, uniform round found so many useful photons that guiding is not needed.
   bool serves_enough() const { return double(uniform_hits_) >= settings_.enough * rounds_[0].photons; }
 
   struct Round {
@@ -60,8 +61,8 @@ class GuideLearner {
     EmissionGuide guide;  // empty: uniform
   };
 
-  // A small target is found step by step: each round knows it better, and meets it more often. Photons that
-  // miss it end soon, so that they cost little.
+  // Whether more rounds are worthwhile. A small target is found step by step: each round knows it better and
+  // hits it more often. Photons that miss it end soon, so they cost little.
   bool found_few() const {
     return !starts_.empty() && starts_.size() < (1u << 14) && rays_ < settings_.photons / 2;
   }
@@ -80,7 +81,7 @@ class GuideLearner {
     return trace;
   }
 
-  // Adds the starts of one round that served, by photon.
+  // Traces one round and appends the starts whose photons were useful, in the order of photon indices.
   void shoot(const TraceSettings& trace) {
     const uint64_t blocks = (trace.photons + kShootBlock - 1) / kShootBlock;
     std::vector<std::vector<Start>> of_block(blocks);
@@ -115,7 +116,8 @@ class GuideLearner {
     return start;
   }
 
-  // The starts of all rounds, as of one density: the sum of all photons' (the balance heuristic, Veach 1997).
+  // The starts of all rounds as if drawn from one density, the sum over the rounds of photons times density
+  // (the balance heuristic, Veach 1997).
   std::vector<GuideHit> weighted() const {
     std::vector<GuideHit> hits(starts_.size());
     tbb::parallel_for(size_t{0}, hits.size(), [&](size_t i) {

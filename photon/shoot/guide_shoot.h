@@ -1,5 +1,5 @@
 #pragma once
-// The photons from which guided emission learns.
+// Learning rounds of guided emission: traces photons and learns an EmissionGuide from the useful ones.
 
 #include <functional>
 
@@ -11,26 +11,26 @@ namespace kaustik::photon {
 
 struct GuideSettings {
   uint64_t seed = 0;
-  // Of the render: a thirteenth of them is emitted to learn from; more where few serve, until they have
-  // traced half as many rays.
+  // Photons of the render. A thirteenth of them is emitted for learning; where few are useful, more, until
+  // half as many rays as this have been traced.
   uint64_t photons = 0;
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
-  PhotonKind kind = PhotonKind::kCaustic;  // that is to be left
-  // How much a photon matters where it was left; zero: it does not serve. Unset: all matter alike.
-  // Thread-safe, and a function of the photon alone.
+  PhotonKind kind = PhotonKind::kCaustic;  // the kind of photon that is to be left
+  // How much a photon matters where it was left; zero: it is useless. Unset: all matter equally. Must be
+  // thread-safe and a function of the photon alone.
   std::function<float(const Photon&)> importance{};
-  // Where so many of the uniform photons serve, nothing is guided.
+  // If more than this fraction of the uniform photons is useful, nothing is guided.
   double enough = 2;
 };
 
 struct LearnedGuide {
   EmissionGuide guide;             // empty where guiding would not help much
-  uint64_t emitted = 0, hits = 0;  // photons learned from, and how many of them served
+  uint64_t emitted = 0, hits = 0;  // photons emitted for learning, and useful starts among them
 };
 
-// Emits photons in rounds, each but the first guided by what all before have found, and learns where those
-// start that leave photons of the kind where they matter. A function of scene and settings alone, whatever
+// Emits photons in rounds, each but the first guided by what all earlier rounds found, and learns which
+// starts leave photons of settings.kind where they matter. A function of scene and settings alone, whatever
 // the number of threads.
 LearnedGuide learn_guide(const Scene& scene, const accel::Bvh& bvh, const GuideSettings& settings);
 

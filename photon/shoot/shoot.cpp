@@ -20,7 +20,7 @@ struct Block {
   uint64_t first = 0, end = 0;  // photon indices
   RecordsByKind records;
   TraceCounters counters;
-  std::array<size_t, kPhotonKinds> place{};  // where its records go
+  std::array<size_t, kPhotonKinds> place{};  // where its records go in the result, by kind
   bool placed = false;
 };
 
@@ -35,7 +35,7 @@ void trace_block(const Scene& scene, const SurfaceTable& surfaces, const accel::
   block.placed = false;
 }
 
-// Blocks of photon indices, in order.
+// Hands out blocks of photon indices in order, and reuses their buffers.
 class BlockSource {
  public:
   explicit BlockSource(uint64_t photons)
@@ -43,9 +43,9 @@ class BlockSource {
     for (Block& block : blocks_) free_.push(&block);
   }
 
-  // How many may be under way.
+  // Number of blocks that may be in flight.
   size_t most() const { return blocks_.size(); }
-  // Null behind the last; one call at a time.
+  // Next block; null when all photons are handed out. Calls must not overlap.
   Block* next() {
     Block* block = nullptr;
     if (first_ >= photons_ || !free_.try_pop(block)) return nullptr;
@@ -61,12 +61,12 @@ class BlockSource {
   tbb::concurrent_queue<Block*> free_;
 };
 
-// Where blocks are joined: one thread says in order where each goes, then any thread copies it there.
+// Joins the blocks: place() assigns positions in block order, then any thread copies a block there.
 class Join {
  public:
   Join(ShootResult& result, uint64_t photons) : result_(result), photons_(photons) {}
 
-  // One block at a time, in order.
+  // Must be called for one block at a time, in order.
   void place(Block& block) {
     for (size_t k = 0; k < kPhotonKinds; ++k) {
       PhotonRecords& all = result_.buffers[k].records;
@@ -78,7 +78,7 @@ class Join {
     block.placed = true;
   }
 
-  // Any thread, at any time after place().
+  // May be called by any thread, at any time after place().
   void copy(const Block& block) {
     const std::shared_lock lock(moving_);
     for (size_t k = 0; k < kPhotonKinds; ++k)
@@ -86,8 +86,8 @@ class Join {
   }
 
  private:
-  // Room for what is still to come, as the photons so far predict, so that the array is hardly ever moved: a
-  // move would hold it twice. Memory that is reserved and never written costs nothing.
+  // Reserves room for all photons still to come, as extrapolated from those so far, so that the array hardly
+  // ever moves: a move would hold it twice. Memory that is reserved and never written costs nothing.
   void make_room(PhotonRecords& all, size_t size, double done_share) {
     if (size <= all.capacity()) return;
     const std::unique_lock lock(moving_);
@@ -98,7 +98,7 @@ class Join {
 
   ShootResult& result_;
   uint64_t photons_;
-  std::shared_mutex moving_;  // held alone while arrays move
+  std::shared_mutex moving_;  // exclusive while arrays move
 };
 
 }  // namespace
@@ -109,7 +109,7 @@ float flux_unit_of(const Scene& scene, uint64_t photons) {
   const double mean =
       static_cast<double>(max_component(total)) / static_cast<double>(std::max<uint64_t>(1, photons));
   if (!(mean > 0) || !std::isfinite(mean)) return 1;
-  // The ends leave room for the shared exponents within float's range.
+  // The limits leave room for the shared exponents within the range of float.
   return std::ldexp(1.0f, std::clamp(std::ilogb(mean), -100, 100));
 }
 

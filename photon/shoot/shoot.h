@@ -1,6 +1,6 @@
 #pragma once
-// The parallel shoot: fixed blocks of photon indices, each into its own buffer, joined in block order. The
-// result does not depend on the number of threads.
+// The parallel shoot: photons are traced in fixed blocks of indices, each into its own buffer, and joined in
+// block order. The result does not depend on the number of threads.
 
 #include <array>
 #include <functional>
@@ -12,23 +12,23 @@ namespace kaustik::photon {
 
 struct ShootResult {
   std::array<PhotonBuffer, kPhotonKinds> buffers;  // indexed by PhotonKind
-  TraceCounters counters;                          // emitted < settings.photons when cancelled
+  TraceCounters counters;                          // counters.emitted < settings.photons when cancelled
 };
 
-// Photons per block: its records stay within the caches until they are joined.
+// Photons per block, chosen so that its records stay in the caches until they are joined.
 inline constexpr uint64_t kShootBlock = 1u << 12;
 
-// The power of two near the mean flux of one photon: the scale of the compact records.
+// Unit of flux in the compact records: the power of two near the mean flux of one photon.
 float flux_unit_of(const Scene& scene, uint64_t photons);
 
-// progress(done, total) is called from worker threads, one call at a time, as blocks finish in order;
-// returning false cancels the shoot.
+// progress(done, total) is called from worker threads, one call at a time, as blocks finish in order.
+// Returning false cancels the shoot.
 using ShootProgress = std::function<bool(uint64_t done, uint64_t total)>;
 
 // Traces photons 0 ... settings.photons - 1 on the calling arena's threads. The order of the photons of a
 // kind is a pure function of (scene, settings). Peak memory is that of the result plus a few blocks per
-// thread. When cancelled, what the finished blocks left is returned, divided by settings.photons as if all
-// had been emitted. Nothing is emitted when no kind is asked for.
+// thread. A cancelled shoot returns the photons of the finished blocks, with flux divided by settings.photons
+// as if all had been emitted. Emits nothing when no kind is requested.
 ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
                   const ShootProgress& progress = {});
 

@@ -1,4 +1,5 @@
-// The ledger's sums in SIMD lanes (Google Highway). Whole numbers: the same on every instruction set.
+// Energy booking in SIMD lanes (Google Highway). Energies are integers, so the result is the same on every
+// instruction set.
 
 #include "photon/trace/energy_lanes.h"
 
@@ -39,7 +40,7 @@ void BookLanes(const VertexLanes& lanes, const uint8_t (&scatters)[VertexLanes::
     next = hn::Add(next, goes_on);
     hn::Store(goes_on, i, walkers.energy + k);
   }
-  // At most 64 times 2^24: no overflow.
+  // A group holds at most 64 * 2^24 units: no overflow.
   const auto sum = [&](auto v) HWY_ATTR { return int64_t{hn::GetLane(hn::SumOfLanes(i, v))}; };
   const int64_t gone = sum(escaped), met = sum(scattering), left = sum(scattered);
   ledger.escaped += gone;

@@ -1,19 +1,21 @@
 #pragma once
-// The energy ledger's sums over many photons at once in SIMD lanes.
+// Conversion of photon fluxes to ledger units and the booking of energy, for a group of photons in SIMD
+// lanes.
 
 #include "photon/trace/energy_ledger.h"
 #include "photon/trace/walker_rows.h"
 
 namespace kaustik::photon {
 
-// Energies of the first `count` fluxes: energy_of() bit for bit. Whole vectors are written. Thread-safe.
+// Converts the first `count` fluxes to energies, bit for bit as energy_of() does. Writes whole vectors, so up
+// to a vector's width beyond `count`. Thread-safe.
 void to_energy_lanes(const float (&flux)[3][VertexLanes::kLanes], size_t count, float units_per_watt,
                      int32_t (&energy)[VertexLanes::kLanes]);
 
-// Adds the segments that ended: energy arrives with walkers.energy. Where nothing was met it escapes; where
-// `scatters` is one, lanes.scattered_energy and lanes.next_energy say what is left before and after Russian
-// roulette; elsewhere it is terminated. Leaves what goes on in walkers.energy. All lanes are read; those not
-// in use must hold no energy and not scatter. Thread-safe.
+// Books the path segments that have just ended; each arrives with walkers.energy. A segment that met nothing
+// escapes. Where `scatters` is one, lanes.scattered_energy and lanes.next_energy hold what remains before and
+// after Russian roulette. All others are terminated. Afterwards walkers.energy is the energy that travels on.
+// All lanes are read; lanes that are not in use must have zero energy and `scatters` zero. Thread-safe.
 void book_lanes(const VertexLanes& lanes, const uint8_t (&scatters)[VertexLanes::kLanes],
                 WalkerLanes& walkers, EnergyLedger& ledger);
 

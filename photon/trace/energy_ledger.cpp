@@ -19,7 +19,7 @@ int energy_unit_exponent(const Scene& scene, uint64_t photons) {
   const double mean = scene.light_power.total() / static_cast<double>(std::max<uint64_t>(1, photons));
   constexpr int kFraction = 16;
   if (!(mean > 0) || !std::isfinite(mean)) return -kFraction;
-  // The ends leave the unit and its inverse within float's range.
+  // The limits keep the unit and its inverse within the range of float.
   return std::clamp(std::ilogb(mean), -100, 100) - kFraction;
 }
 

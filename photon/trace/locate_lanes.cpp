@@ -1,5 +1,5 @@
 // Surface points in SIMD lanes (Google Highway): the operations of core/geometry/interaction.cpp in the same
-// order. Nothing is fused and nothing approximated: the results do not depend on the instruction set.
+// order. Nothing is fused and nothing approximated, so the results do not depend on the instruction set.
 
 #include <bit>
 
@@ -21,7 +21,7 @@ using HalfFloats = hn::Rebind<float, Doubles>;
 using Vd = hn::Vec<Doubles>;
 using Words = hn::RebindToUnsigned<Floats>;
 
-// Difference of two corners, rounded to float as everywhere, then widened.
+// Edge between two corners, rounded to float like the scalar code and then widened to double.
 HWY_INLINE Vec3<Vd> WideEdge(const Columns3& to, const Columns3& from, size_t k) {
   const Doubles d;
   const HalfFloats f;
@@ -31,7 +31,7 @@ HWY_INLINE Vec3<Vd> WideEdge(const Columns3& to, const Columns3& from, size_t k)
   return {side(0), side(1), side(2)};
 }
 
-// triangle_normal() of lanes k and following.
+// Computes triangle_normal() for one vector of lanes from k.
 HWY_INLINE void StoreNormals(VertexLanes& lanes, size_t k) {
   const Doubles d;
   const HalfFloats f;
@@ -49,7 +49,7 @@ HWY_INLINE void StoreNormals(VertexLanes& lanes, size_t k) {
   store(n.z, lanes.n[2]);
 }
 
-// d.n, and n turned to where the photon comes from.
+// Stores cos_in = d.n, and n flipped to the side that the photon comes from.
 HWY_INLINE void StoreSides(VertexLanes& lanes, size_t k) {
   const Floats d;
   const Vec3<Vf> n = Load(lanes.n, k);
@@ -85,7 +85,7 @@ HWY_INLINE Vec3<Vf> Multiply(const glm::mat3& m, const Vec3<Vf>& v) {
   return {row(0), row(1), row(2)};
 }
 
-// glm::normalize().
+// Same operations as glm::normalize().
 HWY_INLINE Vec3<Vf> Normalize(const Vec3<Vf>& v) {
   return hn::Div(hn::Set(Floats(), 1.0f), hn::Sqrt(Dot(v, v))) * v;
 }
@@ -97,7 +97,7 @@ HWY_INLINE void StoreWhere(Mask mask, const Vec3<Vf>& v, Columns3& c, size_t k) 
       c, k);
 }
 
-// Of the lanes whose hit is on this shape.
+// Computes the lanes whose hit is on this shape; leaves the others unchanged.
 void LocateOnSphere(VertexLanes& lanes, uint32_t shape, const Transform& to_world, float p_error,
                     size_t count) {
   const Floats d;
@@ -131,7 +131,7 @@ HWY_EXPORT(LocateOnSphere);
 
 void locate_lanes(VertexLanes& lanes, const std::vector<Shape>& shapes, size_t count) {
   HWY_DYNAMIC_DISPATCH(LocateOnTriangles)(lanes, count);
-  uint64_t left = 0;  // lanes on spheres that have not been computed
+  uint64_t left = 0;  // lanes with hits on spheres that are not computed yet
   for (size_t k = 0; k < count; ++k) left |= uint64_t{(lanes.traits[k] & kSphereTrait) != 0} << k;
   while (left != 0) {
     const uint32_t shape = lanes.hit.shape[std::countr_zero(left)];

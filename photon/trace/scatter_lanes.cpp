@@ -1,5 +1,5 @@
 // Scattering and Russian roulette in SIMD lanes (Google Highway): the operations of core/bsdf and of the
-// tracer's scalar code in the same order. Nothing is fused and nothing approximated: the results do not
+// tracer's scalar code in the same order. Nothing is fused and nothing approximated, so the results do not
 // depend on the instruction set.
 
 #include "photon/trace/vertex_lanes.h"
@@ -16,7 +16,7 @@ namespace kaustik::photon::HWY_NAMESPACE {
 
 using Words = hn::RebindToUnsigned<Floats>;
 
-// Lanes whose surface has the trait.
+// Mask of the lanes whose surface has the trait.
 HWY_INLINE Mask Have(const VertexLanes& lanes, uint32_t trait, size_t k) {
   const Words w;
   return hn::RebindMask(Floats(), hn::TestBit(hn::Load(w, lanes.traits + k), hn::Set(w, trait)));
@@ -29,25 +29,25 @@ HWY_INLINE Vec3<Vf> Select(Mask mask, const Vec3<Vf>& yes, const Vec3<Vf>& no) {
           hn::IfThenElse(mask, yes.z, no.z)};
 }
 
-// A direction sampled in the frame about n, and the reflectance towards it.
+// A direction sampled in the frame about n, and the weight by which the flux is multiplied.
 struct Scattered {
   Vec3<Vf> wi, weight;
 };
 
-// Dielectric::sample_f, and where eta is zero Mirror::sample_f. The directions alone: weights are what rows
-// of surfaces call reflectance.
+// Direction of Dielectric::sample_f, or of Mirror::sample_f where eta is zero. The weight of both is
+// SurfaceRow::reflectance, so it is not computed here.
 HWY_INLINE Vec3<Vf> SampleSpecular(const Vec3<Vf>& wo, Vf eta, Mask refracts, Vf uc) {
   const Floats d;
   const Vf one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   const Mask outside = hn::Gt(wo.z, zero);
   const Vf relative = hn::IfThenElse(outside, eta, hn::Div(one, eta));
   const Vf cos_i = hn::Min(hn::Abs(wo.z), one);
-  // refracted_cosine()
+  // These lines are refracted_cosine().
   const Vf sin2_i = hn::Max(zero, hn::Mul(hn::Sub(one, cos_i), hn::Add(one, cos_i)));
   const Vf sin2_t = hn::Div(sin2_i, hn::Mul(relative, relative));
   const Mask passes = hn::Lt(sin2_t, one);
   const Vf cos_t = hn::Sqrt(hn::IfThenElseZero(passes, hn::Sub(one, sin2_t)));
-  // fresnel_from_cosines()
+  // These lines are fresnel_from_cosines().
   const Vf eta_i = hn::Mul(relative, cos_i), eta_t = hn::Mul(relative, cos_t);
   const Vf parallel = hn::Div(hn::Sub(eta_i, cos_t), hn::Add(eta_i, cos_t));
   const Vf perpendicular = hn::Div(hn::Sub(cos_i, eta_t), hn::Add(cos_i, eta_t));
@@ -63,7 +63,7 @@ HWY_INLINE Vec3<Vf> SampleSpecular(const Vec3<Vf>& wo, Vf eta, Mask refracts, Vf
   return Select(nothing, {x, y, hn::Neg(wo.z)}, wi);
 }
 
-// OrenNayar's factor to the reflectance.
+// Factor by which OrenNayar's value differs from a Lambertian one.
 HWY_INLINE Vf RoughFactor(const VertexLanes& lanes, const Vec3<Vf>& wo, const Vec3<Vf>& wi, size_t k) {
   const Floats d;
   const Vf A = hn::Load(d, lanes.parameter[0] + k), B = hn::Load(d, lanes.parameter[1] + k);
@@ -71,7 +71,7 @@ HWY_INLINE Vf RoughFactor(const VertexLanes& lanes, const Vec3<Vf>& wo, const Ve
   return hn::Add(A, hn::Div(hn::Mul(B, tangential), hn::Max(hn::Abs(wo.z), hn::Abs(wi.z))));
 }
 
-// wi in the frame about n, and where there is one.
+// Samples wi in the frame about n; the mask tells where a direction was found.
 HWY_INLINE Mask SampleBsdf(const VertexLanes& lanes, const SobolLanes& numbers, size_t k, Scattered& out) {
   const Floats d;
   const Vf zero = hn::Zero(d), wo_z = hn::Neg(hn::Load(d, lanes.cos_in + k));
@@ -89,7 +89,7 @@ HWY_INLINE Mask SampleBsdf(const VertexLanes& lanes, const SobolLanes& numbers, 
   return hn::Or(hn::And(specular, hn::Ne(wo_z, zero)), hn::AndNot(specular, same_side));
 }
 
-// The next direction and what the flux is multiplied by, and where there is one.
+// Samples the next direction in world space and the factor for the flux; the mask tells where there is one.
 HWY_INLINE Mask SampleDirection(const VertexLanes& lanes, const SobolLanes& numbers, size_t k,
                                 Scattered& out) {
   const Floats d;
@@ -97,13 +97,14 @@ HWY_INLINE Mask SampleDirection(const VertexLanes& lanes, const SobolLanes& numb
   const Vec3<Vf> n = Load(lanes.n, k);
   const Vf wi_z = out.wi.z;
   const Vec3<Vf> w = ToWorld(n, out.wi);
-  // unit()
+  // These lines are unit() of tracer-inl.h.
   const Vf step = hn::Sub(hn::Set(d, 1.5f), hn::Mul(hn::Set(d, 0.5f), Dot(w, w)));
   out.wi = step * w;
   return hn::And(some, hn::Gt(hn::Mul(Dot(out.wi, n), wi_z), hn::Zero(d)));
 }
 
-// The flux `next` after reflection, and after roulette in `out`.
+// Russian roulette. `flux` arrived, `next` is left after reflection; `out` is the flux of the survivors.
+// Returns each lane's Fate.
 HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> Roulette(const Vec3<Vf>& flux, const Vec3<Vf>& next, Vf u,
                                                         Vec3<Vf>& out) {
   const Floats d;
@@ -140,7 +141,7 @@ void ScatterLanes(VertexLanes& lanes, const SobolLanes& numbers, float units_per
               lanes.next_energy + k);
     Store(next.wi, lanes.next.d, k);
     Store(flux_left, lanes.next_flux, k);
-    // offset_origin()
+    // These lines are offset_origin().
     const Vec3<Vf> n = Load(lanes.n, k), p = Load(lanes.p, k);
     const Vf p_error = hn::Load(d, lanes.p_error + k);
     const Mask behind = hn::Lt(Dot(next.wi, n), hn::Zero(d));

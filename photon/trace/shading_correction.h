@@ -1,5 +1,5 @@
 #pragma once
-// What a flux is, and Veach's correction of photons' flux for shading normals.
+// Validity of a flux, and Veach's correction of photon flux for shading normals.
 
 #include <type_traits>
 
@@ -12,24 +12,28 @@ inline bool is_valid_flux(const Rgb& flux) {
   return is_finite(flux) && flux.x >= 0 && flux.y >= 0 && flux.z >= 0;
 }
 
-// Shading normals. With ns the camera path's measurement is defined as (Veach 1997, section 5.3)
+// Shading normals. With the shading normal ns, the camera path's measurement is defined as (Veach 1997,
+// section 5.3)
 //   Lo(wo) = integral f(wo, wi) Li(wi) |wi.ns| dwi,
 // while photons that cross the geometric surface from wi bring the flux dPhi = Li |wi.n| dwi dA. Hence
 //   Lo(wo) = 1/dA sum f(wo, wi) dPhi c(wi)   with   c(w) = |w.ns| / |w.n|,
-// so a deposit carries c(wi). A photon that goes on in wi carries Lo(wi) |wi.n| dwi dA: with sample_f's
-// weight f |wi.ns| / pdf the factor left is c(wo) / c(wi), where wo points back to where the photon came
-// from. Both hold for delta lobes too, whose f has 1/|wi.ns|. Directions on different sides of n and ns carry
-// nothing (no light leaks), as on camera paths; but for light that leaves matt surfaces there: below.
+// so a deposit is multiplied by c(wi). A photon that continues towards wi carries Lo(wi) |wi.n| dwi dA: with
+// sample_f's weight f |wi.ns| / pdf, the remaining factor is c(wo) / c(wi), where wo points back to where the
+// photon came from. Both hold for delta lobes too, whose f contains 1/|wi.ns|. Directions on different sides
+// of n and ns carry nothing (no light leaks), as on camera paths. The exception is light that leaves diffuse
+// surfaces in such directions: see kIsMatt.
 //
-// cos_ns = w.ns. Returns c(w), zero when the sides differ; exactly one when ns equals n.
+// cos_ns = w.ns. Returns c(w): zero when the sides differ, exactly one when ns equals n.
 inline float shading_correction(const SurfaceInteraction& si, const Vector3& w, float cos_ns) {
   const float cos_n = glm::dot(w, si.n);
   if (!(cos_n * cos_ns > 0)) return 0;
   return si.n == si.ns ? 1.0f : cos_ns / cos_n;
 }
 
-// Seen from where n and ns disagree, matt surfaces are shaded by n (render/estimators/shading_point.h), so
-// towards there Lo(w) = 1/dA sum f_n(w, wi) dPhi, without c, of whatever crosses the geometric surface.
+// Whether a BSDF's diffuse reflection is shaded by n instead of ns when it is seen from a direction on
+// different sides of the two (as render/estimators/shading_point.h does on camera paths). Towards such
+// directions Lo(w) = 1/dA sum f_n(w, wi) dPhi, without the factor c, for all photons that cross the geometric
+// surface.
 template <class B>
 inline constexpr bool kIsMatt =
     std::is_same_v<B, Lambertian> || std::is_same_v<B, OrenNayar> || std::is_same_v<B, CoatedDiffuse>;
@@ -38,8 +42,8 @@ inline bool sides_differ(const SurfaceInteraction& si, const Vector3& w) {
   return !(glm::dot(w, si.n) * glm::dot(w, si.ns) > 0);
 }
 
-// A photon that comes from wo, where the sides differ, goes on only where they differ too: its direction is
-// to be sampled about n.
+// A photon that arrives from a direction wo on different sides of n and ns continues only in such directions;
+// its direction must be sampled about n.
 template <class B>
 bool scatters_about_n(const SurfaceInteraction& si, const Vector3& wo) {
   return kIsMatt<B> && si.n != si.ns && sides_differ(si, wo);
@@ -50,14 +54,15 @@ inline Frame geometric_frame(SurfaceInteraction si) {
   return si.shading_frame();
 }
 
-// Where a photon goes on, and the factor to its flux; zero: nowhere.
+// Next direction of a photon, and the factor for its flux; a zero factor ends the path.
 struct Onward {
   Vector3 wi{0};
   Rgb weight{0};
 };
 
-// A sample about ns that ends below the surface, in the mirror that swaps n and ns: a sample of the
-// directions above it where the sides differ, as dense there in |w.n| as the other was in |w.ns|.
+// Turns a sample about ns that ended below the geometric surface into one of the directions above the surface
+// for which the sides of n and ns differ: it is reflected in the plane that swaps n and ns, which preserves
+// the density (now with respect to |w.n| instead of |w.ns|).
 template <class B>
 Onward mirrored(const B& bsdf, const SurfaceInteraction& si, const Vector3& wo, const Vector3& below,
                 const Vector3& wo_local, const BsdfSample& sample) {
@@ -71,7 +76,8 @@ Onward mirrored(const B& bsdf, const SurfaceInteraction& si, const Vector3& wo, 
   return onward;
 }
 
-// A photon from wo whose sample was drawn in `frame`: that of ns, or of n where it scatters_about_n.
+// Next direction of a photon that comes from wo and whose sample was drawn in `frame`, the frame about n if
+// scatters_about_n<B>(si, wo) and about ns otherwise.
 template <class B>
 Onward onward(const B& bsdf, const SurfaceInteraction& si, const Frame& frame, const Vector3& wo,
               const Vector3& wo_local, const BsdfSample& sample) {

@@ -1,11 +1,11 @@
 #pragma once
-// How photons walk. Included by tracer.h only.
+// Implementation of trace_photons(). Included by tracer.h only.
 //
 // Photons wait in eight queues, one for each octant of ray directions. A group from one queue takes a step
-// together: its rays are traced in packets, what can be computed side by side is (random numbers, and all of
-// the commonest vertices: VertexLanes), each leaves its record, and those that go on join the queues again.
-// New photons are emitted when no queue holds a whole group, so packets are full and their rays alike until
-// the last photons are under way.
+// together: its rays are traced in packets; random numbers and the commonest kinds of vertices are computed
+// in SIMD lanes (VertexLanes), all others one by one; each vertex leaves its record; and the photons that
+// continue join the queues again. New photons are emitted only when no queue holds a whole group, so that
+// packets stay full of similar rays until the last photons have been emitted.
 
 #include <cmath>
 #include <memory>
@@ -21,25 +21,25 @@ namespace kaustik::photon {
 
 namespace detail {
 
-// Diffuse reflection has one lobe and needs no number to choose it.
+// True if sample_f needs a random number to choose among lobes; diffuse reflection has only one.
 template <class B>
 inline constexpr bool kChoosesLobe = !std::is_same_v<B, Lambertian> && !std::is_same_v<B, OrenNayar>;
 
-// One Newton step towards length 1, for directions whose length is off by rounding: keeps long specular
-// chains from drifting, without a division.
+// One Newton step towards length 1, for directions whose length is off by rounding only. It keeps long
+// specular chains from drifting and needs no division.
 inline Vector3 unit(const Vector3& w) {
   return (1.5f - 0.5f * length_squared(w)) * w;
 }
 
-// A photon at a vertex, for what is not computed in lanes.
+// A photon that arrives at a vertex which is not computed in lanes.
 struct Arrival {
   Ray ray;
   Rgb flux;
 };
 
-// A hit names a triangle; its vertices lie two dependent loads away, often out of cache. Asking for all of a
-// group's before any is needed hides most of that wait. Inlined always: GCC 12 takes a function that only
-// prefetches for one without effects, and drops the call.
+// A hit names a triangle, whose vertices lie two dependent loads away and are often not in the cache.
+// Prefetching those of a whole group before the first is needed hides most of the latency. Must be inlined:
+// GCC 12 considers a function that only prefetches free of effects and drops the call.
 [[gnu::always_inline]] inline void prefetch_triangles(const SurfaceTable& surfaces,
                                                       const accel::HitLanes& hits, size_t count) {
   const auto triangle = [&](size_t k, const SurfaceRow& surface) {
@@ -52,7 +52,7 @@ struct Arrival {
   }
 }
 
-// In packets, where the tree knows them.
+// Intersects in packets if the accelerator supports them.
 template <class Accel>
 void intersect_lanes(const Accel& bvh, const accel::RayLanes& rays, size_t count, accel::HitLanes* hits) {
   if constexpr (requires { bvh.intersect(rays, count, hits); }) {
@@ -62,7 +62,7 @@ void intersect_lanes(const Accel& bvh, const accel::RayLanes& rays, size_t count
   }
 }
 
-// Walks photons whose indices agree in their upper halves.
+// Traces photons whose 64-bit indices have the same upper half.
 template <class Accel, class Sink>
 class Tracer {
  public:
@@ -103,7 +103,7 @@ class Tracer {
  private:
   static constexpr uint32_t kFirstVertexSet = kEmissionDimensions / 4;
   static_assert(kVertexDimensions == 4 && kEmissionDimensions % 4 == 0, "a vertex has one Sobol set");
-  static constexpr uint8_t kNothing = kPhotonKinds;  // left at a vertex
+  static constexpr uint8_t kNothing = kPhotonKinds;  // value of left_: the vertex leaves no photon
 
   WalkerQueue& fullest() {
     WalkerQueue* best = &queues_[0];
@@ -112,7 +112,7 @@ class Tracer {
   }
   WalkerQueue& queue_of(const Vector3& d) { return queues_[WalkerQueue::octant(d)]; }
 
-  // From one Sobol set for all of the first `count` lanes.
+  // Draws the numbers of one Sobol set for the first `count` lanes.
   void draw_from(uint32_t set, size_t count, int dimensions, SobolLanes& numbers) {
     sets_.fill(set);
     keys_.make(set);
@@ -146,7 +146,7 @@ class Tracer {
       for (size_t k = 0; k < count; ++k) channel[k] *= weights_[k];
   }
 
-  // Those that go on join the queues.
+  // Pushes the photons whose goes_on_ is set into the queues.
   void push(const accel::RayLanes& rays, const VertexLanes::Column (&flux)[3], size_t count) {
     to_rows(rays, flux, walkers_, count, &rows_);
     for (size_t k = 0; k < count; ++k) queues_[rows_.octant[k]].push(rows_, k, goes_on_[k]);
@@ -160,7 +160,7 @@ class Tracer {
     locate_lanes(lanes_, surfaces_.shapes(), count);
     const bool chooses_lobes = traits & (kSpecularTrait | kScalarTrait);
     if (settings_.kinds.indirect || (settings_.kinds.caustic && chooses_lobes)) {
-      // Diffuse reflection does without the fourth number.
+      // Diffuse reflection does not need the fourth number.
       draw_vertex_numbers(count, chooses_lobes ? 4 : 3);
       scatter_lanes(lanes_, numbers_, units_per_watt_, count);
     }
@@ -175,7 +175,7 @@ class Tracer {
   void draw_vertex_numbers(size_t count, int dimensions) {
     uint32_t last = 0;
     for (size_t k = 0; k < count; ++k) {
-      // Straight rays use none.
+      // Straight rays use no random numbers, so any set will do for them.
       sets_[k] = kFirstVertexSet + (walkers_.state[k].is_straight() ? 0 : walkers_.state[k].rays());
       last = std::max(last, sets_[k]);
     }
@@ -184,7 +184,7 @@ class Tracer {
     draw_sobol_lanes(keys_, sets_.data(), walkers_.reversed_index, count, dimensions, &numbers_);
   }
 
-  // Hands the vertices over to lanes_; returns what their surfaces have for traits together.
+  // Copies each hit's surface to lanes_; returns all traits of these surfaces combined.
   uint32_t fill_lanes(size_t count) {
     uint32_t traits = 0;
     for (size_t k = 0; k < count; ++k) {
@@ -195,7 +195,7 @@ class Tracer {
     return traits;
   }
 
-  // Where the energy of the group went.
+  // Books the energy of the group's first `count` lanes; the other lanes are cleared.
   void book(size_t count) {
     std::fill(walkers_.energy + count, walkers_.energy + kGroupSize, 0);
     std::fill(scatters_ + count, scatters_ + kGroupSize, uint8_t{0});
@@ -209,8 +209,8 @@ class Tracer {
     }
   }
 
-  // Photon k at its vertex: what it leaves, and whether and how it goes on, in goes_on_, walkers_ and the
-  // next segment of lanes_.
+  // Treats photon k at its vertex: what it leaves (left_), whether it continues (goes_on_), its state
+  // (walkers_) and its next segment (lanes_).
   void arrive(size_t k) {
     ++(walkers_.state[k].is_straight() ? counters_.shadow_rays : counters_.rays);
     if (lanes_.traits[k] & kScalarTrait) return arrive_alone(k);
@@ -219,7 +219,7 @@ class Tracer {
     if (settings_.kinds.shadow && lanes_.hit.valid(k)) cast_shadow(k, before);
   }
 
-  // Not inlined: arrive() is, into the loop over the lanes, and most lanes have nothing to do here.
+  // Not inlined, because arrive() is inlined into the loop over the lanes and most lanes do not come here.
   [[gnu::noinline]] void arrive_alone(size_t k) {
     left_[k] = kNothing;
     goes_on_[k] = false;
@@ -238,8 +238,8 @@ class Tracer {
         *bsdf_at);
   }
 
-  // The same for what lanes_ has computed, but for shadow photons. The flux was found valid when it was made.
-  // Nobody could predict branches here.
+  // Does what arrive_alone() does for a vertex that was computed in lanes, except for shadow photons. The
+  // flux was found valid when it was made. Branchless: outcomes depend on the data and would be mispredicted.
   void arrive_in_lane(size_t k) {
     const bool met = !(lanes_.traits[k] & kMissedTrait), specular = lanes_.traits[k] & kSpecularTrait;
     const PhotonKind kind = walkers_.state[k].kind();
@@ -254,7 +254,7 @@ class Tracer {
     walkers_.state[k] = specular ? walkers_.state[k].behind_specular() : walkers_.state[k].behind_diffuse();
   }
 
-  // The straight ray of a vertex in lanes.
+  // Starts or continues the straight ray that leaves shadow photons, at a vertex computed in lanes.
   void cast_shadow(size_t k, WalkState before) {
     const bool specular = lanes_.traits[k] & kSpecularTrait;
     if (!before.is_straight() && !casts_shadow(before.kind(), specular)) return;
@@ -271,7 +271,7 @@ class Tracer {
     return walkers_.state[k].rays() + 1 >= static_cast<uint32_t>(settings_.max_bounces);
   }
 
-  // The straight ray behind the first surface.
+  // Queues the straight ray behind a photon's first surface.
   void start_straight(size_t k, const Ray& on, const Rgb& flux) {
     queue_of(on.d).push(on.o, on.d, flux, walkers_.reversed_index[k], WalkState::straight());
   }
@@ -303,7 +303,7 @@ class Tracer {
     }
   }
 
-  // Counts and refuses what must never reach a map.
+  // Counts invalid fluxes, which must never reach a map.
   bool valid(const Rgb& flux) {
     if (is_valid_flux(flux)) return true;
     ++counters_.dropped_invalid;
@@ -317,7 +317,7 @@ class Tracer {
       start_straight(k, si.spawn(photon.ray.d), photon.flux);
   }
 
-  // Whether a straight ray goes on behind a surface where a photon of this kind arrives.
+  // Whether a photon of this kind starts a straight ray behind the surface where it arrives.
   bool casts_shadow(PhotonKind kind, bool specular) const {
     return kind == PhotonKind::kDirect && (!specular || settings_.shadow_behind_specular);
   }
@@ -340,8 +340,9 @@ class Tracer {
     lanes_.fate[k] = dropped ? VertexLanes::kInvalid : VertexLanes::kAlive;
   }
 
-  // Samples the next direction and plays Russian roulette; false when the photon is absorbed, or not wanted
-  // behind this lobe. Numbers of the vertex: direction (0, 1), then lobe where there is a choice, roulette.
+  // Samples the next direction and plays Russian roulette. False when the photon is absorbed, or when no
+  // requested kind needs what this lobe scatters. The vertex's random numbers are: direction (0 and 1), lobe
+  // if kChoosesLobe, roulette.
   template <class B>
   bool scatter(size_t k, const B& bsdf, const SurfaceInteraction& si, const Arrival& photon) {
     const auto u = [&](int dimension) { return numbers_.u[dimension][k]; };
@@ -366,8 +367,8 @@ class Tracer {
     return true;
   }
 
-  // Roulette: survival with probability q = min(1, next / flux) keeps the flux of the survivors near
-  // constant. Returns what to scale next by, zero for the absorbed.
+  // Russian roulette with survival probability q = min(1, next / flux), which keeps the survivors' flux
+  // nearly constant. Returns the factor for `next`, zero if the photon is absorbed.
   static float roulette(const Rgb& flux, const Rgb& next, float u) {
     const float before = max_component(flux), after = max_component(next);
     if (!(after < before)) return 1;
@@ -384,18 +385,19 @@ class Tracer {
   float units_per_watt_ = std::ldexp(1.0f, -unit_exponent_);
   SobolKeyTable keys_;
   std::unique_ptr<WalkerQueue[]> queues_ = std::make_unique_for_overwrite<WalkerQueue[]>(8);
-  // Of the group that takes a step. Lanes nobody has set are zero, not leftovers of the stack: slow
-  // denormals.
+  // State of the group that takes a step. Lanes are zero-initialised, because leftovers of the stack may be
+  // denormals, which are slow to compute with.
   VertexLanes lanes_{};
   SobolLanes numbers_{};
   EmissionLanes starts_{};
-  EmissionLanes::Column weights_{};  // of guided starts
+  EmissionLanes::Column weights_{};  // 1/p of guided starts
   WalkerLanes walkers_{};
   WalkerRows rows_{};
-  std::array<uint32_t, kGroupSize> sets_{};  // Sobol sets to draw from
+  std::array<uint32_t, kGroupSize> sets_{};  // each lane's Sobol set
   std::array<bool, kGroupSize> goes_on_{};
-  alignas(64) uint8_t scatters_[kGroupSize]{};  // what arrives is booked as scattered, not as terminated
-  std::array<uint8_t, kGroupSize> left_{};      // kind of the photon left by a vertex in lanes, or kNothing
+  // the arriving energy is booked as scattered, not as terminated
+  alignas(64) uint8_t scatters_[kGroupSize]{};
+  std::array<uint8_t, kGroupSize> left_{};  // kind of the photon that the lane's vertex leaves, or kNothing
 };
 
 }  // namespace detail

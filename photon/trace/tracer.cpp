@@ -13,7 +13,7 @@ TraceCounters& TraceCounters::operator+=(const TraceCounters& o) {
 }
 
 uint64_t photon_stream(const TraceSettings& settings) {
-  constexpr uint64_t kPhotonTag = 0x70686f746f6eull;  // "photon"
+  constexpr uint64_t kPhotonTag = 0x70686f746f6eull;  // "photon" in ASCII
   return hash_combine(hash_combine(settings.seed, settings.pass), kPhotonTag);
 }
 

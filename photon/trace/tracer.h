@@ -1,5 +1,5 @@
 #pragma once
-// One photon's life: from light to absorption, leaving records on non-specular surfaces.
+// Traces photons from light to absorption and records those that arrive on non-specular surfaces.
 //
 // Path classes (Heckbert 1990; Jensen 2001, chapter 5; Jensen and Christensen 1995 for shadow photons):
 //   direct    L D            at the first surface, if it is non-specular
@@ -7,11 +7,12 @@
 //                            further non-specular surface, until it leaves the scene
 //   caustic   L S+ D         at the first non-specular surface after specular ones
 //   indirect  L (S|D)* D (S|D)* D
-// S is scattering by the specular part of a BSDF, delta and glossy lobes, D that by its broad part. A surface
-// is specular when it has no broad part. One that has both keeps photons, and goes on by either.
-// A path whose first surface is specular leaves no direct photon, and shadow photons only if
-// TraceSettings::shadow_behind_specular asks for them: then the straight ray behind any first surface leaves
-// them, since mirror and glass block direct light. A straight ray passes through specular surfaces.
+// S is scattering by the specular lobes of a BSDF (delta and narrow glossy ones), D by its diffuse lobes,
+// those under which photons are gathered. A surface is specular when it has no diffuse lobes. A surface with
+// both kinds keeps photons, and the path continues by either. A path whose first surface is specular leaves
+// no direct photon. It leaves shadow photons only if TraceSettings::shadow_behind_specular is set: then the
+// straight ray behind any first surface leaves them, since mirrors and glass block direct light. A straight
+// ray passes through specular surfaces.
 //
 // Not handled: participating media.
 
@@ -39,65 +40,69 @@ struct KindMask {
 struct TraceSettings {
   uint64_t seed = 0;
   uint64_t pass = 0;
-  uint64_t photons = 0;  // emitted in this pass
+  uint64_t photons = 0;  // emitted in this pass, by all lights together
   // Longest path L x1 ... xj whose photon at xj is kept: j <= max_bounces. The deposit counts as a scattering
   // (it sends light to the eye): 1 is direct light alone, 2 adds one reflection before the deposit.
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
   bool shadow_behind_specular = false;
-  std::optional<uint32_t> light{};       // the only one that emits, with all photons; else each by its power
-  const EmissionGuide* guide = nullptr;  // not empty: draws the starts, of all lights; else uniform
-  KindMask kinds;  // only what is asked for is traced: without `indirect` a photon ends at its first diffuse
-                   // surface
+  // Index of the only light that emits; unset: each emits in proportion to its power.
+  std::optional<uint32_t> light{};
+  // Draws the starts of all lights; must not be empty. Null: starts are uniform.
+  const EmissionGuide* guide = nullptr;
+  // Only the requested kinds are traced: without `indirect`, for instance, a photon ends at its first diffuse
+  // surface.
+  KindMask kinds;
 };
 
-// Exact counters, merged by integer sums.
+// Exact counters; merging them adds integers.
 struct TraceCounters {
   uint64_t emitted = 0;
   uint64_t rays = 0;         // path segments traced
-  uint64_t shadow_rays = 0;  // segments of straight paths behind the first surface
+  uint64_t shadow_rays = 0;  // segments of straight rays behind the first surface
   std::array<uint64_t, kPhotonKinds> stored{};
-  uint64_t dropped_invalid = 0;  // NaN, infinite or negative flux
+  uint64_t dropped_invalid = 0;  // photons of NaN, infinite or negative flux
   EnergyLedger energy;
   TraceCounters& operator+=(const TraceCounters& o);
 };
 
-// Key of the random sequence of a pass: independent of those of the camera paths.
+// Key of the pass's random sequence, independent of that of the camera paths.
 uint64_t photon_stream(const TraceSettings& settings);
 
-// Dimensions of a photon's random point: emission has the first 8, each vertex the next 4.
+// Dimensions of a photon's random point: the first 8 are for emission, each vertex takes the next 4.
 inline constexpr uint32_t kEmissionDimensions = 8;
 inline constexpr uint32_t kVertexDimensions = 4;
 
-// A straight ray leaves at most so many shadow photons: no scene in use comes near.
+// A straight ray leaves at most this many shadow photons, far more than any real scene has surfaces in a row.
 inline constexpr uint32_t kMaxStraightSurfaces = 1 << 16;
 
-// Photons that take a step side by side.
+// Number of photons that take a step together.
 inline constexpr uint64_t kGroupSize = VertexLanes::kLanes;
 
 // Traces photons first ... end - 1 of settings.photons and calls sink(PhotonKind, const Photon&) for each
 // photon of a kind in settings.kinds. A sink may also take the photon's index as a third argument, or be
 // called with whole lanes: see RecordSink. The order of the calls is a pure function of (scene, settings,
-// first, end). What a photon leaves is one of (scene, settings, index), save that
-//   - a kind that is not asked for may shorten its path: the photons of the other kinds do not change;
-//   - of two surfaces met at exactly the same distance, as by a ray through an edge, the photons that are
-//     traced beside it may decide which one is named.
-// Photons without flux are not handed over; those of invalid flux are counted. counters are added to.
-// Accel: accel::Bvh or anything with its Hit intersect(const Ray&) const. Thread-safe.
-// surfaces: of scene.
+// first, end). The photons that one index leaves are a pure function of (scene, settings, index), with two
+// exceptions:
+//   - leaving out a kind may shorten the path, which does not change the photons of the other kinds;
+//   - where a ray meets two surfaces at exactly the same distance, as at an edge, the other photons of
+//     its packet may decide which of the two is reported.
+// Photons without flux are skipped; those of invalid flux are skipped and counted. counters are added to.
+// Accel: accel::Bvh, or any type with Hit intersect(const Ray&) const. surfaces must have been made from
+// scene. Thread-safe.
 template <class Accel, class Sink>
 void trace_photons(const Scene& scene, const SurfaceTable& surfaces, const Accel& bvh,
                    const TraceSettings& settings, uint64_t first, uint64_t end, Sink&& sink,
                    TraceCounters& counters);
 
-// The same with a table made for this call.
+// Overload that makes the SurfaceTable itself.
 template <class Accel, class Sink>
 void trace_photons(const Scene& scene, const Accel& bvh, const TraceSettings& settings, uint64_t first,
                    uint64_t end, Sink&& sink, TraceCounters& counters) {
   trace_photons(scene, SurfaceTable(scene), bvh, settings, first, end, sink, counters);
 }
 
-// One photon: trace_photons of index alone.
+// Traces the single photon `index`.
 template <class Accel, class Sink>
 void trace_photon(const Scene& scene, const Accel& bvh, const TraceSettings& settings, uint64_t index,
                   Sink&& sink, TraceCounters& counters) {

@@ -1,6 +1,5 @@
-// Vectors of three and sampling in SIMD lanes, shared by the files that foreach_target.h compiles once per
-// instruction set. Nothing is fused: the bits are those of GLM and of core/sampling/warp.h,
-// core/math/frame.h.
+// 3-vectors and sampling in SIMD lanes, for files that foreach_target.h compiles once per instruction set.
+// Nothing is fused: results have the same bits as those of GLM, core/sampling/warp.h and core/math/frame.h.
 
 #if defined(KAUSTIK_VECTOR_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef KAUSTIK_VECTOR_LANES
@@ -24,7 +23,7 @@ using Vf = hn::Vec<Floats>;
 using Mask = hn::Mask<Floats>;
 using Columns3 = VertexLanes::Column[3];
 
-// Three numbers per lane.
+// A 3-vector in each lane.
 template <class V>
 struct Vec3 {
   V x, y, z;
@@ -63,7 +62,7 @@ HWY_INLINE Vf LargestMagnitude(const Vec3<Vf>& v) {
   return Largest({hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)});
 }
 
-// energy_of().
+// Same operations as energy_of().
 HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> Energy(const Vec3<Vf>& flux, Vf units_per_watt) {
   const Vf sum = hn::Add(hn::Add(flux.x, flux.y), flux.z);
   return hn::NearestInt(hn::Min(hn::Mul(sum, units_per_watt), hn::Set(Floats(), kMostEnergy)));
@@ -80,7 +79,7 @@ HWY_INLINE void Store(const Vec3<Vf>& v, Columns3& c, size_t k) {
   hn::Store(v.z, d, c[2] + k);
 }
 
-// c0 + x (c1 + x (c2 ...)), for the polynomials of cos_sin_octant().
+// Evaluates c0 + x (c1 + x (c2 ...)), for the polynomials of cos_sin_octant().
 template <class... Rest>
 HWY_INLINE Vf Horner(Vf x, float first, Rest... rest) {
   const Vf c = hn::Set(Floats(), first);
@@ -91,7 +90,7 @@ HWY_INLINE Vf Horner(Vf x, float first, Rest... rest) {
   }
 }
 
-// sample_cosine_hemisphere().
+// Same operations as sample_cosine_hemisphere().
 HWY_INLINE Vec3<Vf> SampleCosineHemisphere(Vf u0, Vf u1) {
   const Floats d;
   const Vf one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
@@ -111,7 +110,7 @@ HWY_INLINE Vec3<Vf> SampleCosineHemisphere(Vf u0, Vf u1) {
   return {hn::Mul(r, hn::IfThenElse(along_x, c, s)), hn::Mul(r, hn::IfThenElse(along_x, s, c)), z};
 }
 
-// Frame::from_z(z): its x and y axes.
+// The x and y axes of Frame::from_z(z).
 struct Tangents {
   Vec3<Vf> x, y;
 };
@@ -126,7 +125,7 @@ HWY_INLINE Tangents TangentsOf(const Vec3<Vf>& z) {
           {b, hn::Add(sign, hn::Mul(hn::Mul(z.y, z.y), a)), hn::Neg(z.y)}};
 }
 
-// Frame::from_z(z).to_world(v) and to_local(v).
+// ToWorld is Frame::from_z(z).to_world(v), ToLocal is Frame::from_z(z).to_local(v).
 HWY_INLINE Vec3<Vf> ToWorld(const Vec3<Vf>& z, const Vec3<Vf>& v) {
   const Tangents t = TangentsOf(z);
   return v.x * t.x + v.y * t.y + v.z * z;

@@ -1,6 +1,6 @@
 #pragma once
-// The commonest vertices of photons' paths for many photons at once in SIMD lanes: triangles without vertex
-// normals and spheres, of the diffuse BSDFs, mirrors and dielectrics.
+// The commonest vertices of photon paths, computed for a group of photons in SIMD lanes: triangles without
+// vertex normals and spheres, with diffuse, Oren-Nayar, mirror and dielectric BSDFs.
 
 #include <cstddef>
 
@@ -10,31 +10,32 @@
 
 namespace kaustik::photon {
 
-// Lanes side by side, by columns. Lanes that nobody set are computed and mean nothing.
+// A group of vertices as structure of arrays. Lanes that were never set are computed too; ignore their
+// results.
 struct VertexLanes {
   static constexpr size_t kLanes = kSobolLanes;
   static_assert(kLanes == accel::kRayLanes && kLanes == 64);
   using Column = float[kLanes];
 
-  // In: the ray that led here, its flux, and its hit; of a triangle its corners; what the surface's row says.
+  // In: the ray that led here, its flux and its hit; the corners if it hit a triangle; the surface's row.
   accel::RayLanes ray;
   accel::HitLanes hit;
   alignas(64) Column flux[3];
   Column corner[3][3], reflectance[3], parameter[2], flip;
   uint32_t traits[kLanes], surface_group[kLanes];
 
-  // Out: what make_interaction() says, n turned to where the photon comes from, d.n, and the next segment, as
-  // the BSDF's sample_f and Russian roulette make it.
+  // Out: p, p_error and n as make_interaction() computes them; n flipped to the side the photon comes from
+  // (facing); cos_in = d.n; and the next segment after sample_f and Russian roulette.
   Column p[3], p_error, n[3], facing[3], cos_in;
   accel::RayLanes next;
   Column next_flux[3];
-  // How its life goes on.
-  enum Fate : int32_t { kAbsorbed = 0, kAlive = 1, kInvalid = 2 };  // kInvalid: not a flux
+  // Outcome of scattering; kInvalid: the flux would be NaN, infinite or negative.
+  enum Fate : int32_t { kAbsorbed = 0, kAlive = 1, kInvalid = 2 };
   int32_t fate[kLanes];
-  // Energies of the flux that is scattered, before and after Russian roulette, in units of the ledger.
+  // Ledger units of the scattered flux before and after Russian roulette.
   int32_t scattered_energy[kLanes], next_energy[kLanes];
 
-  // Of lane k, whose hit is on this surface.
+  // Copies what lane k needs of the surface that its hit is on.
   void set_vertex(size_t k, const SurfaceRow& surface) {
     const std::array<uint32_t, 3>& vertices = surface.indices[hit.primitive[k] & surface.primitives];
     for (size_t v = 0; v < 3; ++v) set(corner[v], k, surface.P[vertices[v]]);
@@ -60,14 +61,14 @@ struct VertexLanes {
   }
 };
 
-// Fills p, p_error, n, facing and cos_in of the first `count` lanes, with the bits of make_interaction().
+// Computes p, p_error, n, facing and cos_in of the first `count` lanes, with the bits of make_interaction().
 // Thread-safe.
 void locate_lanes(VertexLanes& lanes, const std::vector<Shape>& shapes, size_t count);
 
-// Fills next, next_flux, fate and the energies of the first `count` lanes from what locate_lanes() left.
-// Direction from dimensions 0 and 1 of numbers, roulette from dimension 2; at specular surfaces lobe from
-// dimension 2 and roulette from dimension 3. The operations are those of the tracer's scalar code, in the
-// same order, so the bits are the same too, on every instruction set. Thread-safe.
+// Computes next, next_flux, fate and the energies of the first `count` lanes from what locate_lanes() left.
+// The direction uses dimensions 0 and 1 of numbers, roulette dimension 2; at specular surfaces the lobe uses
+// dimension 2 and roulette dimension 3. The operations and their order are those of the tracer's scalar code,
+// so the bits are the same on every instruction set. Thread-safe.
 void scatter_lanes(VertexLanes& lanes, const SobolLanes& numbers, float units_per_watt, size_t count);
 
 }  // namespace kaustik::photon

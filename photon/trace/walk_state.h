@@ -1,5 +1,5 @@
 #pragma once
-// What a photon has met on its way.
+// History of a photon on its way, packed into one word.
 
 #include <cstdint>
 
@@ -7,16 +7,16 @@
 
 namespace kaustik::photon {
 
-// What a photon has met, and how many rays it has followed.
+// The events that a photon has met and the number of rays it has followed.
 class WalkState {
  public:
   WalkState() = default;
-  // A direct photon's straight ray behind its first surface.
+  // State of the straight ray behind a direct photon's first surface.
   static WalkState straight() { return WalkState(kStraight); }
 
   bool is_straight() const { return bits_ & kStraight; }
-  uint32_t rays() const { return bits_ / kOneRay; }  // before the one it follows now
-  PhotonKind kind() const {                          // of what it leaves at a non-specular surface
+  uint32_t rays() const { return bits_ / kOneRay; }  // completed, not counting the current one
+  PhotonKind kind() const {                          // of the photon left at a non-specular surface
     using enum PhotonKind;
     constexpr PhotonKind kKinds[] = {kDirect, kCaustic, kIndirect, kIndirect,
                                      kShadow, kShadow,  kShadow,   kShadow};
@@ -26,7 +26,7 @@ class WalkState {
   WalkState behind_diffuse() const { return WalkState((bits_ | kDiffuse) + kOneRay); }
   WalkState behind_any() const { return WalkState(bits_ + kOneRay); }
 
-  // As words, in arrays.
+  // Access to arrays of states as arrays of words.
   static uint32_t* words(WalkState* states) { return &states->bits_; }
   static const uint32_t* words(const WalkState* states) { return &states->bits_; }
 

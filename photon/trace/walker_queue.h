@@ -1,5 +1,5 @@
 #pragma once
-// Photons on their way, waiting for the next step.
+// Queue of photons that wait for their next step.
 
 #include <cmath>
 #include <cstring>
@@ -8,17 +8,17 @@
 
 namespace kaustik::photon {
 
-// Photons whose rays point into one octant, by rows: joining a queue touches three lines of the cache.
+// Photons whose rays point into one octant. Stored as rows, so that a push touches three cache lines.
 class WalkerQueue {
  public:
   static constexpr size_t kGroup = VertexLanes::kLanes;
-  // The tracer emits a group only when no queue of the eight holds one, and a photon that has been emitted
-  // adds at most one more, its straight ray.
+  // The tracer emits a group only when none of the eight queues holds a whole one, and each emitted photon
+  // adds at most one more entry, its straight ray.
   static constexpr size_t kCapacity = 2 * (8 * kGroup + kGroup);
 
   size_t size() const { return size_; }
 
-  // One photon.
+  // Adds one photon.
   void push(const glm::vec3& o, const glm::vec3& d, const Rgb& flux, uint32_t reversed_index,
             WalkState state) {
     const float floats[] = {o.x, o.y, o.z, d.x, d.y, d.z, flux.x, flux.y, flux.z};
@@ -30,13 +30,14 @@ class WalkerQueue {
     ++size_;
   }
 
-  // Row k. Writes behind the last, and keeps it if `keep`: nobody could predict a branch on that.
+  // Adds row k if `keep`. Always writes behind the last row instead of branching, since the branch would be
+  // mispredicted.
   void push(const WalkerRows& rows, size_t k, bool keep) {
     for (int i = 0; i < 3; ++i) std::memcpy(part_[i][size_], rows.part[i][k], sizeof(Part));
     size_ += keep;
   }
 
-  // Takes the last `count` out.
+  // Removes the last `count` photons.
   void take(size_t count, VertexLanes& lanes, WalkerLanes& walkers) {
     size_ -= count;
     from_rows({part_[0][size_], part_[1][size_], part_[2][size_]}, count, &lanes.ray, lanes.flux, &walkers);
@@ -50,7 +51,7 @@ class WalkerQueue {
  private:
   using Part = uint32_t[4];
   size_t size_ = 0;
-  // With room for the whole vectors of a group that is not full.
+  // Has room for the whole vectors that take() reads of a group that is not full.
   alignas(64) Part part_[3][kCapacity + kGroup];
 };
 

@@ -1,4 +1,4 @@
-// Rows and columns in SIMD lanes (Google Highway).
+// Transposes photons between rows and columns in SIMD lanes (Google Highway).
 
 #include "photon/trace/walker_rows.h"
 

@@ -9,9 +9,9 @@ namespace kaustik::photon {
 
 namespace {
 
-using Votes = std::vector<uint64_t>;
+using Observations = std::vector<uint64_t>;
 
-// Keeps these photons apart from those of any pass that can be.
+// Pass number that keeps these photons' random sequences apart from those of any real pass.
 constexpr uint64_t kVisibilityPass = 0x7669736962696c69;
 
 TraceSettings straight_photons(const VisibilitySettings& settings, uint32_t light, double share) {
@@ -34,7 +34,7 @@ VisibilityTree predict_visibility(const Scene& scene, const accel::Bvh& bvh,
   const MortonCube cube = MortonCube::around(scene.bounds);
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return {};
   const SurfaceTable surfaces(scene);
-  tbb::enumerable_thread_specific<Votes> by_thread;
+  tbb::enumerable_thread_specific<Observations> by_thread;
   const size_t lights = std::min<size_t>(scene.lights.size(), VisibilityTree::kMostLights);
   const auto power = [&](uint32_t light) {
     return is_infinite(scene.lights[light]) ? 0.0 : double(scene.light_power.pdf(light));
@@ -46,17 +46,19 @@ VisibilityTree predict_visibility(const Scene& scene, const accel::Bvh& bvh,
     const TraceSettings trace = straight_photons(settings, light, power(light) / sum);
     const uint64_t blocks = (trace.photons + kShootBlock - 1) / kShootBlock;
     tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t block) {
-      Votes& votes = by_thread.local();
+      Observations& observations = by_thread.local();
       TraceCounters ignored;
       const uint64_t first = block * kShootBlock, end = std::min(trace.photons, first + kShootBlock);
       const auto sink = [&](PhotonKind kind, const Photon& photon) {
-        votes.push_back(VisibilityTree::vote(cube, light, photon.p, photon.n, kind == PhotonKind::kDirect));
+        observations.push_back(
+            VisibilityTree::observation(cube, light, photon.p, photon.n, kind == PhotonKind::kDirect));
       };
       trace_photons(scene, surfaces, bvh, trace, first, end, sink, ignored);
     });
   }
-  Votes all;
-  for (const Votes& votes : by_thread) all.insert(all.end(), votes.begin(), votes.end());
+  Observations all;
+  for (const Observations& observations : by_thread)
+    all.insert(all.end(), observations.begin(), observations.end());
   return {cube, std::move(all)};
 }
 

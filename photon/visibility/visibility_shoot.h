@@ -1,5 +1,5 @@
 #pragma once
-// The photons that predict visibility.
+// Traces the photons from which visibility is predicted.
 
 #include "accel/bvh.h"
 #include "photon/visibility/visibility_tree.h"
@@ -12,10 +12,10 @@ struct VisibilitySettings {
   EmissionMode emission = EmissionMode::kCosine;
 };
 
-// Lets each light but skies emit its share of the photons, by power, and counts where they go straight on:
-// nothing is scattered and nothing stored. Of more than VisibilityTree::kMostLights lights the others are
-// left out: nothing is predicted of them. The result is a function of scene and settings alone, whatever the
-// number of threads.
+// Each finite light emits its share of the photons, by power; infinite lights emit none. Each photon flies
+// straight on, and records whether the light is visible where it passes a surface: nothing is scattered and
+// nothing stored. Lights beyond the first VisibilityTree::kMostLights are left out, so nothing is predicted
+// for them. The result is a function of scene and settings alone, whatever the number of threads.
 VisibilityTree predict_visibility(const Scene& scene, const accel::Bvh& bvh,
                                   const VisibilitySettings& settings);
 

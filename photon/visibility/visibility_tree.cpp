@@ -8,7 +8,7 @@ namespace kaustik::photon {
 
 namespace {
 
-// A vote, from its highest bits: light and direction, a digit of six bits for each level, hidden.
+// Bits of an observation, from the highest: light and direction, a digit of six bits for each level, hidden.
 constexpr int kTreeShift = 55;
 constexpr int kDigitBits = 6;
 
@@ -24,25 +24,26 @@ uint64_t count_hidden(const uint64_t* begin, const uint64_t* end) {
 
 }  // namespace
 
-int probability_exponent(uint64_t votes) {
+int probability_exponent(uint64_t observations) {
   int k = 0;
-  for (uint64_t least = kVotesOfFirstStep; k < kMostExponent && votes + 2 >= least; least *= 4) ++k;
+  for (uint64_t least = kObservationsOfFirstStep; k < kMostExponent && observations + 2 >= least; least *= 4)
+    ++k;
   return k;
 }
 
-uint64_t VisibilityTree::vote(const MortonCube& cube, uint32_t light, const Point3& p, const Normal3& n,
-                              bool seen) {
+uint64_t VisibilityTree::observation(const MortonCube& cube, uint32_t light, const Point3& p,
+                                     const Normal3& n, bool seen) {
   const MortonCell cell = cube.cell(p);
   uint64_t key = light * kDirections + direction(n);
   for (int level = 0; level < kLevels; ++level) key = key << kDigitBits | digit(cell, level);
   return key << 1 | !seen;
 }
 
-VisibilityTree::VisibilityTree(const MortonCube& cube, std::vector<uint64_t> votes) : cube_(cube) {
+VisibilityTree::VisibilityTree(const MortonCube& cube, std::vector<uint64_t> observations) : cube_(cube) {
   static_assert(digit_shift(kLevels - 1) == 1 && (kMostLights * kDirections) >> (64 - kTreeShift) == 0);
-  tbb::parallel_sort(votes.begin(), votes.end());
-  const uint64_t* const end = votes.data() + votes.size();
-  for (const uint64_t* at = votes.data(); at < end;) {
+  tbb::parallel_sort(observations.begin(), observations.end());
+  const uint64_t* const end = observations.data() + observations.size();
+  for (const uint64_t* at = observations.data(); at < end;) {
     const uint64_t tree = *at >> kTreeShift;
     const uint64_t* const next =
         std::partition_point(at, end, [&](uint64_t v) { return v >> kTreeShift == tree; });
@@ -51,13 +52,13 @@ VisibilityTree::VisibilityTree(const MortonCube& cube, std::vector<uint64_t> vot
   }
 }
 
-// What votes of one cell predict: -(2 k + v) with p = 2^-k, or 0.
-int32_t VisibilityTree::leaf(uint64_t votes, uint64_t hidden) {
-  const int k = hidden == 0 || hidden == votes ? probability_exponent(votes) : 0;
+// Entry for a leaf cell: -(2 k + v) where v is predicted with p = 2^-k, or 0 where nothing is predicted.
+int32_t VisibilityTree::leaf(uint64_t observations, uint64_t hidden) {
+  const int k = hidden == 0 || hidden == observations ? probability_exponent(observations) : 0;
   return k == 0 ? 0 : -(2 * k + (hidden == 0));
 }
 
-// The node of a cell whose children are those of level. Returns its number.
+// Makes the node of a cell whose children lie at `level`. Returns the node's index.
 int32_t VisibilityTree::make_node(const uint64_t* begin, const uint64_t* end, int level) {
   const size_t number = nodes_.size();
   nodes_.push_back({});
@@ -66,10 +67,10 @@ int32_t VisibilityTree::make_node(const uint64_t* begin, const uint64_t* end, in
     const uint64_t cell = *begin >> shift;
     const uint64_t* const next =
         std::partition_point(begin, end, [&](uint64_t v) { return v >> shift == cell; });
-    const uint64_t votes = static_cast<uint64_t>(next - begin), hidden = count_hidden(begin, next);
-    const bool differ = hidden > 0 && hidden < votes;
-    const bool divided = differ && votes >= kDividedVotes && level + 1 < kLevels;
-    const int32_t entry = divided ? make_node(begin, next, level + 1) : leaf(votes, hidden);
+    const uint64_t observations = static_cast<uint64_t>(next - begin), hidden = count_hidden(begin, next);
+    const bool differ = hidden > 0 && hidden < observations;
+    const bool divided = differ && observations >= kDividedObservations && level + 1 < kLevels;
+    const int32_t entry = divided ? make_node(begin, next, level + 1) : leaf(observations, hidden);
     nodes_[number][cell & 63] = entry;
     begin = next;
   }

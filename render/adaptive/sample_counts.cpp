@@ -9,12 +9,13 @@ namespace kaustik::render {
 
 namespace {
 
-// Relative variances as whole numbers that grow with their logarithm: the upper bits of a float.
+// Relative variances are binned by their logarithm: the upper bits of a float, which are ordered like its
+// value.
 constexpr int kMantissaBits = 4;
-constexpr uint32_t kSteps = 1u << (8 + kMantissaBits);  // of all finite floats that are not negative
-// Of the count. If the variance of a mean fell like 1 / count, the root of the relative variance would be
-// best; of stratified samples it falls faster, and what is smooth gains as much from a few as edges do from
-// many.
+constexpr uint32_t kSteps = 1u << (8 + kMantissaBits);  // bins for all finite non-negative floats
+// Bins for each doubling of the count. If the variance of a mean fell like 1 / count, the count should follow
+// the root of the relative variance; for stratified samples it falls faster, and smooth pixels gain as much
+// from a few samples as edges do from many.
 constexpr int kStepsPerDoubling = 4 << kMantissaBits;
 uint32_t step_of(double relative_variance) {
   const float value = static_cast<float>(std::min(relative_variance, 1e30));
@@ -25,7 +26,7 @@ int doublings(uint32_t step, uint32_t threshold) {
   return std::clamp((int(step) - int(threshold)) / kStepsPerDoubling, 0, kMostDoublings);
 }
 
-// Work of as many samples as there are first ones, of all pixels whose gain lies in each step.
+// Work of the pixels in each bin, for as many samples as the first ones.
 using Histogram = std::array<double, kSteps>;
 
 double further_work_of(const Histogram& work, uint32_t threshold) {
@@ -35,7 +36,7 @@ double further_work_of(const Histogram& work, uint32_t threshold) {
   return sum;
 }
 
-// The least threshold that takes no more work.
+// Lowest threshold whose further samples take at most `most` work.
 uint32_t least_threshold(const Histogram& work, double most) {
   uint32_t low = 1, high = kSteps;
   while (low < high) {
@@ -63,7 +64,8 @@ SampleCounts::SampleCounts(const FilmSums& window)
       counts_(spreads_.size()),
       lights_(spreads_.size()) {}
 
-// The other half counts as much as the blocks around together: it is nearer, and less of it.
+// Sum over the neighbours of half block i. The other half weighs as much as all surrounding blocks together:
+// it is smaller but nearer.
 SampleSpread SampleCounts::neighbours(size_t i) const {
   constexpr double kAround = 1.0 / 16;
   const int half = int(i % kHalves), column = int(i / kHalves) % columns_, row = int(i / kHalves) / columns_;

@@ -11,14 +11,14 @@ double sum_of(const glm::dvec3& v) {
   return v.x + v.y + v.z;
 }
 
-// Infinite where one sample says nothing of it.
+// Infinite where a single sample leaves the variance unknown.
 double variance_of(const LightMoments& light, uint64_t count) {
   if (count < 2) return kInfinity;
   const double n = double(count);
   return std::max(sum_of(light.squares - light.sum * light.sum / n) / (n - 1), 0.0);
 }
 
-// Place in the block, from its middle.
+// Position of pixel i in its block, relative to the centre.
 glm::dvec2 place(int i) {
   constexpr double kMiddle = (kRayBlock - 1) / 2.0;
   return {i % kRayBlock - kMiddle, i / kRayBlock - kMiddle};
@@ -28,11 +28,12 @@ bool in_half(int i, int half) {
   return half_of(i % kRayBlock, i / kRayBlock) == half;
 }
 
-// Variance of the pixels' means about the plane that fits them best; they must all be there.
+// Variance of the pixels' means about the plane that fits them best. All pixels of the half must have
+// samples.
 double variance_about_plane(const BlockMoments& block, int half, size_t light) {
   constexpr double kPixels = pixels_in(BlockPart::kEven), kFreedom = kPixels - 3;
   glm::dvec3 sum(0), squares(0), along_x(0), along_y(0);
-  double xx = 0, xy = 0;  // yy is xx; the sums of x and of y are 0
+  double xx = 0, xy = 0;  // yy equals xx; the sums of x and of y are 0
   for (int i = 0; i < int(block.size()); ++i) {
     if (!in_half(i, half)) continue;
     const SampleMoments& pixel = block[size_t(i)];

@@ -1,5 +1,5 @@
 #pragma once
-// How much the samples of a pixel differ.
+// How much the samples of a pixel vary, and what they cost.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace kaustik::render {
 
-// Of some light of the samples of one pixel, W/(m^2 sr), and of what it costs: rays and readings of a map.
+// Moments of one SampleLight over a pixel's samples, in W/(m^2 sr), and their cost: rays plus gathers.
 struct LightMoments {
   glm::dvec3 sum{0}, squares{0};
   uint64_t work = 0;
@@ -22,16 +22,16 @@ struct LightMoments {
   }
 };
 
-// Of the samples of one pixel.
+// Moments of all samples of one pixel.
 struct SampleMoments {
   std::array<LightMoments, kSampleLights> light;  // by SampleLight
   uint64_t count = 0;
 };
 
-// Of a block of rays, by pixel_of_block(). Pixels outside the window have no samples.
+// Moments of a block of rays, indexed by pixel_of_block(). Pixels outside the window have no samples.
 using BlockMoments = std::array<SampleMoments, kRayBlock * kRayBlock>;
 
-// What some samples of some pixels say of some light: sums over the pixels, of one sample each.
+// Variance and work of one sample, summed over some pixels.
 struct LightSpread {
   double variance = 0;  // the sum over R, G and B, (W/(m^2 sr))^2
   double work = 0;
@@ -41,10 +41,10 @@ struct LightSpread {
   }
 };
 
-// The same of all light.
+// LightSpread for each SampleLight, and the mean of all light.
 struct SampleSpread {
   std::array<LightSpread, kSampleLights> light;  // by SampleLight
-  double mean = 0;                               // of all light, of R, G and B, W/(m^2 sr)
+  double mean = 0;                               // all light, mean of R, G and B, W/(m^2 sr)
   double pixels = 0;
 
   void add(const SampleSpread& other, double weight) {
@@ -54,10 +54,10 @@ struct SampleSpread {
   const LightSpread& of(SampleLight which) const { return light[size_t(which)]; }
 };
 
-// Of half a block (0 or 1, see half_of()). The samples of a pixel are stratified, so that their mean varies
-// less than their own variance says; and the means of neighbours vary by that, and by what there is to see.
-// The smaller of the two is taken, from the means' distance to a plane; at the border of the window the
-// first.
+// Statistics of half a block (0 or 1, see half_of()). Two bounds of a sample's variance are known: the
+// samples' own variance is too large, because the samples of a pixel are stratified; the variance of the
+// pixels' means about a plane contains image detail too. The smaller one is used; at the border of the
+// window, where pixels are missing, the first.
 SampleSpread spread_of(const BlockMoments& block, int half);
 
 }  // namespace kaustik::render

@@ -8,9 +8,9 @@ namespace kaustik::render {
 
 namespace {
 
-constexpr uint64_t kCameraStream = 0xca3e;  // keeps the image's random numbers apart from the photons'
+constexpr uint64_t kCameraStream = 0xca3e;  // separates the random numbers of pixels from those of photons
 
-// Place in the image of a sample of pixel (x, y).
+// Raster position of a sample of pixel (x, y), and the sample's weight.
 Point2 raster_of(const PixelFilter& filter, int x, int y, const Point2& u, int8_t* weight) {
   const Point2 corner(x, y);
   *weight = 1;

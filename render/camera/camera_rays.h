@@ -1,7 +1,7 @@
 #pragma once
-// Camera rays of neighbouring pixels, which go through the scene together: a packet holds one sample of each
-// pixel of a block. Blocks are counted from the corner of the full image, and are whole wherever the film's
-// window ends, so that a ray has the same company in every part of an image that is rendered by itself.
+// Camera rays of neighbouring pixels, traced in packets: a packet holds one sample of each pixel of a block.
+// Blocks are counted from the corner of the full image and are traced whole even where the film's window cuts
+// them, so that a ray is in the same packet in every crop of an image.
 
 #include "accel/bvh.h"
 #include "core/sampling/sampler.h"
@@ -10,12 +10,12 @@ namespace kaustik::render {
 
 inline constexpr int kRayBlock = 4;  // pixels along each axis of a block
 
-// The number of pixel (x, y) of the full image in its block.
+// Index of pixel (x, y) of the full image in its block.
 inline constexpr uint32_t pixel_of_block(int x, int y) {
   return uint32_t(y % kRayBlock * kRayBlock + x % kRayBlock);
 }
 
-// Of a block: all its pixels, or those of one colour of a checkerboard.
+// All pixels of a block, or those of one colour of a checkerboard.
 enum class BlockPart { kWhole, kEven, kOdd };
 inline constexpr int pixels_in(BlockPart part) {
   return kRayBlock * kRayBlock / (part == BlockPart::kWhole ? 1 : 2);
@@ -29,8 +29,8 @@ inline constexpr bool has_pixel(BlockPart part, int x, int y) {
   return part == BlockPart::kWhole || half_of(x, y) == (part == BlockPart::kOdd);
 }
 
-// The Sampler seed of pixel (x, y) of the full image, whose samples are its points. Their first dimensions
-// are the place in the pixel, and that on the lens where there is one.
+// Sampler seed of pixel (x, y) of the full image; the point with index i is the pixel's sample i. The first
+// dimensions are the position in the pixel, followed by that on the lens if there is one.
 uint64_t pixel_stream(uint64_t seed, const Camera& camera, int x, int y);
 inline uint32_t ray_dimensions(const Camera& camera) {
   return camera.lens_radius() > 0 ? 4 : 2;
@@ -38,24 +38,26 @@ inline uint32_t ray_dimensions(const Camera& camera) {
 
 class CameraRays {
  public:
-  // Samples of each pixel that are traced at once, at most.
+  // Most samples of each pixel that trace() accepts at once.
   static constexpr uint64_t most_samples(BlockPart part) {
     return uint64_t(accel::kRayLanes) / uint64_t(pixels_in(part));
   }
 
-  // Rays of samples [first, first + count) of the pixels of a part of block (x / kRayBlock, y / kRayBlock),
-  // and what they meet. As dense as the pixel filter's modulus. Beyond the image its last pixels stand again.
+  // Generates and intersects the rays of samples [first, first + count) for the pixels of one part of block
+  // (x / kRayBlock, y / kRayBlock). Samples have the density of the pixel filter's absolute value. Pixels
+  // beyond the image repeat its last column or row.
   void trace(const accel::Bvh& bvh, uint64_t seed, int x, int y, BlockPart part, uint64_t first,
              uint64_t count);
 
   Ray ray(int x, int y, uint64_t sample) const { return rays_.get(lane(x, y, sample)); }
   Hit hit(int x, int y, uint64_t sample) const { return hits_.get(lane(x, y, sample)); }
-  // 1, or -1 where the pixel filter is negative.
+  // Sample weight: 1, or -1 where the pixel filter is negative.
   int weight(int x, int y, uint64_t sample) const { return weights_[lane(x, y, sample)]; }
 
  private:
   size_t lane(int x, int y, uint64_t sample) const {
-    // Of two neighbours in a row one is even, one odd.
+    // Of two neighbours in a row one is even and one odd, so that halving the index numbers each half in a
+    // row.
     const uint32_t place = pixel_of_block(x, y) >> (part_ != BlockPart::kWhole);
     return size_t((sample - first_) * uint64_t(pixels_in(part_)) + place);
   }

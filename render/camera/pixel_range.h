@@ -17,12 +17,13 @@ struct PixelRange {
   int height() const { return y1 - y0; }
   uint64_t pixels() const { return uint64_t(width()) * uint64_t(height()); }
 
-  // Its part within `side` pixels of (x, y) to the right and below.
+  // Intersection with the square of `side` pixels whose top left corner is (x, y).
   PixelRange in_square(int x, int y, int side) const {
     return {std::max(x0, x), std::min(x1, x + side), std::max(y0, y), std::min(y1, y + side)};
   }
 
-  // fn(part) for its parts in squares of this side, which are counted from the corner of the full image.
+  // Calls fn(part) for the range's parts in a grid of squares of this side, counted from the corner of the
+  // full image.
   template <class Fn>
   void for_each_square(int side, const Fn& fn) const {
     for (int y = y0 - y0 % side; y < y1; y += side)
@@ -30,7 +31,7 @@ struct PixelRange {
   }
 };
 
-// What is rendered of the camera's image: the crop window, or all of it.
+// Pixels of the camera's image that are rendered: the crop window, or all of them.
 inline PixelRange rendered_range(const CropWindow& crop, const Camera& camera) {
   if (crop.empty()) return {0, camera.width, 0, camera.height};
   return {crop.x0, crop.x1, crop.y0, crop.y1};

@@ -1,8 +1,8 @@
 #pragma once
-// What a camera ray stands for on its way: a cone about it, for the footprints of textures (Akenine-Möller et
-// al. 2021, "Improved Shader and Texture Level of Detail Using Ray Cones"). Flat mirrors and windows keep it.
-// The bending of curved ones is not followed: behind them textures are looked up more sharply than a pixel
-// needs, which costs samples but blurs nothing.
+// Cone about a camera ray that stands for its pixel, for the footprints of textures (Akenine-Möller et al.
+// 2021, "Improved Shader and Texture Level of Detail Using Ray Cones"). Flat mirrors and windows leave it
+// unchanged. Not handled: curved mirrors and lenses. Behind them textures are looked up more sharply than a
+// pixel needs, which costs samples but blurs nothing.
 
 #include "core/scene/bsdf_at.h"
 
@@ -10,11 +10,11 @@ namespace kaustik::render {
 
 struct RayCone {
   float width = 0;   // diameter, metres
-  float spread = 0;  // of width per length
+  float spread = 0;  // growth of width per length
 
   RayCone after(float length) const { return {width + spread * length, spread}; }
 
-  // Where the cone meets a plane of normal n under direction d (unit): its shorter and its longer axis.
+  // Footprint of the cone on a plane of normal n, hit in direction d (unit): its shorter and its longer axis.
   Footprint on_surface(const Vector3& d, const Normal3& n) const {
     constexpr float kMostStretch = 32;
     const float cosine = glm::dot(d, n);
@@ -29,8 +29,8 @@ struct RayCone {
   }
 };
 
-// Of one sample of a pixel at the image's centre: as wide as the pixel over the root of the samples, an
-// eighth of it at least (pharr 2023, section 10.1.3).
+// Cone of one sample of a pixel at the image's centre: as wide as the pixel divided by the root of the
+// samples, but at least an eighth of the pixel (Pharr et al. 2023, section 10.1.3).
 inline RayCone camera_cone(const Camera& camera, uint64_t samples) {
   const Point2 centre(0.5f * float(camera.width), 0.5f * float(camera.height));
   const Ray a = camera.generate_ray(centre), b = camera.generate_ray(centre + Vector2(1, 0));

@@ -4,14 +4,16 @@ namespace kaustik::render {
 
 namespace {
 
-// Veach 1997, section 9.2.4, beta = 2. As a ratio, so that squares of large densities do not overflow.
+// Power heuristic with beta = 2 (Veach 1997, section 9.2.4). Computed from a ratio, so that squares of large
+// densities do not overflow.
 float power_heuristic(float pdf, float other) {
   if (!(pdf > 0)) return 0;
   const float ratio = other / pdf;
   return 1 / (1 + ratio * ratio);
 }
 
-// The shadow ray ends just off the light: p_light is already offset, t counts in lengths of d.
+// Ray towards the light sample, ending just before the light: p_light is already offset, and t is in units of
+// |d|.
 Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
   if (s.infinite) return si.spawn(s.wi);
   Ray ray = si.spawn(s.wi, 1);
@@ -19,12 +21,13 @@ Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
   return ray;
 }
 
-// Whether the light is seen from x, as far as photons predict it: on the viewer's side. Light that comes
-// through arrives on the other, and in a glossy lobe a wrong forecast would be too bright a sample.
-photon::VisibilityGuess predicted(const RenderContext& ctx, const ShadingPoint& x, LobePart part,
-                                  uint32_t light) {
+// Predicted visibility of the light on the viewer's side of x. Nothing is predicted for BSDFs that transmit,
+// since that light arrives on the other side, nor for glossy lobes, where a wrong prediction would give too
+// bright a sample.
+photon::VisibilityPrediction predicted(const RenderContext& ctx, const ShadingPoint& x, LobePart part,
+                                       uint32_t light) {
   if (!ctx.maps.visibility || part == LobePart::kGlossy || transmits(*x.bsdf)) return {};
-  return ctx.maps.visibility->guess(light, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
+  return ctx.maps.visibility->predict(light, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
 }
 
 float trace_visibility(const RenderContext& ctx, const ShadingPoint& x, const LightSample& s,
@@ -37,22 +40,23 @@ bool dark(const Scene& scene) {
   return scene.light_power.empty() || !(scene.light_power.total() > 0);
 }
 
-// Few lights are all sampled, each once; of more, one.
+// Up to this many lights are sampled once each; of more lights one is chosen.
 constexpr size_t kMostLightsSampled = LightSampler::kMostByPower;
 bool samples_each(const Scene& scene) {
   return scene.lights.size() <= kMostLightsSampled;
 }
-// How many samples of a light are expected.
+// Expected number of samples that sample_direct() takes of the light.
 float samples_of(const Scene& scene, const LightReceiver& x, uint32_t light) {
   return samples_each(scene) ? 1 : scene.light_sampler.probability(x, light);
 }
 
-// What a sample of a light brings where it is seen: f Li / pdf, times its share against BSDF sampling.
+// A light sample and the radiance it contributes if visible: f Li / pdf times its MIS weight.
 struct WeightedLightSample {
   LightSample at;
   Rgb brings{0};
 };
-// expected: number of samples of the light. Nothing where it brings nothing.
+// Samples one light; nothing if it contributes nothing. expected: the expected number of samples of this
+// light.
 std::optional<WeightedLightSample> sample_light(const Scene& scene, uint32_t light, float expected,
                                                 const ShadingPoint& x, LightWeight weight, LobePart part,
                                                 const Point2& u) {
@@ -66,8 +70,9 @@ std::optional<WeightedLightSample> sample_light(const Scene& scene, uint32_t lig
   return WeightedLightSample{*s, f * s->Li * (w / pdf)};
 }
 
-// The sum over all lights of what each brings times V, as predicted, put right for one of them at most:
-// chosen by what it brings times p. As often as the most doubtful of them alone would be.
+// Sum over all lights of each sample's contribution times its predicted V. At most one light is corrected by
+// a shadow ray: it is chosen in proportion to contribution times p, and a ray is traced with the largest p of
+// all of them.
 Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, float u_ray,
                       const Point2& u, TileCounters& counters, LobePart part) {
   struct Candidate {
@@ -81,12 +86,12 @@ Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeig
   for (uint32_t light = 0; light < ctx.scene.lights.size(); ++light) {
     const auto s = sample_light(ctx.scene, light, 1, x, weight, part, u);
     if (!s) continue;
-    const photon::VisibilityGuess guess = predicted(ctx, x, part, light);
+    const photon::VisibilityPrediction prediction = predicted(ctx, x, part, light);
     const float size = s->brings.x + s->brings.y + s->brings.z;
-    sum += s->brings * guess.v;
-    all += size * guess.p;
-    p = std::max(p, guess.p);
-    candidates[count++] = {*s, guess.v, size * guess.p};
+    sum += s->brings * prediction.v;
+    all += size * prediction.p;
+    p = std::max(p, prediction.p);
+    candidates[count++] = {*s, prediction.v, size * prediction.p};
   }
   if (!(u_ray < p)) return sum;
   float at = u_ray / p * all;
@@ -100,7 +105,7 @@ Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeig
   return sum;
 }
 
-// f Li / pdf of a sample of one light.
+// Returns f Li / pdf of one sample of the light, as if nothing were in the way.
 Rgb unoccluded_from(const Scene& scene, uint32_t light, const ShadingPoint& x, const Point2& u) {
   const auto s = sample_light(scene, light, 1, x, LightWeight::kAlone, LobePart::kBroad, u);
   return s ? s->brings : Rgb(0);
@@ -118,14 +123,16 @@ Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight w
     return sample_each_light(ctx, x, weight, u_light, u, counters, part);
   const auto light = scene.light_sampler.choose(x.receiver(), u_light);
   if (!light) return Rgb(0);
-  // The number that chose the light is uniform again, whatever the light and the point on it.
-  const photon::VisibilityGuess guess = predicted(ctx, x, part, light->light);
-  const bool traced = light->u_remapped < guess.p;
-  if (!traced && guess.v == 0) return Rgb(0);
+  // u_remapped, left over from choosing the light, is again uniform and independent of the light and the
+  // point on it.
+  const photon::VisibilityPrediction prediction = predicted(ctx, x, part, light->light);
+  const bool traced = light->u_remapped < prediction.p;
+  if (!traced && prediction.v == 0) return Rgb(0);
   const auto s = sample_light(scene, light->light, light->probability, x, weight, part, u);
   if (!s) return Rgb(0);
   return s->brings *
-         (traced ? guess.v + (trace_visibility(ctx, x, s->at, counters) - guess.v) / guess.p : guess.v);
+         (traced ? prediction.v + (trace_visibility(ctx, x, s->at, counters) - prediction.v) / prediction.p
+                 : prediction.v);
 }
 
 Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler) {

@@ -4,15 +4,15 @@ namespace kaustik::render {
 
 namespace {
 
-// One path while it is followed.
+// State of a path while it is traced.
 struct PathState {
   Rgb beta{1};            // throughput since x
   float roulette = 1;     // largest component of the throughput without the eta^2 of refractions
   int events = 1;         // scattering events since x, x included
-  int diffuse = 0;        // those by broad lobes, x included
+  int diffuse = 0;        // scattering events by diffuse lobes, x included
   bool specular = false;  // the last event was specular
-  bool has_pdf = false;   // it was no delta lobe's: lights were sampled there, too
-  LightReceiver ref;      // where it was
+  bool has_pdf = false;   // that event was by no delta lobe, so lights were sampled there too
+  LightReceiver ref;      // where that event was
   float pdf = 0;          // density of the ray that left it
 };
 
@@ -24,8 +24,8 @@ bool follows_indirect(const RenderContext& ctx) {
   return ctx.plan.indirect == IndirectEstimator::kPaths;
 }
 
-// Where a light met by the path is counted, or nothing when another estimator owns it. specular: of the event
-// that leads to the light.
+// Where light that the path meets is added; null when another estimator accounts for it. specular: whether
+// the event that leads to the light is specular.
 Rgb* owner_of_light(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
   if (path.diffuse == 1) {
     if (specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
@@ -51,7 +51,8 @@ void add_escape(const RenderContext& ctx, const PathState& path, const Ray& ray,
               (path.has_pdf ? escaped_weighted(ctx.scene, path.ref, ray, path.pdf) : escaped(ctx.scene, ray));
 }
 
-// Light that arrives at y, behind a broad event, and is scattered along the path by y's broad lobes.
+// Light that arrives at y, the end of a diffuse segment, and is scattered along the path by y's diffuse
+// lobes.
 Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler, TileCounters& counters) {
   Rgb sum = sample_direct(ctx, y, LightWeight::kMis, sampler, counters);
   if (caustics_by_map(ctx))
@@ -60,7 +61,7 @@ Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler, 
   return sum;
 }
 
-// Follows the path through a scattering event; false where it ends.
+// Samples a scattering event and continues the path; false where it ends.
 bool continue_path(const ShadingPoint& v, Scatter part, PathState* path, Ray* ray, Sampler& sampler) {
   const auto s = scatter(v, sampler, part);
   if (!s || is_black(s->weight)) return false;
@@ -75,8 +76,9 @@ bool continue_path(const ShadingPoint& v, Scatter part, PathState* path, Ray* ra
   return true;
 }
 
-// Pharr et al. 2023, section 13.2.2, with the refractions' eta^2 left out: radiance is larger in water, but
-// not more important. From the third broad event on. False where the path ends. Draws one dimension.
+// Russian roulette from the third diffuse event on (Pharr et al. 2023, section 13.2.2). The survival
+// probability leaves out the eta^2 of refractions: radiance is larger in water, but not more important. False
+// where the path ends. Draws one dimension.
 bool survives(PathState* path, Sampler& sampler) {
   const float u = sampler.next_1d();
   if (path->diffuse < 2 || path->roulette >= 1) return true;
@@ -87,7 +89,7 @@ bool survives(PathState* path, Sampler& sampler) {
   return true;
 }
 
-// What the path finds at y before it goes on; false where it ends.
+// Adds the light that the path collects at y; false where the path ends.
 bool visit(const RenderContext& ctx, const ShadingPoint& y, PathState* path, PathLight* light,
            Sampler& sampler, TileCounters& counters) {
   const Lobes parts = lobes(*y.bsdf);

@@ -1,6 +1,5 @@
 #pragma once
-// Light found by following paths from the camera side: the direct, caustic and indirect classes of the
-// `paths` estimators.
+// Traces paths from the camera side for the `paths` estimators: direct, caustic and indirect light.
 
 #include "render/estimators/lighting.h"
 
@@ -11,21 +10,22 @@ struct PathLight {
   Rgb direct{0}, caustic{0}, indirect{0};
 };
 
-// Whether trace_path has anything to find under this plan.
+// Whether any estimator of this plan needs trace_path().
 bool traces_paths(const EstimatorPlan& plan);
 
-// One path that starts at x with a sample of its broad lobes. What it meets decides the class:
+// Traces one path that starts at x with a sample of its diffuse lobes. What it meets decides the class:
 //
-//   a light straight from x                direct, by the weight of BSDF sampling (if samples_lights())
+//   a light straight from x                direct, with the MIS weight of BSDF sampling (if samples_lights())
 //   a light after specular surfaces only   caustic (--caustics paths)
-//   what follows a second non-specular    indirect (--indirect paths)
+//   light after a second diffuse event     indirect (--indirect paths)
 //
-// At each further non-specular point y: next-event estimation with MIS, and what arrives at y through
-// specular surfaces: from the caustic map if there is one (then lights met through specular surfaces are not
-// counted again), else from lights met, and at glossy lobes from lights sampled. `--caustics off` therefore
-// leaves out the class L S+ D S* E alone, and the indirect light stays complete as far as paths can find it.
-// Russian roulette from the third non-specular point on. Unbiased, but for the caustic map's kernel; at most
-// max_bounces scattering events from x to the light, x included. Requires traces_paths(ctx.plan).
+// At each further non-specular point y the path collects light samples (with MIS) and the light that arrives
+// at y through specular surfaces. The latter comes from the caustic map if there is one, and lights met
+// through specular surfaces are then not counted again; otherwise from lights met and, at glossy lobes,
+// lights sampled. `--caustics off` therefore leaves out only the class L S+ D S* E; indirect light stays
+// complete as far as paths can find it. Russian roulette starts at the third non-specular point. Unbiased
+// except for the caustic map's kernel. At most max_bounces scattering events from x to the light, x included.
+// Requires traces_paths(ctx.plan).
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler,
                      TileCounters& counters);
 

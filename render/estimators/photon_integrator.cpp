@@ -1,14 +1,14 @@
-// What a camera ray brings back:
+// Radiance along a camera ray:
 //
 //   L(ray) = Le + Lr                                          the rendering equation (Kajiya 1986)
 //   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
-//   Lr = direct + caustic + indirect at points x of the chain, by their broad lobes; where all lobes of a
-//        point are broad, the chain ends
+//   Lr = direct + caustic + indirect at points x of the chain, by their diffuse lobes; the chain ends at a
+//        point that has no specular lobes
 //        direct    L D S* E                 light samples, photons or both                   add_direct
 //        caustic   L S+ D S* E              photons or paths                                add_reflected
 //        indirect  L S* D (S|D)* D S* E     photons or paths                                add_reflected
 //
-// Each class has one owner, so that their sum counts every path once (Heckbert 1990 for the notation).
+// Each class has one owner, so that their sum counts every path once (notation: Heckbert 1990).
 
 #include "render/estimators/photon_integrator.h"
 
@@ -20,7 +20,7 @@ namespace kaustik::render {
 
 namespace {
 
-// Adds what a photon map says of a point, at once or when the batch is flushed.
+// Adds radiance estimates from photon maps, either at once or when the batch is flushed.
 struct MapReader {
   const CameraSample& sample;
   TileCounters& counters;
@@ -45,7 +45,8 @@ struct MapReader {
   }
 };
 
-// The lecture (TNCG15): photons where the octree cell of x is free of shadow photons, shadow rays elsewhere.
+// The lecture's method (TNCG15): photons where the octree cell of x is free of shadow photons, shadow rays
+// elsewhere.
 bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, LectureCounters& counters) {
   const auto answer = photon::lecture_lookup(ctx.maps.direct.map, ctx.maps.shadow, x.si.p, ctx.maps.lecture);
   counters.from_photons += answer.use_photons();
@@ -56,7 +57,7 @@ bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, Lec
   return answer.use_photons();
 }
 
-// BSDF sampling finds lights too when a path leaves x anyway: then both share the direct light.
+// When a path leaves x anyway, BSDF sampling finds lights too, and the two techniques share the direct light.
 LightWeight light_weight(const EstimatorPlan& plan) {
   return samples_lights(plan.direct) && traces_paths(plan) ? LightWeight::kMis : LightWeight::kAlone;
 }
@@ -82,8 +83,8 @@ void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta
   *to += beta * sample_direct(ctx, x, light_weight(ctx.plan), sampler, maps.counters);
 }
 
-// Light scattered by the broad lobes of a point, seen through a specular chain of throughput beta. The path
-// brings nothing of a class that another estimator owns, so each sum has one owner.
+// Adds the light that the diffuse lobes of x scatter, seen through a specular chain of throughput beta. Paths
+// add nothing to a class that another estimator accounts for.
 void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
                    const MapReader& maps) {
   PixelResult* const result = maps.result;
@@ -105,24 +106,25 @@ void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* resul
   result->depth = glm::distance(hit.si.p, eye);
 }
 
-// How a camera ray left the point before: by a delta lobe, or by a glossy one with density pdf.
+// How the camera ray left its previous point: by a delta lobe, or by a glossy lobe with density pdf.
 struct LeftBy {
   bool glossy = false;
   LightReceiver ref;
   float pdf = 0;
 };
 
-// One branch of the tree of specular chains that a camera sample grows.
+// One branch of the tree of specular chains that a camera sample traces.
 struct Branch {
   Ray ray;
   RayCone cone;
   Rgb beta{1};
-  float share = 1;  // of the sample: the product of the Fresnel factors where it divided
+  float share = 1;  // share of the sample: the product of the Fresnel factors where it was split
   int events = 0;
   LeftBy last{};
 };
 
-// Lights that a glossy lobe leads to are sampled where it is, too.
+// Emission that the ray meets. After a glossy lobe it has the MIS weight of BSDF sampling, since lights are
+// sampled at glossy lobes too.
 Rgb emission_seen(const Scene& scene, const LeftBy& last, const SurfaceInteraction& si, const Vector3& d) {
   const Rgb Le = emitted(scene, si, -d);
   if (!last.glossy || is_black(Le)) return Le;
@@ -132,8 +134,8 @@ Rgb escape_seen(const Scene& scene, const LeftBy& last, const Ray& ray) {
   return last.glossy ? escaped_weighted(scene, last.ref, ray, last.pdf) : escaped(scene, ray);
 }
 
-// Chains over coated surfaces grow dim soon, and each point of them takes a gather: Russian roulette for what
-// is less than kDim of the pixel. Draws a dimension there.
+// Russian roulette for chains over coated surfaces whose throughput is below kDim: they soon contribute
+// little, while each of their points takes a gather. Draws a dimension only then.
 bool is_worth_it(Rgb* beta, Sampler& sampler) {
   constexpr float kDim = 0.05f;
   const float q = max_component(*beta) / kDim;
@@ -143,8 +145,8 @@ bool is_worth_it(Rgb* beta, Sampler& sampler) {
   return true;
 }
 
-// What a dim branch arrives at takes as long as what a bright one does: Russian roulette. Weight of the
-// point, 0 where it is left out.
+// Russian roulette for the gather at the end of a dim branch, which costs as much as that of a bright one.
+// Returns the weight of the point, 0 where it is skipped. Draws a dimension only for dim branches.
 float worth(float share, Sampler& sampler) {
   constexpr float kBright = 0.25f;
   if (share >= kBright) return 1;
@@ -152,7 +154,7 @@ float worth(float share, Sampler& sampler) {
   return sampler.next_1d() < q ? 1 / q : 0;
 }
 
-// Grows one camera sample.
+// Traces one camera sample through all branches of its specular chains.
 class CameraPath {
  public:
   CameraPath(const RenderContext& ctx, const CameraSample& sample, Sampler& sampler, TileCounters& counters,
@@ -170,10 +172,10 @@ class CameraPath {
   }
 
  private:
-  // Branches that wait at once, at most. Each division leaves one waiting.
+  // Most branches that wait at a time. Each split leaves one waiting.
   static constexpr int kMostWaiting = 16;
 
-  // What is seen at the end of a branch, which goes on from there or not.
+  // Adds the light at the end of a branch and continues the branch if the surface has specular lobes.
   void visit(const Branch& branch, const Hit& hit) {
     if (!hit.valid()) {
       result_->emitted += branch.beta * escape_seen(ctx_.scene, branch.last, branch.ray);
@@ -206,9 +208,9 @@ class CameraPath {
           LeftBy{s->glossy, x.receiver(), s->pdf}});
   }
 
-  // Follows both the reflected and the refracted ray, by their factors instead of by chance, while neither
-  // is too dim: what little a surface of glass reflects of a light is noise otherwise. False, and nothing is
-  // done, where there are not two, or one is dim.
+  // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
+  // random instead makes the faint reflection of a light in glass noisy. Returns false and does nothing where
+  // there are not two such rays or the dimmer of them is below kDim.
   bool divide(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
     constexpr float kDim = 1.0f / 256;
     if (waiting_ + 2 > kMostWaiting) return false;

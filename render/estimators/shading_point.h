@@ -15,8 +15,8 @@ struct ShadingPoint {
   Vector3 wo_local{0};
   BsdfAt bsdf;
 
-  // Where wo lies on different sides of the geometric and the shading surface of a non-specular material, the
-  // geometric normal is shaded: the interpolated one means nothing there.
+  // If wo lies on different sides of the geometric and the shading surface of a non-specular material, the
+  // geometric normal is used for shading, since the interpolated one is meaningless there.
   ShadingPoint(const Scene& scene, const SurfaceInteraction& interaction, const Vector3& to_viewer,
                const Footprint& footprint = {})
       : si(interaction), wo(to_viewer), bsdf(scene, si, to_viewer, footprint) {
@@ -27,7 +27,7 @@ struct ShadingPoint {
 
   bool specular() const { return is_specular(*bsdf); }
 
-  // As the choice of a light sees it: diffuse surfaces scatter light on the viewer's side alone.
+  // The point as LightSampler sees it: diffuse surfaces receive light on the viewer's side only.
   LightReceiver receiver() const {
     const bool diffuse =
         std::holds_alternative<Lambertian>(*bsdf) || std::holds_alternative<OrenNayar>(*bsdf);
@@ -35,7 +35,7 @@ struct ShadingPoint {
   }
 };
 
-// Which lobes are asked for: those under which light is gathered, or those of finite width that are followed.
+// The lobes to evaluate: those under which light is gathered, or those of finite width that are followed.
 enum class LobePart { kBroad, kGlossy };
 
 namespace detail {
@@ -60,23 +60,24 @@ inline float pdf(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, LobePar
 }  // namespace detail
 
 // f(wo, wi) |wi . ns| in 1/sr. Zero where wi lies on different sides of the geometric and the shading
-// surface: light does not leak through (Veach 1997, section 5.3).
+// surface, so that no light leaks through (Veach 1997, section 5.3).
 inline Rgb f_cos(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kBroad) {
   const Vector3 local = x.frame.to_local(wi);
   if (!(glm::dot(wi, x.si.n) * local.z > 0)) return Rgb(0);
   return detail::f(*x.bsdf, x.wo_local, local, part) * std::abs(local.z);
 }
 
-// Density of scatter() per solid angle, given the part.
+// Density of scatter() per solid angle, given the lobes that were chosen.
 inline float scatter_pdf(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kBroad) {
   return detail::pdf(*x.bsdf, x.wo_local, x.frame.to_local(wi), part);
 }
 
-// Which part of a BSDF that has both scatters: one of them by chance, or one alone.
+// Which lobes of a BSDF that has both kinds scatter: either at random, or one kind only.
 enum class Scatter { kEither, kBroad, kSpecular };
 
 namespace detail {
-// With wi in world space, on the side where the geometric surface has it too.
+// Transforms wi to world space; nothing if the geometric surface has it on another side than the shading
+// surface.
 inline std::optional<BsdfSample> in_world(const ShadingPoint& x, std::optional<BsdfSample> s) {
   if (!s) return {};
   const bool above = s->transmission ? glm::dot(x.wo, x.si.n) < 0 : glm::dot(x.wo, x.si.n) > 0;
@@ -86,7 +87,7 @@ inline std::optional<BsdfSample> in_world(const ShadingPoint& x, std::optional<B
 }
 }  // namespace detail
 
-// BsdfSample with wi in world space. Draws three dimensions, always: uc, then a pair.
+// Samples the BSDF; wi is in world space. Always draws three dimensions: uc, then a pair.
 inline std::optional<BsdfSample> scatter(const ShadingPoint& x, Sampler& sampler,
                                          Scatter part = Scatter::kEither) {
   const float uc = sampler.next_1d();
@@ -105,7 +106,7 @@ inline std::optional<BsdfSample> scatter(const ShadingPoint& x, Sampler& sampler
                                  *x.bsdf));
 }
 
-// Of a BSDF of delta lobes alone, the lobe that uc chooses, with its probability as pdf.
+// For a BSDF that has only delta lobes: the lobe that uc chooses, with its probability as pdf.
 inline std::optional<BsdfSample> scatter_delta(const ShadingPoint& x, float uc) {
   return detail::in_world(x, std::visit(
                                  [&](const auto& b) {

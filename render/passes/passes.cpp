@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "photon/shoot/memory_forecast.h"
+#include "photon/shoot/memory_estimate.h"
 #include "render/estimators/path_integrator.h"
 #include "render/maps/photon_maps.h"
 #include "render/passes/pass_set.h"

@@ -52,7 +52,7 @@ void add_pixel(const Image& reference, const Image& image, int x, int y, Compare
   ++result->compared;
 }
 
-// Colour of t in [0, 1].
+// Heat map colour of t in [0, 1].
 Rgb heat(float t) {
   constexpr std::array<std::array<float, 3>, 5> kStops = {
       {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}};

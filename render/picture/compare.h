@@ -1,5 +1,5 @@
 #pragma once
-// How far an image is from a reference.
+// Difference between an image and a reference.
 
 #include <cstdint>
 #include <optional>
@@ -9,17 +9,17 @@
 namespace kaustik::render {
 
 struct CompareOptions {
-  // Leaves out the pixels within 2 pixels (a 5 x 5 square, cut at the image's border) of reference pixels
-  // whose largest channel is above this radiance: edges of emitters and of their mirror images.
+  // Leaves out all pixels within 2 pixels (a 5 x 5 square, cut at the image's border) of reference pixels
+  // whose largest channel exceeds this radiance, such as edges of emitters and of their mirror images.
   std::optional<float> mask_bright;
 };
 
-// All means run over the compared pixels (not masked, both pictures finite) and their three channels, in
-// double.
+// All means are over the compared pixels (not masked, finite in both pictures) and their three channels,
+// computed in double precision.
 struct CompareResult {
   uint64_t compared = 0;                      // pixels
   uint64_t masked = 0;                        // pixels left out by mask_bright
-  uint64_t nan_image = 0, nan_reference = 0;  // pixels with a NaN or infinite channel: left out of the means
+  uint64_t nan_image = 0, nan_reference = 0;  // pixels with a NaN or infinite channel, left out of the means
   double rmse = 0;                            // sqrt(mean (I - R)^2)
   double relmse = 0;                          // mean (I - R)^2 / (R^2 + 0.01)
   // 20 log10(peak / rmse), dB; peak = largest compared reference channel; infinite where rmse is 0
@@ -35,17 +35,17 @@ CompareResult compare(const Image& reference, const Image& image, const CompareO
 // True for each pixel of the reference that the options leave out.
 std::vector<bool> masked_pixels(const Image& reference, const CompareOptions& options);
 
-// (value - reference)^2 / (reference^2 + 0.01) of one channel.
+// Returns (value - reference)^2 / (reference^2 + 0.01), for one channel.
 double relative_squared(double value, double reference);
 
-// Per-pixel relative squared error (mean over channels), grey. Throws as compare does.
+// Relative squared error of each pixel (mean over channels) as a grey image. Throws as compare() does.
 Image relative_error(const Image& reference, const Image& image);
 
-// Such an error as a colour: black 0, then blue, red, yellow, white at 1 and above, on a logarithmic scale
-// from 1e-4; NaN pixels are magenta. Linear values for write_image with the default tone settings.
+// Maps errors to colours on a logarithmic scale from 1e-4: 0 is black, then blue, red, yellow, and white from
+// 1 on; NaN is magenta. Linear values for write_image() with the default tone settings.
 Image false_colours(const Image& error);
 
-// false_colours of relative_error.
+// Returns false_colours(relative_error(reference, image)).
 Image heatmap(const Image& reference, const Image& image);
 
 }  // namespace kaustik::render

@@ -30,7 +30,7 @@ ErrorParts ErrorPartsSum::parts() const {
   ErrorParts out;
   out.images = images_;
   const double n = double(images_);
-  double within = 0, between = 0;  // sums of the images' mean squares around their mean, and of (m - R)^2
+  double within = 0, between = 0;  // mean squares of the images about their mean; (m - R)^2
   for (size_t i = 0; i < moments_.size(); ++i) {
     out.masked += masked_[i];
     out.not_finite += !finite_[i];

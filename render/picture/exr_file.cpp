@@ -47,13 +47,13 @@ void write_exr_file(const std::string& path, const ExrPicture& picture, const Me
   std::ofstream file(path, std::ios::binary);
   check(file);
   {
-    constexpr int kNoThreads = 0;  // of its own: the caller's thread does the work
+    constexpr int kNoThreads = 0;  // the library makes none; the caller's thread does the work
     Imf::StdOFStream stream(file, path.c_str());
     Imf::OutputFile out(stream, header_of(picture, attributes), kNoThreads);
     out.setFrameBuffer(buffer_of(picture));
     out.writePixels(picture.height);
   }
-  // The library writes its table of rows at the end, and says nothing when it cannot.
+  // The library writes its table of rows at the end and reports no error when that fails.
   file.close();
   check(file);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A plain picture in memory: linear Rec. 709, row 0 on top.
+// A picture in memory: linear Rec. 709, row 0 at the top.
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
-// Reading and writing pictures: EXR with layers and metadata, PNG and JPEG tone-mapped. All but writing EXR
-// asks image_formats(), whose std::runtime_error passes through where it cannot be loaded. Not handled: deep
-// images, mip levels, spectral or non-Rec. 709 primaries.
+// Reads and writes pictures: EXR with layers and metadata, PNG and JPEG after tone mapping. Everything but
+// writing EXR uses image_formats(), whose std::runtime_error is passed on if it cannot be loaded. Not
+// handled: deep images, mip levels, spectral images, primaries other than Rec. 709.
 
 #include <stdexcept>
 #include <string>
@@ -26,38 +26,38 @@ class ImageError : public std::runtime_error {
 };
 
 struct WriteOptions {
-  std::vector<Layer> layers;  // EXR only: besides the image itself
-  Metadata metadata;          // string attributes: of every format that keeps them
+  std::vector<Layer> layers;  // EXR only, in addition to the image itself
+  Metadata metadata;          // string attributes, for formats that keep them
   ToneSettings tone;          // PNG and JPEG only
 };
 
-// Layers from names of `--aov`; "all" means every layer, repeated names count once. Throws
-// std::invalid_argument naming the unknown layer and the valid ones.
+// Layers from the names of `--aov`; "all" means every layer, and repeated names count once. Throws
+// std::invalid_argument for an unknown layer, with the list of valid ones.
 std::vector<Layer> layers_from_names(const std::vector<std::string>& names);
 
-// Throws std::invalid_argument unless path ends in .exr, .png, .jpg or .jpeg (any case). For the command
-// line: to fail before rendering.
+// Throws std::invalid_argument unless path ends in .exr, .png, .jpg or .jpeg (in any case). Lets the command
+// line fail before rendering.
 void check_output_name(const std::string& path);
 
-// By its name: the one format that is written without image_formats().
+// Whether the path's extension is that of EXR, the one format that is written without image_formats().
 bool is_exr(const std::string& path);
 
-// Writes a film by the extension of its path. EXR: 32-bit float, channels R G B (total radiance) and for each
-// layer `direct.R direct.G direct.B`, `normal.X normal.Y normal.Z`, `depth.Z`, `photons.Y`; a crop becomes
-// the data window inside the full display window. PNG, JPEG: 8-bit sRGB. The file appears under its name only
-// when it is complete: it is written to a temporary name in the same folder and renamed. Throws ImageError;
-// then nothing is left behind and a previous file of that name is untouched.
+// Writes a film in the format that the path's extension names. EXR: 32-bit float, channels R G B (total
+// radiance) and for each layer `direct.R direct.G direct.B`, `normal.X normal.Y normal.Z`, `depth.Z`,
+// `photons.Y`; a crop becomes the data window inside the full display window. PNG, JPEG: 8-bit sRGB. The file
+// is written under a temporary name in the same folder and renamed when complete. Throws ImageError; then no
+// file is left behind, and a previous file of that name is unchanged.
 void write_film(const std::string& path, const Film& film, const WriteOptions& options = {});
 
-// The same for a plain picture (EXR: channels R G B).
+// Writes a plain picture like write_film() (EXR: channels R G B).
 void write_image(const std::string& path, const Image& image, const ToneSettings& tone = {},
                  const Metadata& metadata = {});
 
 inline constexpr uint64_t kMostPixelsRead = uint64_t{1} << 30;
 
-// Reads R, G, B (or one grey channel three times) of any format that image_formats() knows, as linear
-// floats: integer formats are decoded from sRGB. Only the data window is returned. Throws ImageError, also
-// for what ImageFormats::read refuses.
+// Reads R, G, B (or one grey channel three times) in any format that image_formats() knows, as linear floats:
+// integer formats are decoded from sRGB. Only the data window is returned. Throws ImageError, also for files
+// that ImageFormats::read() refuses.
 Image read_image(const std::string& path, uint64_t most_pixels = kMostPixelsRead);
 
 }  // namespace kaustik::render

@@ -13,21 +13,21 @@ namespace kaustik::render {
 
 namespace {
 
-// What landed in one pixel. Integer sums: their order does not matter.
+// Photons that landed in one pixel. Sums of integers do not depend on their order.
 struct PixelCount {
   std::atomic<uint64_t> photons = 0;
   std::array<std::atomic<uint64_t>, 3> colour = {};  // sums of 8-bit values
 };
 
-// Nothing may stand nearer than this fraction of the way to a photon: its position was rounded when it was
-// stored.
+// The line of sight to a photon must be free up to this fraction of its length, since the photon's position
+// was rounded when it was stored.
 constexpr float kNearlyThere = 0.999f;
 
 bool visible(const accel::Bvh& bvh, const Point3& eye, const Point3& p) {
   return !bvh.occluded({eye, p - eye, kNearlyThere});
 }
 
-// Mean luminance of the flux, the scale of photon_colour; fixed blocks, summed in order.
+// Mean luminance of the flux, which scales photon_colour(). Summed in a fixed order.
 float mean_luminance(const photon::PhotonBuffer& buffer) {
   double sum = 0;
   for (const photon::PhotonRecord& record : buffer.records) {
@@ -60,7 +60,7 @@ void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons,
   });
 }
 
-// The scene lit from the eye, dimly: enough to know the place.
+// Draws the scene dimly, lit from the eye, so that places can be recognised.
 void draw_background(const accel::Bvh& bvh, Image& image) {
   constexpr float kDim = 0.06f;
   const RayGenerator camera(bvh.scene().camera);
@@ -88,7 +88,8 @@ Image draw_photons(const accel::Bvh& bvh, std::span<const photon::PlyPhotons> ph
     total += pixel.photons;
     lit += pixel.photons > 0 ? 1 : 0;
   }
-  // One photon per pixel shows at 86 % of full brightness; where many fall, the mean number does.
+  // With one photon per lit pixel, a pixel has 86 % of full brightness; in denser pictures one with the mean
+  // number has.
   const float scale = total > 0 ? 2.0f * static_cast<float>(lit) / static_cast<float>(total) : 0.0f;
   for (size_t i = 0; i < counts.size(); ++i) {
     const uint64_t n = counts[i].photons;

@@ -7,7 +7,7 @@ namespace kaustik::render {
 
 namespace {
 
-// Along x, then the picture turned: twice does both directions.
+// Shrinks along x and transposes; applied twice it shrinks in both directions.
 Image shrunk_and_turned(const Image& image, int width) {
   Image out(image.height, width);
   const double step = double(image.width) / width;

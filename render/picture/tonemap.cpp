@@ -4,12 +4,12 @@ namespace kaustik::render {
 
 namespace {
 
-// Also maps NaN to 0.
+// Clamps to [0, 1]; NaN gives 0.
 float clip(float v) {
   return v > 0 ? std::min(v, 1.0f) : 0.0f;
 }
 
-// Narkowicz 2015, "ACES Filmic Tone Mapping Curve". Written as a ratio that stays finite for large x.
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve", written as a ratio that stays finite for large x.
 float filmic(float x) {
   if (!(x > 0)) return 0;
   if (x > 1e6f) return 1;

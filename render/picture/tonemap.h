@@ -1,5 +1,5 @@
 #pragma once
-// From linear radiance to the 8-bit sRGB values of PNG and JPEG files.
+// Tone mapping from linear radiance to the 8-bit sRGB values of PNG and JPEG files.
 
 #include <array>
 #include <cstdint>
@@ -18,19 +18,19 @@ struct ToneSettings {
   Tonemap tonemap = Tonemap::kSrgb;
 };
 
-// Nothing when no operator has this name.
+// Returns nothing if no operator has this name.
 std::optional<Tonemap> tonemap_from_name(std::string_view name);
 
-// The sRGB transfer curve (IEC 61966-2-1), linear in [0, 1] to encoded in [0, 1], and its inverse.
+// The sRGB transfer curve (IEC 61966-2-1) from linear [0, 1] to encoded [0, 1], and its inverse.
 float srgb_from_linear(float linear);
 float linear_from_srgb(float encoded);
 
-// Linear display values in [0, 1] of a radiance: exposure, then the operator. `srgb` clips; `reinhard` scales
-// the colour by 1 / (1 + luminance) (Reinhard et al. 2002, eq. 3) and clips; `filmic` is Narkowicz's 2015 fit
-// of the ACES curve, per channel. NaN and negative values give 0, +infinity gives 1.
+// Converts radiance to linear display values in [0, 1]: exposure, then the operator. `srgb` clips; `reinhard`
+// scales the colour by 1 / (1 + luminance) (Reinhard et al. 2002, eq. 3) and clips; `filmic` is Narkowicz's
+// 2015 fit of the ACES curve, per channel. NaN and negative values give 0, +infinity gives 1.
 Rgb tonemap(const Rgb& radiance, const ToneSettings& settings);
 
-// tonemap(), encoded and rounded to the nearest of 256 levels.
+// Returns tonemap(), encoded and rounded to the nearest of 256 levels.
 std::array<uint8_t, 3> to_srgb8(const Rgb& radiance, const ToneSettings& settings);
 
 }  // namespace kaustik::render

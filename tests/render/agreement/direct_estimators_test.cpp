@@ -110,8 +110,10 @@ class WrongForecast : public ::testing::Test {
     PhotonMaps maps;
     const photon::MortonCube cube = photon::MortonCube::around(scene_.bounds);
     if (all_said) {
-      const uint64_t vote = photon::VisibilityTree::vote(cube, 0, Point3(0), {0, 1, 0}, *all_said);
-      maps.visibility = std::make_unique<photon::VisibilityTree>(cube, std::vector<uint64_t>(2000, vote));
+      const uint64_t observation =
+          photon::VisibilityTree::observation(cube, 0, Point3(0), {0, 1, 0}, *all_said);
+      maps.visibility =
+          std::make_unique<photon::VisibilityTree>(cube, std::vector<uint64_t>(2000, observation));
     }
     const RenderContext ctx{scene_, bvh_, settings_, plan_, maps, {}};
     std::vector<double> values;

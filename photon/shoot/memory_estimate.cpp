@@ -1,4 +1,4 @@
-#include "photon/shoot/memory_forecast.h"
+#include "photon/shoot/memory_estimate.h"
 
 #include <fmt/format.h>
 
@@ -13,25 +13,26 @@ namespace kaustik::photon {
 
 namespace {
 
-// A map's indices have 32 bits.
+// A map uses 32-bit indices.
 constexpr double kMostInMap = std::numeric_limits<uint32_t>::max() - 1.0;
 
-// Of one emitted photon. Shadow photons: as many as the surfaces behind one another; 64 is more than in any
-// scene in use.
+// Upper bound of the photons that one emitted photon stores. Shadow photons: one for each surface along its
+// ray; 64 is more than any real scene has.
 double most_stored(const TraceSettings& settings) {
   return (settings.kinds.indirect ? settings.max_bounces : 1) + (settings.kinds.shadow ? 64 : 0);
 }
 
-// With those of guided emission: one each, but for few that a coat reflects.
-std::array<double, kPhotonKinds> forecast_all(const Scene& scene, const accel::Bvh& bvh,
+// Includes the photons of guided emission: about one caustic photon each, apart from the few that a coat
+// reflects.
+std::array<double, kPhotonKinds> estimate_all(const Scene& scene, const accel::Bvh& bvh,
                                               const TraceSettings& settings, uint64_t guided) {
-  auto stored = forecast_stored(scene, bvh, settings);
+  auto stored = estimate_stored(scene, bvh, settings);
   double& caustic = stored[static_cast<size_t>(PhotonKind::kCaustic)];
   caustic = std::max(caustic, static_cast<double>(guided));
   return stored;
 }
 
-// "3.4M", rounded down to two digits: a count as --photons takes it.
+// A count as --photons takes it, rounded down to two digits, such as "3.4M".
 std::string rounded_count(double count) {
   if (count < 1000) return fmt::format("{:.0f}", std::floor(count));
   const double digit = std::pow(10.0, std::floor(std::log10(count)) - 1);
@@ -47,10 +48,10 @@ std::string size_text(double bytes) {
 
 }  // namespace
 
-std::array<double, kPhotonKinds> forecast_stored(const Scene& scene, const accel::Bvh& bvh,
+std::array<double, kPhotonKinds> estimate_stored(const Scene& scene, const accel::Bvh& bvh,
                                                  const TraceSettings& settings) {
   TraceSettings few = settings;
-  few.photons = std::min(settings.photons, kForecastPhotons);
+  few.photons = std::min(settings.photons, kEstimatePhotons);
   const TraceCounters counted = shoot(scene, bvh, few).counters;
   std::array<double, kPhotonKinds> stored{};
   for (size_t k = 0; k < stored.size(); ++k) {
@@ -61,7 +62,7 @@ std::array<double, kPhotonKinds> forecast_stored(const Scene& scene, const accel
 }
 
 double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use) {
-  // Beside the records of the other kinds, or their maps, one map is built from its records: see
+  // One map at a time is built from its records, beside the records or maps of the other kinds: see
   // PhotonMap::build.
   constexpr double kRecord = sizeof(PhotonRecord), kMap = 1.1 * kRecord, kBuilt = 52;
   const double all = std::reduce(stored.begin(), stored.end());
@@ -76,7 +77,7 @@ void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
   const double most = photons * most_stored(settings) + static_cast<double>(guided);
   if (most <= kMostInMap && peak_bytes({most}, use) <= bytes_limit) return;
 
-  const auto stored = forecast_all(scene, bvh, settings, guided);
+  const auto stored = estimate_all(scene, bvh, settings, guided);
   const double bytes = peak_bytes(stored, use), largest = *std::max_element(stored.begin(), stored.end());
   if (bytes > bytes_limit) {
     throw std::runtime_error(fmt::format(
@@ -87,7 +88,7 @@ void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
   }
   if (use == PhotonUse::kMaps && largest > kMostInMap) {
     throw std::runtime_error(
-        fmt::format("{} photons would leave about {:.3g} in one map, which holds {:.0f} at most: emit at "
+        fmt::format("{} photons would store about {:.3g} in one map, which holds at most {:.0f}: emit at "
                     "most about {} at a time",
                     settings.photons, largest, kMostInMap, rounded_count(photons * kMostInMap / largest)));
   }
@@ -98,13 +99,13 @@ uint64_t shoots_that_fit(const Scene& scene, const accel::Bvh& bvh, const TraceS
   const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
   const double most = photons * most_stored(settings) + static_cast<double>(guided);
   if (most <= kMostInMap && peak_bytes({most}, PhotonUse::kMaps) <= bytes_limit) return 1;
-  // A pass may store somewhat more than its share of the forecast.
+  // A pass may store somewhat more than its share of the estimate.
   constexpr double kMargin = 1.05;
-  const auto stored = forecast_all(scene, bvh, settings, guided);
+  const auto stored = estimate_all(scene, bvh, settings, guided);
   const double largest = *std::max_element(stored.begin(), stored.end());
   const double shoots =
       std::ceil(kMargin * std::max(peak_bytes(stored, PhotonUse::kMaps) / bytes_limit, largest / kMostInMap));
-  if (shoots > photons) throw std::runtime_error("there is not enough memory for a single photon's map");
+  if (shoots > photons) throw std::runtime_error("not enough memory for the photon map of a single photon");
   return std::max<uint64_t>(1, static_cast<uint64_t>(shoots));
 }
 

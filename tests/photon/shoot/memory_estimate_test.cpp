@@ -1,6 +1,6 @@
 // What a shoot will take, predicted, and the limit that it is held to.
 
-#include "photon/shoot/memory_forecast.h"
+#include "photon/shoot/memory_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -27,26 +27,26 @@ std::string refusal(const Scene& scene, const TraceSettings& settings, PhotonUse
 
 // Two shoots of n photons each leave counts that differ by less than 5 standard deviations sqrt(2 v), v the
 // variance of one: at most 16 times its mean for counts of 0 to 16 per photon.
-TEST(MemoryForecast, IsWhatALargerShootStores) {
+TEST(MemoryEstimate, IsWhatALargerShootStores) {
   const Scene scene = testing::full_room();
   const accel::Bvh bvh(scene);
-  const TraceSettings settings = settings_for(2 * kForecastPhotons, testing::kAllKinds);
-  const auto forecast = forecast_stored(scene, bvh, settings);
+  const TraceSettings settings = settings_for(2 * kEstimatePhotons, testing::kAllKinds);
+  const auto estimate = estimate_stored(scene, bvh, settings);
   const TraceCounters counted = shoot(scene, bvh, settings).counters;
   for (size_t k = 0; k < kPhotonKinds; ++k) {
-    EXPECT_GT(forecast[k], 0) << kPhotonKindNames[k];
-    EXPECT_NEAR(forecast[k], double(counted.stored[k]), 5 * std::sqrt(2 * 16 * forecast[k] / 2))
+    EXPECT_GT(estimate[k], 0) << kPhotonKindNames[k];
+    EXPECT_NEAR(estimate[k], double(counted.stored[k]), 5 * std::sqrt(2 * 16 * estimate[k] / 2))
         << kPhotonKindNames[k];
   }
 }
 
-TEST(MemoryForecast, PeakIsTheLargestMapsBuildBesideTheRest) {
+TEST(MemoryEstimate, PeakIsTheLargestMapsBuildBesideTheRest) {
   EXPECT_EQ(peak_bytes({10, 20, 30, 40}, PhotonUse::kRecords), 24 * 100);
   EXPECT_DOUBLE_EQ(peak_bytes({10, 20, 30, 40}, PhotonUse::kMaps), 26.4 * 60 + 52 * 40);
 }
 
 // In a closed room every photon of the light leaves one direct photon.
-TEST(MemoryForecast, RefusesWhatDoesNotFitAndSaysWhatWould) {
+TEST(MemoryEstimate, RefusesWhatDoesNotFitAndSaysWhatWould) {
   const TraceSettings settings = settings_for(1'000'000'000, kDirectOnly);
   EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kMaps, 52'000'000'000), "");
   EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kRecords, 24'000'000'000), "");
@@ -57,17 +57,17 @@ TEST(MemoryForecast, RefusesWhatDoesNotFitAndSaysWhatWould) {
   EXPECT_NE(refusal(kRoom, settings, PhotonUse::kRecords, 23'999'999'999), "");
 }
 
-TEST(MemoryForecast, RefusesMorePhotonsThanAMapCanNumber) {
+TEST(MemoryEstimate, RefusesMorePhotonsThanAMapCanNumber) {
   const TraceSettings settings = settings_for(8'589'934'588, kDirectOnly);  // 2 (2^32 - 2)
   EXPECT_EQ(
       refusal(kRoom, settings, PhotonUse::kMaps, kUnlimited),
-      "8589934588 photons would leave about 8.59e+09 in one map, which holds 4294967294 at most: emit at "
+      "8589934588 photons would store about 8.59e+09 in one map, which holds at most 4294967294: emit at "
       "most about 4.2G at a time");
   EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kRecords, kUnlimited), "");
 }
 
 // The direct photons alone fill the limit; those that meet the shelf leave shadow photons behind it.
-TEST(MemoryForecast, ShadowPhotonsCountToo) {
+TEST(MemoryEstimate, ShadowPhotonsCountToo) {
   Scene scene = kRoom;
   scene.shapes.push_back(testing::quad({-0.5f, 0, -0.5f}, {0, 0, 1}, {1, 0, 0}));
   finalize_scene(scene);
@@ -78,7 +78,7 @@ TEST(MemoryForecast, ShadowPhotonsCountToo) {
   EXPECT_NE(refusal(scene, both, PhotonUse::kRecords, limit), "");
 }
 
-TEST(MemoryForecast, NoPhotonsNeedNothing) {
+TEST(MemoryEstimate, NoPhotonsNeedNothing) {
   EXPECT_EQ(refusal(kRoom, settings_for(0, kDirectOnly), PhotonUse::kMaps, 0), "");
 }
 
