@@ -1,5 +1,5 @@
-// Area lights: uniform points on triangles, spheres and disks, the cone of directions that a sphere subtends
-// (Pharr et al. 2023, section 6.2.4), and photon emission.
+// Area lights: samples uniform points on triangles, spheres and disks, directions in the cone that a sphere
+// subtends (Pharr et al. 2023, section 6.2.4), and photon emission.
 
 #include "core/light/area.h"
 
@@ -9,7 +9,7 @@
 namespace kaustik {
 namespace {
 
-// Point of a light, before any direction is known.
+// A point on a light, before any direction is known.
 struct SurfaceSample {
   Point3 p;
   float p_error;
@@ -46,15 +46,15 @@ SurfaceSample sample_surface(const QuadricEmitter& e, const Point2& u) {
   return {t.point(p), quadric_error(e.quadric), e.inward ? -n : n};
 }
 
-// A point of a light, what leaves it, and one over the density per area: of all lights but spheres seen from
-// outside.
+// A point on a light, its emitted radiance, and one over its density per area. Used for all lights except
+// spheres seen from outside.
 struct EmittingSample {
   SurfaceSample at;
   Rgb L;
   float area;
 };
 
-// Lights with an image are triangles or quadrics.
+// The point at `place`; lights with an image are triangles or quadrics.
 SurfaceSample surface_at(const DiffuseAreaLight& light, const EmissionImage::Place& place) {
   if (const auto* mesh = std::get_if<TriangleEmitter>(&light.surface))
     return point_on_triangle(mesh->triangles[place.part], place.u);
@@ -74,20 +74,20 @@ EmittingSample sample_emitting(const DiffuseAreaLight& light, const Point2& u) {
   return {out.at, out.L * light.alpha->at(x), out.area};
 }
 
-// Clearly outside: points of the sphere itself, known up to their rounding, count as inside, where sampling
-// by area is right from either side.
+// Whether ref is clearly outside the sphere. Points on the sphere itself, known up to their rounding, count
+// as inside, where sampling by area is correct from either side.
 bool outside(const SphereEmitter& e, const Point3& ref) {
   const float reach = e.radius + 2 * sphere_error(e.center, e.radius);
   return length_squared(ref - e.center) > reach * reach;
 }
 
-// 1 - cosine of the half-angle that the sphere subtends at an outer point, without cancellation.
+// 1 - cosine of the half-angle that the sphere subtends at an outside point, without cancellation.
 float subtended_one_minus_cos(float sin2_max) {
   return sin2_max / (1 + std::sqrt(std::max(0.0f, 1 - sin2_max)));
 }
 
-// Uniform within the subtended cone. The point met on the sphere is found through its angle alpha at the
-// centre (Pharr et al. 2023, equation 6.18), which stays precise for small and distant spheres.
+// Samples uniformly within the subtended cone. The point on the sphere is found from its angle alpha at the
+// centre (Pharr et al. 2023, equation 6.18), which is precise even for small and distant spheres.
 std::optional<LightSample> sample_sphere_cone(const SphereEmitter& e, const Point3& ref, const Point2& u,
                                               const Rgb& L) {
   const Vector3 to_ref = ref - e.center;
@@ -110,7 +110,7 @@ std::optional<LightSample> sample_sphere_cone(const SphereEmitter& e, const Poin
   return LightSample{to_light / std::sqrt(length2), L, uniform_cone_pdf(one_minus_cos_max), p_light, false};
 }
 
-// Density per solid angle at ref of a point chosen uniformly from `area`.
+// Converts the density 1/area of a point on the light to solid angle at ref.
 float area_to_solid_angle(float distance2, float abs_cos, float area) {
   return distance2 / (abs_cos * area);
 }
@@ -154,7 +154,8 @@ float DiffuseAreaLight::pdf_Li(const Point3& ref, const Vector3& wi,
 
 std::optional<EmissionSample> DiffuseAreaLight::sample_Le(const Point2& u_pos, const Point2& u_dir,
                                                           EmissionMode mode) const {
-  // Filled where it is returned: a copy of what has just been written waits for the writes.
+  // Filled in place where it is returned: copying a value that has just been written would stall on the
+  // writes.
   std::optional<EmissionSample> start;
   Point2 u = u_dir;
   float side = 1;
@@ -167,7 +168,7 @@ std::optional<EmissionSample> DiffuseAreaLight::sample_Le(const Point2& u_pos, c
   if (mode == EmissionMode::kCosine) {
     local = sample_cosine_hemisphere(u);
   } else {
-    // Density per solid angle 1/(pi^2 sin theta), so flux = L cos pi^2 sin area = power() pi cos sin.
+    // The density per solid angle is 1/(pi^2 sin theta), so flux = L cos pi^2 sin area = power() pi cos sin.
     const Point2 theta = cos_sin_turns(0.25f * u.x);
     const Point2 phi = cos_sin_turns(u.y);
     local = {theta.y * phi.x, theta.y * phi.y, theta.x};

@@ -10,7 +10,7 @@
 
 namespace kaustik {
 
-// Surfaces that emit: their own copy of the geometry, in world space, oriented.
+// Surfaces that emit, as oriented copies of the geometry in world space.
 struct TriangleEmitter {
   struct Triangle {
     Point3 p0;
@@ -23,11 +23,11 @@ struct TriangleEmitter {
 struct SphereEmitter {
   Point3 center;
   float radius;
-  bool inward = false;  // emits to the inside
+  bool inward = false;  // emits inward
 };
 struct QuadricEmitter {
   Quadric quadric;
-  bool inward = false;  // emits to the inside
+  bool inward = false;  // emits inward
 };
 struct DiskEmitter {
   Transform to_world;
@@ -35,8 +35,8 @@ struct DiskEmitter {
   Normal3 n;
 };
 
-// What of a light's surface is there (Shape::alpha). Rays that meet it meet all of what they meet, so samples
-// of it count by the share.
+// Opacity of a light's surface (Shape::alpha). Rays that hit the surface see its full radiance, so samples on
+// it are weighted by alpha.
 struct EmitterAlpha {
   float constant = 1;
   uint32_t texture = kNoIndex;  // a float texture of the set
@@ -47,7 +47,7 @@ struct EmitterAlpha {
   }
 };
 
-// Lambertian emitter of radiance L (W/(m^2 sr)), or L times an image, on its outside or on both sides.
+// Lambertian emitter with radiance L (W/(m^2 sr)), or L times an image, on its outside or on both sides.
 struct DiffuseAreaLight {
   static constexpr bool kDelta = false;
   static constexpr std::string_view kName = "diffuse";
@@ -55,28 +55,29 @@ struct DiffuseAreaLight {
   std::variant<TriangleEmitter, SphereEmitter, DiskEmitter, QuadricEmitter> surface;
   Rgb L{1};
   bool twosided = false;
-  bool invisible = false;  // pbrt's lights of alpha 0: they shine, but no ray meets them
+  bool invisible = false;  // pbrt's lights of alpha 0: they emit, but no ray hits them
   float area = 0;          // m^2, one side
   std::shared_ptr<const EmissionImage> image;
-  std::shared_ptr<const EmitterAlpha> alpha;  // null: all of it; needs an image
+  std::shared_ptr<const EmitterAlpha> alpha;  // null: opaque; otherwise an image is required
 
-  // Empty when the shape cannot emit by area sampling: a sphere or cylinder under a transform that does not
-  // keep it round, or an instance.
+  // Makes a light from a shape. Returns nothing if the shape cannot be sampled by area: a sphere or cylinder
+  // whose transform does not keep it round, an instance, or a shape without a finite, positive area.
   static std::optional<DiffuseAreaLight> make(const Shape& shape, const Rgb& L, bool twosided,
                                               std::shared_ptr<const LightImage> image = nullptr);
 
-  // Radiance that leaves a point of the light in direction w (unit).
+  // Radiance that leaves a point on the light in direction w (unit).
   Rgb Le(const SurfaceInteraction& on_light, const Vector3& w) const {
     if (!twosided && !(glm::dot(on_light.n, w) > 0)) return Rgb(0);
     return image ? L * image->value(image->uv(image->place_of(on_light))) : L;
   }
   std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
-  // on_light: the point of this light that the ray from ref in direction wi meets.
+  // Density of sample_Li, per solid angle at ref. on_light: the point of this light hit by the ray from ref
+  // in direction wi.
   float pdf_Li(const Point3& ref, const Vector3& wi, const SurfaceInteraction& on_light) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
-  // As if alpha were one everywhere.
+  // Power of the light, as if alpha were one everywhere.
   Rgb power() const { return flux_of(area, image ? L * image->mean() : L); }
-  // Of an area of radiance Le.
+  // Flux that an area a with radiance Le emits.
   Rgb flux_of(float a, const Rgb& Le) const { return (twosided ? 2.0f : 1.0f) * kPi * a * Le; }
 };
 

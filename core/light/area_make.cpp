@@ -1,4 +1,4 @@
-// Builds a light's own copy of its shape.
+// Builds area lights from shapes, with a copy of the geometry.
 
 #include "core/geometry/surface_bounds.h"
 #include "core/light/area.h"
@@ -24,8 +24,8 @@ TriangleEmitter make_emitter(const TriangleMesh& mesh, bool flip_normal) {
   return e;
 }
 
-// True when the map only rotates, mirrors, translates and scales by one factor, up to the rounding of a chain
-// of float matrices.
+// Whether the map only rotates, mirrors, translates and scales uniformly, up to the rounding of a chain of
+// float matrices.
 bool is_similarity(const glm::mat3& m) {
   constexpr float kTolerance = gamma_bound(64);
   const glm::mat3 gram = glm::transpose(m) * m;
@@ -38,16 +38,16 @@ bool is_similarity(const glm::mat3& m) {
   return size > 0;
 }
 
-// Whether equal areas of the quadric's own space are equal in the world.
+// Whether equal areas in the quadric's own space are equal areas in the world.
 bool keeps_areas_even(const Quadric& q) {
   if (q.kind == QuadricKind::kDisk) return true;
   glm::mat3 m = q.to_world.linear;
-  // A cylinder may be of any length.
+  // A cylinder may be scaled along its axis.
   if (q.kind == QuadricKind::kCylinder) m[2] *= glm::length(m[0]) / glm::length(m[2]);
   return is_similarity(m);
 }
 
-// pbrt's uv where the mesh has none.
+// pbrt's uv of triangles in meshes without uv.
 constexpr std::array<Point2, 3> kUvOfBareTriangle{Point2(0, 0), Point2(1, 0), Point2(1, 1)};
 
 std::vector<EmissionImage::Triangle> triangles_of(const TriangleMesh& mesh, const TriangleEmitter& emitter) {
@@ -62,7 +62,7 @@ std::vector<EmissionImage::Triangle> triangles_of(const TriangleMesh& mesh, cons
   return out;
 }
 
-// False where the mesh has triangles that are none.
+// Sets the image of a light. Returns false if the mesh has triangles without area.
 bool set_image(const Shape& shape, std::shared_ptr<const LightImage> image, DiffuseAreaLight& light) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
     const auto& emitter = std::get<TriangleEmitter>(light.surface);

@@ -4,7 +4,7 @@
 
 namespace kaustik {
 
-// Parallel light of irradiance L on a plane facing it. The builder sets the scene's bounding sphere.
+// Parallel light with irradiance L on a plane facing it. finalize_scene sets the scene's bounding sphere.
 struct DistantLight {
   static constexpr bool kDelta = true;
   static constexpr std::string_view kName = "distant";

@@ -3,11 +3,11 @@
 
 namespace kaustik {
 
-// Directions from which light that is the same from everywhere matters at a receiver: by the cosine. Where
-// light from behind counts too, half of them by the cosine of either side and half uniformly, for what a
-// glossy lobe makes of light at a grazing angle. u in [0, 1)^2.
+// Samples directions for uniform environment light at a receiver: by the cosine if only the front counts. If
+// light from behind counts as well, a quarter of the samples goes to either side by the cosine and half are
+// uniform, because a glossy lobe may reflect light at grazing angles. u in [0, 1)^2.
 Vector3 sample_even_light(const LightReceiver& x, const Point2& u);
-// Per solid angle; wi unit.
+// Density of sample_even_light per solid angle; wi unit.
 float even_light_pdf(const LightReceiver& x, const Vector3& wi);
 
 }  // namespace kaustik

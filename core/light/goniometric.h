@@ -6,18 +6,17 @@
 
 namespace kaustik {
 
-// Point light whose radiant intensity depends on the direction: I (W/sr) times a map, of which the red
-// channel counts.
+// Point light whose radiant intensity depends on the direction: I (W/sr) times the red channel of a map.
 struct GoniometricLight {
   static constexpr bool kDelta = true;
   static constexpr std::string_view kName = "goniometric";
 
   Point3 position{0};
-  glm::mat3 to_world{1};  // orthogonal: from the map's space
+  glm::mat3 to_world{1};  // orthogonal, from the map's space
   std::shared_ptr<const DirectionMap> map;
   Rgb I{1};
 
-  // w unit, from the light.
+  // Radiant intensity in direction w (unit, away from the light).
   Rgb intensity(const Vector3& w) const { return I * map->value(w * to_world).x; }
   std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;

@@ -7,7 +7,8 @@
 namespace kaustik {
 namespace {
 
-// A ray from infinity: uniform over the disk that hides the scene's bounding sphere from `to_light`.
+// A ray from infinity with a uniform origin on the disk that covers the scene's bounding sphere as seen from
+// `to_light`.
 Ray ray_into_scene(const Point3& scene_center, float scene_radius, const Vector3& to_light, const Point2& u) {
   const Point2 disk = sample_uniform_disk_concentric(u);
   const Vector3 offset = Frame::from_z(to_light).to_world({disk.x, disk.y, 1});
@@ -50,7 +51,7 @@ std::optional<EmissionSample> ImageInfiniteLight::sample_Le(const Point2& u_pos,
                                                             EmissionMode /*mode*/) const {
   const DirectionMap::Sample s = map->sample(u_dir);
   if (!(scene_radius > 0) || is_black(s.value)) return std::nullopt;
-  // L / pdf of the direction, times the disk's area.
+  // Flux = L / pdf of the direction, times the area of the disk.
   const float per_radiance = kPi * scene_radius * scene_radius * (scale / s.pdf);
   return EmissionSample{ray_into_scene(scene_center, scene_radius, to_world * s.w, u_pos),
                         per_radiance * s.value};

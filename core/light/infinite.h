@@ -6,7 +6,7 @@
 
 namespace kaustik {
 
-// Constant radiance L from every direction. The builder sets the scene's bounding sphere.
+// Constant radiance L from every direction. finalize_scene sets the scene's bounding sphere.
 struct InfiniteLight {
   static constexpr bool kDelta = false;
   static constexpr std::string_view kName = "infinite";
@@ -16,7 +16,7 @@ struct InfiniteLight {
   float scene_radius = 0;
 
   Rgb Le(const Ray& /*escaping*/) const { return L; }
-  // As even light matters at the receiver.
+  // Samples directions as for uniform light (core/light/even_light.h).
   std::optional<LightSample> sample_Li(const LightReceiver& x, const Point2& u) const;
   float pdf_Li(const LightReceiver& x, const Vector3& wi) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
@@ -24,7 +24,7 @@ struct InfiniteLight {
   Rgb power() const { return 4 * kPi * kPi * scene_radius * scene_radius * L; }
 };
 
-// Radiance from every direction by an image. The builder sets the scene's bounding sphere.
+// Radiance from every direction, given by an image. finalize_scene sets the scene's bounding sphere.
 struct ImageInfiniteLight {
   static constexpr bool kDelta = false;
   static constexpr std::string_view kName = "infinite image";
@@ -36,7 +36,8 @@ struct ImageInfiniteLight {
   float scene_radius = 0;
 
   Rgb Le(const Ray& escaping) const { return scale * map->value(to_map(escaping.d)); }
-  // What is even of the sky as even light matters at the receiver, what exceeds that by its luminance.
+  // Samples the even part of the sky as uniform light (core/light/even_light.h), and the excess over it by
+  // luminance.
   std::optional<LightSample> sample_Li(const LightReceiver& x, const Point2& u) const;
   float pdf_Li(const LightReceiver& x, const Vector3& wi) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
@@ -44,7 +45,7 @@ struct ImageInfiniteLight {
   Rgb power() const { return 4 * kPi * kPi * scene_radius * scene_radius * scale * map->mean(); }
 
  private:
-  Vector3 to_map(const Vector3& w) const { return w * to_world; }  // by the transposed matrix
+  Vector3 to_map(const Vector3& w) const { return w * to_world; }  // multiplies by the transposed matrix
 };
 
 }  // namespace kaustik

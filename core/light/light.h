@@ -1,6 +1,6 @@
 #pragma once
-// The list of all lights. Adding one: (1) a header with the struct, (2) its name here, (3) its row in
-// core/scene/schema/light_rows.cpp.
+// The variant of all light types. To add a light: (1) write a header with the struct, (2) add its name here,
+// (3) add its row in core/scene/schema/light_rows.cpp.
 
 #include <variant>
 #include <vector>
@@ -23,13 +23,13 @@ using Light = std::variant<PointLight, SpotLight, GoniometricLight, ProjectionLi
 inline Rgb power(const Light& light) {
   return std::visit([](const auto& l) { return l.power(); }, light);
 }
-// Cannot be met by a ray.
+// Whether no ray can hit the light.
 inline bool is_delta(const Light& light) {
   const auto* area = std::get_if<DiffuseAreaLight>(&light);
   if (area && area->invisible) return true;
   return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kDelta; }, light);
 }
-// Lights that rays meet when they leave the scene.
+// Lights that are seen by rays leaving the scene.
 template <class L>
 concept InfinitelyFar = requires(const L& light, const Ray& ray) {
   light.Le(ray);
@@ -37,7 +37,7 @@ concept InfinitelyFar = requires(const L& light, const Ray& ray) {
 inline bool is_infinite(const Light& light) {
   return std::visit([]<class L>(const L&) { return InfinitelyFar<L>; }, light);
 }
-// Radiance that an escaping ray of unit direction meets; zero unless is_infinite().
+// Radiance seen by a ray of unit direction that leaves the scene; zero unless is_infinite().
 inline Rgb escaped_radiance(const Light& light, const Ray& ray) {
   return std::visit(
       [&]<class L>(const L& l) {
@@ -46,7 +46,8 @@ inline Rgb escaped_radiance(const Light& light, const Ray& ray) {
       },
       light);
 }
-// Light of a light that arrives at x, before visibility. Most lights ask only for the place.
+// Samples the light arriving at x from `light`, before visibility. Most lights need only the position of the
+// receiver.
 inline std::optional<LightSample> sample_Li(const Light& light, const LightReceiver& x, const Point2& u) {
   return std::visit(
       [&](const auto& l) {
@@ -57,7 +58,7 @@ inline std::optional<LightSample> sample_Li(const Light& light, const LightRecei
       },
       light);
 }
-// Density of sample_Li at x for a direction in which nothing is met; zero unless is_infinite().
+// Density of sample_Li at x for a direction in which the ray leaves the scene; zero unless is_infinite().
 inline float escaped_pdf(const Light& light, const LightReceiver& x, const Vector3& wi) {
   return std::visit(
       [&]<class L>(const L& l) {
@@ -70,7 +71,7 @@ inline float escaped_pdf(const Light& light, const LightReceiver& x, const Vecto
       },
       light);
 }
-// Probabilities in proportion to luminance of power (uniform when every power is zero).
+// Probabilities proportional to the luminance of power (uniform if every power is zero).
 DiscreteDistribution light_power_distribution(const std::vector<Light>& lights);
 
 }  // namespace kaustik

@@ -3,7 +3,7 @@
 
 namespace kaustik {
 
-// Isotropic point light of radiant intensity I (W/sr).
+// Isotropic point light with radiant intensity I (W/sr).
 struct PointLight {
   static constexpr bool kDelta = true;
   static constexpr std::string_view kName = "point";

@@ -3,9 +3,9 @@
 namespace kaustik {
 namespace {
 
-constexpr int kFewestCells = 64;  // a side, so that a sky of one colour follows the solid angle
+constexpr int kFewestCells = 64;  // per side, so that a sky of one colour follows the solid angle
 constexpr int kMostCells = 2048;
-constexpr int kSamplesPerCell = 3;  // a side
+constexpr int kSamplesPerCell = 3;  // per side
 
 Point2 cell_middle(int x, int y, int resolution) {
   return (Point2(x, y) + 0.5f) / static_cast<float>(resolution);
@@ -17,8 +17,8 @@ Point2 PortalSky::square_of(const Vector3& w) {
   return {0.5f + kInvPi * std::atan2(w.x, w.z), 0.5f + kInvPi * std::atan2(w.y, w.z)};
 }
 
-// With x = tan alpha, y = tan beta on the plane z = 1: dw = dx dy / (1 + x^2 + y^2)^(3/2), and dx = (1 + x^2)
-// dalpha.
+// With x = tan alpha and y = tan beta on the plane z = 1, dw = dx dy / (1 + x^2 + y^2)^(3/2) and dx = (1 +
+// x^2) dalpha.
 Vector3 PortalSky::direction_of(const Point2& p, float* solid_angle) {
   const auto tangent = [](float s) { return std::tan(kPi * (std::clamp(s, 1e-6f, 1 - 1e-6f) - 0.5f)); };
   const Vector3 w(tangent(p.x), tangent(p.y), 1);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kFewestCells = 64;  // along the shorter side
 
-// Solid angle at the origin of the rectangle between the origin's foot on the plane z = 1 and (x, y), signed.
+// Signed solid angle, seen from the origin, of the rectangle between (0, 0) and (x, y) on the plane z = 1.
 double corner_solid_angle(double x, double y) {
   return std::atan(x * y / std::sqrt(1 + x * x + y * y));
 }
@@ -17,7 +17,7 @@ double solid_angle(double x0, double x1, double y0, double y1) {
          corner_solid_angle(x0, y0);
 }
 
-// Edge i of n cells across [-half, half].
+// Coordinate of edge i of n equal cells on [-half, half].
 double edge(int i, int n, double half) {
   return half * (2.0 * i / n - 1);
 }
@@ -64,7 +64,7 @@ ProjectedImage::Sample ProjectedImage::sample(const Point2& u) const {
   const float length2 = length_squared(v), length = std::sqrt(length2);
   const float cell_area =
       4 * half_.x * half_.y / static_cast<float>(cells_.width()) / static_cast<float>(cells_.height());
-  // dw = cos^3 dA on the plane z = 1.
+  // The pdf uses dw = cos^3 dA on the plane z = 1.
   return {v / length, image_->at(s.x / per_pixel_, s.y / per_pixel_),
           s.probability / cell_area * (length * length2)};
 }

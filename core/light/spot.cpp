@@ -5,9 +5,9 @@
 namespace kaustik {
 namespace {
 
-// Inverts the cumulative distribution 2 x^3 - x^4 of the normalised smoothstep. The function is convex on
-// [0, 1] and cbrt(u) lies right of the root, so Newton's method descends to it monotonically; four steps
-// reach float precision.
+// Inverts the cumulative distribution 2 x^3 - x^4 of the normalised smoothstep by Newton's method. The
+// function is convex on [0, 1] and cbrt(u) lies to the right of the root, so the iteration descends
+// monotonically; four steps reach float precision.
 float sample_smoothstep(float u) {
   if (!(u > 0)) return 0;
   float x = std::cbrt(u);
@@ -32,12 +32,12 @@ std::optional<LightSample> SpotLight::sample_Li(const Point3& ref, const Point2&
 
 std::optional<EmissionSample> SpotLight::sample_Le(const Point2& /*u_pos*/, const Point2& u_dir,
                                                    EmissionMode /*mode*/) const {
-  // In proportion to the intensity: the full cone and the falloff ring hold (1 - cos_falloff_start) and half
-  // of (cos_falloff_start - cos_total_width) of it per 2 pi.
+  // Sample in proportion to the intensity: per 2 pi, the full cone holds (1 - cos_falloff_start) of it, and
+  // the falloff ring half of (cos_falloff_start - cos_total_width).
   const float cone = 1 - cos_falloff_start;
   const float ring = cos_falloff_start - cos_total_width;
   const float in_cone = cone / (cone + 0.5f * ring);
-  if (!(in_cone >= 0)) return std::nullopt;  // no solid angle at all
+  if (!(in_cone >= 0)) return std::nullopt;  // the cone has no solid angle
   float one_minus_cos;
   if (u_dir.x < in_cone) {
     one_minus_cos = u_dir.x / in_cone * cone;

@@ -4,14 +4,14 @@
 
 namespace kaustik {
 
-// Spot light: intensity I within acos(cos_falloff_start) of its axis, falling by pbrt's smoothstep to zero at
-// acos(cos_total_width).
+// Spot light: intensity I within acos(cos_falloff_start) of its axis, falling with pbrt's smoothstep to zero
+// at acos(cos_total_width).
 struct SpotLight {
   static constexpr bool kDelta = true;
   static constexpr std::string_view kName = "spot";
 
   Point3 position{0};
-  Frame frame;  // z = axis
+  Frame frame;  // z is the axis
   Rgb I{1};
   float cos_falloff_start = 1, cos_total_width = 0;
 

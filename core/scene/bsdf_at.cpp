@@ -6,7 +6,7 @@ namespace kaustik {
 
 namespace {
 
-// Steps of uv that lead along v on the surface: least squares (pharr 2023, equation 10.6).
+// The steps of uv that lead along v on the surface, by least squares (Pharr 2023, equation 10.6).
 Vector2 steps_of(const Vector3& v, const SurfaceParameters& s) {
   const float uu = length_squared(s.dpdu), uv = glm::dot(s.dpdu, s.dpdv), vv = length_squared(s.dpdv);
   const float determinant = uu * vv - uv * uv;
@@ -24,7 +24,7 @@ TexturePoint point_of(const SurfaceInteraction& si, const SurfaceParameters& s, 
   return x;
 }
 
-// What is no number says nothing: then `otherwise`.
+// Clamps a texture's value to [0, 1]; NaN becomes `otherwise`.
 float share_of(float value, float otherwise) {
   if (value >= 0) return std::min(value, 1.0f);
   return value < 0 ? 0 : otherwise;
@@ -37,7 +37,8 @@ float amount_at(const Scene& scene, const MixedMaterial& mixed, const SurfaceInt
   return share_of(scene.textures->evaluate_float(mixed.amount_texture, x), mixed.amount);
 }
 
-// The material itself, or what its mixtures choose. They hold materials defined before them only: this ends.
+// Follows mixtures to the chosen material. The loop ends because a mixture refers only to materials defined
+// before it.
 const Material& chosen(const Scene& scene, const SurfaceInteraction& si, const Vector3& wo,
                        const Footprint& footprint) {
   const Material* material = &scene.materials[si.material];

@@ -3,21 +3,21 @@
 
 namespace kaustik {
 
-// What a texture's value at a point stands for: the steps on the surface from one pixel to the next, in world
-// space. Zero: the point alone, looked up at the finest level.
+// The area over which a texture's value is averaged at a surface point: the steps on the surface from one
+// pixel to the next, in world space. Zero means the point alone, looked up at the finest level.
 struct Footprint {
   Vector3 dpdx{0}, dpdy{0};
 };
 
-// For textures, at a point of a surface.
+// The arguments of a texture lookup at a surface point.
 TexturePoint texture_point(const Scene& scene, const SurfaceInteraction& si, const Footprint& footprint = {});
 
-// The BSDF at a point of a surface that is seen, or lit by a photon, from wo (unit, world): a constant
-// material's own, without a copy, or one made for the point and kept here.
+// The BSDF at a surface point that is seen, or lit by a photon, from wo (unit, world). Refers to the BSDF of
+// a constant material without a copy; otherwise makes one for the point and keeps it.
 class BsdfAt {
  public:
-  // si.ns becomes that of the bump or normal map, where the material has one; si.tangent is set where the
-  // BSDF is anisotropic.
+  // Replaces si.ns by the normal of the material's bump or normal map, if it has one, and sets si.tangent if
+  // the BSDF is anisotropic.
   BsdfAt(const Scene& scene, SurfaceInteraction& si, const Vector3& wo, const Footprint& footprint = {}) {
     const Material& material = scene.materials[si.material];
     bsdf_ = &material.typical();

@@ -24,7 +24,7 @@ bool TexturedMaterial::makes_bsdf() const {
 
 Material::Material(TexturedMaterial textured, const TextureSet& textures)
     : bsdf_(bsdf_of_one_point(textured, textures)) {
-  // Smooth surfaces are specular, rough ones are not.
+  // Whether a surface is specular or diffuse depends on its roughness.
   const auto is_roughness = [](const MaterialInput& i) {
     return is_textured(i) && i.name.ends_with("roughness");
   };

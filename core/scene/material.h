@@ -1,5 +1,5 @@
 #pragma once
-// What covers a surface: one BSDF everywhere, or a recipe that makes it at each point.
+// Surface materials: one BSDF for all points, or a recipe that makes the BSDF of each point.
 
 #include <concepts>
 #include <memory>
@@ -11,42 +11,42 @@
 
 namespace kaustik {
 
-// How the BSDF of a point is made from a material's parameters there.
+// Makes the BSDF of a point from the values of a material's parameters there.
 using BsdfMaker = Bsdf (*)(const MaterialInputs&);
 
-// What differs from point to point.
+// The recipe of a material that varies from point to point.
 struct TexturedMaterial {
   BsdfMaker make = nullptr;
   std::vector<MaterialInput> inputs;
-  uint32_t displacement = kNoIndex;  // float texture of a bump map
-  uint32_t normal_map = kNoIndex;    // image
+  uint32_t displacement = kNoIndex;  // float texture of the bump map
+  uint32_t normal_map = kNoIndex;    // image of the normal map
 
-  // Whether the BSDF itself does, not only its normal.
+  // Whether the BSDF itself varies, and not only the shading normal.
   bool makes_bsdf() const;
 };
 
-// A value; copies of a textured one share its recipe.
+// A value type; copies of a textured material share its recipe.
 class Material {
  public:
-  // The same everywhere. Implicit: constant materials are BSDFs.
+  // A material that is the same at every point. Implicit, so that a BSDF can be used as a constant material.
   template <class B>
   requires std::constructible_from<Bsdf, const B&> Material(const B& bsdf)  // NOLINT
       : bsdf_(bsdf), anisotropic_(is_anisotropic(bsdf_)) {}
-  // textures: those that its inputs name.
+  // `textures` are those that its inputs refer to.
   Material(TexturedMaterial textured, const TextureSet& textures);
-  // typical: of one of the two.
+  // `typical` is the BSDF of one of the two materials.
   Material(const MixedMaterial& mixed, const Bsdf& typical) : bsdf_(typical), mixed_(mixed) {}
 
   bool constant() const { return !textured_ && !mixed_; }
-  // Constant, and no part of the surface needs to be known where it is met.
+  // Whether the material is constant and isotropic, so that its BSDF needs nothing but the shading frame.
   bool plain() const { return constant() && !anisotropic_; }
-  // Of a constant material; of others that of one point, for summaries.
+  // The BSDF of a constant material; for other materials that of one point, to be used in summaries.
   const Bsdf& typical() const { return bsdf_; }
-  // Null for all that are not textured.
+  // Null unless the material is textured.
   const TexturedMaterial* textured() const { return textured_.get(); }
-  // Null for all that are no mixtures.
+  // Null unless the material is a mixture.
   const MixedMaterial* mixed() const { return mixed_ ? &*mixed_ : nullptr; }
-  // The parts that its BSDFs can have.
+  // The kinds of lobes that its BSDFs can have.
   Lobes lobes() const {
     if (varies_) return {true, true, false};
     return mixed_ ? mixed_->lobes : kaustik::lobes(bsdf_);
@@ -56,8 +56,8 @@ class Material {
   Bsdf bsdf_;
   std::shared_ptr<const TexturedMaterial> textured_;
   std::optional<MixedMaterial> mixed_;
-  bool varies_ = false;       // between specular and not
-  bool anisotropic_ = false;  // of a constant one
+  bool varies_ = false;       // between specular and diffuse
+  bool anisotropic_ = false;  // for constant materials
 };
 
 }  // namespace kaustik

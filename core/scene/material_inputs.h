@@ -1,5 +1,5 @@
 #pragma once
-// What the maker of a BSDF reads: a material's parameters at one point.
+// The values of a material's parameters at one point, from which its BSDF is made.
 
 #include <string>
 #include <string_view>
@@ -11,27 +11,27 @@ namespace kaustik {
 
 class ParameterReader;
 
-// One parameter of a material, as its directive or the schema's defaults say.
+// One parameter of a material, with its value from the directive or else the schema's default.
 struct MaterialInput {
-  std::string_view name;  // of the schema
-  bool given = false;     // by the directive
+  std::string_view name;  // the schema's name of the parameter
+  bool given = false;     // whether the directive gives it
   std::vector<double> numbers;
-  Rgb rgb{0};  // of colours
+  Rgb rgb{0};  // for colours
   std::string text;
-  // What gives the value instead, clamped to the parameter's range [low, high]; where it is none (NaN, or at
-  // an end that does not belong to the range) the value is the default.
+  // A texture that gives the value instead. Its values are clamped to the parameter's range [low, high];
+  // where a value is NaN, or at an end that is not part of the range, the default is used.
   uint32_t texture = kNoIndex;
   float low = -kInfinity, high = kInfinity;
   bool low_open = false, high_open = false;
 
-  // Of one component, whose default is `otherwise`.
+  // The value of one component, clamped to the range, or `otherwise` (the default) if it has none.
   float in_range(float value, float otherwise) const;
 };
 
-// The inputs of a material, by name. Names must be of the schema's row.
+// The inputs of a material, by name. Names must be those of the schema's row.
 class MaterialInputs {
  public:
-  // x: where textures are looked up; without them inputs with textures have their default.
+  // x: where textures are looked up. Without textures and x, inputs with textures have their default.
   explicit MaterialInputs(const std::vector<MaterialInput>& inputs, const TextureSet* textures = nullptr,
                           const TexturePoint* x = nullptr)
       : inputs_(inputs), textures_(textures), x_(x) {}
@@ -51,8 +51,8 @@ class MaterialInputs {
   const TexturePoint* x_;
 };
 
-// Every parameter of the row that has an effect, without their textures. The directive must have passed
-// check_parameters.
+// All parameters of the row that have an effect, before their textures are resolved. The directive must have
+// passed check_parameters.
 std::vector<MaterialInput> material_inputs(const ParameterReader& parameters);
 
 }  // namespace kaustik

@@ -1,5 +1,5 @@
 #pragma once
-// One of two materials, chosen anew at each hit.
+// A mixture of two materials, one of which is chosen at each hit.
 
 #include "core/bsdf/bsdf.h"
 #include "core/geometry/shape.h"
@@ -7,18 +7,19 @@
 
 namespace kaustik {
 
-// The second with probability `amount`, a number's or a texture's, else the first: samples form the mean of
-// both pictures. The choice is a pure function of the point and of wo (as in pbrt-v4), so it does not depend
-// on threads; of mantissas and signs alone, so that a scene scaled by a power of two chooses alike.
+// Chooses the second material with probability `amount` (a number or a texture) and the first one otherwise,
+// so the mean over samples is the mixture of both pictures. The choice is a pure function of the point and wo
+// (as in pbrt-v4) and so does not depend on threads. It uses only mantissas and signs, so a scene scaled by a
+// power of two makes the same choices.
 struct MixedMaterial {
   uint32_t first = 0, second = 0;  // indices of materials
   float amount = 0.5f;             // in [0, 1]
-  // Of all that can be chosen. Photons are kept where any of it has a broad part: who looks there chooses for
-  // himself.
+  // The lobes of both materials together. Photons are kept if either has a diffuse part; whoever gathers them
+  // makes a choice of its own.
   Lobes lobes;
-  uint32_t amount_texture = kNoIndex;  // float texture that says `amount` instead, clamped to [0, 1]
+  uint32_t amount_texture = kNoIndex;  // float texture that replaces `amount`, clamped to [0, 1]
 
-  // share: the amount at p.
+  // Returns the index of the material chosen at p; share is the amount there.
   uint32_t choose(const Point3& p, const Vector3& wo, float share) const;
 };
 

@@ -4,17 +4,17 @@
 
 namespace kaustik {
 
-// What must be modelled for this scene; everything else is left out, and the log says so.
+// The effects that this scene requires. All others are left out, and the log says so.
 struct SceneNeeds {
-  bool specular = false;           // some surface has a part that is followed: caustics exist
-  bool delta = false;              // some of them by a delta lobe: lights cannot be sampled there
-  bool diffuse = false;            // some surface has a broad part: photon maps are of use
-  bool only_delta_lights = false;  // paths cannot hit a light: caustics need photons
+  bool specular = false;           // some surface has a specular part: caustics are possible
+  bool delta = false;              // some specular part is a delta lobe: lights cannot be sampled there
+  bool diffuse = false;            // some surface has a diffuse part: photon maps are useful
+  bool only_delta_lights = false;  // no ray can hit a light: caustics need photons
   bool infinite_light = false;
-  bool sky_alone = false;  // every light is infinite: little can be predicted of what is seen
+  bool sky_alone = false;  // all lights are infinite: visibility is hard to predict
   bool any_light = false;
 
-  // One sentence per thing left out, e.g. "no specular surface: no caustic pass".
+  // One sentence for each effect left out, for example "no specular surface: no caustic pass".
   std::vector<std::string> left_out() const;
 };
 

@@ -3,8 +3,8 @@
 namespace kaustik {
 namespace {
 
-// Bounding sphere handed to lights that lie outside the scene; a little larger than the box needs, so that
-// rounding leaves nothing outside.
+// Sets the bounding sphere of the scene on lights outside it. The sphere is slightly larger than the box
+// requires, so that rounding leaves nothing outside.
 void set_scene_sphere(std::vector<Light>& lights, const Bounds3& bounds) {
   if (bounds.empty()) return;
   const Point3 center = bounds.center();

@@ -1,5 +1,5 @@
 #pragma once
-// The scene as it is rendered: plain data, built once by build_scene and const from then on.
+// The scene in the form that is rendered: plain data, built once by build_scene and const from then on.
 
 #include <memory>
 #include <string>
@@ -15,28 +15,28 @@
 namespace kaustik {
 
 struct Scene {
-  // World coordinates less this, in metres, are what everything below holds. Zero unless the scene lies far
-  // from the world's origin (core/scene/build/local_origin.h).
+  // World coordinates minus this origin (metres) are the coordinates of everything below. Zero unless the
+  // scene lies far from the world's origin (core/scene/build/local_origin.h).
   glm::dvec3 origin{0};
   Camera camera;
   Sensor sensor;
   std::vector<Shape> shapes;
   std::vector<Material> materials;
-  std::shared_ptr<const TextureSet> textures;  // that materials and shapes name by index; may be null
+  std::shared_ptr<const TextureSet> textures;  // named by materials and shapes by index; may be null
   std::vector<std::string> material_names;     // for `kaustik info`
   std::vector<std::string> surface_group_names;
   std::vector<Light> lights;
-  DiscreteDistribution light_power;       // probabilities of emission
-  LightSampler light_sampler;             // and of next-event estimation
+  DiscreteDistribution light_power;       // probabilities for photon emission
+  LightSampler light_sampler;             // for next-event estimation
   std::vector<uint32_t> infinite_lights;  // indices into lights
   Bounds3 bounds;                         // of all shapes
   SceneNeeds needs;
-  std::shared_ptr<const void> keeps;  // files that are read while it is rendered
+  std::shared_ptr<const void> keeps;  // temporary files that must exist while the scene is rendered
 };
 
-// Fills what follows from shapes, materials and lights: bounds, scene spheres of distant and infinite lights,
-// light_power, light_sampler, infinite_lights, needs. Called by build_scene, and by tests that make scenes in
-// code.
+// Computes what follows from shapes, materials and lights: bounds, the scene spheres of distant and infinite
+// lights, light_power, light_sampler, infinite_lights and needs. Called by build_scene, and by tests that
+// make scenes in code.
 void finalize_scene(Scene& scene);
 
 }  // namespace kaustik

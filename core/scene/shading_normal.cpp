@@ -4,8 +4,8 @@ namespace kaustik {
 
 namespace {
 
-// Steps of u and v between which the height's slope is measured: half a pixel, or where the footprint is a
-// point a fraction of the surface.
+// Step of u or v over which the slope of the height is measured: half a pixel, or a small fraction of the
+// surface if the footprint is a point.
 constexpr float kPointStep = 0.0005f;
 float step_of(float along_x, float along_y) {
   const float step = 0.5f * (std::abs(along_x) + std::abs(along_y));
@@ -42,7 +42,7 @@ Vector3 mapped(const TextureSet& textures, uint32_t image, const TexturePoint& x
   const Vector3 local = 2.0f * colour - 1.0f;
   const Tangents t = tangents(surface, ns);
   const Vector3 along_u = glm::normalize(t.u), across = glm::cross(ns, along_u);
-  // Where uv is mirrored, towards v all the same, as programs that bake maps take it.
+  // Where uv is mirrored, y still points towards v, as in programs that bake normal maps.
   return local.x * along_u + (glm::dot(across, t.v) < 0 ? -local.y : local.y) * across + local.z * ns;
 }
 

@@ -5,7 +5,7 @@
 namespace kaustik {
 namespace {
 
-// Room for rounding wherever an angle decides that nothing arrives.
+// Tolerance for rounding wherever an angle decides that no light arrives.
 constexpr float kSlack = 1e-4f;
 
 struct Angle {
@@ -19,15 +19,16 @@ Angle reduced(const Angle& a, const Angle& b) {
   return {a.cos * b.cos + a.sin * b.sin, a.sin * b.cos - a.cos * b.sin};
 }
 
-// Half-angle of the ball around the box, from distance^2 of its centre.
+// Half-angle that the bounding sphere of the box subtends at this squared distance from its centre.
 Angle subtended(float radius2, float distance2) {
   if (distance2 <= radius2) return {-1, 0};
   const float sin2 = radius2 / distance2;
   return {std::sqrt(1 - sin2), std::sqrt(sin2)};
 }
 
-// Of a cosine that is at most `most`, and `at_center` in the middle. Bounds alone say little of large boxes:
-// with this mean the variance in halls and clouds of lights is 7 to 34 % lower.
+// Typical value of a cosine that is at most `most` and equals `at_center` at the centre of the box. Upper
+// bounds alone say little about large boxes: this mean reduces the variance in halls and clouds of lights by
+// 7 to 34 %.
 float typical(float most, float at_center) {
   return 0.5f * (std::max(most, kSlack) + std::max(at_center, 0.0f));
 }
@@ -102,12 +103,12 @@ std::optional<LightBounds> bounds(const DiffuseAreaLight& l) {
   std::visit([&](const auto& e) { add_surface(e, b); }, l.surface);
   b.two_sided = l.twosided;
   b.phi = luminance(l.power()) / ((l.twosided ? 2 : 1) * kPi);
-  // Of surfaces that face all ways a quarter is seen from afar (Cauchy 1832, for convex ones).
+  // From afar, a convex surface whose normals cover all directions shows a quarter of its area (Cauchy 1832).
   if (b.cos_o < 0) b.phi *= 0.25f;
   return b;
 }
 
-// The cone of two cones.
+// Sets the smallest cone that contains two cones.
 void unite_cones(const LightBounds& a, const LightBounds& b, LightBounds* out) {
   const auto set = [&](const Vector3& w, float cos_o) { out->w = w, out->cos_o = cos_o; };
   const double theta_a = std::acos(double(std::clamp(a.cos_o, -1.0f, 1.0f)));
@@ -119,7 +120,7 @@ void unite_cones(const LightBounds& a, const LightBounds& b, LightBounds* out) {
   const glm::dvec3 turned = glm::dvec3(b.w) - std::cos(between) * glm::dvec3(a.w);
   const double length = glm::length(turned);
   if (theta >= std::numbers::pi || !(length > 0)) return set(a.w, -1);
-  // From a's axis towards b's.
+  // Turn from a's axis towards b's.
   const double turn = theta - theta_a;
   const glm::dvec3 w = std::cos(turn) * glm::dvec3(a.w) + std::sin(turn) / length * turned;
   set(Vector3(glm::normalize(w)), static_cast<float>(std::cos(theta)));

@@ -4,22 +4,23 @@
 
 namespace kaustik {
 
-// What is known of a set of lights (Conty Estevez and Kulla 2018; Pharr et al. 2023, section 12.6.3): a box
-// that holds them, a cone that holds the normals of what emits, and how far about a normal it emits.
+// Bounds of a set of lights (Conty Estevez and Kulla 2018; Pharr et al. 2023, section 12.6.3): a box around
+// the emitters, a cone around their normals, and the angle about a normal within which they emit.
 struct LightBounds {
   Bounds3 box;
-  Vector3 w{0, 0, 1};  // the cone's axis
+  Vector3 w{0, 0, 1};  // axis of the cone
   float phi = 0;       // sum of peak intensities (luminance, W/sr)
-  float cos_o = -1;    // of the cone's half-angle
-  float cos_e = 0;     // of the angle about a normal beyond which nothing is emitted
+  float cos_o = -1;    // cosine of the cone's half-angle
+  float cos_e = 0;     // cosine of the angle about a normal beyond which nothing is emitted
   bool two_sided = false;
 
-  // In proportion to what the lights may give, W/m^2, up to a common factor: an estimate by the box's centre,
-  // with angles as small as box and cone allow. Zero only where no light of the set gives anything.
+  // Proportional to the irradiance (W/m^2) that the lights may cause at x, up to a common factor: an estimate
+  // from the centre of the box, with angles as small as box and cone allow. Zero only if no light of the set
+  // contributes.
   float importance(const LightReceiver& x) const;
 };
 
-// Nothing for lights without a place (distant, infinite) and those that emit nothing.
+// Nothing for lights without a position (distant, infinite) and for those that emit nothing.
 std::optional<LightBounds> light_bounds(const Light& light);
 LightBounds united(const LightBounds& a, const LightBounds& b);
 

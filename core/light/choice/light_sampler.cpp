@@ -3,8 +3,8 @@
 namespace kaustik {
 namespace {
 
-// Share of the choices that are made by power although there is a tree: it bounds what a sample can weigh
-// where the tree takes a light for important that is not, as beside a light that faces away.
+// Share of the choices made by power although there is a tree. It bounds the weight of a sample where the
+// tree overestimates the importance of other lights, as beside a light that faces away.
 constexpr float kByPower = 0.125f;
 
 float mixed(float by_tree, float by_power) {
@@ -33,7 +33,7 @@ std::optional<LightSampler::Choice> LightSampler::choose(const LightReceiver& x,
   const float at = (u - kByPower) / (1 - kByPower) / share();
   const auto i = static_cast<size_t>(at);
   const float rest = std::min(at - static_cast<float>(i), kOneMinusEpsilon);
-  // Rounding may lead past the last light where there is no tree.
+  // Without a tree, rounding may lead past the last light.
   if (i < placeless_.size() || tree_.empty()) {
     const uint32_t light = placeless_[std::min(i, placeless_.size() - 1)];
     return Choice{light, probability(x, light), rest};

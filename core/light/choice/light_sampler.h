@@ -3,15 +3,17 @@
 
 namespace kaustik {
 
-// Chooses the light of a shadow ray. All estimators that choose one ask here, and here for the probability.
+// Chooses the light for a shadow ray, and gives the probability of the choice. All estimators that choose a
+// light use this class.
 //
-// Of at most kMostByPower lights one is chosen in proportion to its power, wherever the light arrives: so few
-// are better all sampled (render/estimators/lighting.cpp). Of more, lights that have a place are chosen by a
-// LightTree; those without (distant, infinite) beside it, each as often as the whole tree (pbrt-v4's rule);
-// one choice in eight is made by power all the same. Immutable; thread-safe.
+// Up to kMostByPower lights are chosen in proportion to their power, independently of the receiver; such
+// small numbers are better sampled all together (render/estimators/lighting.cpp). With more lights, those
+// that have a position are chosen by a LightTree, and those without (distant, infinite) beside it, each as
+// often as the whole tree (pbrt-v4's rule); one choice in eight is still made by power. Immutable;
+// thread-safe.
 class LightSampler {
  public:
-  // Measured: docs/accuracy.md.
+  // The limit is measured: docs/accuracy.md.
   static constexpr size_t kMostByPower = 4;
 
   LightSampler() = default;
@@ -20,15 +22,15 @@ class LightSampler {
   struct Choice {
     uint32_t light;
     float probability;
-    float u_remapped;  // the random number, uniform again in [0, 1)
+    float u_remapped;  // what is left of the random number, again uniform in [0, 1)
   };
-  // u in [0, 1). Nothing where no light can give anything.
+  // u in [0, 1). Returns nothing if no light can contribute.
   std::optional<Choice> choose(const LightReceiver& x, float u) const;
-  // By which choose() finds this light.
+  // Probability with which choose() returns this light.
   float probability(const LightReceiver& x, uint32_t light) const;
 
  private:
-  // Of each of the lights without a place, and of the tree.
+  // Probability of each light without a position, and of the tree.
   float share() const { return 1 / static_cast<float>(placeless_.size() + (tree_.empty() ? 0 : 1)); }
 
   bool by_power_ = true;

@@ -6,12 +6,12 @@ namespace kaustik {
 namespace {
 
 constexpr int kBuckets = 12;
-// From here on sets are halved, so that no trail is longer than 64 turns: 32 more do for all lights there can
-// be.
+// Below this depth sets are halved, so that no path from the root is longer than 64: 32 further levels
+// suffice for any number of lights.
 constexpr uint32_t kDeepestChosenSplit = 32;
 
-// Integral of the cosine over the directions that a cone of normals emits into (Conty Estevez and Kulla 2018,
-// equation 1).
+// Integral of the cosine over the directions into which a cone of normals emits (Conty Estevez and Kulla
+// 2018, equation 1).
 double orientation_measure(const LightBounds& b) {
   const double o = std::acos(double(std::clamp(b.cos_o, -1.0f, 1.0f)));
   const double e = std::acos(double(std::clamp(b.cos_e, -1.0f, 1.0f)));
@@ -21,7 +21,8 @@ double orientation_measure(const LightBounds& b) {
              (2 * w * std::sin(o) - std::cos(o - 2 * w) - 2 * o * std::sin(o) + std::cos(o));
 }
 
-// By the squared diagonal, not the surface of the box: lights may well lie on a line, which has none.
+// Uses the squared diagonal instead of the surface area of the box, because lights on a line have a box
+// without area.
 double cost(const LightBounds& b) {
   const glm::dvec3 d(b.box.diagonal());
   return double(b.phi) * orientation_measure(b) * glm::dot(d, d);
@@ -30,7 +31,7 @@ double cost(const LightBounds& b) {
 struct Split {
   double cost = std::numeric_limits<double>::infinity();
   int axis = -1;
-  size_t bucket = 0;  // the last on the left
+  size_t bucket = 0;  // the last one on the left
 };
 
 using Buckets = std::array<std::optional<LightBounds>, kBuckets>;
@@ -39,8 +40,9 @@ void add(std::optional<LightBounds>& to, const LightBounds& b) {
   to = to ? united(*to, b) : b;
 }
 
-// The best split between two buckets, if it is better. Thin boxes along other axes are not to be wanted:
-// elongation, that of the set over its extent along this axis, makes such splits dearer.
+// Replaces `best` by the best split between two buckets along this axis, if that is better. The factor
+// `elongation`, the largest extent of the set over its extent along this axis, makes splits that yield thin
+// boxes more expensive.
 void improve(Split& best, const Buckets& buckets, int axis, double elongation) {
   Buckets suffix = buckets;
   for (size_t k = kBuckets - 1; k-- > 0;)
@@ -66,7 +68,7 @@ LightTree::LightTree(const std::vector<Light>& lights) : trails_(lights.size()) 
   build(0, items.data(), items.data() + items.size(), {0, 0});
 }
 
-// Recursion is as deep as the tree, 64 at most.
+// The recursion is as deep as the tree, at most 64.
 void LightTree::build(uint32_t node, Item* begin, Item* end, Trail trail) {
   if (end - begin == 1) {
     nodes_[node] = {begin->bounds, begin->light, true};
@@ -82,7 +84,8 @@ void LightTree::build(uint32_t node, Item* begin, Item* end, Trail trail) {
   nodes_[node] = {united(nodes_[first].bounds, nodes_[first + 1].bounds), first, false};
 }
 
-// Of what lies in centers: the middle of the longest axis halves it, lights of one place by their number.
+// Splits the set into halves at the median along its longest axis; lights at the same position are ordered by
+// index.
 LightTree::Item* LightTree::halve(Item* begin, Item* end, const Vector3& extent) {
   const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
   Item* const middle = begin + (end - begin) / 2;
@@ -93,7 +96,7 @@ LightTree::Item* LightTree::halve(Item* begin, Item* end, const Vector3& extent)
   return middle;
 }
 
-// Where the two sets cost least, by buckets along each axis.
+// Splits the set where the sum of both costs is smallest, by buckets along each axis.
 LightTree::Item* LightTree::split(Item* begin, Item* end, uint32_t depth) {
   Bounds3 centers;
   for (const Item* i = begin; i < end; ++i) centers.add(i->bounds.box.center());

@@ -40,7 +40,7 @@ void DirectionMap::make_excess() {
   };
   for (int y = 0; y < image_->height; ++y)
     for (int x = 0; x < image_->width; ++x) sum += above_mean(x, y);
-  constexpr double kRounding = 1e-5;  // of luminances and their mean
+  constexpr double kRounding = 1e-5;  // rounding errors of luminances and their mean
   const double share = mean > 0 ? sum / (kFourPi * mean) : 0;
   if (share < kRounding) return;
   even_share_ = static_cast<float>(1 - share);
@@ -68,7 +68,7 @@ Vector3 DirectionMap::direction(const Pixel& pixel, const Point2& in_pixel) cons
   if (layout_ == Layout::kEqualArea)
     return equal_area_square_to_sphere(
         {x, (static_cast<float>(pixel.y) + in_pixel.y) / static_cast<float>(image_->height)});
-  // Uniform in z; 1 - |z| keeps its precision at the poles.
+  // Uniform in z, in double to keep precision at the poles.
   const double top = z_of_row(pixel.y, image_->height), bottom = z_of_row(pixel.y + 1, image_->height);
   const double z = top + static_cast<double>(in_pixel.y) * (bottom - top);
   const double r = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
@@ -103,7 +103,8 @@ float DirectionMap::excess_pdf(const Vector3& w) const {
 }
 
 double DirectionMap::irradiance() const {
-  // The cosine at the middle of each part of a pixel: parts, so that maps of few pixels will do.
+  // Sums the cosine at the middle of each part of a pixel; pixels are divided so that maps of few pixels are
+  // accurate.
   constexpr int kFewest = 64;
   const int parts = (kFewest + image_->height - 1) / image_->height;
   double sum = 0;

@@ -7,17 +7,17 @@
 
 namespace kaustik {
 
-// A colour for every direction, constant over the pixels of an image, and directions in proportion to its
-// luminance. Exactly so: pixels are chosen by luminance times solid angle, and directions are uniform within
-// a pixel. Immutable; thread-safe.
+// A colour for every direction, constant within each pixel of an image, with sampling of directions in
+// proportion to luminance. The sampling is exact: a pixel is chosen by luminance times solid angle, and the
+// direction is uniform within the pixel. Immutable; thread-safe.
 //
-// For shadow rays the light is divided in two: what is even, the mean luminance at most, and the excess over
+// For shadow rays the light is divided into an even part, of at most the mean luminance, and the excess over
 // it (after Karlik et al. 2019, "MIS Compensation").
 class DirectionMap {
  public:
   enum class Layout {
-    kEqualArea,  // octahedral, square (core/math/equal_area.h): pbrt-v4's
-    kLatLong     // row 0 about +z, column 0 from +x towards +y: pbrt-v3's
+    kEqualArea,  // octahedral, square (core/math/equal_area.h), as in pbrt-v4
+    kLatLong     // row 0 around +z, column 0 from +x towards +y, as in pbrt-v3
   };
   enum class Excess { kLeftOut, kSampled };
   struct Sample {
@@ -28,22 +28,23 @@ class DirectionMap {
 
   DirectionMap(std::shared_ptr<const LightImage> image, Layout layout, Excess excess = Excess::kLeftOut);
 
-  // w unit, in the map's space.
+  // The colour in direction w (unit, in the map's space).
   Rgb value(const Vector3& w) const;
-  // u in [0, 1)^2. A map that is black everywhere gives some direction of value 0.
+  // u in [0, 1)^2. For a map that is black everywhere, the direction is arbitrary and the value 0.
   Sample sample(const Point2& u) const;
   float pdf(const Vector3& w) const;
 
-  // What is even, of all luminance; 1 where the excess is left out.
+  // Share of the even part in the total luminance; 1 if the excess is left out.
   float even_share() const { return even_share_; }
-  // In proportion to the excess. Only where even_share() is below 1.
+  // Samples in proportion to the excess. Call it only if even_share() < 1.
   Vector3 sample_excess(const Point2& u) const;
   float excess_pdf(const Vector3& w) const;
 
   Rgb mean() const { return mean_; }            // over all directions
-  Rgb brightest() const { return brightest_; }  // per channel
+  Rgb brightest() const { return brightest_; }  // maximum per channel
   int rows() const { return image_->height; }
-  // Of a surface that faces +z: the integral of luminance times cosine over z > 0, if values are radiance.
+  // Irradiance of a surface facing +z: the integral of luminance times cosine over z > 0, if the values are
+  // radiance.
   double irradiance() const;
 
  private:
@@ -52,7 +53,7 @@ class DirectionMap {
   };
   Pixel pixel_of(const Vector3& w) const;
   Vector3 direction(const Pixel& pixel, const Point2& in_pixel) const;
-  double solid_angle(int y) const;  // of a pixel of this row
+  double solid_angle(int y) const;  // of a pixel in this row
   void make_excess();
 
   std::shared_ptr<const LightImage> image_;

@@ -8,18 +8,18 @@ namespace {
 constexpr double kMostCells = 1 << 19;
 constexpr int kMostPerSide = 512;
 constexpr double kEvenShare = 1.0 / 32;
-// Of densities that are constant over a cell, those in proportion to the root mean square make the least
-// noise. Points along a cell's side that its luminance is measured at: eight along a pixel where there is
-// room.
+// Points per side of a cell at which its luminance is measured: eight per pixel where the resolution permits.
+// (Of all densities that are constant over a cell, the one proportional to the root mean square has the least
+// variance.)
 constexpr int kPoints = 4;
 
-// Of sample_uniform_triangle(): the square's point that b comes from.
+// Inverse of sample_uniform_triangle(): the point of the square that maps to barycentrics b.
 Point2 square_of_barycentrics(const Point2& b) {
   const float smaller = 2 * std::min(b.x, b.y), larger = b.x + b.y;
   return b.x < b.y ? Point2(smaller, larger) : Point2(larger, smaller);
 }
 
-// v, from u.x of sample_uniform(): core/geometry/surface_parameters.h.
+// The surface parameter v (core/geometry/surface_parameters.h) for the u.x of sample_uniform().
 float v_of(const Quadric& q, float u) {
   switch (q.kind) {
     case QuadricKind::kSphere: {
@@ -62,7 +62,7 @@ EmissionImage::EmissionImage(std::shared_ptr<const LightImage> image, const Quad
 }
 
 Rgb EmissionImage::value(const Point2& uv) const {
-  // NaN: the first pixel.
+  // NaN is mapped to the first pixel.
   const auto at = [](float s, int n) {
     return std::min(std::max(0.0f, s * static_cast<float>(n) - 0.5f), static_cast<float>(n - 1));
   };
@@ -117,12 +117,12 @@ void EmissionImage::summarise_pixels() {
   pixels_ = Rgb(sum / static_cast<double>(image_->pixels.size()));
 }
 
-// Two cells a pixel, along the longer side that the triangle has in the image.
+// Two cells per pixel along the longer side of the triangle in the image.
 int EmissionImage::wanted_resolution(const Triangle& t) const {
   const Point2 extent =
       glm::max(t.uv[0], glm::max(t.uv[1], t.uv[2])) - glm::min(t.uv[0], glm::min(t.uv[1], t.uv[2]));
   const double pixels = std::max(double(extent.x) * image_->width, double(extent.y) * image_->height);
-  // NaN: one.
+  // NaN gives one cell.
   return pixels > 0 ? static_cast<int>(std::ceil(std::min(2 * pixels, double{kMostPerSide}))) : 1;
 }
 

@@ -10,25 +10,25 @@
 
 namespace kaustik {
 
-// The image that a textured area light emits, over the uv of its surface: bilinear between pixels, clamped at
-// the edges, (0, 0) the lower left corner, as in pbrt-v4. And points of the surface in proportion to its
-// luminance: a part of the surface is chosen by its power, then a cell of a table over the square that is
-// spread evenly over the part. Cells are about half a pixel wide, up to 2^19 in all; a share of 1/32 is
-// spread evenly over the surface, so that nothing which shines is missed and weights are bounded. Immutable;
-// thread-safe.
+// The image that a textured area light emits, over the uv of its surface: interpolated bilinearly between
+// pixels and clamped at the edges, with (0, 0) the lower left corner, as in pbrt-v4. Also samples points of
+// the surface in proportion to luminance: first a part (a triangle, or the whole quadric) by its power, then
+// a cell of a table over the unit square, which is mapped to the part with uniform area. Cells are about half
+// a pixel wide, with at most 2^19 of them in total. One sample in 32 is spread evenly over the surface, so
+// that no emitting point is missed and weights are bounded. Immutable; thread-safe.
 class EmissionImage {
  public:
-  // Of a mesh: of its triangle of this number, with the uv of its corners.
+  // A triangle of the emitting mesh, with the uv of its corners, in the order of the mesh.
   struct Triangle {
     double area;  // m^2
     std::array<Point2, 3> uv;
   };
   EmissionImage(std::shared_ptr<const LightImage> image, std::vector<Triangle> triangles);
-  // Of a whole sphere, cylinder or disk, or a part of one; area in m^2.
+  // For a whole sphere, cylinder or disk, or a part of one; area in m^2.
   EmissionImage(std::shared_ptr<const LightImage> image, const Quadric& quadric, double area);
 
-  // Where on the surface: a triangle (zero for quadrics), and the point of the square that
-  // sample_uniform_triangle() or sample_uniform() take to the surface.
+  // A point on the surface: the triangle (zero for quadrics), and the point of the square that
+  // sample_uniform_triangle() or sample_uniform() maps to the surface.
   struct Place {
     uint32_t part = 0;
     Point2 u{0};
@@ -45,11 +45,11 @@ class EmissionImage {
   Point2 uv(const Place& place) const;
   Rgb value(const Point2& uv) const;
   Rgb mean() const { return mean_; }              // over the surface
-  Rgb mean_of_pixels() const { return pixels_; }  // whatever the surface shows of them
-  Rgb brightest() const { return brightest_; }    // of all pixels, per channel
+  Rgb mean_of_pixels() const { return pixels_; }  // including pixels that the surface does not show
+  Rgb brightest() const { return brightest_; }    // maximum of all pixels, per channel
 
  private:
-  // Root mean square luminance of the cells of a part's table, row by row, and the mean of these numbers.
+  // Root mean square luminance of each cell of a part's table, row by row, and the mean of these numbers.
   struct Cells {
     int n = 1;
     std::vector<double> luminance;
@@ -62,11 +62,11 @@ class EmissionImage {
   Cells cells_of(uint32_t part, int n, glm::dvec3* mean) const;
 
   std::shared_ptr<const LightImage> image_;
-  std::vector<Triangle> triangles_;  // none: the quadric
+  std::vector<Triangle> triangles_;  // empty for a quadric
   Quadric quadric_;
   DiscreteDistribution parts_;
-  std::vector<PiecewiseConstant2D> tables_;  // of each part; of none where there is but one cell
-  std::vector<float> areas_;                 // of each part over its probability
+  std::vector<PiecewiseConstant2D> tables_;  // one per part; empty for a part with a single cell
+  std::vector<float> areas_;                 // area of each part over its probability
   Rgb mean_{0}, pixels_{0}, brightest_{0};
 };
 

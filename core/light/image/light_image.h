@@ -5,7 +5,7 @@
 
 namespace kaustik {
 
-// A picture that a light emits: linear Rec. 709, row 0 on top, finite and not negative.
+// An image that a light emits: linear Rec. 709, row 0 at the top, finite and not negative.
 struct LightImage {
   int width = 0, height = 0;
   std::vector<Rgb> pixels;

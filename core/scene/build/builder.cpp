@@ -19,20 +19,21 @@
 namespace kaustik {
 namespace {
 
-// Each takes some hundred bytes: past this many it is a mistake, or a scene for another machine.
+// Limit on the number of placed shapes. Each takes some hundred bytes, so more is a mistake, or a scene for a
+// larger machine.
 constexpr uint64_t kMostPlacements = 10'000'000;
 
-// A Shape line that passed the checks, and its geometry.
+// A Shape line that passed the checks, with its geometry.
 struct Item {
   const ShapeDescription* description = nullptr;
   uint32_t material = 0;
   float alpha = 1;
   uint32_t alpha_texture = kNoIndex;
-  std::optional<size_t> object;  // whose shape it is; nothing for shapes that stand in the world
+  std::optional<size_t> object;  // the object it belongs to; nothing for shapes placed directly in the world
   std::optional<ShapeSource> source;
   size_t placements = 0;
-  std::optional<SharedMesh> shared;  // made from the source where its placements share it
-  DiagnosticList diagnostics;        // of making the source
+  std::optional<SharedMesh> shared;  // made from the source if its placements share it
+  DiagnosticList diagnostics;        // from making the source
 };
 
 // One placement of an item.
@@ -40,7 +41,7 @@ struct Placement {
   size_t item = 0;
   glm::dmat4 to_world{1};
   bool light = false;
-  bool last = false;    // of the item: may take the geometry instead of copying it
+  bool last = false;    // the item's last placement, which may take the geometry instead of copying it
   size_t instance = 0;  // into SceneDescription::instances, for shapes of objects
 };
 
@@ -109,7 +110,7 @@ class Builder {
   std::set<size_t> warned_without_area_;
 };
 
-// Nothing when the shape is bad, or is no surface at all.
+// Returns nothing if the shape is invalid or has an "interface" material.
 std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::optional<size_t> object,
                                         MaterialTable& materials) {
   const uint32_t material = materials.resolve(shape.material, diagnostics_);
@@ -215,7 +216,7 @@ void Builder::load_sources() {
   for (Item& item : items_) diagnostics_.append(std::move(item.diagnostics));
 }
 
-// Of each item, in its own space.
+// Bounds of each item in its own space.
 std::vector<ExactBounds> Builder::item_bounds() const {
   std::vector<ExactBounds> bounds(items_.size());
   tbb::parallel_for(size_t{0}, items_.size(),
@@ -223,7 +224,7 @@ std::vector<ExactBounds> Builder::item_bounds() const {
   return bounds;
 }
 
-// From here on placements are relative to the scene's origin.
+// Chooses the scene's origin. From here on placements are relative to it.
 void Builder::choose_origin(Scene& scene) {
   if (diagnostics_.has_errors()) return;
   const std::vector<ExactBounds> of_item = item_bounds();
@@ -237,9 +238,9 @@ void Builder::choose_origin(Scene& scene) {
   scene.camera.to_world = Transform::from_matrix(relative_to(scene.origin, camera));
 }
 
-// Vertices that are written in double may lie as far from their own origin as the scene from the world's.
-// They are rounded relative to the scene's origin, or to one of their object, which its shapes have in common
-// so that vertices that coincide still do.
+// Vertices given in double may lie as far from their shape's own origin as the scene does from the world's.
+// They are rounded relative to the scene's origin, or to an origin of their object, which all its shapes have
+// in common so that coinciding vertices still coincide.
 void Builder::move_inline_meshes(const std::vector<ExactBounds>& of_item, const glm::dvec3& origin) {
   std::vector<ExactBounds> of_object(description_.objects.size());
   for (size_t i = 0; i < items_.size(); ++i)
@@ -250,8 +251,9 @@ void Builder::move_inline_meshes(const std::vector<ExactBounds>& of_item, const 
     const glm::dvec3 around = item.object ? local_origin(of_object[*item.object]) : origin;
     if (!item.description->find("P") || around == glm::dvec3(0)) return;
     const glm::dmat4 to_mesh = glm::inverse(item.description->object_to_world);
-    DiagnosticList
-        beyond_floats;  // of a mesh that is tiny in the world, around a point far from it: as it was
+    // Not reported: a mesh that is tiny in the world may exceed the range of floats here, and stays as it
+    // was.
+    DiagnosticList beyond_floats;
     auto moved = make_source(item, glm::dvec3(to_mesh * glm::dvec4(around, 1)), beyond_floats);
     if (moved) item.source = std::move(moved);
   });
@@ -283,7 +285,7 @@ void Builder::share_meshes() {
   });
 }
 
-// Reports what placing found; false when nothing is left of the shape.
+// Reports problems found while placing a shape; returns false if nothing is left of it.
 bool Builder::keep(const Placement& placement, PlacedShape& placed) {
   const ShapeDescription& shape = *items_[placement.item].description;
   if (!placed.finite) {
@@ -306,7 +308,7 @@ std::string Builder::group_name(const ShapeDescription& shape) const {
                      shape.location.line);
 }
 
-// Of one key are shapes of one named group, in each instance of an object for itself.
+// Shapes with the same key form one named surface group; each instance of an object has groups of its own.
 std::string Builder::group_key(const Placement& placement) const {
   const Item& item = items_[placement.item];
   const Parameter* group = item.description->find("surfacegroup");
@@ -323,8 +325,8 @@ void Builder::place(Scene& scene) {
       placed[i] = place_instance(*item.shared, p.to_world, item.description->reverse_orientation);
       return;
     }
-    // Only a Shape line's own placement is its last one, and then its only one: no other thread reads the
-    // source.
+    // Only the placement of a Shape line in the world is marked `last`, and it is the item's only one, so no
+    // other thread reads the source.
     ShapeSource source = p.last ? std::move(*item.source) : *item.source;
     placed[i] = place_shape(std::move(source), p.to_world, item.description->reverse_orientation);
   });

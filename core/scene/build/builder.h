@@ -1,5 +1,5 @@
 #pragma once
-// From a located description to the scene that is rendered.
+// Builds the scene that is rendered from a located description.
 
 #include <functional>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace kaustik {
 
-// What a mesh file gave: a mesh in object space, or why not.
+// The result of loading a mesh file: a mesh in object space, or an error.
 struct MeshResult {
   TriangleMesh mesh;
   std::string error;  // one sentence that names the file; empty on success
@@ -20,7 +20,7 @@ struct MeshResult {
 // Reads the mesh that the parameter at `where` names. Called from several threads at once.
 using MeshLoader = std::function<MeshResult(const std::string& filename, const SourceLocation& where)>;
 
-// What an image file gave: a picture, linear Rec. 709, or why not.
+// The result of loading an image file: a linear Rec. 709 image, or an error.
 struct LightImageResult {
   LightImage image;
   std::string error;  // one sentence that names the file; empty on success
@@ -30,10 +30,10 @@ using LightImageLoader =
     std::function<LightImageResult(const std::string& filename, const SourceLocation& where)>;
 
 // Resolves names, checks every parameter against the schema, loads meshes and images in parallel, bakes
-// object instances and transforms into world space and joins shapes to surface groups. Nothing after any
-// error; all errors and warnings are added to diagnostics, in an order that does not depend on the threads.
-// Shapes are in file order, those of instances after the others; lights: LightSource lines in file order,
-// then emitting shapes.
+// object instances and transforms into world space, and joins shapes to surface groups. Returns nothing after
+// any error. All errors and warnings are added to diagnostics, in an order that does not depend on the
+// threads. Shapes are in file order, with those of instances after the others; lights are the LightSource
+// lines in file order, then emitting shapes.
 std::optional<Scene> build_scene(const SceneDescription& description, const MeshLoader& load_mesh,
                                  Diagnostics& diagnostics, const LightImageLoader& load_light_image = {},
                                  const ImageLoader& images = {});

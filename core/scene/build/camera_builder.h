@@ -4,11 +4,11 @@
 
 namespace kaustik {
 
-// Checks the Camera and Film lines and makes the camera from them; pbrt's defaults for what is absent. Errors
-// leave a usable camera.
+// Checks the Camera, Film and PixelFilter lines and builds the camera from them, with pbrt's defaults for
+// what is absent. The camera is usable even after errors.
 Camera build_camera(const SceneDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
 
-// True when m is affine and can be inverted in float precision.
+// Whether m is affine and can be inverted in float precision.
 bool is_usable_transform(const glm::dmat4& m);
 
 }  // namespace kaustik

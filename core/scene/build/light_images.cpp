@@ -15,7 +15,7 @@ bool negative(const Rgb& c) {
   return c.x < 0 || c.y < 0 || c.z < 0;
 }
 
-// False with an error where a pixel is not finite.
+// Returns false, with an error, if a pixel is not finite; sets negative values to zero, with a warning.
 bool check_pixels(const std::string& file, LightImage& image, const SourceLocation& where,
                   DiagnosticList& diagnostics) {
   size_t negatives = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The images that lights emit, each read once.
+// The images that lights emit, each loaded once.
 
 #include <map>
 #include <memory>
@@ -14,13 +14,13 @@ class LightImages {
   LightImages(const LightImageLoader& load, DiagnosticList& diagnostics)
       : load_(load), diagnostics_(diagnostics) {}
 
-  // The image that parameter `name` names; null, with an error added, when it cannot be read or has a pixel
-  // that is not finite. Negative pixels become zero, with a warning that names the first.
+  // Returns the image named by parameter `name`, or null, with an error added, if it cannot be read or has a
+  // pixel that is not finite. Negative pixels become zero, with a warning that names the first one.
   std::shared_ptr<const LightImage> get(const ParameterReader& parameters, std::string_view name);
 
-  // The same as a map of all directions: square images are equal-area, those twice as wide as high
-  // latitude-longitude, with a warning: pbrt-v4 refuses these. Others are errors. Of a light: by the mean of
-  // the three channels. Of a sky: with its excess.
+  // Returns the image as a map of all directions. A square image uses the equal-area layout; an image twice
+  // as wide as high uses the latitude-longitude layout, with a warning because pbrt-v4 rejects it. Other
+  // sizes are errors. kLight: a grey map, the mean of the three channels. kSky: with its excess sampled.
   enum class Around { kLight, kSky };
   std::shared_ptr<const DirectionMap> directions(const ParameterReader& parameters, std::string_view name,
                                                  Around around);
@@ -30,7 +30,8 @@ class LightImages {
 
   const LightImageLoader& load_;
   DiagnosticList& diagnostics_;
-  // By name and naming file, since names are relative to that. Null: it could not be read.
+  // By file name and the scene file that names it, since names are relative to that file. Null if the image
+  // could not be read.
   std::map<std::pair<std::string, uint32_t>, std::shared_ptr<const LightImage>> images_;
 };
 

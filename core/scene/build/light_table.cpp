@@ -8,7 +8,7 @@ std::shared_ptr<const LightImage> white_pixel() {
   return white;
 }
 
-// Alpha zero everywhere is pbrt's way to hide a light, which shines as if it were there.
+// pbrt hides a light by setting alpha to zero everywhere; it still emits as usual.
 bool is_hidden(const Shape& shape) {
   return shape.alpha_texture == kNoIndex && shape.alpha == 0;
 }
@@ -39,8 +39,8 @@ LightTable::AreaLight LightTable::check(const Directive& directive, LightImages&
   return {spec, images.get(parameters, "filename")};
 }
 
-// By the luminance of what a white light emits, as in pbrt: an image's is the mean of its pixels, whatever of
-// them the surface shows.
+// Applies `power` and `scale`. As in pbrt, power is relative to the luminance of a white light's emission;
+// for an image that is the mean of its pixels, whether or not the surface shows them all.
 bool LightTable::scale(const ParameterReader& parameters, DiffuseAreaLight& light) const {
   if (parameters.has("power")) {
     const Rgb white = light.image ? light.image->mean_of_pixels() : Rgb(1);

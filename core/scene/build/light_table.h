@@ -1,5 +1,5 @@
 #pragma once
-// The area lights of a description, and the lights that they make of shapes.
+// The area lights of a description, and the Light values made from them.
 
 #include <optional>
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace kaustik {
 
-// False, with an error: a light of infinite power would emit nothing, since no photon can carry its share.
+// Returns false, with an error, if the power is not finite: no photon could carry its share.
 bool is_power(const Rgb& power, const SourceLocation& where, DiagnosticList& diagnostics);
 
 class LightTable {
  public:
-  // Checks every area light and reads its image. All must outlive the table.
+  // Checks every area light and reads its image. The arguments must outlive the table.
   LightTable(const SceneDescription& description, LightImages& images, const TextureTable& textures,
              WarnedOnce& warned, DiagnosticList& diagnostics);
 
-  // Adds the light that the described shape is and notes it in `shape`, which is placed and has its alpha.
-  // False, with an error added, where it cannot shine.
+  // Makes the described shape a light: adds it to `lights` and sets shape.light. The shape must be placed and
+  // have its alpha. Returns false, with an error added, if the shape cannot emit.
   bool make(const ShapeDescription& description, Shape& shape, std::vector<Light>& lights) const;
 
  private:

@@ -3,7 +3,7 @@
 namespace kaustik {
 namespace {
 
-// The smallest power of two not below x > 0.
+// The smallest power of two that is not less than x > 0.
 double power_of_two_above(double x) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);

@@ -1,6 +1,6 @@
 #pragma once
-// Scenes far from the world's origin are built around an origin of their own, in which floats are fine
-// enough. All that is known in double, transforms, inline vertices, lights and the camera, is moved before it
+// Scenes far from the world's origin are built around an origin of their own, near which floats are precise
+// enough. Everything given in double (transforms, inline vertices, lights and the camera) is moved before it
 // is rounded.
 
 #include <glm/glm.hpp>
@@ -23,24 +23,24 @@ struct ExactBounds {
   }
 };
 
-// Of a shape before its transform: of all vertices, as exact as they were written, or of the unit sphere or
-// disk (as a ball) under source.local.
+// Bounds of a shape before its transform: of all vertices with the precision in which they were written, or
+// of the unit sphere or disk (taken as a ball) under source.local.
 ExactBounds object_bounds(const ShapeDescription& shape, const ShapeSource& source);
 
-// Of the eight corners of a box, mapped; empty for an empty box.
+// Bounds of the eight corners of a box after mapping; empty for an empty box.
 ExactBounds mapped(const glm::dmat4& m, const ExactBounds& box);
 
-// A scene is far when the centre of its shapes' box is farther from the world's origin than so many of the
-// box's radii; up to there floats are 2^-17 of the radius apart, or less.
+// A scene is far if the centre of its shapes' box is farther from the world's origin than this many radii of
+// the box. Up to that distance, floats are at most 2^-17 of the radius apart.
 inline constexpr double kFarRadii = 64;
 
-// The point to build the scene around: zero unless the scene is far; else the centre, each coordinate rounded
-// to a multiple of the smallest power of two not below the radius. So subtracting it from what lies in the
-// scene is exact, and scaling the scene by 2^k scales it by 2^k. Zero for boxes that are empty, without
-// extent, or not finite.
+// The point to build the scene around: zero unless the scene is far, else the centre with each coordinate
+// rounded to a multiple of the smallest power of two that is not less than the radius. So subtracting it from
+// coordinates in the scene is exact, and scaling the scene by 2^k scales it by 2^k. Zero for boxes that are
+// empty, without extent, or not finite.
 glm::dvec3 local_origin(const ExactBounds& shapes);
 
-// An affine map to the world, as one to coordinates relative to origin.
+// Changes an affine map to the world into one to coordinates relative to origin.
 inline glm::dmat4 relative_to(const glm::dvec3& origin, glm::dmat4 to_world) {
   to_world[3] -= glm::dvec4(origin, 0);
   return to_world;

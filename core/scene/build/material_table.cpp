@@ -50,7 +50,8 @@ uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& wa
   return add(make(*row, material, diagnostics), material.name.empty() ? material.type : material.name);
 }
 
-// A bump map of one height everywhere is none. After an error: without the texture.
+// Makes a constant or a textured material. A constant height is no bump map. A texture that cannot be found
+// is an error and is left out.
 Material MaterialTable::make(const MaterialRow& row, const MaterialDescription& material,
                              DiagnosticList& diagnostics) {
   TexturedMaterial made;
@@ -76,7 +77,7 @@ Material MaterialTable::make(const MaterialRow& row, const MaterialDescription& 
   return Material(std::move(made), textures_.set());
 }
 
-// Only what was defined before, as in pbrt: so no mixture holds itself.
+// As in pbrt, a mixture may only name materials defined before it, so no mixture contains itself.
 uint32_t MaterialTable::mix(const MaterialDescription& material, const TypeSpec& spec,
                             DiagnosticList& diagnostics) {
   const Parameter* names = material.find("materials");

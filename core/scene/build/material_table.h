@@ -1,5 +1,5 @@
 #pragma once
-// The materials of a description, made and found by name.
+// The materials of a description, by name.
 
 #include <map>
 #include <string>
@@ -13,12 +13,12 @@ class MaterialTable {
  public:
   static constexpr uint32_t kInterface = 0xfffffffeu;  // no surface: the shape is left out
 
-  // Makes every material; reports bad ones, and names that are given twice.
+  // Makes every material; reports invalid ones and names defined twice.
   MaterialTable(const SceneDescription& description, const TextureTable& textures, WarnedOnce& warned,
                 DiagnosticList& diagnostics);
 
-  // Index into materials(), or kInterface. A name that nobody defined is an error, once per place; then, and
-  // where no material was set, pbrt's default: diffuse of reflectance 0.5.
+  // Index into materials(), or kInterface. An undefined name is an error, reported once per location. After
+  // such an error, and where no material was set, the result is pbrt's default: diffuse with reflectance 0.5.
   uint32_t resolve(const MaterialReference& reference, DiagnosticList& diagnostics);
 
   std::vector<Material>& materials() { return materials_; }

@@ -9,7 +9,7 @@
 namespace kaustik {
 namespace {
 
-// Sensors of pbrt-v4 besides "cie1931".
+// The sensors of pbrt-v4 other than "cie1931".
 constexpr std::string_view kMeasured[] = {
     "canon_eos_100d",     "canon_eos_1dx_mkii", "canon_eos_200d",    "canon_eos_200d_mkii", "canon_eos_5d",
     "canon_eos_5d_mkii",  "canon_eos_5d_mkiii", "canon_eos_5d_mkiv", "canon_eos_5ds",       "canon_eos_m",
@@ -47,7 +47,7 @@ double exposure_time(const Directive* film, const Directive* camera, DiagnosticL
   return 1;
 }
 
-// Bradford's, between the white of a colour temperature and ours.
+// Bradford adaptation from the white of a colour temperature to the white of Rec. 709.
 glm::dmat3 white_balance(double kelvin) {
   if (!(kelvin > 0)) return glm::dmat3(1);
   const glm::dvec3 white = tristimulus(daylight(kelvin));

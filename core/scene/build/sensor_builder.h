@@ -7,10 +7,10 @@
 
 namespace kaustik {
 
-// pbrt-v4's sensor "cie1931": radiance times exposure time (s) times iso / 100, then, where a white balance
-// is given, the adaptation that makes light of that colour temperature white. Other sensors of pbrt are taken
-// for this one, with a warning; unknown ones and a shutter that does not open are errors. Parameters that the
-// schema refuses are left to it.
+// pbrt-v4's sensor "cie1931": radiance times exposure time (s) times iso / 100; if a white balance is given,
+// also the adaptation that makes light of that colour temperature white. Other sensors of pbrt are replaced
+// by this one, with a warning; unknown sensors and a shutter that does not open are errors. Parameters that
+// violate the schema are reported when the schema is checked, not here.
 Sensor build_sensor(const SceneDescription& description, DiagnosticList& diagnostics);
 
 }  // namespace kaustik

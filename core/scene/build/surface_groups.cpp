@@ -20,7 +20,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  // The smaller index stays the representative, so that the result does not depend on the order of joining.
+  // The smaller index remains the representative, so that the result does not depend on the order of joining.
   void join(uint32_t a, uint32_t b) {
     a = find(a);
     b = find(b);
@@ -39,7 +39,7 @@ struct BoundaryEdge {
 };
 
 PointBits bits_of(const Point3& p) {
-  // Adding zero makes -0 and 0 one position.
+  // Adding zero maps -0 and 0 to the same bits.
   return {std::bit_cast<uint32_t>(p.x + 0.0f), std::bit_cast<uint32_t>(p.y + 0.0f),
           std::bit_cast<uint32_t>(p.z + 0.0f)};
 }
@@ -51,8 +51,8 @@ Normal3 normal_of(const TriangleMesh& mesh, const std::array<uint32_t, 3>& trian
   return length > 0 ? Normal3(n / length) : Normal3(0);
 }
 
-// Edges that one triangle only has, by vertex index: those that meshes with doubled vertices have inside as
-// well do no harm, they only join a shape to itself.
+// Edges that belong to only one triangle, compared by vertex index. Meshes with duplicated vertices also have
+// such edges inside, which does no harm because they only join a shape to itself.
 std::vector<BoundaryEdge> boundary_edges(const TriangleMesh& mesh, uint32_t shape) {
   struct Edge {
     uint64_t vertices;

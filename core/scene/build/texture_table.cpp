@@ -14,10 +14,10 @@ namespace kaustik {
 
 namespace {
 
-// Textures of textures of textures: past this many lookups that is a mistake. Their depth is less.
+// Limit on the lookups of nested textures; more are a mistake. It also bounds their depth.
 constexpr uint64_t kMostLookups = 256;
 
-// What a word of a text parameter stands for.
+// One allowed word of a text parameter, and its meaning.
 template <class Value>
 struct Choice {
   std::string_view name;
@@ -63,7 +63,7 @@ class TextureTable::Maker {
         DiagnosticList& diagnostics)
       : table_(table), texture_(texture), p_(texture, spec), value_(value), diagnostics_(diagnostics) {}
 
-  // Nothing after an error.
+  // Returns nothing after an error.
   std::optional<Texture> make() {
     Texture made = make_type();
     if (cost_ > kMostLookups) {
@@ -127,7 +127,7 @@ class TextureTable::Maker {
     return found;
   }
 
-  // pbrt-v4 takes floats; pbrt-v3 took colours for colours, too.
+  // pbrt-v4 accepts only floats; pbrt-v3 also accepted colours for spectrum textures.
   TextureValue factor_value() const {
     const Parameter* given = texture_.find("scale");
     if (!given || value_ == TextureValue::kFloat) return TextureValue::kFloat;
@@ -219,7 +219,7 @@ void TextureTable::add(const TextureDescription& texture, WarnedOnce& warned, Di
     ok = false;
   }
   const TextureValue value = is_float ? TextureValue::kFloat : TextureValue::kSpectrum;
-  Texture made = ConstantTexture{};  // in the place of one with errors, so that its name is known
+  Texture made = ConstantTexture{};  // replaces a texture with errors, so that its name is known
   uint64_t cost = 1;
   if (ok) {
     Maker maker(*this, texture, *spec, value, diagnostics);
@@ -258,7 +258,7 @@ void TextureTable::load_images(DiagnosticList& diagnostics) {
       std::get<ImageTexture>(texture).image = request.result.image;
     } else {
       diagnostics.error(request.where, request.result.error);
-      texture = ConstantTexture{};  // materials that are checked next may ask for it
+      texture = ConstantTexture{};  // materials that are checked later may refer to it
     }
   }
 }

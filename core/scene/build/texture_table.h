@@ -1,5 +1,5 @@
 #pragma once
-// The textures of a description, made and found by name.
+// The textures of a description, by name.
 
 #include <map>
 #include <memory>
@@ -11,26 +11,26 @@
 
 namespace kaustik {
 
-// What is made of a texture: float textures and spectrum textures have names of their own, as in pbrt.
+// Type of a texture's value. Float and spectrum textures have separate names, as in pbrt.
 enum class TextureValue { kFloat, kSpectrum };
 
 class TextureTable {
  public:
-  // Makes every texture and reads its images, in parallel; reports bad ones, and names that are given twice.
-  // A texture may name those that are defined before it. images.load may be empty: then images are errors.
+  // Makes every texture and reads the images in parallel; reports invalid textures and names defined twice. A
+  // texture may refer to textures defined before it. If images.load is empty, image textures are errors.
   TextureTable(const SceneDescription& description, const ImageLoader& images, WarnedOnce& warned,
                DiagnosticList& diagnostics);
 
-  // The texture that a parameter of type kTexture names; kNoIndex, with an error, where nobody defined it.
+  // The texture named by a parameter of type kTexture, or kNoIndex, with an error, if it is not defined.
   uint32_t find(const Parameter& parameter, TextureValue value, DiagnosticList& diagnostics) const;
-  // Of a normal map: an image without encoding. Nothing after an error.
+  // Loads the image of a normal map, without decoding its values. Returns nothing after an error.
   std::optional<uint32_t> load_linear_image(const std::string& filename, const SourceLocation& where,
                                             DiagnosticList& diagnostics) const;
 
   const TextureSet& set() const { return *set_; }
-  // For what looks textures up when the scene is complete.
+  // The textures, for objects that look them up once the scene is complete.
   std::shared_ptr<const TextureSet> shared_set() const { return set_; }
-  // Hands the textures over, for a scene around this origin.
+  // Returns the finished textures, relative to this origin; call it once, at the end.
   std::shared_ptr<const TextureSet> finish(const glm::dvec3& origin);
 
  private:
@@ -52,8 +52,8 @@ class TextureTable {
   const SceneDescription& description_;
   const ImageLoader& images_;
   std::shared_ptr<TextureSet> set_ = std::make_shared<TextureSet>();
-  std::vector<glm::dmat4> to_world_;  // of the set's textures
-  std::vector<uint64_t> cost_;        // lookups that an evaluation takes, of the set's textures
+  std::vector<glm::dmat4> to_world_;  // transforms of the set's textures
+  std::vector<uint64_t> cost_;        // lookups per evaluation, for each of the set's textures
   std::vector<ImageRequest> requests_;
   std::map<std::string, uint32_t, std::less<>> by_name_[2];
 };

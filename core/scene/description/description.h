@@ -1,6 +1,6 @@
 #pragma once
-// A scene as it was written: plain data, independent of any file format, every value with its place. Nothing
-// is checked or interpreted here; build_scene does that against core/scene/schema/schema.h.
+// A scene as it was written: plain data, independent of any file format, with the location of every value.
+// Nothing is checked or interpreted here; build_scene does that according to core/scene/schema/schema.h.
 
 #include <glm/glm.hpp>
 #include <memory>
@@ -28,35 +28,35 @@ enum class ParameterType {
   kBlackbody,
   kTexture
 };
-// The word of the scene file: "float", "point3", ...
+// The word used in scene files: "float", "point3" and so on.
 std::string_view parameter_type_name(ParameterType type);
 
-// One typed parameter, e.g. "rgb L" [ 17 12 4 ].
+// One typed parameter, for example "rgb L" [ 17 12 4 ].
 struct Parameter {
   ParameterType type = ParameterType::kFloat;
   std::string name;
   SourceLocation location;  // of the declaration "type name"
-  // Values: numbers of float, integer (exact up to 2^53), bool (0, 1), points, vectors, normals, rgb,
-  // blackbody, sampled spectra; strings of string, texture and named spectra. One of the two is empty.
+  // The values: numbers for float, integer (exact up to 2^53), bool (0, 1), points, vectors, normals, rgb,
+  // blackbody and sampled spectra; strings for string, texture and named spectra. One of the two is empty.
   std::vector<double> numbers;
   std::vector<std::string> strings;
-  std::vector<LineColumn> value_places;  // one per value
-  // A default from an enclosing block: shapes that do not know it leave it alone.
+  std::vector<LineColumn> value_places;  // location of each value
+  // A default from an enclosing block, which shapes ignore if they do not know it.
   bool inherited = false;
 
   size_t count() const { return numbers.size() + strings.size(); }
-  // Of value i; of the declaration when there is no such value.
+  // Location of value i, or of the declaration if there is no such value.
   SourceLocation value_location(size_t i) const;
 };
 
-// A directive with a type and parameters: Shape "sphere" "float radius" 2.
+// A directive with a type and parameters, for example Shape "sphere" "float radius" 2.
 struct Directive {
   std::string type;
-  SourceLocation location;       // of the directive's word
+  SourceLocation location;       // of the directive's keyword
   SourceLocation type_location;  // of the quoted type
   std::vector<Parameter> parameters;
 
-  // Nothing when absent.
+  // Null if there is no parameter of this name.
   const Parameter* find(std::string_view name) const;
 };
 
@@ -64,7 +64,7 @@ struct CameraDescription : Directive {
   glm::dmat4 camera_to_world{1};
 };
 
-// Directive::type is the class, "imagemap".
+// A texture; Directive::type is its class, for example "imagemap".
 struct TextureDescription : Directive {
   std::string name;
   SourceLocation name_location;
@@ -74,12 +74,12 @@ struct TextureDescription : Directive {
 };
 
 struct MaterialDescription : Directive {
-  std::string name;  // empty when it was set in place
+  std::string name;  // empty for a material set in place
   SourceLocation name_location;
 };
 
-// How a shape names its material: in place (index), by name (may be defined later), or not at all (the
-// default).
+// How a shape refers to its material: in place (by index), by a name that may be defined later, or not at all
+// (the default material).
 struct MaterialReference {
   std::optional<uint32_t> index;  // into SceneDescription::materials
   std::string name;
@@ -97,7 +97,7 @@ struct LightDescription : Directive {
   glm::dmat4 light_to_world{1};
 };
 
-// Shapes that are placed by instances instead of where they stand.
+// Shapes that exist only through instances.
 struct ObjectDescription {
   std::string name;
   SourceLocation location;
@@ -107,11 +107,11 @@ struct ObjectDescription {
 struct InstanceDescription {
   std::string object;
   SourceLocation location;  // of the name
-  // Applied after the shapes' own transforms.
+  // Applied after the transforms of the shapes.
   glm::dmat4 instance_to_world{1};
 };
 
-// Matrices take column vectors. Order is that of the files.
+// A complete scene. Matrices apply to column vectors; the order is that of the files.
 struct SceneDescription {
   SourceLocation location;  // the main file
   std::optional<CameraDescription> camera;
@@ -124,7 +124,7 @@ struct SceneDescription {
   std::vector<LightDescription> lights;
   std::vector<ObjectDescription> objects;
   std::vector<InstanceDescription> instances;
-  // Files that the description names and that go with it, such as images that lay within a scene file.
+  // Owner of temporary files that the description names, such as images that were embedded in a scene file.
   std::shared_ptr<const void> keeps;
 };
 

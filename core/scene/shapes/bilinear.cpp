@@ -5,7 +5,7 @@
 namespace kaustik {
 namespace {
 
-constexpr double kChordTolerance = 1.0 / 1024;  // of the largest distance of two corners
+constexpr double kChordTolerance = 1.0 / 1024;  // relative to the largest distance between two corners
 
 struct Corners {
   glm::dvec3 p00, p10, p01, p11;
@@ -19,14 +19,15 @@ struct Corners {
   }
 };
 
-// All four corner normals point the same way: then the two triangles do not fold over each other.
+// Whether all four corner normals point the same way, so that the two triangles do not overlap, and the
+// corners lie in one plane.
 bool is_flat_and_convex(const Corners& c) {
   const glm::dvec3 diagonals = glm::cross(c.p11 - c.p00, c.p01 - c.p10);
   const glm::dvec3 n[4] = {c.normal(0, 0), c.normal(1, 0), c.normal(1, 1), c.normal(0, 1)};
   for (const glm::dvec3& corner : n) {
     if (glm::dot(corner, diagonals) < 0) return false;
   }
-  // Distance of the corners from the mean plane against the rounding of their coordinates.
+  // Compare the distance of the corners from the mean plane with the rounding of their coordinates.
   const double length = glm::length(diagonals);
   if (!(length > 0)) return true;
   const double size = std::max(std::max(glm::length(c.p00), glm::length(c.p11)),
@@ -34,7 +35,8 @@ bool is_flat_and_convex(const Corners& c) {
   return std::abs(glm::dot(c.twist(), diagonals / length)) <= 4 * gamma_bound(4) * size;
 }
 
-// At most 23: the twist is twice the distance of the diagonals' midpoints, hence at most twice the extent.
+// The result is at most 23, since the twist is twice the distance between the diagonals' midpoints and thus
+// at most twice the extent.
 int cells_per_side(const Corners& c) {
   const glm::dvec3 pairs[6] = {c.p00 - c.p10, c.p00 - c.p01, c.p00 - c.p11,
                                c.p10 - c.p01, c.p10 - c.p11, c.p01 - c.p11};
@@ -61,7 +63,7 @@ V bilinear(const std::vector<V>& values, const PatchIndices& i, float u, float v
          u * v * values[i[3]];
 }
 
-// Appends the vertices of an (n + 1) x (n + 1) grid and their triangles.
+// Appends the vertices of an (n + 1) x (n + 1) grid and its triangles.
 void append_grid(const PatchMesh& mesh, const PatchIndices& i, int n, bool with_normals, TriangleMesh& out) {
   const Corners c = corners_of(mesh, i);
   const auto first = static_cast<uint32_t>(out.P.size());
@@ -88,7 +90,7 @@ void append_grid(const PatchMesh& mesh, const PatchIndices& i, int n, bool with_
   }
 }
 
-// Each patch's own parameters, where patches have no corners in common: else none.
+// The (u, v) of each patch at its corners. Empty if patches share corners.
 std::vector<Point2> own_parameters(const PatchMesh& mesh) {
   std::vector<Point2> uv(mesh.P.size());
   std::vector<bool> taken(mesh.P.size());

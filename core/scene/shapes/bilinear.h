@@ -1,5 +1,5 @@
 #pragma once
-// Bilinear patches as triangles.
+// Converts bilinear patches to triangles.
 
 #include <array>
 #include <cstdint>
@@ -20,12 +20,12 @@ struct PatchMesh {
 };
 
 // Flat convex patches (up to the rounding of their corners' coordinates) become two triangles on the corners
-// themselves, which is exact. All others become n x n cells of two triangles with the patch's own normals (or
-// the corners' N, interpolated). Between a cell's diagonal and the patch lies at most |p00 - p10 - p01 + p11|
-// / (4 n^2); n is the smallest that keeps this below 1/1024 of the largest distance of two corners (so n <=
-// 23). Once one patch is curved, all vertices of the result have normals. Without uv, u and v of a patch are
-// its parameters (pbrt's rule), save where flat patches have corners in common. The outside is the side of
-// cross(dp/du, dp/dv).
+// themselves, which is exact. All others become n x n cells of two triangles, with the patch's own normals or
+// the interpolated N of its corners. The distance between a cell's diagonal and the patch is at most |p00 -
+// p10 - p01 + p11| / (4 n^2); n is the smallest number that keeps this below 1/1024 of the largest distance
+// between two corners (so n <= 23). If any patch is curved, all vertices of the result have normals. Without
+// uv, the texture coordinates of a patch are its parameters u and v (pbrt's rule), except where flat patches
+// share corners. The outside is the side of cross(dp/du, dp/dv).
 TriangleMesh triangulate_patches(const PatchMesh& patches);
 
 }  // namespace kaustik

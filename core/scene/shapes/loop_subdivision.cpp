@@ -10,11 +10,11 @@ namespace {
 
 using Triangle = std::array<uint32_t, 3>;
 
-// Half-edges: that of corner k of triangle t leads from its vertex to the next one and has the index 3 t + k.
+// Half-edges: half-edge 3 t + k leads from vertex k of triangle t to its next vertex.
 struct Topology {
-  std::vector<uint32_t> twin;  // of each half-edge, kNoIndex at a boundary
-  std::vector<uint32_t>
-      start;  // of each vertex an outgoing half-edge, at a boundary the first one of its fan
+  std::vector<uint32_t> twin;  // opposite half-edge; kNoIndex at a boundary
+  // For each vertex an outgoing half-edge, at a boundary the first one of its fan.
+  std::vector<uint32_t> start;
 };
 
 uint32_t next(uint32_t h) {
@@ -60,7 +60,7 @@ std::optional<Topology> topology_of(const Mesh& mesh, std::string* error) {
       top.twin[other] = h;
     }
   }
-  // A fan that ends begins at the half-edge that has no triangle on its other side.
+  // An open fan starts at the half-edge without a triangle on its other side.
   for (uint32_t h = 0; h < halves; ++h) {
     uint32_t& start = top.start[mesh.from(h)];
     if (start == kNoIndex || top.twin[h] == kNoIndex) start = h;
@@ -68,7 +68,7 @@ std::optional<Topology> topology_of(const Mesh& mesh, std::string* error) {
   return top;
 }
 
-// The neighbours of a vertex in the order of its fan; at a boundary the first and the last are on it.
+// The neighbours of a vertex in the order of its fan; at a boundary the first and the last of them lie on it.
 struct Ring {
   std::vector<uint32_t> vertices;
   bool boundary = false;
@@ -92,7 +92,7 @@ void find_ring(const Mesh& mesh, const Topology& top, uint32_t v, Ring* ring) {
   } while (h != start);
 }
 
-// Every triangle at a vertex must be reached by its one fan.
+// Whether the fan of each vertex reaches all its triangles.
 bool is_manifold(const Mesh& mesh, const Topology& top, std::string* error) {
   std::vector<uint32_t> corners(mesh.P.size(), 0);
   for (const Triangle& t : mesh.triangles)
@@ -111,7 +111,7 @@ double beta(size_t valence) {
   return valence == 3 ? 3.0 / 16 : 3.0 / (8 * static_cast<double>(valence));
 }
 
-// (1 - n weight) p + weight (sum of the ring).
+// (1 - n weight) p + weight (sum of the ring), where n is the size of the ring.
 glm::dvec3 around(const Mesh& mesh, uint32_t v, const Ring& ring, double weight) {
   glm::dvec3 sum(0);
   for (const uint32_t n : ring.vertices) sum += mesh.P[n];
@@ -158,8 +158,8 @@ Mesh refined(const Mesh& mesh, const Topology& top) {
   return out;
 }
 
-// Tangents of the limit surface: the first along the ring's turn, the second across it. Weights at a boundary
-// as in pbrt.
+// The product of two tangents of the limit surface, one around the ring and one across it. The weights at a
+// boundary are pbrt's.
 glm::dvec3 limit_normal(const Mesh& limit, uint32_t v, const Ring& ring) {
   const size_t n = ring.vertices.size();
   const auto at = [&](size_t i) { return limit.P[ring.vertices[i]]; };
@@ -172,7 +172,7 @@ glm::dvec3 limit_normal(const Mesh& limit, uint32_t v, const Ring& ring) {
     }
     return glm::cross(S, T);
   }
-  // The fan runs from the first vertex of the boundary to the last.
+  // The fan runs from the first vertex of the boundary to the last one.
   S = at(n - 1) - at(0);
   const glm::dvec3& p = limit.P[v];
   if (n == 2) {

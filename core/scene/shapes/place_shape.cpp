@@ -1,12 +1,12 @@
-// Transforms baked into shapes. Matrices are applied in double and rounded once.
+// Bakes transforms into shapes. Matrices are applied in double and the results rounded once.
 
 #include "core/scene/shapes/shape_source.h"
 
 namespace kaustik {
 namespace {
 
-// The corners lie on one line, or so nearly that the normal is lost in floats. Edges of floats have exact
-// products in double, so the first test is exact; both are free of scale.
+// Whether the corners lie on one line, or so nearly that the normal is lost in floats. Products of float
+// edges are exact in double, so the first test is exact; both tests are independent of scale.
 bool has_no_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& t) {
   const Vector3 e1 = mesh.P[t[1]] - mesh.P[t[0]];
   const Vector3 e2 = mesh.P[t[2]] - mesh.P[t[0]];
@@ -15,7 +15,8 @@ bool has_no_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& t) {
   return n == Vector3(0) || !is_finite(n);
 }
 
-// Copies of fewer triangles than this in all, or of meshes smaller than that, are made.
+// Placements are copied while they have fewer triangles than this in total, or if the mesh is smaller than
+// kSmallMesh.
 constexpr uint64_t kCopiedTriangles = 1 << 16;
 constexpr uint64_t kSmallMesh = 8;
 
@@ -41,11 +42,11 @@ PlacedShape place_shape(ShapeSource source, const glm::dmat4& object_to_world, b
   PlacedShape placed;
   const Transform to_world = Transform::from_matrix(object_to_world * source.local);
   if (auto* mesh = std::get_if<TriangleMesh>(&source.geometry)) {
-    // A product with the identity could change the sign of a zero.
+    // The multiplication is skipped if it is by the identity, because it could change the sign of a zero.
     const bool moved = source.local != glm::dmat4(1);
     place_mesh(moved ? object_to_world * source.local : object_to_world, reverse_orientation, *mesh, placed);
     placed.shape.geometry = std::move(*mesh);
-    // The cross product of the edges turns over when the transform mirrors.
+    // The cross product of the edges changes sign under a mirroring transform.
     placed.shape.flip_normal = reverse_orientation != (glm::determinant(glm::dmat3(object_to_world)) < 0);
     return placed;
   }
@@ -57,7 +58,7 @@ PlacedShape place_shape(ShapeSource source, const glm::dmat4& object_to_world, b
   } else {
     placed.shape.geometry = Sphere{to_world};
   }
-  // Their normals are mapped as normals, which keeps the outside outside under mirroring, too.
+  // Their normals are transformed as normals, so the outside remains outside under mirroring, too.
   placed.shape.flip_normal = reverse_orientation;
   placed.finite = to_world.invertible();
   return placed;
@@ -95,7 +96,7 @@ PlacedShape place_instance(const SharedMesh& shared, const glm::dmat4& object_to
     const Bounds3 bounds = bounds_of(placed.shape);
     placed.finite = is_finite(bounds.min) && is_finite(bounds.max);
   }
-  // Normals are mapped as normals, which keeps the outside outside under mirroring.
+  // Normals are transformed as normals, so the outside remains outside under mirroring.
   placed.shape.flip_normal = reverse_orientation;
   return placed;
 }

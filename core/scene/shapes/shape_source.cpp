@@ -47,7 +47,7 @@ std::vector<Point3> positions(const Context& c, const Parameter& P) {
   return out;
 }
 
-// `kSize` vertices per face; without the parameter, one face of the first ones.
+// Faces of kSize vertices each; without `indices`, one face of the only kSize vertices.
 template <size_t kSize>
 std::optional<std::vector<std::array<uint32_t, kSize>>> faces(const Context& c, size_t vertices) {
   const Parameter* p = c.shape.find("indices");
@@ -145,7 +145,7 @@ float turn_of(const Context& c) {
   return static_cast<float>(glm::radians(c.reader.number("phimax")));
 }
 
-// Which of the two is larger does not matter, as in pbrt.
+// As in pbrt, either of the two limits may be the larger one; the caller has sorted them.
 bool check_extent(const Context& c, double z_min, double z_max) {
   if (z_min < z_max) return true;
   c.error(
@@ -202,7 +202,7 @@ std::optional<ShapeSource> make_disk(const Context& c) {
   return ShapeSource{q, local};
 }
 
-// What both inline meshes and files can get wrong.
+// Checks that apply to both inline meshes and mesh files.
 bool check_mesh(const Context& c, const TriangleMesh& mesh) {
   const std::string_view source = c.shape.find("P") ? "P" : "filename";
   const SourceLocation where = c.reader.location(source);

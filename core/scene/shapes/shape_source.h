@@ -1,5 +1,5 @@
 #pragma once
-// A shape in its own space: what the parameters of a Shape line say, before any transform. Instances share
+// A shape in its own space, as given by the parameters of a Shape line, before any transform. Instances share
 // it.
 
 #include <optional>
@@ -17,39 +17,39 @@ struct DiskSource {
 };
 
 struct ShapeSource {
-  // The quadric's own map is not used.
+  // The to_world of a Quadric is not used.
   std::variant<TriangleMesh, SphereSource, DiskSource, Quadric> geometry;
-  // To the shape's space: from the unit sphere or disk, or from a mesh's own origin.
+  // Map to the shape's space from the space of the unit sphere or disk, or from a mesh's own origin.
   glm::dmat4 local{1};
 };
 
-// Nothing, with errors added, when the parameters contradict each other or the mesh is bad: indices out of
-// range, positions or normals that are not finite. The directive must have passed check_parameters.
-// mesh_origin: in the shape's space; vertices that are written in the scene file are rounded to float
-// relative to it. Thread-safe.
+// Makes the geometry of a Shape line. Returns nothing, with errors added, if the parameters contradict each
+// other or the mesh is invalid: indices out of range, positions or normals that are not finite. The directive
+// must have passed check_parameters. mesh_origin: in the shape's space; vertices given in the scene file are
+// rounded to float relative to it. Thread-safe.
 std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
                                              const MeshLoader& load_mesh, DiagnosticList& diagnostics,
                                              const glm::dvec3& mesh_origin = glm::dvec3(0));
 
 struct PlacedShape {
   Shape shape;
-  size_t without_area = 0;  // triangles that were left out because their corners lie on one line
-  bool finite = true;       // false: the transform takes the shape beyond the range of floats
+  size_t without_area = 0;  // triangles left out because their corners lie on one line
+  bool finite = true;       // false if the transform takes the shape beyond the range of floats
 };
 
-// Bakes the transform. Triangles keep their order.
+// Bakes the transform into the shape. Triangles keep their order.
 PlacedShape place_shape(ShapeSource source, const glm::dmat4& object_to_world, bool reverse_orientation);
 
-// A mesh that its instances share.
+// A mesh that is shared by its instances.
 struct SharedMesh {
-  InstancedMesh instance;  // not placed yet
-  glm::dmat4 local{1};     // as of ShapeSource
+  InstancedMesh instance;  // without its placement
+  glm::dmat4 local{1};     // as in ShapeSource
   size_t without_area = 0;
   bool finite = true;
 };
 
-// Whether so many placements of the shape share its mesh, rather than being copied: copies are faster to
-// trace while they are few and small.
+// Whether this many placements of the shape should share its mesh. Copies are faster to trace as long as they
+// are few and small.
 bool pays_to_share(const ShapeSource& source, size_t placements);
 SharedMesh share_mesh(ShapeSource source, bool reverse_orientation);
 PlacedShape place_instance(const SharedMesh& shared, const glm::dmat4& object_to_world,
