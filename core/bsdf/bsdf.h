@@ -1,6 +1,6 @@
 #pragma once
-// The list of all BSDFs. Adding one: (1) a header with the struct, (2) its name here, (3) its row in
-// core/scene/schema/schema.cpp.
+// The variant of all BSDF types. To add a BSDF: (1) write a header with the struct, (2) add its name here,
+// (3) add its row in core/scene/schema/schema.cpp.
 
 #include <variant>
 
@@ -26,14 +26,14 @@ using Bsdf = std::variant<Lambertian, OrenNayar, Dielectric, Conductor, Mirror, 
 inline Lobes lobes(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return b.lobes(); }, bsdf);
 }
-// Nothing to gather under.
+// Whether there is no diffuse part, so that no photons are gathered.
 inline bool is_specular(const Bsdf& bsdf) {
   return !lobes(bsdf).broad;
 }
 inline Rgb albedo(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return b.albedo(); }, bsdf);
 }
-// Whether turning the surface about its normal changes anything.
+// Whether turning the surface about its normal changes the BSDF.
 inline bool is_anisotropic(const Bsdf& bsdf) {
   return std::visit(
       [](const auto& b) {
@@ -42,7 +42,7 @@ inline bool is_anisotropic(const Bsdf& bsdf) {
       },
       bsdf);
 }
-// Whether light comes through the broad lobes.
+// Whether the diffuse part transmits light.
 inline bool transmits(const Bsdf& bsdf) {
   return std::visit([]<class B>(const B&) { return kTransmitsBroadly<B>; }, bsdf);
 }

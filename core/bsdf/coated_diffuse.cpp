@@ -6,7 +6,7 @@ namespace kaustik {
 
 namespace {
 
-// Both directions of anisotropic facets in one number, for what is let through in all directions together.
+// One alpha for anisotropic facets, used for quantities summed over all directions.
 float mean_alpha(const Ggx& facets) {
   return std::sqrt(facets.alpha_x * facets.alpha_y);
 }
@@ -21,7 +21,7 @@ CoatedDiffuse CoatedDiffuse::from_reflectance(const Rgb& rho, float eta, const G
     bsdf.facets = facets;
     const RoughTransmittance through(mean_alpha(facets), eta);
     inside = double(rough_inner_reflectance(mean_alpha(facets), eta));
-    enters = 0;  // by the 8-point rule
+    enters = 0;  // integrated with an 8-point rule
     for (int i = 0; i < 8; ++i) {
       const float z = (float(i) + 0.5f) / 8;
       enters += double(z / 4 * through(z));
@@ -109,7 +109,7 @@ std::optional<BsdfSample> CoatedDiffuse::sample_specular(const Vector3& wo, floa
 std::optional<BsdfSample> CoatedDiffuse::sample_broad(const Vector3& wo, float uc, const Point2& u,
                                                       TransportMode /*mode*/) const {
   if (!coat_is_broad()) return sample_base(wo, u);
-  // Directions of both lobes overlap: one density.
+  // The directions of both lobes overlap, so the sample has a common density.
   const auto s = uc < share_of_coat(wo) ? sample_coat(wo, u) : sample_base(wo, u);
   if (!s) return std::nullopt;
   const float density = pdf(wo, s->wi);

@@ -33,7 +33,7 @@ std::optional<BsdfSample> Conductor::sample_f(const Vector3& wo, float /*uc*/, c
 }
 
 Rgb Conductor::albedo() const {
-  // 2 int F(c) c dc by the midpoint rule; its weights sum to one.
+  // Midpoint rule for 2 int F(c) c dc; its weights sum to one.
   constexpr int kPoints = 8;
   Rgb sum(0);
   for (int i = 0; i < kPoints; ++i) {

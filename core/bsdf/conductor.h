@@ -3,8 +3,8 @@
 
 namespace kaustik {
 
-// Metal, both sides: reflection with the conductor Fresnel factor, off a smooth surface or off GGX
-// microfacets (pharr 2023, 9.4 and 9.7).
+// Metal, on both sides: reflection with the Fresnel factor of a conductor, at a smooth surface or at GGX
+// microfacets (Pharr 2023, sections 9.4 and 9.7).
 struct Conductor {
   static constexpr std::string_view kName = "conductor";
 
@@ -23,13 +23,13 @@ struct Conductor {
     return lobes().glossy ? pdf_rough(wo, wi) : 0;
   }
   std::optional<BsdfSample> sample_f(const Vector3& wo, float uc, const Point2& u, TransportMode mode) const;
-  // Reflectance of the whole hemisphere under uniform light, by an 8-point rule, of the smooth surface: for
-  // previews, not transport.
+  // Reflectance of the whole hemisphere under uniform light, by an 8-point rule and for a smooth surface: for
+  // the AOV and previews, not for transport.
   Rgb albedo() const;
 
  private:
   Rgb reflectance(float cos_theta_i) const;
-  // The lobe of the rough surface, whatever its width.
+  // The lobe of the rough surface, whether it is diffuse or glossy.
   Rgb f_rough(const Vector3& wo, const Vector3& wi) const;
   float pdf_rough(const Vector3& wo, const Vector3& wi) const;
 };

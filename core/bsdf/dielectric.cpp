@@ -4,14 +4,15 @@ namespace kaustik {
 
 namespace {
 
-// A facet between wo and wi; wm on wo's side. relative: of the far side over wo's, one for reflection.
+// A facet that scatters light between wo and wi, with wm on the side of wo. relative: index of the far side
+// over that of wo's side; one for reflection.
 struct Facet {
   Vector3 wm;
   float relative, cos_o, cos_i;  // |wo.wm|, |wi.wm|
   float reflectance;
   bool reflects;
 
-  // Of solid angle of wm over that of wi (Walter et al. 2007, equations 14 and 17).
+  // Derivative of the solid angle of wm by that of wi (Walter et al. 2007, equations 14 and 17).
   float jacobian() const {
     if (reflects) return 1 / (4 * cos_o);
     const float sum = cos_i - cos_o / relative;
@@ -19,7 +20,7 @@ struct Facet {
   }
 };
 
-// Nothing where no facet leads from one to the other.
+// Returns nothing if no facet leads from one direction to the other.
 std::optional<Facet> facet_between(const Vector3& wo, const Vector3& wi, float eta) {
   if (wo.z == 0 || wi.z == 0) return std::nullopt;
   Facet facet;
@@ -30,7 +31,7 @@ std::optional<Facet> facet_between(const Vector3& wo, const Vector3& wi, float e
   if (length_squared(sum) == 0) return std::nullopt;
   facet.wm = glm::normalize(sum);
   if (facet.wm.z * wo.z < 0) facet.wm = -facet.wm;
-  // Seen from behind by either.
+  // Either direction may see the facet from behind.
   const float o = glm::dot(wo, facet.wm), i = glm::dot(wi, facet.wm);
   if (!(o > 0) || !(facet.reflects ? i > 0 : i < 0)) return std::nullopt;
   facet.cos_o = o;

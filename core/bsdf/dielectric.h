@@ -4,14 +4,14 @@
 
 namespace kaustik {
 
-// Boundary of two dielectrics: Fresnel reflection and refraction, chosen in proportion, at a smooth surface
-// or at GGX microfacets (pharr 2023, 9.5 and 9.7).
+// Boundary between two dielectrics, at a smooth surface or at GGX microfacets (Pharr 2023, sections 9.5 and
+// 9.7). Fresnel reflection or refraction is chosen in proportion to the Fresnel factors.
 struct Dielectric {
   static constexpr std::string_view kName = "dielectric";
   static constexpr bool kTransmits = true;
 
-  float eta = 1.5f;  // of the inside (below the surface) over the outside
-  Ggx facets{};      // smooth where eta is one: no boundary
+  float eta = 1.5f;  // of the inside (below the surface) relative to the outside
+  Ggx facets{};      // smooth if eta is one, where there is no boundary
 
   Lobes lobes() const {
     if (facets.smooth()) return kDeltaLobes;
@@ -33,7 +33,7 @@ struct Dielectric {
     const float cos_i = std::min(std::abs(wo.z), 1.0f);
     const float cos_t = refracted_cosine(cos_i, relative);
     const float reflectance = fresnel_from_cosines(cos_i, cos_t, relative);
-    // The lobe's factor is its probability, so that both lobes weigh exactly one (before eta^2).
+    // The probability of each lobe is its factor, so the weight is exactly one (before eta^2).
     if (uc < reflectance) return BsdfSample{{-wo.x, -wo.y, wo.z}, Rgb(1), reflectance, true, false};
     const float inverse = 1 / relative;
     const Vector3 wi(-wo.x * inverse, -wo.y * inverse, wo.z > 0 ? -cos_t : cos_t);
@@ -43,7 +43,7 @@ struct Dielectric {
   Rgb albedo() const { return Rgb(1); }
 
  private:
-  // The lobes of the rough surface, whatever their width.
+  // The lobes of the rough surface, whether they are diffuse or glossy.
   Rgb f_rough(const Vector3& wo, const Vector3& wi) const;
   float pdf_rough(const Vector3& wo, const Vector3& wi) const;
   std::optional<BsdfSample> sample_rough(const Vector3& wo, float uc, const Point2& u,

@@ -3,8 +3,8 @@
 
 namespace kaustik {
 
-// A sheet that scatters light evenly to both its sides, like paper or a leaf: f = reflectance / pi on the
-// side of wo, transmittance / pi on the other (pharr 2023, section 9.2.1, "DiffuseTransmissionBxDF").
+// A sheet that scatters light diffusely to both sides, like paper or a leaf: f = reflectance / pi on the side
+// of wo, and transmittance / pi on the other side (Pharr 2023, section 9.2.1, "DiffuseTransmissionBxDF").
 struct DiffuseTransmission {
   static constexpr std::string_view kName = "diffusetransmission";
   static constexpr bool kTransmits = true;
@@ -33,7 +33,7 @@ struct DiffuseTransmission {
   Rgb albedo() const { return reflectance; }
 
  private:
-  // Of samples; all of them where nothing is scattered.
+  // Share of the samples that are reflected; one where nothing is scattered.
   float share_reflected() const {
     const float r = max_component(reflectance), t = max_component(transmittance);
     return t > 0 ? r / (r + t) : 1;

@@ -11,12 +11,12 @@ Ggx Ggx::from_roughness(float u, float v, bool remap) {
 }
 
 Vector3 Ggx::sample_visible(const Vector3& w, const Point2& u) const {
-  // The ellipsoid's facets seen from w are a hemisphere's seen from wh.
+  // The facets of the ellipsoid seen from w correspond to those of a hemisphere seen from wh.
   const Vector3 wh = glm::normalize(Vector3(alpha_x * w.x, alpha_y * w.y, std::abs(w.z)));
   const float sin2 = wh.x * wh.x + wh.y * wh.y;
   const Vector3 t1 = sin2 > 0 ? Vector3(-wh.y, wh.x, 0) / std::sqrt(sin2) : Vector3(1, 0, 0);
   const Vector3 t2 = glm::cross(wh, t1);
-  // Its projection is half a disk and half an ellipse.
+  // The projection of the hemisphere is half a disk and half an ellipse.
   const PolarSample disk = sample_disk_polar(u);
   const Point2 p = disk.r * disk.direction;
   const float half = std::sqrt(std::max(0.0f, 1 - p.x * p.x)), s = 0.5f * (1 + wh.z);

@@ -4,7 +4,8 @@
 
 namespace kaustik {
 
-// Cosine-distributed direction on the side of wo, shared by the diffuse BSDFs; nothing at exact grazing.
+// Cosine-distributed direction on the side of wo, used by several diffuse BSDFs. Nothing at exactly grazing
+// angles.
 inline std::optional<Vector3> sample_cosine_side_of(const Vector3& wo, const Point2& u) {
   Vector3 wi = sample_cosine_hemisphere(u);
   if (wo.z < 0) wi.z = -wi.z;
@@ -12,7 +13,7 @@ inline std::optional<Vector3> sample_cosine_side_of(const Vector3& wo, const Poi
   return wi;
 }
 
-// Ideal diffuse reflection, both sides: f = reflectance / pi.
+// Ideal diffuse reflection on both sides: f = reflectance / pi.
 struct Lambertian {
   static constexpr std::string_view kName = "diffuse";
 

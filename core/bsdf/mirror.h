@@ -3,7 +3,7 @@
 
 namespace kaustik {
 
-// Ideal mirror of constant reflectance, both sides.
+// Ideal mirror with constant reflectance on both sides.
 struct Mirror {
   static constexpr std::string_view kName = "mirror";
 

@@ -16,8 +16,8 @@ OrenNayar OrenNayar::from_sigma_degrees(const Rgb& reflectance, float sigma_degr
 }
 
 Rgb OrenNayar::albedo() const {
-  // Cosine-weighted mean over wo of the directional albedo: the integral of B's term over both hemispheres
-  // is 2/3 - 64/(45 pi).
+  // Cosine-weighted mean over wo of the directional albedo; the integral of B's term over both hemispheres is
+  // 2/3 - 64/(45 pi).
   constexpr float kMean = 2.0f / 3 - 64.0f / 45 * kInvPi;
   return reflectance * (A + B * kMean);
 }

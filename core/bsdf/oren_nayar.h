@@ -3,17 +3,17 @@
 
 namespace kaustik {
 
-// Rough diffuse reflection of V-shaped facets, both sides (Oren and Nayar 1994, equation 30, the qualitative
-// model): f = reflectance/pi (A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta)), alpha the larger and
-// beta the smaller of the two polar angles. Not modelled: interreflection between facets.
+// Rough diffuse reflection by V-shaped facets, on both sides (Oren and Nayar 1994, equation 30, the
+// qualitative model): f = reflectance/pi (A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta)), where alpha
+// is the larger and beta the smaller of the two polar angles. Not modelled: interreflection between facets.
 struct OrenNayar {
   static constexpr std::string_view kName = "orennayar";
 
   Rgb reflectance{0.5f};
-  float A = 1, B = 0;  // from sigma, the standard deviation of the facets' slope angle
+  float A = 1, B = 0;  // computed from sigma, the standard deviation of the facets' slope angle
 
-  // The directional albedo rises to reflectance (A + B/2) at grazing wo, which passes one for nearly white
-  // surfaces of small sigma (by 1.5 % at most). Such reflectances are lowered so that no light is made.
+  // The directional albedo rises to reflectance (A + B/2) at grazing wo, which exceeds one for nearly white
+  // surfaces with small sigma (by at most 1.5 %). Such reflectances are lowered so that no energy is created.
   static OrenNayar from_sigma_degrees(const Rgb& reflectance, float sigma_degrees);
 
   static constexpr Lobes lobes() { return kBroadLobes; }
@@ -33,8 +33,9 @@ struct OrenNayar {
   Rgb albedo() const;
 
  private:
-  // A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta) without angles: the cosine of the azimuths times
-  // both sines is the dot product of the tangential parts, and tan(beta) divides by the larger cosine.
+  // A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta), computed without angles: the cosine of the
+  // azimuths times both sines is the dot product of the tangential parts, and tan(beta) divides by the larger
+  // cosine.
   float shape_factor(const Vector3& wo, const Vector3& wi) const {
     const float tangential = std::max(0.0f, wo.x * wi.x + wo.y * wi.y);
     return A + B * tangential / std::max(abs_cos_theta(wo), abs_cos_theta(wi));

@@ -8,15 +8,16 @@ namespace kaustik {
 
 namespace {
 
-constexpr int kNodes = RoughTransmittance::kNodes;  // of each axis
-constexpr int kFacets = 233;  // seen from each direction: points of a Fibonacci lattice, even to the edges
+constexpr int kNodes = RoughTransmittance::kNodes;  // per axis
+// Number of facets sampled per direction: points of a Fibonacci lattice, which are even up to the edges.
+constexpr int kFacets = 233;
 
-// Of light from wo.
+// Shares of the light from wo that facets transmit and reflect.
 struct Shares {
   double through = 0, back = 0;
 };
 
-// relative: index of the far side over wo's.
+// relative: index of the far side over that of wo's side.
 Shares shares_of(const Ggx& facets, float relative, const Vector3& wo) {
   Shares sum;
   for (int k = 0; k < kFacets; ++k) {
@@ -32,7 +33,7 @@ Shares shares_of(const Ggx& facets, float relative, const Vector3& wo) {
   return {sum.through / kFacets, sum.back / kFacets};
 }
 
-// Nodes: (eta - 1) / (eta + 1), alpha and the root of the cosine, evenly spaced.
+// The nodes are evenly spaced in (eta - 1) / (eta + 1), in alpha and in the square root of the cosine.
 constexpr float kLargestS = (kLargestCoatEta - 1) / (kLargestCoatEta + 1);
 float node(int i) {
   return float(i) / (kNodes - 1);
@@ -64,7 +65,7 @@ struct Table {
       }
     }
   }
-  // Mean over the cosine's square, which is even light's.
+  // Mean over the square of the cosine, which is distributed uniformly for uniform light.
   static double inner_of(const Ggx& facets, float eta) {
     constexpr int kDirections = 24;
     double sum = 0;
@@ -81,7 +82,7 @@ const Table& table() {
   return made;
 }
 
-// A place between two nodes.
+// Position between two adjacent nodes, for linear interpolation.
 struct Between {
   int i;
   float t;

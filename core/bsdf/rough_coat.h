@@ -1,5 +1,5 @@
 #pragma once
-// How much light a rough dielectric boundary lets through, for what lies under it.
+// Transmittance of a rough dielectric boundary, for materials that have a layer below it.
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +8,16 @@
 
 namespace kaustik {
 
-// The indices of refraction that the table holds; others are clamped.
+// The range of refractive indices in the table; others are clamped.
 inline constexpr float kLeastCoatEta = 1, kLargestCoatEta = 4;
 
-// Share of light from direction w (outside, |cos| = cos_theta) that comes through GGX facets of this
-// roughness in one scattering event: refracted by a facet and not blocked by others. alpha: of both
-// directions, in [0, 1]. Of a smooth boundary 1 - F. Interpolated in a table that is made at the first call
-// (some ten milliseconds); off by less than 0.01. Thread-safe.
+// Share of light from direction w (outside, |cos| = cos_theta) that a boundary with GGX facets transmits in
+// one scattering event: refracted by a facet and not blocked by others. alpha: the same in both directions,
+// in [0, 1]. A smooth boundary gives 1 - F. Interpolated in a table that is made at the first call (in some
+// ten milliseconds), with an error below 0.01. Thread-safe.
 float rough_transmittance(float cos_theta, float alpha, float eta);
 
-// The same of one boundary, for many directions.
+// rough_transmittance() of one boundary, for many directions.
 class RoughTransmittance {
  public:
   RoughTransmittance() = default;
@@ -32,10 +32,10 @@ class RoughTransmittance {
   static constexpr int kNodes = 16;
 
  private:
-  float through_[kNodes] = {};  // by the root of the cosine, evenly spaced
+  float through_[kNodes] = {};  // evenly spaced in the root of the cosine
 };
 
-// Share of even light from inside that such a boundary throws back.
+// Share of uniform light from inside that a boundary with GGX facets reflects.
 float rough_inner_reflectance(float alpha, float eta);
 
 }  // namespace kaustik

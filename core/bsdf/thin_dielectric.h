@@ -4,12 +4,12 @@
 
 namespace kaustik {
 
-// A pane so thin that light leaves where it came in: reflection, and straight transmission, with all inner
-// reflections (pharr 2023, 9.5.4).
+// A pane so thin that light leaves where it entered: reflection and straight transmission, including all
+// inner reflections (Pharr 2023, section 9.5.4).
 struct ThinDielectric {
   static constexpr std::string_view kName = "thindielectric";
 
-  float eta = 1.5f;  // of the pane over what is around it
+  float eta = 1.5f;  // of the pane relative to its surroundings
 
   static constexpr Lobes lobes() { return kDeltaLobes; }
   Rgb f(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return Rgb(0); }
@@ -17,7 +17,7 @@ struct ThinDielectric {
   std::optional<BsdfSample> sample_f(const Vector3& wo, float uc, const Point2& /*u*/,
                                      TransportMode /*mode*/) const {
     if (wo.z == 0) return std::nullopt;
-    // R + T^2 R + T^2 R^3 + ... with T = 1 - R.
+    // R + T^2 R + T^2 R^3 + ..., with T = 1 - R.
     const float R = fresnel_dielectric(std::abs(wo.z), eta), reflectance = 2 * R / (1 + R);
     if (uc < reflectance) return BsdfSample{{-wo.x, -wo.y, wo.z}, Rgb(1), reflectance, true, false};
     return BsdfSample{-wo, Rgb(1), 1 - reflectance, true, true};

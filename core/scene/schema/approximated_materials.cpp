@@ -1,5 +1,5 @@
-// The rows of pbrt's materials that are taken for others: what lets light in and out at different places,
-// what was measured, and metal under a coat. What is left out of each is said where it is met.
+// Schema rows of pbrt's materials that are approximated by others: subsurface scattering, measured BSDFs, and
+// coated metal. A warning says what is left out of each.
 
 #include <array>
 
@@ -11,7 +11,7 @@ namespace kaustik::spec {
 namespace {
 
 // Measured diffuse reflectances (Jensen et al. 2001, "A Practical Model for Subsurface Light Transport",
-// figure 5), by pbrt's names.
+// figure 5), with pbrt's names.
 struct Measured {
   std::string_view name;
   Rgb reflectance;
@@ -32,8 +32,8 @@ const std::array<Measured, 12>& measured_media() {
   return media;
 }
 
-// What a half space gives back of the light that has entered it, by the dipole (Jensen et al. 2001, section
-// 3.2). inside: share of even light that its surface throws back in.
+// Diffuse reflectance of a half space for the light that has entered it, by the dipole approximation (Jensen
+// et al. 2001, section 3.2). inside: reflectance of its surface for uniform light from inside.
 float dipole_reflectance(float sigma_a, float reduced_sigma_s, float inside) {
   const float sigma_t = sigma_a + reduced_sigma_s;
   if (!(sigma_t > 0)) return 0;
@@ -57,7 +57,8 @@ Rgb diffuse_reflectance(const MaterialInputs& p, float inside) {
   return out;
 }
 
-// The base under the coat that sends out what the medium would: (1 - Ri) rho / (1 - rho Ri) of what enters.
+// The base under the coat is chosen such that it emits what the medium would: (1 - Ri) rho / (1 - rho Ri) of
+// the light that enters.
 Bsdf make_subsurface(const MaterialInputs& p) {
   const auto eta = static_cast<float>(p.number("eta"));
   const auto inside = static_cast<float>(fresnel_diffuse(1 / double(eta)));
@@ -65,7 +66,7 @@ Bsdf make_subsurface(const MaterialInputs& p) {
   return CoatedDiffuse::from_reflectance(Rd / ((1 - inside) + inside * Rd), eta, facets_of(p));
 }
 
-// Inside the coat, the metal's index is relative to that of the coat.
+// Inside the coat, the metal's index is relative to the coat.
 Bsdf make_coated_conductor(const MaterialInputs& p) {
   Conductor metal = metal_of(p, "conductor.");
   const auto coat = static_cast<float>(p.number("interface.eta"));

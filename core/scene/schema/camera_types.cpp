@@ -1,4 +1,4 @@
-// The rows of cameras and pixel filters.
+// Schema rows of cameras and pixel filters.
 
 #include "core/scene/schema/parameter_spec.h"
 
@@ -8,7 +8,7 @@ namespace {
 using namespace spec;
 using Type = ParameterType;
 
-// Every camera's of pbrt.
+// Adds the parameters that all cameras of pbrt have.
 std::vector<ParameterSpec> camera(std::vector<ParameterSpec> own) {
   own.push_back(
       number("shutteropen", 0, "s", kAnyNumber, "nothing moves, but the film is exposed from then"));

@@ -1,4 +1,4 @@
-// Parameters against the schema. Every complaint says what was expected.
+// Checks parameters against the schema. Every error says what was expected.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ struct Context {
   WarnedOnce& warned;
   DiagnosticList& diagnostics;
 
-  // `material "diffuse"`; options have no type.
+  // For example `material "diffuse"`; options have no type.
   std::string owner() const {
     return spec.name.empty() ? std::string(noun) : fmt::format("{} \"{}\"", noun, spec.name);
   }
@@ -26,7 +26,7 @@ std::string declaration(std::string_view type, std::string_view name) {
   return fmt::format("\"{} {}\"", type, name);
 }
 
-// `"rgb reflectance"` or `"rgb eta" or "float eta"`.
+// For example `"rgb reflectance"`, or `"rgb eta" or "float eta"`.
 std::string expected_declaration(const ParameterSpec& spec) {
   std::string text;
   for (const ParameterType type : spec.types) {
@@ -75,7 +75,7 @@ std::string expected_count(const ParameterSpec& spec, ParameterType type) {
 }
 
 bool check_count(const Context& c, const ParameterSpec& spec, const Parameter& p) {
-  // One or three floats may stand for an rgb.
+  // One or three floats may replace an rgb.
   const bool floats_for_rgb = p.type == ParameterType::kFloat && spec.types.front() == ParameterType::kRgb;
   if (floats_for_rgb && (p.count() == 1 || p.count() == 3)) return true;
   const size_t n = numbers_per_item(p.type);
@@ -121,7 +121,7 @@ void warn_of_approximation(const Context& c, const Directive& directive) {
 bool check_one(const Context& c, const Parameter& p) {
   const ParameterSpec* spec = c.spec.find(p.name);
   if (!spec) {
-    if (p.inherited) return true;  // a default of an enclosing block, meant for other types
+    if (p.inherited) return true;  // a default from an enclosing block, meant for other types
     report_unknown(c, p);
     return false;
   }

@@ -1,4 +1,4 @@
-// The rows of lights: parameters, and how each is made from them.
+// Schema rows of lights: their parameters, and how each light is made from them.
 
 #include <fmt/format.h>
 
@@ -33,9 +33,9 @@ bool is_dark(float scale) {
   return scale == 0;
 }
 
-// Scales `emission` by the parameter's value over `of_white` (luminance of what it gives where it is one),
-// where that is given, and by `scale`. So do pbrt's lights: of colours it divides by the luminance of the
-// white alone. False, with an error, when there is nothing to scale.
+// Applies two parameters to `emission`, as pbrt does: if `name` is given, scales by its value over
+// `of_white`, the luminance that results from an emission of one (for colours, too, pbrt divides by the
+// luminance of white); then scales by `scale`. Returns false, with an error, if there is nothing to scale.
 template <class Emission>
 bool scale_to(const LightInputs& in, std::string_view name, double of_white, Emission& emission) {
   const ParameterReader& p = in.parameters;
@@ -50,7 +50,7 @@ bool scale_to(const LightInputs& in, std::string_view name, double of_white, Emi
   return true;
 }
 
-// Of a light of intensity I.
+// Luminance of the power of a light whose intensity I is one.
 template <class L>
 double white_power(L light) {
   light.I = Rgb(1);
@@ -77,7 +77,7 @@ std::optional<glm::dvec3> direction(const LightInputs& in, const glm::dvec3& d) 
   return std::nullopt;
 }
 
-// The orthogonal part of a map that scales evenly, up to the rounding of what a scene file says.
+// The orthogonal part of a map that scales uniformly, up to the rounding of numbers in a scene file.
 std::optional<glm::mat3> rotation(const LightInputs& in) {
   constexpr double kTolerance = 1e-3;
   const glm::dmat3 m(in.light_to_world);
@@ -126,7 +126,7 @@ std::optional<Light> make_goniometric(const LightInputs& in) {
   light.map = in.images.directions(p, "filename", LightImages::Around::kLight);
   if (!light.map) return std::nullopt;
   light.position = Point3(to_scene(in)[3]);
-  // The map's +z is the light's +y, as in pbrt.
+  // As in pbrt, +z of the map is +y of the light.
   light.to_world = *map_to_world * glm::mat3(1, 0, 0, 0, 0, 1, 0, 1, 0);
   light.I = p.rgb("I");
   if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
@@ -158,7 +158,7 @@ std::optional<Light> make_distant(const LightInputs& in) {
   return light;
 }
 
-// The corners of a rectangle, in order, as pbrt has it.
+// Whether the points are the corners of a rectangle, in order, with pbrt's tolerance.
 bool is_rectangle(const std::array<glm::dvec3, 4>& p) {
   constexpr double kTolerance = 1e-3;
   const glm::dvec3 a = p[1] - p[0], b = p[3] - p[0], beyond = p[2] - (p[0] + a + b);
@@ -167,9 +167,10 @@ bool is_rectangle(const std::array<glm::dvec3, 4>& p) {
          std::abs(glm::dot(a, b)) <= kTolerance * la * lb;
 }
 
-// Its corners lie in the world, whatever the light's transform, as in pbrt; that turns the sky. make_sky:
-// from the map that takes directions of the portal to those of the light. irradiance: the luminance of what
-// the whole sky gives to a plane that faces the light's +z.
+// Makes an infinite light with a portal. As in pbrt, the corners are in world space whatever the light's
+// transform, which only turns the sky. make_sky: makes the sky from the map that takes directions of the
+// portal to those of the light. irradiance: the luminance of the whole sky's irradiance on a plane that faces
+// the light's +z.
 template <class MakeSky>
 std::optional<Light> make_portal(const LightInputs& in, double irradiance, const MakeSky& make_sky) {
   const ParameterReader& p = in.parameters;

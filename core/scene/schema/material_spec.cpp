@@ -5,8 +5,8 @@
 namespace kaustik::spec {
 namespace {
 
-// pbrt's metal of a given colour: eta = 1 and k so that the reflectance at normal incidence is r (pharr
-// 2023, 9.4).
+// pbrt's metal of a given colour: eta = 1, and k such that the reflectance at normal incidence is r (Pharr
+// 2023, section 9.4).
 Rgb k_of_reflectance(const Rgb& reflectance) {
   const Rgb r = glm::clamp(reflectance, Rgb(0), Rgb(0.9999f));
   return 2.0f * glm::sqrt(r) / glm::sqrt(Rgb(1) - r);

@@ -1,5 +1,5 @@
 #pragma once
-// What the rows of materials have in common: entries of the schema, and how facets and metals are made.
+// What the schema rows of materials share: parameter entries, and functions that make facets and metals.
 
 #include <string>
 
@@ -9,20 +9,22 @@
 
 namespace kaustik::spec {
 
-// What pbrt gives to every material, and textures for all that is a number or a colour.
+// Adds the parameters that pbrt gives to every material, and makes all numbers and colours accept textures.
 std::vector<ParameterSpec> material(std::vector<ParameterSpec> own);
-// With pbrt's ways to say how rough a surface is.
+// Adds pbrt's roughness parameters as well.
 std::vector<ParameterSpec> rough_material(std::vector<ParameterSpec> own);
-// pbrt's parameters of a coat with a medium in it, which is not there.
+// pbrt's parameters of a medium inside a coat, which is not modelled.
 std::vector<ParameterSpec> medium_of_coat();
 ParameterSpec metal_index(std::string_view name, std::string_view doc);
 
-// By `roughness`, `uroughness`, `vroughness` and `remaproughness`. prefix: before the first three.
+// Reads `roughness`, `uroughness`, `vroughness` and `remaproughness`. prefix: prepended to the first three
+// names.
 Ggx facets_of(const MaterialInputs& p, std::string_view prefix = "");
-// By `reflectance`, or by `eta` and `k`, whose defaults are copper's. prefix: before the last two.
+// Reads `reflectance`, or `eta` and `k`, whose defaults are copper's. prefix: prepended to the last two
+// names.
 Conductor metal_of(const MaterialInputs& p, std::string_view prefix = "");
 
-// Materials of pbrt that are taken for others (approximated_materials.cpp).
+// Materials of pbrt that are approximated by others (approximated_materials.cpp).
 std::vector<MaterialRow> approximated_material_rows();
 
 }  // namespace kaustik::spec

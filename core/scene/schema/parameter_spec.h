@@ -1,5 +1,5 @@
 #pragma once
-// Short ways to write the entries of the schema's tables.
+// Functions that make the entries of the schema's tables.
 
 #include "core/scene/schema/schema.h"
 
@@ -44,7 +44,7 @@ inline ParameterSpec text(std::string_view name, std::string_view default_text, 
   p.default_text = default_text;
   return p;
 }
-// Lists of items, e.g. vertices.
+// A list of items, for example vertices.
 inline ParameterSpec list(ParameterType type, std::string_view name, size_t min_items,
                           std::string_view default_text, std::string_view unit, std::string_view doc) {
   ParameterSpec p = of_type(type, name, {}, unit, kAnyNumber, doc);
@@ -53,20 +53,21 @@ inline ParameterSpec list(ParameterType type, std::string_view name, size_t min_
   p.default_text = default_text;
   return p;
 }
-// Takes "texture name" "of a texture", too; float textures for floats, spectrum textures for colours.
+// Also accepts "texture name" "of a texture": float textures for numbers, spectrum textures for colours.
 inline ParameterSpec textured(ParameterSpec p) {
   p.types.push_back(ParameterType::kTexture);
   return p;
 }
-// Replaces the shown default and leaves none: the maker asks whether the parameter is there.
+// Removes the default and shows this text in its place; the function that makes the object asks whether the
+// parameter is given.
 inline ParameterSpec without_default(ParameterSpec p, std::string_view default_text) {
   p.defaults.clear();
   p.default_text = default_text;
   return p;
 }
 
-// Of pbrt, without effect here. Every type that pbrt allows is accepted, so that the warning is all that it
-// costs.
+// A parameter of pbrt without effect in this program. It accepts every type that pbrt allows, so that all it
+// causes is a warning.
 inline ParameterSpec ignored(std::string_view name, std::vector<ParameterType> types, std::string_view doc,
                              std::optional<double> neutral = std::nullopt) {
   ParameterSpec p;

@@ -1,4 +1,4 @@
-// The rows of materials: parameters, and how each is made from them.
+// Schema rows of materials: their parameters, and how each BSDF is made from them.
 
 #include "core/scene/schema/schema.h"
 #include "core/bsdf/rough_coat.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace spec;
 
-// A coat without a medium in it.
+// Adds the parameters of a coat.
 std::vector<ParameterSpec> coat(std::vector<ParameterSpec> own) {
   for (ParameterSpec& p : medium_of_coat()) own.push_back(std::move(p));
   return rough_material(std::move(own));

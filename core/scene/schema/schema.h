@@ -1,8 +1,8 @@
 #pragma once
-// What a scene may say: one table per kind of directive, one row per type, one entry per parameter. The
-// checks, the error messages, the defaults and the tables of docs/reference/scene_format.md all come from
-// here. A new material is a row of schema.cpp, a light one of light_rows.cpp; the row holds the function that
-// makes it from its parameters. from its parameters.
+// The schema of scene descriptions: one table per kind of directive, one row per type, one entry per
+// parameter. The checks, the error messages, the defaults and the tables of docs/reference/scene_format.md
+// all come from here. A new material is a row of schema.cpp, a new light one of light_rows.cpp; the row holds
+// the function that makes it from its parameters.
 
 #include <functional>
 #include <limits>
@@ -21,7 +21,7 @@ namespace kaustik {
 
 enum class ParameterState {
   kUsed,
-  kIgnored  // pbrt knows it, the picture is made without it: one warning
+  kIgnored  // known to pbrt but without effect here: one warning
 };
 
 struct Range {
@@ -32,22 +32,22 @@ struct Range {
   bool contains(double v) const {
     return (low_open ? v > low : v >= low) && (high_open ? v < high : v <= high);
   }
-  // ">= 0", "> 0 and < 180"; empty for all numbers.
+  // For example ">= 0" or "> 0 and < 180"; empty if all numbers are allowed.
   std::string text() const;
 };
 
 struct ParameterSpec {
   std::string_view name;
-  std::vector<ParameterType> types;  // accepted ones
-  // How many items: an rgb is one item of three numbers.
+  std::vector<ParameterType> types;  // accepted types
+  // Number of items; an rgb is one item of three numbers.
   size_t min_items = 1, max_items = 1;
-  std::vector<double> defaults;   // numbers; empty: none, or as default_text says
-  std::string_view default_text;  // shown instead of the numbers
+  std::vector<double> defaults;   // numbers; if empty, there is none or default_text describes it
+  std::string_view default_text;  // shown in place of the numbers
   std::string_view unit;
   Range range;  // of each number
   std::string_view doc;
   ParameterState state = ParameterState::kUsed;
-  // Value at which an unused parameter changes nothing: accepted in silence.
+  // Value at which an ignored parameter would change nothing, so that it is accepted without a warning.
   std::optional<double> neutral;
 };
 
@@ -55,17 +55,17 @@ struct TypeSpec {
   std::string_view name;
   std::string_view doc;
   std::vector<ParameterSpec> parameters;
-  // For types that are taken for others: what becomes of them. One warning; empty for all others.
+  // For types that are approximated by others: how. Causes one warning; empty for all other types.
   std::string_view approximated = {};
 
   const ParameterSpec* find(std::string_view parameter_name) const;
 };
 
-// Numbers of one item: 3 of an rgb, 1 of a float or string.
+// Number of values per item: 3 for an rgb, 1 for a float or string.
 size_t numbers_per_item(ParameterType type);
 
-// Reads the values of a directive that check_parameters accepted; what is absent comes from the row's
-// defaults.
+// Reads the values of a directive that check_parameters accepted, with the row's defaults for absent
+// parameters.
 class ParameterReader {
  public:
   ParameterReader(const Directive& directive, const TypeSpec& spec) : directive_(directive), spec_(spec) {}
@@ -78,9 +78,9 @@ class ParameterReader {
   std::string text(std::string_view name) const;  // empty when absent
   const Directive& directive() const { return directive_; }
   const TypeSpec& spec() const { return spec_; }
-  // As written, or the defaults; empty when there are neither.
+  // The values as written, or the defaults; empty if there are neither.
   const std::vector<double>& numbers(std::string_view name) const;
-  // Of the parameter's first value; of the directive's type when absent.
+  // Location of the parameter's first value, or of the directive's type if the parameter is absent.
   SourceLocation location(std::string_view name) const;
 
  private:
@@ -90,28 +90,29 @@ class ParameterReader {
 
 struct MaterialRow {
   TypeSpec spec;
-  // Null: a surface that is not there ("interface").
+  // Null for a surface that is not there ("interface") and for "mix".
   BsdfMaker make = nullptr;
 };
 
 class LightImages;
 
-// What a light is made from.
+// The inputs from which a light is made.
 struct LightInputs {
   ParameterReader parameters;
   glm::dmat4 light_to_world{1};
-  glm::dvec3 origin{0};  // of the scene (core/scene/scene.h): what is made lies relative to it
+  glm::dvec3 origin{0};  // the scene's origin (core/scene/scene.h), to which lights are relative
   LightImages& images;
   DiagnosticList& diagnostics;
 };
 
 struct LightRow {
   TypeSpec spec;
-  // Nothing, with an error added, when the parameters contradict each other.
+  // Returns nothing, with an error added, if the parameters contradict each other.
   std::optional<Light> (*make)(const LightInputs&) = nullptr;
 };
 
-// Lights that are surfaces get their radiance from the row; the builder adds the shape.
+// The tables, one per directive. Area lights have no function here: the builder makes them from the row and
+// the shape.
 const std::vector<MaterialRow>& material_rows();
 const std::vector<LightRow>& light_rows();
 const std::vector<TypeSpec>& area_light_types();
@@ -122,33 +123,34 @@ const std::vector<TypeSpec>& film_types();
 const std::vector<TypeSpec>& sampler_types();
 const std::vector<TypeSpec>& filter_types();
 const std::vector<TypeSpec>& accelerator_types();
-// `Option` has parameters but no type.
+// `Option` has parameters, but no type.
 const TypeSpec& option_type();
 
-// A kind of directive: what its types are, and which more pbrt has.
+// A kind of directive: its types here, and pbrt's types that are not supported.
 struct Category {
   std::string_view directive;  // "Material"
   std::string_view noun;       // "material"
   std::vector<const TypeSpec*> types;
   std::vector<std::string_view> only_in_pbrt;
 };
-// In the order of the document.
+// In the order of the reference page.
 const std::vector<Category>& categories();
 const Category& category(std::string_view directive);
 
-// Remembers which "ignored" warnings were given: one per directive, type and parameter.
+// Remembers which warnings were given: one per directive, type and parameter.
 using WarnedOnce = std::set<std::string>;
 
-// The row of a directive's type, or null with an error: a type of pbrt that is not rendered, or one that
-// nobody knows.
+// The row of a directive's type, or null with an error: a type of pbrt that is not supported, or an unknown
+// type.
 const TypeSpec* find_type(const Category& category, const Directive& directive, DiagnosticList& diagnostics);
 
-// Checks every parameter against the row: unknown, twice, of a wrong type or count, out of range, not
-// rendered (errors), ignored (warnings). noun: "material". True when there was no error.
+// Checks every parameter against the row. Unknown or repeated parameters, a wrong type or count, values out
+// of range and unsupported types are errors; ignored parameters cause warnings. noun: for example "material".
+// Returns true if there was no error.
 bool check_parameters(std::string_view noun, const TypeSpec& spec, const Directive& directive,
                       WarnedOnce& warned, DiagnosticList& diagnostics);
 
-// The tables of docs/reference/scene_format.md.
+// The tables of docs/reference/scene_format.md, as Markdown.
 std::string schema_markdown();
 
 }  // namespace kaustik

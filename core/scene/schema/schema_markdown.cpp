@@ -1,4 +1,4 @@
-// The schema as the tables of docs/reference/scene_format.md.
+// Formats the schema as the tables of docs/reference/scene_format.md.
 
 #include <fmt/format.h>
 

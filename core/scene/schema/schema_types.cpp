@@ -1,4 +1,4 @@
-// The rows of shapes, film, sampler, accelerator and options, and the list of all categories.
+// Schema rows of shapes, film, sampler, accelerator and options, and the list of all categories.
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace {
 using namespace spec;
 using Type = ParameterType;
 
-// Every shape's.
+// Adds the parameters that all shapes have.
 std::vector<ParameterSpec> shape(std::vector<ParameterSpec> own) {
   own.push_back(
       text("surfacegroup", "found from shared edges",

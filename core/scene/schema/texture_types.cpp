@@ -1,4 +1,4 @@
-// The rows of textures.
+// Schema rows of textures.
 
 #include "core/scene/schema/parameter_spec.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 using namespace spec;
 
-// A number, a colour (of spectrum textures) or another texture.
+// A number, a colour (in spectrum textures) or another texture.
 ParameterSpec operand(std::string_view name, double value, std::string_view doc) {
   ParameterSpec p = rgb(name, value, "", kAnyNumber, doc);
   p.types.push_back(ParameterType::kFloat);
@@ -34,7 +34,7 @@ std::vector<ParameterSpec> mapped(std::vector<ParameterSpec> own) {
   return own;
 }
 
-// Each octave costs a lookup of noise.
+// Adds the parameters of noise; each octave costs one evaluation.
 std::vector<ParameterSpec> octaves(std::vector<ParameterSpec> own) {
   own.push_back(integer("octaves", 8, "", {1, 32}, "how many sums of noise, each finer than the one before"));
   own.push_back(
