@@ -9,7 +9,7 @@ namespace kaustik::render {
 
 namespace {
 
-// As measured, of one pixel.
+// Statistics of one pixel, before bias is averaged over neighbours.
 struct Measured {
   glm::dvec3 mean{0}, variance{kInfinity};  // of the mean over passes
   glm::dvec3 bias{0}, bias_variance{0};
@@ -38,8 +38,8 @@ Measured measured(const PixelTotals& totals, const PixelUnits& units) {
   return out;
 }
 
-// The average over 3 x 3 pixels, cut at the border, and what its noise leaves of it. Neighbours share
-// photons, so that nine of them know as much as about three that do not.
+// Bias averaged over 3 x 3 pixels (cut at the border), with the part that noise explains subtracted.
+// Neighbours share photons, so nine of them carry about as much information as three independent pixels.
 glm::dvec3 bias_beyond_noise(const PixelWindow<Measured>& film, int x, int y) {
   constexpr double kApart = 3.0 / 9;
   glm::dvec3 bias{0}, variance{0};
@@ -57,7 +57,7 @@ glm::dvec3 bias_beyond_noise(const PixelWindow<Measured>& film, int x, int y) {
   return out;
 }
 
-// The smallest radiance that errors are taken relative to.
+// The smallest radiance that errors are divided by.
 double least_radiance(const ErrorMap& errors) {
   double sum = 0;
   for (int y = 0; y < errors.height(); ++y)
@@ -93,7 +93,7 @@ double confidence_factor(uint64_t passes) {
   if (passes < 2) return kInfinity;
   if (passes == 2) return 6.313752;
   if (passes == 3) return 2.919986;
-  // Abramowitz and Stegun 1964, 26.7.5, with the normal distribution's x.
+  // Abramowitz and Stegun 1964, 26.7.5, with x the quantile of the normal distribution.
   constexpr double x = 1.644853627, x3 = x * x * x, x5 = x3 * x * x, x7 = x5 * x * x;
   const double n = static_cast<double>(passes - 1);
   return x + (x3 + x) / (4 * n) + (5 * x5 + 16 * x3 + 3 * x) / (96 * n * n) +
@@ -110,7 +110,7 @@ double relative_error(const ErrorMap& errors, uint64_t passes, std::optional<dou
       double sum = 0;
       for (int c = 0; c < 3; ++c) {
         const double bound = factor * std::hypot(double(p.error[c]), double(p.bias[c]));
-        // Of light that is subtracted means may be negative, and a picture's may be zero.
+        // Estimators that subtract may give negative means, and means may be zero.
         if (bound > 0) sum += bound / std::max(std::abs(double(p.mean[c])), least);
       }
       of_pixels.push_back(sum / 3);

@@ -1,11 +1,11 @@
 #pragma once
-// Work on the pixels of a window that do not depend on each other.
+// Parallel loop over the pixels of a window, which must not depend on each other.
 
 #include <tbb/parallel_for.h>
 
 namespace kaustik::render {
 
-// fn(x, y) for all pixels, rows in parallel.
+// Calls fn(x, y) for all pixels, with rows in parallel.
 template <class Fn>
 void for_each_pixel(int width, int height, const Fn& fn) {
   tbb::parallel_for(0, height, [&](int y) {

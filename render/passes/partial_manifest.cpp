@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Every count, under one name for both directions.
+// Calls f(name, count) for every count; used both for writing and for reading.
 template <class Statistics, class F>
 void for_each_count(Statistics& s, F&& f) {
   f("emitted", s.photons.emitted);
@@ -52,7 +52,7 @@ void for_each_need(Needs& n, F&& f) {
   f("sky_alone", n.sky_alone), f("any_light", n.any_light);
 }
 
-// Exact: C's hexadecimal notation.
+// Exact text of a float, in C's hexadecimal notation.
 std::string hex(float value) {
   return fmt::format("{:a}", value);
 }
@@ -62,14 +62,15 @@ float from_hex(const Json& json) {
   char* end = nullptr;
   const float value = std::strtof(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !(value >= 0) || !std::isfinite(value))
-    throw std::runtime_error(fmt::format("`{}` is no radius", text));
+    throw std::runtime_error(fmt::format("`{}` is not a radius", text));
   return value;
 }
 
-// Exponents whose powers of two are doubles.
+// Accepts only exponents whose powers of two are representable as doubles.
 int exponent_from(const Json& json) {
   const int exponent = json.get<int>();
-  if (exponent < -1000 || exponent > 1000) throw std::runtime_error(fmt::format("2^{} is no unit", exponent));
+  if (exponent < -1000 || exponent > 1000)
+    throw std::runtime_error(fmt::format("2^{} is not a valid unit", exponent));
   return exponent;
 }
 
@@ -117,7 +118,7 @@ RenderStatistics statistics_from(const Json& json, const PassSums& sums) {
 PassSet passes_from(const Json& json) {
   const std::string text = json.get<std::string>();
   const auto passes = PassSet::parse(text);
-  if (!passes && text != "none") throw std::runtime_error(fmt::format("`{}` are no passes", text));
+  if (!passes && text != "none") throw std::runtime_error(fmt::format("`{}` is not a list of passes", text));
   return passes.value_or(PassSet());
 }
 
@@ -182,7 +183,7 @@ ReadManifest manifest_from_json(const Json& json) {
   json.at("stopped_by").get_to(m.stopped_by);
   json.at("passes_of_settings").get_to(sums.shares);
   if (sums.shares < 1 || sums.shares > kMostPasses)
-    throw std::runtime_error("the number of passes is senseless");
+    throw std::runtime_error("the number of passes is out of range");
   if (const Json& r = json.at("radii"); !r.is_null())
     sums.radii = {from_hex(r.at("direct")), from_hex(r.at("caustic")), from_hex(r.at("indirect")),
                   r.at("caustic_nearest").get<uint32_t>()};

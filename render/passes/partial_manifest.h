@@ -1,5 +1,5 @@
 #pragma once
-// The manifest of a partial result as JSON.
+// Conversion of a partial result's manifest to and from JSON.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -9,13 +9,13 @@ namespace kaustik::render {
 
 nlohmann::ordered_json manifest_json(const PartialManifest& manifest, const PassSums& sums);
 
-// Everything but the pixels, whose window is only described.
+// A manifest as read: everything but the pixels, of which only the window is known.
 struct ReadManifest {
-  PartialResult result;  // sums without pixels
+  PartialResult result;  // without pixels
   ExactUnits units;
   int width = 0, height = 0, x0 = 0, y0 = 0, full_width = 0, full_height = 0;
 };
-// Throws std::runtime_error, or nlohmann's errors, for what is missing or senseless.
+// Throws std::runtime_error, or nlohmann's exceptions, if a value is missing or invalid.
 ReadManifest manifest_from_json(const nlohmann::ordered_json& json);
 
 }  // namespace kaustik::render

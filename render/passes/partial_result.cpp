@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kMagic{"KPART\r\n\x1a", 8};
 constexpr uint64_t kVersion = 2;
 constexpr uint64_t kHeadBytes = 24, kHashBytes = 16;
-// Pixels are written as they lie in memory.
+// Pixels are written as they are laid out in memory.
 static_assert(sizeof(PixelTotals) == 480 && std::endian::native == std::endian::little);
 static_assert(std::is_trivially_copyable_v<PixelTotals>);
 
@@ -41,7 +41,7 @@ File open(const std::string& path, const std::string& shown, const char* mode) {
   return file;
 }
 
-// Bytes to a file, and to the hash that ends it.
+// Writes bytes to a file and to the hash that ends the file.
 class Writer {
  public:
   Writer(const std::string& path, std::string shown)
@@ -51,7 +51,7 @@ class Writer {
     raw(bytes, size);
   }
   void put(uint64_t word) { put(&word, sizeof word); }
-  // The hash; then all is on the disk.
+  // Writes the hash and waits until the file is on the disk.
   void finish() {
     const auto words = hash_.words();
     raw(words.data(), sizeof words);
@@ -70,7 +70,7 @@ class Writer {
   ContentHash hash_;
 };
 
-// Looks before it opens: a pipe would wait for someone who writes.
+// Checks the file's type before opening it, since opening a pipe would wait for a writer.
 File open_regular(const std::string& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
@@ -87,7 +87,7 @@ class Reader {
   }
   uint64_t size() const { return size_; }
   void get(void* bytes, size_t size) {
-    if (std::fread(bytes, 1, size, file_.get()) != size) fail("the file is shorter than it was");
+    if (std::fread(bytes, 1, size, file_.get()) != size) fail("the file shrank while it was being read");
   }
   uint64_t word() {
     uint64_t out = 0;
@@ -103,18 +103,18 @@ class Reader {
   uint64_t size_ = 0;
 };
 
-// Size of the manifest.
+// Reads the header and returns the size of the manifest.
 uint64_t read_head(Reader& in) {
   std::array<char, kMagic.size()> magic{};
-  if (in.size() < magic.size()) in.fail("this is no partial result of kaustik");
+  if (in.size() < magic.size()) in.fail("not a partial result of kaustik");
   in.get(magic.data(), magic.size());
-  if (std::string_view(magic.data(), magic.size()) != kMagic) in.fail("this is no partial result of kaustik");
-  if (in.size() < kHeadBytes + kHashBytes) in.fail("the file is truncated: its head is not complete");
+  if (std::string_view(magic.data(), magic.size()) != kMagic) in.fail("not a partial result of kaustik");
+  if (in.size() < kHeadBytes + kHashBytes) in.fail("the file is truncated: its header is incomplete");
   if (const uint64_t version = in.word(); version != kVersion)
     in.fail(fmt::format("version {} of the format; this program reads version {}", version, kVersion));
   const uint64_t bytes = in.word();
   if (bytes > in.size() - kHeadBytes - kHashBytes)
-    in.fail("the file is truncated: its manifest is not complete");
+    in.fail("the file is truncated: its manifest is incomplete");
   return bytes;
 }
 
@@ -128,7 +128,7 @@ ReadManifest read_manifest(Reader& in) {
   }
 }
 
-// Of the file but for its last bytes, which are that hash.
+// Checks the hash of the whole file, which is stored in its last bytes.
 void check_hash(Reader& in) {
   in.rewind();
   ContentHash hash;
@@ -141,7 +141,7 @@ void check_hash(Reader& in) {
   }
   const uint64_t first = in.word(), second = in.word();
   if (std::array<uint64_t, 2>{first, second} != hash.words())
-    in.fail("the file is damaged or truncated: its checksum does not fit its contents");
+    in.fail("the file is damaged or truncated: its checksum does not match its contents");
 }
 
 std::string seen(const std::vector<std::string>& texts) {
@@ -155,7 +155,7 @@ const std::vector<std::string>& find(const SettingTexts& settings, const std::st
   return none;
 }
 
-// Names of files may be any bytes, JSON is UTF-8.
+// File names may be any bytes, but JSON must be UTF-8.
 std::string manifest_text(const PartialManifest& manifest, const PassSums& sums, const std::string& path) {
   try {
     return manifest_json(manifest, sums).dump(1);
@@ -194,7 +194,7 @@ PartialResult read_partial(const std::string& path) {
   ReadManifest read = read_manifest(in);
   const uint64_t pixel_bytes = uint64_t(read.width) * uint64_t(read.height) * sizeof(PixelTotals);
   if (kHeadBytes + manifest_bytes + pixel_bytes + kHashBytes != in.size())
-    in.fail("the file's size does not fit its image");
+    in.fail("the file's size does not match its image");
   FilmTotals& totals = read.result.sums.totals;
   totals = FilmTotals(
       PixelWindow<PixelTotals>(read.width, read.height, read.x0, read.y0, read.full_width, read.full_height),
@@ -214,8 +214,10 @@ std::string difference(const PartialResult& a, const PartialResult& b) {
   for (const auto& [name, texts] : n.settings)
     if (find(m.settings, name).empty())
       return fmt::format("they differ in --{}: unset and {}", name, seen(texts));
-  if (m.build != n.build) return fmt::format("different programs made them: {} and {}", m.build, n.build);
-  if (m.isa != n.isa) return fmt::format("different instruction sets made them: {} and {}", m.isa, n.isa);
+  if (m.build != n.build)
+    return fmt::format("they were made by different programs: {} and {}", m.build, n.build);
+  if (m.isa != n.isa)
+    return fmt::format("they were made with different instruction sets: {} and {}", m.isa, n.isa);
   if (a.sums.radii && b.sums.radii && *a.sums.radii != *b.sums.radii) return "their gather radii differ";
   if (a.sums.shares != b.sums.shares || a.sums.totals.units() != b.sums.totals.units())
     return "their sums have different units";

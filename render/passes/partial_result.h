@@ -1,13 +1,14 @@
 #pragma once
-// One file for a part of a render: checkpoint, share of a farm's job, and what parts are joined into.
+// File format for part of a render: a checkpoint, one machine's share of a render job, or the merge of
+// several parts.
 //
 //   8 bytes   "KPART\r\n\x1a"
 //   8 bytes   version of the format, 2
 //   8 bytes   size of the manifest, which follows: JSON, UTF-8
 //   480 bytes for each pixel of the window, rows from the top: a PixelTotals
-//   16 bytes  ContentHash of all before
+//   16 bytes  ContentHash of everything before
 //
-// Whole numbers are little-endian, sums two's complement.
+// Integers are little-endian, sums in two's complement.
 
 #include <stdexcept>
 #include <string>
@@ -26,21 +27,21 @@ class PartialError : public std::runtime_error {
       : std::runtime_error(path + ": " + message) {}
 };
 
-// Settings by the names of their options, as texts.
+// Settings as text: option name and values.
 using SettingTexts = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-// Where sums come from. Sums belong together where all but scene_path, presentation, outputs, goal
-// and stopped_by agree.
+// Describes the render that sums come from. Sums can be added if everything but scene_path, presentation,
+// outputs, goal and stopped_by agrees.
 struct PartialManifest {
-  std::string build;                 // of the program
-  std::string isa;                   // instructions that decide its bits
+  std::string build;                 // identifies the program
+  std::string isa;                   // instruction sets that determine its bits
   std::string scene_path;            // absolute
-  std::string scene_hash;            // of the contents of the scene's files, meshes included
-  SettingTexts settings;             // that decide the sums
-  SettingTexts presentation;         // that decide how fast, and what is made of the sums
+  std::string scene_hash;            // hash of the contents of the scene's files, including meshes
+  SettingTexts settings;             // those that determine the sums
+  SettingTexts presentation;         // those that affect only speed, or what is made of the sums
   std::vector<std::string> outputs;  // absolute paths
-  PassSet goal;                      // passes that the render was to hold
-  std::string stopped_by;            // the rule that found these passes enough, or nothing
+  PassSet goal;                      // passes that were to be rendered
+  std::string stopped_by;            // the rule that stopped the render before its goal, or empty
   SceneNeeds needs;
 };
 
@@ -52,17 +53,17 @@ struct PartialResult {
 // Whether a path ends in .kpart.
 bool is_partial_name(const std::string& path);
 
-// The file appears under its name only when it is complete and on the disk: until then it is
-// .NAME.partial beside it, so that a kill leaves the previous file as it was, and what it leaves behind is
-// overwritten by the next write. One writer of a path at a time. Throws PartialError.
+// Writes to .NAME.partial in the same folder and renames it when it is complete and on the disk. So an
+// interrupted write leaves the previous file as it was, and its leftover is overwritten by the next write.
+// Only one writer per path at a time. Throws PartialError.
 void write_partial(const std::string& path, const PartialManifest& manifest, const PassSums& sums);
 
-// Throws PartialError for what is no such file, of another version of the format, truncated or damaged,
-// saying which; sizes are checked against the file's before memory is taken for them.
+// Throws PartialError for files that are not partial results, have another version of the format, or are
+// truncated or damaged, and says which. Sizes are checked against the file's size before memory is allocated.
 PartialResult read_partial(const std::string& path);
 
-// Why the sums of two files cannot be joined: "they have different seeds: 0 and 1"; empty when they can. Does
-// not look at which passes they hold.
+// Why the sums of two files cannot be added, such as "they differ in --seed: 0 and 1"; empty if they can.
+// Which passes they hold is not considered.
 std::string difference(const PartialResult& a, const PartialResult& b);
 
 }  // namespace kaustik::render

@@ -1,5 +1,5 @@
 #pragma once
-// Which passes of a render: a set of indices, as half-open ranges.
+// A set of passes: their indices, as half-open ranges.
 
 #include <cstdint>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace kaustik::render {
 
-// Indices are below it.
+// Exclusive upper bound of pass indices.
 inline constexpr uint64_t kMostPasses = (uint64_t{1} << 31) - 1;
 
 class PassSet {
@@ -20,13 +20,13 @@ class PassSet {
   };
 
   PassSet() = default;
-  // begin ... end - 1; empty when there are none.
+  // The passes begin ... end - 1; empty if begin >= end.
   PassSet(uint64_t begin, uint64_t end);
 
-  // "0:16,32:48": ranges that hold something, in any order, without overlap. Nothing when text is no such
-  // list or goes beyond kMostPasses.
+  // Parses a list such as "0:16,32:48" of ranges that are not empty and do not overlap, in any order. Nothing
+  // is returned if the text is no such list or exceeds kMostPasses.
   static std::optional<PassSet> parse(std::string_view text);
-  std::string text() const;  // the same, in order; "none" when empty
+  std::string text() const;  // the form that parse() reads, in ascending order; "none" if empty
 
   void add(const PassSet& other);  // union
   PassSet common(const PassSet& other) const;
@@ -40,7 +40,7 @@ class PassSet {
   bool operator==(const PassSet&) const = default;
 
  private:
-  std::vector<Range> ranges_;  // in order, apart from each other
+  std::vector<Range> ranges_;  // in ascending order, with gaps between them
 };
 
 }  // namespace kaustik::render

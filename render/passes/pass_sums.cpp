@@ -5,8 +5,9 @@
 namespace kaustik::render {
 
 void PassSums::add(const PassSums& other) {
-  if (!passes.common(other.passes).empty()) throw std::invalid_argument("a pass is in both sums");
-  if (shares != other.shares) throw std::invalid_argument("photons are shared out over other passes");
+  if (!passes.common(other.passes).empty()) throw std::invalid_argument("both sums contain the same pass");
+  if (shares != other.shares)
+    throw std::invalid_argument("the sums divide the photons among different numbers of passes");
   if (radii && other.radii && *radii != *other.radii)
     throw std::invalid_argument("the sums' gather radii differ");
   totals.add(other.totals);

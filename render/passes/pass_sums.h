@@ -1,5 +1,5 @@
 #pragma once
-// What complete passes of a render add up to: all that a picture needs, and all that going on needs.
+// Sums over complete passes of a render: all that is needed for the picture and for rendering further passes.
 
 #include <optional>
 
@@ -11,15 +11,15 @@
 namespace kaustik::render {
 
 struct PassSums {
-  PassSet passes;       // that are complete
-  uint64_t shares = 1;  // passes that the settings' photons and samples are shared out over
+  PassSet passes;       // the complete passes
+  uint64_t shares = 1;  // number of passes among which the settings' photons and samples are divided
   FilmTotals totals;
-  std::optional<GatherRadii> radii;  // r0 of the first pass, once settled
+  std::optional<GatherRadii> radii;  // r0 of the first pass, once known
   RenderStatistics statistics;
 
-  // Adds other passes of the same render: any order, any split gives the same bits (save seconds). Throws
-  // std::invalid_argument when a pass is in both, or shares, window, units or radii differ; then nothing is
-  // changed.
+  // Adds other passes of the same render. Any order and any split give the same bits, except for the seconds.
+  // Throws std::invalid_argument if a pass is in both, or if shares, window, units or radii differ; then
+  // nothing is changed.
   void add(const PassSums& other);
 };
 

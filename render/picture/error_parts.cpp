@@ -15,7 +15,7 @@ ErrorPartsSum::ErrorPartsSum(const Image& reference, const CompareOptions& optio
 
 void ErrorPartsSum::add(const Image& image) {
   if (image.width != reference_.width || image.height != reference_.height)
-    throw std::invalid_argument("the image's size is not the reference's");
+    throw std::invalid_argument("the image's size differs from the reference's");
   ++images_;
   for (size_t i = 0; i < moments_.size(); ++i) {
     if (!is_finite(image.pixels[i])) finite_[i] = false;

@@ -247,7 +247,7 @@ TEST_F(PartialResults, BadOptionsAreExplained) {
   expect_refused(render({"--checkpoint-every", "60s"}), {"--checkpoint"});
   expect_refused(render({"--checkpoint", path("none/a.kpart")}), {"none"});
   expect_refused({"resume", path("none.kpart")}, {"none.kpart"});
-  expect_refused({"resume", scene_}, {"no partial result"});
+  expect_refused({"resume", scene_}, {"not a partial result"});
 }
 
 // The hash is of what the files hold: those that are included and named, not where they lie.

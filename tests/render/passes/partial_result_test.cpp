@@ -131,7 +131,7 @@ TEST_F(PartialFile, TruncatedAndForeignFilesAreNamed) {
   EXPECT_NE(complaint(), "");
   for (const std::string& text : {std::string(), std::string("KPART"), std::string(1000, 'x')}) {
     write(text);
-    EXPECT_THAT(complaint(), HasSubstr("no partial result"));
+    EXPECT_THAT(complaint(), HasSubstr("not a partial result"));
   }
   std::string newer = whole;
   ++newer[8];
