@@ -1,4 +1,4 @@
-// render(): the order of a render. For each pass: shoot, build, tiles; then their sum.
+// render(): for each pass shoots photons, builds maps and renders tiles; then combines the passes.
 
 #include "render/renderer.h"
 
@@ -44,7 +44,7 @@ PixelWindow<Pixel> make_window(const CropWindow& crop, const Camera& camera) {
   return {range.width(), range.height(), range.x0, range.y0, camera.width, camera.height};
 }
 
-// One caller at a time, told how many passes there will be.
+// Wraps the callback so that calls do not overlap, and sets the number of passes.
 ProgressCallback serialised(const ProgressCallback& progress, uint64_t passes) {
   if (!progress) return {};
   return [&progress, passes, mutex = std::make_shared<std::mutex>()](Progress p) {
@@ -54,7 +54,7 @@ ProgressCallback serialised(const ProgressCallback& progress, uint64_t passes) {
   };
 }
 
-// A render at work: what its passes share.
+// State that the passes of a render share.
 class PassRenderer {
  public:
   PassRenderer(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
@@ -68,15 +68,16 @@ class PassRenderer {
         photons_(std::move(photons)),
         progress_(std::move(progress)) {}
 
-  // r0 where the first pass is rendered elsewhere: its photons are shot for that alone, and not counted.
+  // Determines r0 if this render does not begin with the first pass: shoots that pass's photons only for r0,
+  // and does not count them.
   bool settle_radii(std::optional<GatherRadii>* radii) {
     if (*radii || !kinds_needed(plan_).any()) return true;
-    if (settings_.radius) return true;  // any pass settles it
+    if (settings_.radius) return true;  // any pass sets it
     RenderStatistics ignored;
     return make_photon_maps(scene_, bvh_, settings_, plan_, share(0), progress_, &maps_, radii, &ignored);
   }
 
-  // Adds to a film of zeros. False when progress cancelled.
+  // Renders one pass into a film of zeros. False when the progress callback cancelled.
   bool render(uint64_t pass, std::optional<GatherRadii>* radii, FilmSums* film,
               RenderStatistics* statistics) {
     const PassShare part = share(pass);
@@ -143,8 +144,9 @@ PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, const E
   return sums;
 }
 
-// Passes of `missing`, one after the other, into result->sums. False when progress cancelled; then tiles and
-// result->statistics are those of the pass at work. The tiles are zero at first.
+// Renders the passes of `missing` one after the other and adds them to result->sums. False when the progress
+// callback cancelled; then tiles and result->statistics are those of the unfinished pass. tiles must be zero
+// at first.
 bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderTask& task, FilmSums* tiles,
                    RenderResult* result) {
   PassSums& sums = result->sums;
@@ -163,7 +165,8 @@ bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderT
   return true;
 }
 
-// All complete passes, or the finished tiles of the pass at work where there are none.
+// Fills the result with the mean of all complete passes, or with the finished tiles of the current pass if
+// there are none.
 void show(const FilmSums& tiles, bool has_totals, RenderResult* result) {
   PassSums& sums = result->sums;
   const bool complete = !sums.passes.empty();
@@ -188,7 +191,7 @@ void show_passes(RenderResult* result) {
 RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                     const ProgressCallback& callback, RenderTask task) {
   check_settings(settings, scene.camera);
-  require(task.passes.empty() || settings.passes > 0, "chosen passes need the number of passes");
+  require(task.passes.empty() || settings.passes > 0, "a choice of passes requires the number of passes");
   RenderResult result;
   result.plan = make_plan(settings, scene.needs);
   const uint64_t shares = choose_passes(scene, bvh, settings, &result.plan);
@@ -200,9 +203,10 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
       goes_on ? std::move(task.done) : nothing_yet(scene, settings, result.plan, shares, task.keep_sums);
   require(result.sums.shares == shares &&
               result.sums.totals.units() == units_of(scene, settings, result.plan, shares),
-          "the passes that are there are of another scene or of other settings");
+          "the passes rendered before belong to another scene or to other settings");
 
-  require(!task.photons || missing == PassSet(0, 1), "the photons that are there are those of a single pass");
+  require(!task.photons || missing == PassSet(0, 1),
+          "photons shot in advance can be used only for a single pass");
   PassRenderer renderer(scene, bvh, settings, result.plan, shares, std::move(task.photons),
                         serialised(callback, goal.end() < kMostPasses ? std::max(shares, goal.end()) : 0));
   auto tiles = make_window<PixelSum>(settings.crop, scene.camera);

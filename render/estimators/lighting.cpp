@@ -53,7 +53,7 @@ float samples_of(const Scene& scene, const LightReceiver& x, uint32_t light) {
 // A light sample and the radiance it contributes if visible: f Li / pdf times its MIS weight.
 struct WeightedLightSample {
   LightSample at;
-  Rgb brings{0};
+  Rgb contribution{0};
 };
 // Samples one light; nothing if it contributes nothing. expected: the expected number of samples of this
 // light.
@@ -71,8 +71,8 @@ std::optional<WeightedLightSample> sample_light(const Scene& scene, uint32_t lig
 }
 
 // Sum over all lights of each sample's contribution times its predicted V. At most one light is corrected by
-// a shadow ray: it is chosen in proportion to contribution times p, and a ray is traced with the largest p of
-// all of them.
+// a shadow ray, which is traced with the largest p of all of them; the light is chosen in proportion to
+// contribution times p.
 Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, float u_ray,
                       const Point2& u, TileCounters& counters, LobePart part) {
   struct Candidate {
@@ -87,8 +87,8 @@ Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeig
     const auto s = sample_light(ctx.scene, light, 1, x, weight, part, u);
     if (!s) continue;
     const photon::VisibilityPrediction prediction = predicted(ctx, x, part, light);
-    const float size = s->brings.x + s->brings.y + s->brings.z;
-    sum += s->brings * prediction.v;
+    const float size = s->contribution.x + s->contribution.y + s->contribution.z;
+    sum += s->contribution * prediction.v;
     all += size * prediction.p;
     p = std::max(p, prediction.p);
     candidates[count++] = {*s, prediction.v, size * prediction.p};
@@ -98,7 +98,7 @@ Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeig
   for (size_t i = 0; i < count; ++i) {
     const Candidate& c = candidates[i];
     if (at < c.size)
-      return sum + c.sample.brings *
+      return sum + c.sample.contribution *
                        ((trace_visibility(ctx, x, c.sample.at, counters) - c.v) * (all / (c.size * p)));
     at -= c.size;
   }
@@ -108,7 +108,7 @@ Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeig
 // Returns f Li / pdf of one sample of the light, as if nothing were in the way.
 Rgb unoccluded_from(const Scene& scene, uint32_t light, const ShadingPoint& x, const Point2& u) {
   const auto s = sample_light(scene, light, 1, x, LightWeight::kAlone, LobePart::kBroad, u);
-  return s ? s->brings : Rgb(0);
+  return s ? s->contribution : Rgb(0);
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight w
   if (!traced && prediction.v == 0) return Rgb(0);
   const auto s = sample_light(scene, light->light, light->probability, x, weight, part, u);
   if (!s) return Rgb(0);
-  return s->brings *
+  return s->contribution *
          (traced ? prediction.v + (trace_visibility(ctx, x, s->at, counters) - prediction.v) / prediction.p
                  : prediction.v);
 }

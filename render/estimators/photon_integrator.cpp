@@ -21,7 +21,7 @@ namespace kaustik::render {
 namespace {
 
 // Adds radiance estimates from photon maps, either at once or when the batch is flushed.
-struct MapReader {
+struct MapEstimator {
   const CameraSample& sample;
   TileCounters& counters;
   PixelResult* result;
@@ -40,8 +40,8 @@ struct MapReader {
     result->bias += weight * bias.bias;
     counters.gather += bias.counters;
   }
-  void add(const ReadMap& read, const ShadingPoint& x, const Rgb& weight, Rgb* to) const {
-    add(read.map, read.estimate, x, weight, to);
+  void add(const GatherMap& gather, const ShadingPoint& x, const Rgb& weight, Rgb* to) const {
+    add(gather.map, gather.estimate, x, weight, to);
   }
 };
 
@@ -64,7 +64,7 @@ LightWeight light_weight(const EstimatorPlan& plan) {
 
 // Adds beta times the direct light at x.
 void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
-                const MapReader& maps) {
+                const MapEstimator& maps) {
   Rgb* const to = &maps.result->direct;
   switch (ctx.plan.direct) {
     case DirectEstimator::kPhotons:
@@ -86,7 +86,7 @@ void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta
 // Adds the light that the diffuse lobes of x scatter, seen through a specular chain of throughput beta. Paths
 // add nothing to a class that another estimator accounts for.
 void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
-                   const MapReader& maps) {
+                   const MapEstimator& maps) {
   PixelResult* const result = maps.result;
   add_direct(ctx, x, beta, sampler, maps);
   if (maps.sample.light == SampleLight::kTraced) return;
@@ -229,7 +229,7 @@ class CameraPath {
   Sampler& sampler_;
   TileCounters& counters_;
   PixelResult* result_;
-  MapReader maps_;
+  MapEstimator maps_;
   std::array<Branch, kMostWaiting> branches_;
   int waiting_ = 0;
 };

@@ -1,5 +1,6 @@
 #pragma once
-// The image being rendered: one float layer per class of paths, plus feature layers. Row 0 on top.
+// Films: the image being rendered, with one float layer for each class of paths plus feature layers. Row 0 at
+// the top.
 
 #include <algorithm>
 #include <array>
@@ -32,33 +33,35 @@ inline constexpr std::array<std::string_view, kLayers> kLayerNames = {
     "emitted", "direct", "caustic", "indirect", "albedo", "normal", "depth", "photons", "error", "bias"};
 inline constexpr std::array<int, kLayers> kLayerChannels = {3, 3, 3, 3, 3, 3, 1, 1, 3, 3};
 
-// What one pixel holds: means over its samples.
+// Final values of one pixel: means over its samples.
 struct PixelResult {
   Rgb emitted{0}, direct{0}, caustic{0}, indirect{0};  // W/(m^2 sr)
   Rgb albedo{0};
   Vector3 normal{0};  // shading normal of the first hit, world
-  float depth = 0;    // distance to the first hit, metres; 0 where the ray escapes
-  float photons = 0;  // caustic + indirect + direct photons in reach per query
-  // Of radiance(), W/(m^2 sr): the standard error of its noise, infinite where it is unknown, and by how much
-  // the kernels make it too bright (render/film/error_estimate.h). A sample has the second alone.
+  float depth = 0;    // distance to the first hit in metres; 0 where the ray escapes
+  float photons = 0;  // caustic + indirect + direct photons within reach, per query
+  // Errors of radiance(), in W/(m^2 sr): the standard error of its noise (infinite if unknown), and the
+  // kernels' bias, positive where they make it too bright (render/film/error_estimate.h). A single sample has
+  // only the bias.
   Rgb error{0}, bias{0};
 
   Rgb radiance() const { return emitted + direct + caustic + indirect; }
 };
 
-// What a sample brings. Traced light is what it needs rays for alone: emission, and direct light by light
-// samples. What photon maps say of a pixel can be left to its other samples.
+// Which light a sample computes. kTraced is what needs rays only: emission, and direct light by light
+// samples. What photon maps contribute to a pixel can be left to its other samples.
 enum class SampleLight { kAll, kTraced };
 inline constexpr size_t kSampleLights = 2;
 
-// Sums over a pass's samples, in double. Samples count 1, or -1 where the pixel filter is negative.
+// Sums over a pass's samples, in double precision. A sample weighs 1, or -1 where the pixel filter is
+// negative.
 struct PixelSum {
   glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
   double depth = 0, photons = 0;
-  glm::dvec3 bias{0};  // of the first sample alone
+  glm::dvec3 bias{0};  // of the pass's first sample only
   uint64_t count = 0;
-  uint64_t negative = 0;  // of them, those that count -1
-  uint64_t traced = 0;    // of them, those of traced light alone: where there are any, none is negative
+  uint64_t negative = 0;  // number of samples that weigh -1
+  uint64_t traced = 0;    // number of samples of kTraced light; if there are any, `negative` is 0
 
   int64_t weight() const { return static_cast<int64_t>(count) - 2 * static_cast<int64_t>(negative); }
   void add(const PixelResult& s, int sample_weight = 1, SampleLight light = SampleLight::kAll) {
@@ -72,7 +75,8 @@ struct PixelSum {
     negative += sample_weight < 0;
     traced += light == SampleLight::kTraced;
   }
-  // As if every sample had brought all light.
+  // The sums as if every sample had computed all light: what kTraced samples left out is extrapolated from
+  // the others.
   PixelSum completed() const {
     PixelSum sum = *this;
     if (traced == 0 || traced == count) return sum;
@@ -84,7 +88,7 @@ struct PixelSum {
 };
 
 // A window of width x height pixels whose upper left corner is pixel (x0, y0) of an image of full_width x
-// full_height. at(x, y) counts from the window's corner.
+// full_height pixels. at(x, y) counts from the window's corner.
 template <class Pixel>
 class PixelWindow {
  public:
@@ -109,7 +113,7 @@ class PixelWindow {
   int full_height() const { return full_height_; }
   Pixel& at(int x, int y) { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
   const Pixel& at(int x, int y) const { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
-  // By all threads: a large film is many pages to touch.
+  // Done in parallel, since a large film touches many pages.
   void clear() {
     for_each_pixel(width_, height_, [&](int x, int y) { at(x, y) = Pixel{}; });
   }
@@ -119,7 +123,7 @@ class PixelWindow {
   int x0_ = 0, y0_ = 0, full_width_ = 0, full_height_ = 0;
   std::vector<Pixel, photon::UninitialisedAllocator<Pixel>> pixels_;
 };
-// The same window, of other pixels.
+// A window of the same position and size, with pixels of another type.
 template <class Pixel, class Other>
 PixelWindow<Pixel> window_of(const PixelWindow<Other>& like) {
   return {like.width(), like.height(), like.x0(), like.y0(), like.full_width(), like.full_height()};
@@ -128,7 +132,7 @@ PixelWindow<Pixel> window_of(const PixelWindow<Other>& like) {
 using Film = PixelWindow<PixelResult>;
 using FilmSums = PixelWindow<PixelSum>;
 
-// The total radiance as a plain picture.
+// The total radiance as an image.
 inline Image image_of(const Film& film) {
   Image image(film.width(), film.height());
   for (int y = 0; y < film.height(); ++y)

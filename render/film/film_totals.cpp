@@ -11,7 +11,7 @@ namespace kaustik::render {
 
 namespace {
 
-// The smallest power of two above x, as an exponent; 0 where there is nothing to go by.
+// Exponent of the smallest power of two above x; 0 if x is not positive and finite.
 int exponent_above(double x) {
   return x > 0 && std::isfinite(x) ? std::ilogb(x) + 1 : 0;
 }
@@ -21,7 +21,7 @@ double size_of(const Scene& scene) {
   return radius > 0 && std::isfinite(radius) ? radius : 1;
 }
 
-// Radiance to expect of what a light lights, W/(m^2 sr): generous.
+// Generous upper estimate, in W/(m^2 sr), of the radiance that a light causes.
 struct LightBrightness {
   double scene_size;
   double operator()(const DiffuseAreaLight& l) const {
@@ -58,7 +58,7 @@ int exponent_of(size_t channel, const ExactUnits& units) {
   return channel == kDepthSum ? units.depth : ExactUnits::kPhotons;
 }
 
-// Units per value, made once for a film.
+// Inverses of the units, computed once for a film.
 struct PerUnit {
   std::array<double, kSumChannels> sums;
   double square;
@@ -67,14 +67,15 @@ struct PerUnit {
   }
 };
 
-// Returns how many sums were clamped.
+// Adds a pass's samples to a pixel's totals; returns how many sums were clamped.
 uint64_t add_pixel(const PixelSum& samples, const PerUnit& per_unit, PixelTotals* totals) {
   if (samples.count == 0) return 0;
   const PixelSum pass = samples.completed();
   uint64_t clamped = 0;
   const auto channels = channels_of(pass);
   for (size_t i = 0; i < kSumChannels; ++i) clamped += !totals->sums[i].add(channels[i], per_unit.sums[i]);
-  // Of a few samples a negative filter's weights may cancel; their number then stands in.
+  // With few samples, the weights of a negative filter may cancel; the number of samples is then used
+  // instead.
   const double weight = static_cast<double>(pass.weight() > 0 ? uint64_t(pass.weight()) : pass.count);
   const glm::dvec3 mean = (pass.emitted + pass.direct + pass.caustic + pass.indirect) / weight;
   for (int c = 0; c < 3; ++c) {
@@ -98,7 +99,7 @@ void add_pixel(const PixelTotals& part, PixelTotals* totals) {
 
 PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
   PixelResult out;
-  out.error = Rgb(kInfinity);  // one film knows nothing of it
+  out.error = Rgb(kInfinity);  // a single film does not tell
   if (totals.weight == 0) return out;
   const double weight = static_cast<double>(totals.weight);
   const auto mean = [&](size_t i) {
@@ -114,6 +115,7 @@ PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
   return out;
 }
 
+// Upper bound of a channel after the sensor, relative to the brightest channel before.
 double largest_gain(const Sensor& sensor) {
   double largest = 0;
   for (int row = 0; row < 3; ++row) {
@@ -141,13 +143,14 @@ ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   double brightest = 0;
   for (const Light& light : scene.lights)
     brightest = std::max(brightest, std::visit(LightBrightness{size}, light));
-  // No channel of a sample is more than this times its brightest one.
+  // The sensor makes no channel larger than this factor times the brightest one.
   if (!scene.sensor.neutral) brightest *= largest_gain(scene.sensor);
   const Point3 eye = scene.camera.to_world.point(Point3(0));
   const double lens = double(scene.camera.lens_radius() * max_row_sum(scene.camera.to_world.linear));
   const double farthest = double(glm::distance(eye, scene.bounds.center())) + size + lens;
   const int samples = exponent_above(static_cast<double>(samples_per_pass));
-  const int light = std::clamp(exponent_above(brightest), -400, 400);  // squares within double's range
+  // Keeps squares within the range of double.
+  const int light = std::clamp(exponent_above(brightest), -400, 400);
   return {.radiance = light + samples + 20 - ExactSum::kTermBits,
           .square = 2 * (light + 10) - ExactSum::kTermBits,
           .depth = exponent_above(farthest) + samples - ExactSum::kTermBits};

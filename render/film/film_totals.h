@@ -1,5 +1,5 @@
 #pragma once
-// The exact sum of the films of any number of passes, and what of them an error estimate needs.
+// Exact sums of the films of any number of passes, including what error estimates need.
 
 #include <array>
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace kaustik::render {
 
-// The units of a pixel's sums, as exponents of two.
+// Units of a pixel's sums, as exponents of two.
 struct ExactUnits {
-  int radiance = 0;                     // W/(m^2 sr), over samples
-  int square = 0;                       // of the square of a pass's mean radiance
-  int depth = 0;                        // metres, over samples
-  static constexpr int kFeature = -60;  // albedo, normal: at most 1 each, of at most 2^31 samples
-  static constexpr int kPhotons = 0;    // whole numbers
+  int radiance = 0;                     // W/(m^2 sr), summed over samples
+  int square = 0;                       // for squares of a pass's mean radiance
+  int depth = 0;                        // metres, summed over samples
+  static constexpr int kFeature = -60;  // albedo and normal: at most 1 in each of at most 2^31 samples
+  static constexpr int kPhotons = 0;    // integers
   bool operator==(const ExactUnits&) const = default;
 };
 
-// From the lights' radiance (as seen from a thousandth of the scene's size, for those that are points) and
-// the scene's size: a scene scaled by a power of two gives the same multiples. A pass's sum of radiance may
-// be 2^20 times that of samples that all see the brightest light, and its mean 2^10 times that light's
-// radiance, before it is clamped; the units lie 2^75 below the light, also those of squares.
+// Chooses the units from the scene's size and the lights' radiance (for point-like lights, as seen from a
+// thousandth of the scene's size), so that a scene scaled by a power of two gives the same multiples. Before
+// it is clamped, a pass's sum of radiance may reach 2^20 times that of samples that all see the brightest
+// light, and its mean 2^10 times that light's radiance. The units lie 2^75 below that light; so do those of
+// squares below its square.
 ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass);
 
-// Where in a pixel's sums the three channels of each begin; depth and photons have one.
+// Position of each quantity's channels in a pixel's sums: three channels each, one for depth and photons.
 enum SumChannel : size_t {
   kEmittedSum = 0,
   kDirectSum = 3,
@@ -41,35 +42,35 @@ enum SumChannel : size_t {
 };
 
 struct PixelTotals {
-  // Over samples, but for bias, of which each pass has one.
+  // Summed over samples, except for bias, which each pass measures once.
   std::array<ExactSum, kSumChannels> sums;
-  // Over passes, of the pass's mean R, G and B; of its bias.
+  // Summed over passes: squares of the pass's mean R, G and B, and of its bias.
   std::array<ExactSum, 3> squares, bias_squares;
   int64_t weight = 0;   // of the valid samples: 1 each, or -1 where the pixel filter is negative
-  uint64_t passes = 0;  // that had a valid sample
+  uint64_t passes = 0;  // passes with a valid sample
   bool operator==(const PixelTotals&) const = default;
 };
 
-// Units as numbers.
+// The units as numbers.
 struct PixelUnits {
   std::array<double, kSumChannels> sums;
   double square;
   explicit PixelUnits(const ExactUnits& units);
 };
 
-// Values and multiples of the units.
+// Exact sums of all pixels, with their units.
 class FilmTotals {
  public:
   FilmTotals() = default;
-  // zero: the window.
+  // zero: a window of empty totals.
   FilmTotals(PixelWindow<PixelTotals> zero, const ExactUnits& units)
       : units_(units), pixels_(std::move(zero)) {}
 
   // Adds one pass. Returns how many sums were clamped or NaN.
   uint64_t add(const FilmSums& pass);
-  // Adds other passes of the same window in the same units; std::invalid_argument otherwise.
+  // Adds other passes. Throws std::invalid_argument if the window or the units differ.
   void add(const FilmTotals& other);
-  // Weighted means over samples; black where there are none, or where their weights cancel.
+  // Weighted means over samples; black where there are no samples or their weights cancel.
   Film mean() const;
 
   const ExactUnits& units() const { return units_; }
@@ -81,7 +82,8 @@ class FilmTotals {
   PixelWindow<PixelTotals> pixels_;
 };
 
-// The mean that totals of one pass alone have, without them. clamped: is added to.
+// The mean of a single pass, equal to that of totals which hold only this pass. Adds the number of clamped
+// sums to *clamped.
 Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped);
 
 }  // namespace kaustik::render

@@ -15,7 +15,7 @@ namespace {
 
 using photon::PhotonKind;
 
-// Of the photons of one pass, where a number of all of them was asked for: rounded, at least one.
+// A count of photons that is meant for all passes, converted to the photons of one pass: rounded, at least 1.
 uint32_t share(uint32_t photons, const PassShare& pass) {
   return static_cast<uint32_t>(std::max<uint64_t>(1, (photons + pass.shares / 2) / pass.shares));
 }
@@ -32,7 +32,7 @@ photon::EstimateSettings estimate_settings(const RenderSettings& settings, const
 static_assert(int(Kernel::kCone) == int(photon::KernelType::kCone) &&
               int(Kernel::kEpanechnikov) == int(photon::KernelType::kEpanechnikov));
 
-// One cube for all maps: the lecture's test reads direct and shadow photons of the same cell.
+// Builds all maps in one cube, since the lecture's test compares direct and shadow photons of the same cell.
 void build_maps(const Scene& scene, photon::ShootResult&& shot, PhotonMaps* maps) {
   const photon::MapSettings in_scene{scene.bounds};
   const auto build = [&](PhotonKind kind) {
@@ -44,7 +44,7 @@ void build_maps(const Scene& scene, photon::ShootResult&& shot, PhotonMaps* maps
   maps->shadow = build(PhotonKind::kShadow);
 }
 
-// r0 of the maps that the plan reads, from those of the first pass.
+// r0 for the maps that the plan needs, from those of the first pass.
 GatherRadii settle_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                          const EstimatorPlan& plan, const PassShare& pass, const PhotonMaps& maps) {
   const photon::KindMask kinds = kinds_needed(plan);
@@ -53,34 +53,35 @@ GatherRadii settle_radii(const Scene& scene, const accel::Bvh& bvh, const Render
           kinds.indirect ? radii.indirect : 0, kinds.caustic ? radii.caustic_nearest : 0};
 }
 
-// How the maps of this pass are read: radii, and the photons that they shrink to, fall from pass to pass.
+// Sets the radii and k-nearest counts for this pass; both shrink from pass to pass.
 void set_estimates(const RenderSettings& settings, const PassShare& pass, const GatherRadii& radii,
                    PhotonMaps* maps) {
   const double squared = maps->shrink.squared(pass.pass, settings.alpha.value_or(1)),
                shrink = std::sqrt(squared);
   const auto shrunk = [&](float radius) { return static_cast<float>(double(radius) * shrink); };
-  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
-    read->estimate = estimate_settings(settings, pass);
-    read->estimate.edges = maps->edges.get();
+  for (GatherMap* gather : {&maps->direct, &maps->caustic, &maps->indirect}) {
+    gather->estimate = estimate_settings(settings, pass);
+    gather->estimate.edges = maps->edges.get();
   }
   if (radii.caustic_nearest > 0 && settings.nearest == 0)
     maps->caustic.estimate.nearest = photons_in_reach(radii.caustic_nearest, pass.shares);
-  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
-    uint32_t& nearest = read->estimate.nearest;
-    // From the fewest on, r0 alone shrinks: the K-th photon does not count, so that K = 1 would see none.
+  for (GatherMap* gather : {&maps->direct, &maps->caustic, &maps->indirect}) {
+    uint32_t& nearest = gather->estimate.nearest;
+    // Below kFewestInReach only r0 shrinks on: the K-th photon itself does not count, so K = 1 would see
+    // none.
     if (nearest > 0)
       nearest = std::max(std::min(nearest, kFewestInReach), uint32_t(std::lround(nearest * squared)));
   }
   maps->direct.estimate.radius = shrunk(radii.direct);
   maps->caustic.estimate.radius = shrunk(radii.caustic);
   maps->indirect.estimate.radius = shrunk(radii.indirect);
-  // M0: at most, not rounded.
+  // M0 is a limit, so it is rounded down.
   maps->lecture = {shrunk(radii.direct), share(settings.node_photons, pass),
                    static_cast<uint32_t>(settings.min_photons / pass.shares)};
 }
 
-// Smallest 2^(k/2) metres that is not below the radius, so that passes whose radius falls a little share what
-// is made for it.
+// The smallest 2^(k/2) metres that is at least the radius. So passes whose radii differ little share the
+// areas that are made for it.
 float at_least(float radius) {
   int exponent = 0;
   const float mantissa = std::frexp(radius, &exponent);
@@ -88,23 +89,23 @@ float at_least(float radius) {
                     exponent);
 }
 
-// Those of another map, or of this one in the pass before, where they are for the same radius.
+// Areas for this radius: those of another map or of the previous pass if they fit, otherwise new ones.
 std::shared_ptr<const photon::SurfaceAreas> areas_for(float radius, const Scene& scene,
                                                       const PhotonMaps& maps) {
-  for (const ReadMap* read : {&maps.direct, &maps.caustic, &maps.indirect})
-    if (read->areas && read->areas->radius() == radius) return read->areas;
+  for (const GatherMap* gather : {&maps.direct, &maps.caustic, &maps.indirect})
+    if (gather->areas && gather->areas->radius() == radius) return gather->areas;
   return std::make_shared<const photon::SurfaceAreas>(scene, maps.bends, radius);
 }
 
-// Where surfaces curve, for the discs of each map. Those that shrink to the nearest photons are small where
-// photons are many; where they are few they are read as if surfaces were flat.
+// Sets the areas of curved surfaces for each map. Maps with k-nearest estimates go without: where photons are
+// dense their discs are small, and elsewhere surfaces are treated as flat.
 void set_areas(const Scene& scene, PhotonMaps* maps) {
-  for (ReadMap* read : {&maps->direct, &maps->caustic, &maps->indirect}) {
-    const photon::EstimateSettings& estimate = read->estimate;
+  for (GatherMap* gather : {&maps->direct, &maps->caustic, &maps->indirect}) {
+    const photon::EstimateSettings& estimate = gather->estimate;
     if (!maps->edges || estimate.nearest > 0 || !(estimate.radius > 0)) continue;
     const float radius = at_least(estimate.radius);
-    read->areas = areas_for(radius, scene, *maps);
-    read->estimate.areas = read->areas.get();
+    gather->areas = areas_for(radius, scene, *maps);
+    gather->estimate.areas = gather->areas.get();
   }
 }
 
@@ -128,15 +129,15 @@ void free_maps(PhotonMaps* maps) {
     *map = {};
 }
 
-// Of the scene alone.
+// Finds surface edges and bends, which depend on the scene alone, unless they are there already.
 void find_edges(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings, PhotonMaps* maps) {
   if (settings.lookup == Lookup::kLeaf || maps->edges) return;
   maps->edges = std::make_unique<accel::EdgeIndex>(
       accel::without_continued(find_boundary_edges(scene.shapes, &maps->bends), bvh));
 }
 
-// One for 32 samples of the image, so that they cost little beside the shadow rays they save, up to as many
-// as are of use.
+// One photon for every 32 samples of the image, so that their cost is small compared with the shadow rays
+// they save, within the range that is useful.
 uint64_t visibility_photons(const Scene& scene, const RenderSettings& settings) {
   constexpr uint64_t kFewest = 1u << 14, kMost = 1u << 18, kSamplesEach = 32;
   const uint64_t pixels =
@@ -145,12 +146,12 @@ uint64_t visibility_photons(const Scene& scene, const RenderSettings& settings) 
   return std::min(settings.photons, std::clamp(samples / kSamplesEach, kFewest, kMost));
 }
 
-// Caustic photons that uniform emission leaves on its way to other kinds cost nothing: from so many on,
-// guided ones are not worth their rays (docs/performance.md).
+// Caustic photons that uniform emission leaves on its way to other kinds cost nothing. If their share is at
+// least this, guided ones are not worth their rays (docs/performance.md).
 constexpr double kEnoughCaustics = 1.0 / 64;
 
-// Likewise. Indirect photons lie everywhere where light is, outside of a room, too: those that are seen
-// count.
+// Learns a guide for one kind, which depends on scene and settings alone. Indirect photons lie wherever there
+// is light, even outside a room, so those near visible points count most.
 std::unique_ptr<const photon::LearnedGuide> learn_guide(const Scene& scene, const accel::Bvh& bvh,
                                                         const RenderSettings& settings, PhotonKind kind,
                                                         bool beside_others) {
@@ -165,7 +166,8 @@ std::unique_ptr<const photon::LearnedGuide> learn_guide(const Scene& scene, cons
   return std::make_unique<const photon::LearnedGuide>(photon::learn_guide(scene, bvh, guide));
 }
 
-// Likewise.
+// Learns the guides that the plan needs and that are not there yet. They too depend on scene and settings
+// alone.
 void learn_guides(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                   const EstimatorPlan& plan, PhotonMaps* maps, RenderStatistics* statistics) {
   if (settings.guide == Guide::kOff) return;
@@ -185,7 +187,7 @@ void learn_guides(const Scene& scene, const accel::Bvh& bvh, const RenderSetting
   statistics->photon_trace_s += watch.seconds();
 }
 
-// A shoot for some kinds.
+// One shoot, for some of the kinds.
 struct Shoot {
   photon::TraceSettings trace;
   bool guided = false;
@@ -196,7 +198,7 @@ void take(PhotonKind kind, Shoot* from, Shoot* to) {
   (kind == PhotonKind::kCaustic ? to->trace.kinds.caustic : to->trace.kinds.indirect) = true;
 }
 
-// A shoot for each kind that is guided, and one for all others.
+// One shoot for each guided kind, and one for all others.
 std::vector<Shoot> plan_shoots(const RenderSettings& settings, const EstimatorPlan& plan,
                                const PassShare& pass, const PhotonMaps& maps) {
   Shoot others{trace_settings(settings, plan, pass)};
@@ -227,7 +229,7 @@ void add(const Shoot& shoot, photon::ShootResult&& result, photon::ShootResult* 
     if (shoot.trace.kinds[PhotonKind(k)]) all->buffers[k] = std::move(result.buffers[k]);
 }
 
-// Shoots what the plan reads. False when progress cancelled.
+// Shoots the photons that the plan needs. False when the progress callback cancelled.
 bool shoot_kinds(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                  const EstimatorPlan& plan, const PassShare& pass, const ProgressCallback& progress,
                  const PhotonMaps& maps, photon::ShootResult* shot, RenderStatistics* statistics) {

@@ -14,22 +14,23 @@ namespace {
 
 constexpr uint32_t kPilotPoints = 1024;
 
-// How many photons are to be in reach. With M photons in a map the squared noise of an estimate of radius r
-// goes like 1 / (M r^2), its squared bias like r^4: their sum is least at r^2 ~ M^(-1/3), where k ~ M^(2/3)
+// How many photons should be in reach. With M photons in a map, the variance of an estimate of radius r goes
+// like 1 / (M r^2) and its squared bias like r^4. Their sum is smallest for r^2 ~ M^(-1/3), where k ~ M^(2/3)
 // photons are in reach (Silverman 1986, section 4.3.1, in two dimensions).
 struct RadiusRule {
   double of_million;  // k for M = 10^6
-  double least;       // few photons leave their own noise, however small the map
+  double least;       // lower bound: with few photons in reach their noise shows, however small the map
 };
 // Measured (docs/accuracy.md): direct light and caustics have edges, indirect light is smooth.
 constexpr RadiusRule kDirectRule{160, 64};
 constexpr RadiusRule kIndirectRule{500, 200};
 constexpr RadiusRule kCausticRule{232, kFewestInReach};
-// Times the median distance: the nearest photons set the radius where caustics are dense, this one where they
-// are thin.
+// Factor for the median distance: where caustics are dense the k-th nearest photon sets the radius, this one
+// where they are sparse.
 constexpr float kCausticReach = 2;
 
-// Photons evenly spaced in the light of the map, in its order: guided ones lie densely where they are dim.
+// Photons that divide the map's flux evenly, in the order of the map. (Guided photons are dense where they
+// are dim.)
 std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
   constexpr uint64_t kLookedAt = 1 << 16;
   const uint64_t looked_at = std::min(map.size(), kLookedAt);
@@ -49,8 +50,8 @@ std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
   return points;
 }
 
-// Distance to the k-th nearest photon; `reach` or more when the scene holds fewer. The search radius grows
-// from small, so that a map of any size costs little.
+// Distance to the k-th nearest photon; `reach` if there are fewer within it. The search starts with a small
+// radius and doubles it, so that it costs little for a map of any size.
 float nearest_radius(const photon::PhotonMap& map, photon::GatherQuery query, float reach, uint32_t k) {
   photon::GatherCounters ignored;
   for (query.radius = reach / 4096; query.radius < reach; query.radius *= 2)
@@ -58,7 +59,7 @@ float nearest_radius(const photon::PhotonMap& map, photon::GatherQuery query, fl
   return reach;
 }
 
-// On the side where photons lie more densely: on the other there may be none before the far wall of a hollow
+// Takes the side where photons are denser: on the other side the next ones may be at the far wall of a hollow
 // ball, whose normals are the same.
 float nearest_radius(const photon::PhotonMap& map, const VisiblePoint& point, float reach, uint32_t k) {
   const float r = nearest_radius(map, point.query, reach, k);
@@ -68,8 +69,8 @@ float nearest_radius(const photon::PhotonMap& map, const VisiblePoint& point, fl
   return std::min(r, nearest_radius(map, behind, reach, k));
 }
 
-// Median over the points of the distance to the k-th nearest photon; points that do not find so many are
-// left out. Nothing found gives 0.
+// Median, over the points, of the distance to the k-th nearest photon. Points that find fewer are left out; 0
+// if none is left.
 float median_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
                     uint32_t k) {
   std::vector<float> radii(points.size());
@@ -83,16 +84,16 @@ float median_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint
   return *chosen;
 }
 
-// Of all passes together, where the map is that of one.
+// k for the photons of all passes together; the map holds those of one.
 uint32_t photons_to_reach(const RadiusRule& rule, const photon::PhotonMap& map, const PassShare& pass) {
   const double root = std::cbrt(double(map.size()) * double(pass.shares) / 1e6);
   return static_cast<uint32_t>(std::lround(std::clamp(rule.of_million * root * root, rule.least, 1e9)));
 }
 
-// Where every point fails with k photons, fewer must do; the last resort is a fixed part of the scene.
+// If every point fails with k photons, fewer are tried; the last resort is a fixed fraction of the scene.
 float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
                   uint32_t photons, const PassShare& pass) {
-  if (map.empty()) return reach / 64;  // those of other passes need not be
+  if (map.empty()) return reach / 64;  // maps of other passes need not be empty
   for (uint32_t k = photons_in_reach(photons, pass.shares); k > 0; k /= 2)
     if (const float r = median_radius(map, points, reach, k); r > 0) return r;
   return reach / 64;
@@ -108,8 +109,8 @@ GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const Render
   const auto choose = [&](const photon::PhotonMap& map, const auto& points, uint32_t k) {
     return f * auto_radius(map, points, reach, k, pass);
   };
-  // Shadow photons lie as densely as direct ones would without what casts the shadows, and like caustics they
-  // fill little of the picture.
+  // Shadow photons are as dense as direct photons would be without what casts the shadows, and like caustics
+  // they fill little of the picture.
   const bool signed_light = maps.direct.map.empty() && !maps.shadow.empty();
   const photon::PhotonMap& direct = signed_light ? maps.shadow : maps.direct.map;
   const uint32_t caustic = photons_to_reach(kCausticRule, maps.caustic.map, pass);

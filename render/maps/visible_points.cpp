@@ -13,10 +13,11 @@ namespace kaustik::render {
 
 namespace {
 
-constexpr uint64_t kPilotStream = 0x9117;  // keeps the pilot's random numbers apart from the image's
+// Separates the random numbers of these rays from those of the image.
+constexpr uint64_t kPilotStream = 0x9117;
 constexpr float kCells = 32;
 
-// The first point of a camera ray whose BSDF has a broad lobe.
+// The first point on a camera ray whose BSDF has diffuse lobes.
 std::optional<VisiblePoint> visible_point(const Scene& scene, const accel::Bvh& bvh,
                                           const RenderSettings& settings, uint32_t index) {
   Sampler sampler(hash_combine(settings.seed, kPilotStream), index);
@@ -37,7 +38,7 @@ std::optional<VisiblePoint> visible_point(const Scene& scene, const accel::Bvh& 
   return {};
 }
 
-// The side of a cube that a normal comes through: 0 to 5.
+// Index, 0 to 5, of the cube's side through which the normal points.
 uint64_t cube_side(const Normal3& n) {
   const glm::vec3 size = glm::abs(n);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

@@ -1,5 +1,6 @@
 #pragma once
-// Where light is gathered: the first points with broad lobes that camera rays meet, and how densely they lie.
+// Points where light is gathered: the first points with diffuse lobes that camera rays meet, and their
+// density.
 
 #include <unordered_map>
 #include <vector>
@@ -12,28 +13,28 @@
 namespace kaustik::render {
 
 struct VisiblePoint {
-  photon::GatherQuery query;  // without radius, on the viewer's side
-  bool both_sides = false;    // what comes through is gathered, too
+  photon::GatherQuery query;  // radius unset; n on the viewer's side
+  bool both_sides = false;    // the BSDF transmits, so light from the other side is gathered too
 };
 
-// Those of `count` camera rays that meet one. A function of scene and settings.
+// Traces `count` camera rays and returns the points of those that meet one. A function of scene and settings.
 std::vector<VisiblePoint> visible_points(const Scene& scene, const accel::Bvh& bvh,
                                          const RenderSettings& settings, uint32_t count);
 
-// How many visible points lie in a cell of space, on one side of what is there. Where few lie, a photon is
-// seen in few pixels, where none lies, in hardly any. Cells are a 32nd as wide as all points together.
+// Number of visible points in a cell of space, for each side of the surfaces in it: photons in cells with few
+// points matter to few pixels, those in empty cells to hardly any. A cell is a 32nd as wide as the box of all
+// points.
 class VisibleDensity {
  public:
   explicit VisibleDensity(const std::vector<VisiblePoint>& points);
-  // Of the points that a photon may be gathered from: those of the cell whose normals are like its own.
-  // Thread-safe.
+  // Count of the cell that the photon lies in, for normals similar to its own. Thread-safe.
   float at(const photon::Photon& photon) const;
 
  private:
   uint64_t key(const Point3& p, const Normal3& n) const;
 
   Point3 low_{0};
-  float per_cell_ = 0;  // cells a metre
+  float per_cell_ = 0;  // cells per metre
   std::unordered_map<uint64_t, float> counts_;
 };
 

@@ -16,16 +16,16 @@ namespace kaustik::render {
 
 namespace {
 
-// A line through two tries tells what each photon takes: learning of guides included, up to four million on
-// every scene measured within a third.
+// Two trial shoots fit a line to the cost per photon. Including the learning of guides, it predicted up to
+// four million photons within a third on every scene measured.
 constexpr uint64_t kFewPhotons = 1u << 14, kMorePhotons = 1u << 16;
-// Side of a window, pixels: a few blocks of rays, which share what they read of the maps. So many windows
-// tell what the parts of a picture take.
+// Side of a trial window in pixels: a few blocks of rays, which share gathers. This many windows sample the
+// parts of a picture well enough.
 constexpr int kWindow = 3 * kRayBlock;
 constexpr double kFewWindows = 36, kManyWindows = 120;
-constexpr double kShare = 1.0 / 16;  // of the picture, between these
+constexpr double kShare = 1.0 / 16;  // of the picture's pixels, within these limits
 
-// One in each of so many squares, anywhere in it.
+// Windows at hashed positions, one in each cell of a regular grid over the picture.
 std::vector<PixelRange> windows_of(const PixelRange& whole) {
   const double wanted =
       std::clamp(double(whole.pixels()) * kShare / (kWindow * kWindow), kFewWindows, kManyWindows);
@@ -43,7 +43,7 @@ std::vector<PixelRange> windows_of(const PixelRange& whole) {
   return windows;
 }
 
-// Of samples of all pixels, from those of the windows.
+// Seconds for the samples of all pixels, extrapolated from those of the windows.
 double seconds_of(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                   const EstimatorPlan& plan, const PhotonMaps& maps, const std::vector<PixelRange>& windows) {
   const Stopwatch watch;
@@ -104,7 +104,7 @@ PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderS
 SampleCost sample_cost(double one, double four, double four_further, double adaptive) {
   SampleCost cost;
   if (adaptive > 0) cost.further = std::max((four_further - four) / (4 * adaptive), 0.0);
-  const double alone = one - adaptive * cost.further;  // of one sample without further ones
+  const double alone = one - adaptive * cost.further;  // cost of one sample without further ones
   cost.each = std::max((four - alone) / 3, four / 8);
   cost.fixed = std::max(alone - cost.each, 0.0);
   return cost;
@@ -129,7 +129,7 @@ SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSe
     const double four = seconds(4, 0);
     cost = sample_cost(one, four, w > 0 ? seconds(4, w) : four, double(w));
   }
-  photons->maps.visibility.reset();  // it is of settings.spp
+  photons->maps.visibility.reset();  // was made for other settings.spp
   return cost;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a pass takes on this machine, found by trying: with few photons, and with few samples of windows that
-// lie all over the picture. All functions within the render's task arena.
+// Measures the cost of a pass on this machine by trials: with few photons, and with few samples in windows
+// spread over the picture. All functions run within the render's task arena.
 
 #include "accel/bvh.h"
 #include "render/maps/photon_maps.h"
@@ -8,28 +8,28 @@
 
 namespace kaustik::render {
 
-// Photons of the first pass, shot beforehand, and how they are read.
+// Photons of the first pass, shot in advance, with their radii and statistics.
 struct FirstPhotons {
   PhotonMaps maps;
   std::optional<GatherRadii> radii;
   RenderStatistics statistics;
 };
 
-// Wall seconds of the photons of a pass.
+// Wall-clock seconds of the photons of a pass.
 struct PhotonCost {
-  double fixed = 0, each = 0;  // each above 0
+  double fixed = 0, each = 0;  // each > 0
 };
 
-// Of the samples of every pixel: of so many, and of further ones that take `adaptive` times their work
-// (RenderSettings).
+// Wall-clock seconds of the samples of every pixel: of(spp, adaptive) for spp samples and further ones that
+// take `adaptive` times their work (RenderSettings::adaptive).
 struct SampleCost {
   double fixed = 0, each = 0, further = 0;
   double of(double spp, double adaptive) const { return fixed + spp * (each + adaptive * further); }
 };
 
-// A line through the seconds of 2^14 and of 2^16 photons, or of one sample with further ones of this much
-// work, of four without, and of four with them. Flatter than half of what the larger trial took for each, it
-// is noise.
+// Fits a line to the measured seconds: of 2^14 and 2^16 photons; of one sample with further ones, of four
+// samples without and of four with them. A slope below half of the larger trial's mean cost is attributed to
+// noise and raised to it.
 PhotonCost photon_cost(double few, double more);
 SampleCost sample_cost(double one, double four, double four_further, double adaptive);
 
@@ -38,16 +38,16 @@ struct PhotonTrial {
   FirstPhotons photons;
 };
 
-// Shoots few, and more where few took less than `most` seconds.
+// Shoots a few photons, and more of them if that took less than `most` seconds.
 PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                         const EstimatorPlan& plan, double most, const ProgressCallback& progress);
 
-// Those of the only pass of these settings. What is not there when progress cancels is empty.
+// Shoots the photons of a render that has a single pass. radii is unset if the progress callback cancelled.
 FirstPhotons shoot_first(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                          const EstimatorPlan& plan, const ProgressCallback& progress);
 
-// One sample with these photons, and four where one took less than `most` seconds. Says nothing where the
-// photons are not there.
+// Renders one sample with these photons, and four if one took less than `most` seconds. Without photons
+// (cancelled) the result is meaningless.
 SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                        const EstimatorPlan& plan, double most, FirstPhotons* photons);
 

@@ -68,15 +68,15 @@ uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSe
   const uint64_t passes =
       photon::shoots_that_fit(scene, bvh, trace_settings(settings, *plan, whole), settings.photon_memory,
                               guided_photons(settings, *plan, whole.photons));
-  if (passes > kMostPasses) {  // a sample of each pixel in each
-    throw std::runtime_error(
-        fmt::format("{} photons would need {} passes to fit into memory", settings.photons, passes));
+  if (passes > kMostPasses) {  // each takes a sample of each pixel
+    throw std::runtime_error(fmt::format(
+        "{} photons would need {} passes to fit into memory, which is too many", settings.photons, passes));
   }
   if (passes > 1) {
-    plan->notes.push_back(
-        fmt::format("the photons come in {} passes, since the maps of all would not fit into "
-                    "memory{}",
-                    passes, passes > uint64_t(settings.spp) ? ", with one sample each" : ""));
+    plan->notes.push_back(fmt::format(
+        "the photons are divided into {} passes, since the maps of all of them would not fit into "
+        "memory{}",
+        passes, passes > uint64_t(settings.spp) ? "; each takes one sample per pixel" : ""));
   }
   return passes;
 }

@@ -1,4 +1,4 @@
-// make_plan: which estimator computes which class of paths.
+// make_plan(): chooses the estimator of each class of paths.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ using Direct = DirectEstimator;
 using Caustic = CausticEstimator;
 using Indirect = IndirectEstimator;
 
-// What the method says.
+// The estimators that the method prescribes.
 EstimatorPlan preset(Method method, const SceneNeeds& needs) {
   EstimatorPlan plan;
   switch (method) {
@@ -31,10 +31,10 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
       plan.direct = Direct::kPhotons, plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
       break;
     case Method::kAuto:
-      // Direct light with predicted visibility: the error of shadow rays in less time. A sky is partly seen
-      // nearly everywhere, so that nothing is predicted of it. Indirect light by photons: less error
-      // in the same time than paths on every scene measured, and no fireflies where a small bright patch
-      // lights the room (docs/accuracy.md).
+      // Direct light with predicted visibility has the error of shadow rays in less time. Nothing is
+      // predicted for a sky, since part of it is visible nearly everywhere. Indirect light from photons has
+      // less error in the same time than paths on every scene measured, and no fireflies where a small bright
+      // patch lights the room (docs/accuracy.md).
       plan.direct = needs.any_light && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
       plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
       break;
@@ -44,14 +44,14 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
 
 void leave_out(const RenderSettings& settings, const SceneNeeds& needs, EstimatorPlan* plan) {
   if (!needs.any_light) plan->notes.push_back("no light: the image is black");
-  // Caustics are the only class that can be empty by construction: without specular surfaces, or without
-  // light or something that receives it.
+  // Caustics are the only class that may be empty by construction: without specular surfaces, light, or
+  // surfaces that receive it.
   const bool empty = !needs.specular || !needs.any_light || !needs.diffuse;
   if (empty && plan->caustics != Caustic::kOff && !settings.caustics) {
     plan->caustics = Caustic::kOff;
     plan->notes.push_back(
         !needs.specular
-            ? "no specular surface: no caustic pass; saves the caustic map, and a query of it at each point"
+            ? "no specular surface: no caustic pass; saves the caustic map and a query at each point"
         : !needs.any_light ? "no light: no caustic pass"
                            : "no diffuse surface: no caustic pass");
   }
@@ -65,27 +65,27 @@ void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* note
   const photon::KindMask kinds = kinds_needed(plan);
   if (plan.direct == Direct::kPredicted)
     notes->push_back(
-        "direct and shadow photons are counted, not stored: they predict which lights are seen; "
+        "direct and shadow photons are counted but not stored: they predict which lights are visible; "
         "saves most shadow rays");
   if (!kinds.any()) {
-    notes->push_back(
-        "no estimator reads stored photons: no photon pass; saves every photon's rays and records");
+    notes->push_back("no estimator uses stored photons: no photon pass; saves tracing and storing photons");
     return;
   }
   if (!kinds.shadow && plan.direct != Direct::kPredicted)
     notes->push_back(
-        "shadow photons are not traced: the direct estimator does not read them; saves a ray and a record "
-        "for each surface behind a direct photon's first");
+        "shadow photons are not traced: the direct estimator does not use them; saves a ray and a record "
+        "for each surface behind the first one that a direct photon meets");
   if (plan.direct == Direct::kShadowRays)
-    notes->push_back("direct photons are not stored: shadow rays; saves a record per photon");
+    notes->push_back(
+        "direct photons are not stored: direct light comes from shadow rays; saves a record per photon");
   if (plan.direct == Direct::kSigned)
     notes->push_back(
-        "direct photons are not stored: only what shadow photons carry is subtracted; saves "
-        "a record per photon");
+        "direct photons are not stored: only the flux of shadow photons is subtracted; saves a record per "
+        "photon");
   if (plan.indirect != Indirect::kPhotons)
     notes->push_back(std::string("indirect photons are not traced: indirect light ") +
-                     (plan.indirect == Indirect::kPaths ? "by paths" : "is off") +
-                     "; saves each photon's path behind its first diffuse surface");
+                     (plan.indirect == Indirect::kPaths ? "comes from paths" : "is off") +
+                     "; saves each photon's path after its first diffuse surface");
 }
 
 void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
@@ -96,11 +96,11 @@ void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
   if (plan->caustics == Caustic::kOff && plan->indirect == Indirect::kPaths && needs.only_delta_lights &&
       needs.delta)
     plan->notes.push_back(
-        "caustics are off: light of point, spot or distant lights through specular surfaces is missing "
+        "caustics are off: light from point, spot or distant lights through specular surfaces is missing "
         "from the indirect light too");
   if (plan->caustics == Caustic::kOff && needs.diffuse)
     plan->notes.push_back(
-        "caustics are off: light that reaches a diffuse surface through mirror or glass is left out");
+        "caustics are off: light that reaches diffuse surfaces by way of mirrors or glass is left out");
 }
 
 }  // namespace
