@@ -18,7 +18,7 @@ namespace kaustik::app {
 
 namespace {
 
-// Breaks descriptions into lines: CLI11 indents them but leaves them as long as they are.
+// Wraps the descriptions of options: CLI11 indents them but does not break lines.
 class WrappingFormatter : public CLI::Formatter {
  public:
   std::string make_option_desc(const CLI::Option* option) const override {
@@ -49,8 +49,9 @@ struct Program {
     parser.formatter(std::make_shared<WrappingFormatter>());  // the commands inherit it
     parser.require_subcommand(1);
     parser.footer(
-        "Exit codes: 0 done, 1 failure while rendering or above a limit, 2 bad command line, 3 bad scene, "
-        "130 interrupted.\n`kaustik COMMAND --help` explains a command.");
+        "Exit codes: 0 success, 1 failure while rendering or writing, or a limit exceeded, 2 bad command "
+        "line, "
+        "3 bad scene, 130 interrupted.\n`kaustik COMMAND --help` explains a command.");
     commands.push_back(make_render_command(parser));
     commands.push_back(make_resume_command(parser));
     commands.push_back(make_merge_command(parser));
@@ -62,7 +63,7 @@ struct Program {
     commands.push_back(make_sweep_command(parser));
   }
 
-  // The command that was given; null before parsing, or without one.
+  // The command that was given; null before parsing and when there is none.
   const Command* given() const {
     for (const Command& command : commands) {
       if (command.parser->parsed()) return &command;
@@ -79,7 +80,8 @@ std::vector<std::string> option_names(const CLI::App& parser) {
   return names;
 }
 
-// "unknown option --kernal; did you mean `--kernel`?"
+// The message for arguments that the parser does not know, such as "unknown option --kernal; did you mean
+// --kernel?".
 std::string describe_extras(const Program& program, const Command* command) {
   const CLI::App& parser = command ? *command->parser : program.parser;
   const std::vector<std::string> extras = program.parser.remaining(true);
@@ -99,7 +101,8 @@ std::string describe_extras(const Program& program, const Command* command) {
   return fmt::format("unknown command {}{}", extras.front(), name_hint(extras.front(), names));
 }
 
-// Help and version are "errors" of CLI11 too, with exit code zero.
+// Reports a parse error and returns the exit code. CLI11 throws for --help and --version too, with exit code
+// 0.
 int report_parse_error(const Program& program, const CLI::ParseError& error, std::ostream& out,
                        std::ostream& err) {
   if (error.get_exit_code() == 0) return program.parser.exit(error, out, err);
@@ -109,7 +112,7 @@ int report_parse_error(const Program& program, const CLI::ParseError& error, std
                        (!command && dynamic_cast<const CLI::RequiredError*>(&error) &&
                         !program.parser.remaining(true).empty());
   err << name << ": " << (unknown ? describe_extras(program, command) : std::string(error.what())) << '\n'
-      << "`" << name << " --help` lists what is known\n";
+      << "`" << name << " --help` lists the " << (command ? "options" : "commands") << '\n';
   return kBadCommandLine;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The program's entry as a function, so that the tests can call it in their own process.
+// The program's entry point as a function, so that tests can call it in their own process.
 
 #include <iosfwd>
 
@@ -7,10 +7,10 @@ namespace kaustik::app {
 
 enum ExitCode {
   kDone = 0,
-  kFailed = 1,          // while rendering or writing; `compare` above its limit
-  kBadCommandLine = 2,  // nothing was started
-  kBadScene = 3,        // the messages carry file:line:column
-  kInterrupted = 130    // SIGINT or SIGTERM
+  kFailed = 1,          // failure while rendering or writing; `compare` above its limit
+  kBadCommandLine = 2,  // found before any work was done
+  kBadScene = 3,        // reported with file:line:column
+  kInterrupted = 130    // by SIGINT or SIGTERM
 };
 
 // Runs one command line. Results go to `out`; progress, log and errors go to `err`. Throws nothing.

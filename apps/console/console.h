@@ -1,5 +1,5 @@
 #pragma once
-// Where the program speaks: results on one stream, log and errors on the other.
+// The program's output: results go to one stream, log and errors to another.
 
 #include <ostream>
 #include <string_view>
@@ -7,13 +7,13 @@
 namespace kaustik::app {
 
 struct Console {
-  std::ostream& out;                     // results: reports of compare and info
+  std::ostream& out;                     // results, such as the reports of compare and info
   std::ostream& err;                     // log, progress, warnings, errors
-  bool terminal = false;                 // err is one: the progress bar may redraw its line
-  bool quiet = false;                    // no log and no progress; warnings and errors still come
-  std::string_view command = "kaustik";  // begins error messages
+  bool terminal = false;                 // err is a terminal, so the progress bar may redraw its line
+  bool quiet = false;                    // suppress log and progress, but not warnings and errors
+  std::string_view command = "kaustik";  // prefix of warnings and errors
 
-  // One line of log.
+  // Writes one line to the log.
   void note(std::string_view line) const {
     if (!quiet) err << line << '\n';
   }

@@ -1,5 +1,5 @@
 #pragma once
-// How a command ends early: caught in run(), which prints the message and returns the code.
+// The exception that ends a command early. run() catches it, prints the message and returns the code.
 
 #include <stdexcept>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace kaustik::app {
 
-// An empty message prints nothing: everything has been said.
+// An empty message prints nothing, for errors that have been reported already.
 class ExitError : public std::runtime_error {
  public:
   ExitError(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

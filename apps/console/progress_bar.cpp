@@ -9,8 +9,8 @@ namespace kaustik::app {
 
 namespace {
 
-constexpr double kRedrawSeconds = 0.1;  // on a terminal
-constexpr double kLineSeconds = 5;      // elsewhere
+constexpr double kRedrawSeconds = 0.1;  // least time between redraws on a terminal
+constexpr double kLineSeconds = 5;      // least time between lines in a log
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<uint64_t>(std::ceil(seconds));

@@ -1,5 +1,5 @@
 #pragma once
-// One line that shows how far a render is and when it will be done.
+// Shows the progress of a render and its estimated time left on one line.
 
 #include <chrono>
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace kaustik::app {
 
-// "photons  [########------------]  40 %  1:05 left". left: seconds, negative when unknown.
+// For example "photons  [########------------]  40 %  ETA 1:05". `left`: seconds, negative when unknown.
 std::string progress_line(std::string_view phase, double fraction, double left);
 
-// On a terminal the line is redrawn in place; elsewhere a new line comes every few seconds; nothing when
-// quiet. update() is not thread-safe: the renderer serialises its calls.
+// Redraws its line in place on a terminal, and writes a new line every few seconds elsewhere; silent when
+// console.quiet. update() is not thread-safe: the renderer serialises its calls.
 class ProgressBar {
  public:
   explicit ProgressBar(const Console& console) : console_(console) {}
@@ -22,9 +22,9 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void update(const render::Progress& progress);
-  // Follows every line from now on.
+  // Sets a text that is appended to every line from now on.
   void remark(std::string text) { remark_ = std::move(text); }
-  // Takes the bar off the terminal.
+  // Removes the bar from the terminal.
   void clear();
 
  private:
@@ -32,7 +32,7 @@ class ProgressBar {
 
   const Console& console_;
   std::string phase_, remark_;
-  // On a terminal the first line comes at once, in a log when there is something to say.
+  // On a terminal the first line is drawn at once; in a log it comes after kLineSeconds.
   Clock::time_point phase_start_, last_drawn_ = console_.terminal ? Clock::time_point() : Clock::now();
   bool visible_ = false;
 };

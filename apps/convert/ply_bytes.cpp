@@ -23,7 +23,7 @@ bool are_floats(const std::vector<double>& values) {
   });
 }
 
-// Per vertex values of a mesh; null when absent.
+// The values of a mesh's parameter; null when absent.
 const std::vector<double>* values_of(const ShapeDescription& mesh, std::string_view name) {
   const Parameter* p = mesh.find(name);
   return p ? &p->numbers : nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes of a description as PLY files.
+// Writes the meshes of a scene description as PLY files.
 
 #include <optional>
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace kaustik::app {
 
-// A "trianglemesh" as a binary little-endian PLY file: positions, normals, u and v as floats. Nothing where
-// that would lose something: numbers that are no floats, or parameters per face.
+// A "trianglemesh" as the bytes of a binary little-endian PLY file with positions, normals, u and v as
+// floats. Nothing if that would lose information (numbers that floats cannot hold, parameters per face) or
+// the mesh is invalid.
 std::optional<std::string> ply_bytes(const ShapeDescription& mesh);
 
 }  // namespace kaustik::app

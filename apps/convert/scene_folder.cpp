@@ -29,7 +29,7 @@ SceneFolder::SceneFolder(fs::path scene)
 SceneFolder::~SceneFolder() {
   files_.clear();
   std::error_code ignored;
-  if (made_folder_ && !committed_) fs::remove(folder_, ignored);  // only when it is empty
+  if (made_folder_ && !committed_) fs::remove(folder_, ignored);  // removes it only if it is empty
 }
 
 fs::path SceneFolder::new_file(const std::string& name) {

@@ -1,5 +1,5 @@
 #pragma once
-// A converted scene on its way to the disk.
+// Writes a converted scene and its files to disk.
 
 #include <deque>
 #include <filesystem>
@@ -11,15 +11,15 @@
 
 namespace kaustik::app {
 
-// NAME.pbrt, and the folder NAME-files beside it for meshes and images. Everything is written to temporary
-// names; commit() renames, the scene last. Without it nothing is left, and what was there is as it was. All
-// functions throw std::runtime_error with the path and the system's reason.
+// Writes NAME.pbrt, and beside it the folder NAME-files for meshes and images. All files get temporary names
+// until commit() renames them, the scene last. Without commit() the destructor removes them, and existing
+// files stay unchanged. All functions throw std::runtime_error with the path and the system's reason.
 class SceneFolder {
  public:
   explicit SceneFolder(std::filesystem::path scene);
   ~SceneFolder();
 
-  // Both give the name to write into the scene. A file that was copied before has the same name.
+  // Both return the name to write into the scene. Copying a file again returns the same name.
   std::string copy(const std::filesystem::path& file);
   std::string add_mesh(const std::string& bytes);
   void commit(const std::string& text);

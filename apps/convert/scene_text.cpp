@@ -79,7 +79,7 @@ class Writer {
     }
   }
 
-  // is_file: of a directive whose strings may be names of files.
+  // `may_be_file`: the directive's string parameters may be file names.
   void parameter(const Parameter& p, bool may_be_file) {
     constexpr size_t kPerLine = 12;
     const bool file = may_be_file && p.type == ParameterType::kString &&
@@ -95,7 +95,7 @@ class Writer {
     out_ += " ]";
   }
 
-  // Defaults of a block that mean nothing to this type were left alone, and are not written.
+  // Skips inherited defaults (from `Attribute`) that this type does not take.
   void parameters(std::string_view directive, const Directive& d, bool may_be_file = true) {
     const TypeSpec* type = nullptr;
     for (const Category& c : categories()) {
@@ -114,7 +114,7 @@ class Writer {
     parameters(word, d, may_be_file);
   }
 
-  // The whole current transform is replaced.
+  // `Transform` replaces the whole current transform.
   void transform(const glm::dmat4& m) {
     out_.append(indent_, ' ');
     out_ += "Transform [";
@@ -184,7 +184,7 @@ class Writer {
     end();
   }
 
-  // What the PLY file does not hold stays in the text.
+  // Writes a "plymesh"; parameters that the PLY file does not hold stay in the text.
   void mesh_line(const ShapeDescription& shape, const std::string& file) {
     ShapeDescription rest = shape;
     rest.type = "plymesh";

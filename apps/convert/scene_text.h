@@ -1,5 +1,5 @@
 #pragma once
-// A scene description as text in pbrt-v4's format.
+// Writes a scene description as text in pbrt-v4's format.
 
 #include <functional>
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace kaustik::app {
 
-// What stands beside the text.
+// How the text names the files beside it.
 struct SceneTextFiles {
-  // The name to write for a file that a parameter names.
+  // Returns the name to write for a file that a parameter names.
   std::function<std::string(const std::string& name, const SourceLocation& where)> file;
-  // Takes a shape "trianglemesh"; gives the name of a PLY file that holds its vertices and faces, or an empty
-  // one where they are to be written into the text.
+  // Takes a shape "trianglemesh" and returns the name of a PLY file that holds its vertices and faces, or an
+  // empty string to have them written into the text.
   std::function<std::string(const ShapeDescription& shape)> mesh;
 };
 
-// Read again, it gives the same scene: numbers are written as short as they can be without changing, matrices
-// in full. Materials all have names; those that had none are called "material N". What was written in blocks,
-// includes, spectra or other color spaces is written out.
+// Reading the text gives the same scene: numbers have as few digits as identify them, matrices are written in
+// full. Unnamed materials are called "material N". The result has no includes, spectra or other colour
+// spaces, and each directive carries its own transform.
 std::string scene_text(const SceneDescription& scene, const SceneTextFiles& files);
 
 }  // namespace kaustik::app

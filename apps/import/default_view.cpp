@@ -61,7 +61,7 @@ glm::dmat4 camera_looking_at(const glm::dvec3& eye, const glm::dvec3& target) {
 void add_missing_view(SceneDescription& scene, const SourceLocation& where, DiagnosticList& diagnostics) {
   if (!scene.camera) {
     add_camera(scene, where);
-    diagnostics.warning(where, "the file has no camera: one that sees all of the scene is used");
+    diagnostics.warning(where, "the file has no camera: one that sees the whole scene is used");
   }
   if (scene.lights.empty() && scene.area_lights.empty()) {
     DirectiveMaker<LightDescription> sky("infinite", where);

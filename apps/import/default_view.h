@@ -1,17 +1,17 @@
 #pragma once
-// What a scene of another format lacks before it can be rendered.
+// Adds a camera and a light to scenes of other formats (glTF, OBJ) that have none.
 
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik {
 
-// A camera that sees the box of all shapes from the side of +z and a little above, and a white sky of
-// radiance 1 where nothing shines: each with a warning that says so.
+// Adds, each with a warning, what the scene lacks: a camera that sees the bounding box of all shapes from +z
+// and slightly above, and a white sky of radiance 1.
 void add_missing_view(SceneDescription& scene, const SourceLocation& where, DiagnosticList& diagnostics);
 
-// The camera's transform: it stands at `eye` and looks at `target`, +y up, +x of a right-handed world to its
-// right (pbrt's LookAt is for left-handed ones).
+// The camera-to-world transform of a camera at `eye` that looks at `target`, with +y up. For right-handed
+// worlds: seen along -z, +x points right. (pbrt's LookAt assumes a left-handed world.)
 glm::dmat4 camera_looking_at(const glm::dvec3& eye, const glm::dvec3& target);
 
 }  // namespace kaustik

@@ -14,7 +14,8 @@ constexpr uint64_t kMostPixels = uint64_t{1} << 28;
 
 using render::ImageNumbers;
 
-// Grey images have their one channel as red, green and blue, and alpha last.
+// Channel 0 to 3 (RGBA) of a pixel. A grey image's one channel serves as red, green and blue; a missing alpha
+// is 1.
 double at(const ImageNumbers& image, size_t pixel, int channel) {
   const int channels = image.channels;
   const bool grey = channels < 3;

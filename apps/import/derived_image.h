@@ -1,5 +1,5 @@
 #pragma once
-// Images made from others. Each function gives what went wrong, or nothing.
+// Makes image files from others. The functions `write_...` return an error message, or nothing on success.
 
 #include <filesystem>
 #include <functional>
@@ -9,14 +9,15 @@
 
 namespace kaustik::gltf {
 
-// Colours, which are sRGB, times a factor in linear light: an sRGB PNG.
+// Multiplies the colours of an sRGB image by `factor` in linear light and writes an sRGB PNG.
 std::optional<std::string> write_tinted(const std::filesystem::path& from, const std::filesystem::path& to,
                                         const glm::dvec3& factor);
-// One channel (0 to 3) of an image, 1 where there is none, mapped to a grey PNG of 16 bits. Where no pixel
-// differs from another the image is still written.
+// Applies `map` to one channel (0 to 3) of an image and writes a 16-bit grey PNG. A missing alpha channel
+// counts as 1. Constant results are written too.
 std::optional<std::string> write_channel(const std::filesystem::path& from, const std::filesystem::path& to,
                                          int channel, const std::function<double(double)>& map);
-// Of the numbers, decoded first where they are sRGB.
+// The mean of all pixels, in linear light: sRGB values are decoded first. Nothing, with a message in `error`,
+// when the image cannot be read.
 std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error);
 
 }  // namespace kaustik::gltf

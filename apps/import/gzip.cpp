@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kBlock = size_t{4} << 20;
 
-// An inflater that is released with its owner.
+// Owns a zlib inflate stream.
 struct Inflater {
   z_stream stream{};
   bool open = false;
@@ -34,13 +34,13 @@ std::optional<std::string> unpack_gzip(std::string_view bytes, std::string& erro
   const uint64_t most = std::max(kFreeGzipBytes, kMostGzipRatio * uint64_t{bytes.size()});
   Inflater inflater;
   z_stream& stream = inflater.stream;
-  size_t taken = 0;  // bytes handed over; the stream still has avail_in of them
+  size_t taken = 0;  // bytes handed to the stream; the last avail_in of them are not consumed yet
   std::string out;
   const auto fail = [&](std::string_view what) {
     error = fmt::format("byte {} of the gzip file: {}", taken - stream.avail_in, what);
     return std::nullopt;
   };
-  if (!inflater.open) return fail("no memory to unpack it");
+  if (!inflater.open) return fail("there is no memory to unpack it");
   while (true) {
     if (stream.avail_in == 0) {
       const size_t part = std::min<size_t>(bytes.size() - taken, std::numeric_limits<int>::max());

@@ -1,5 +1,5 @@
 #pragma once
-// gzip files (RFC 1952), unpacked in memory.
+// Unpacks gzip files (RFC 1952) in memory.
 
 #include <cstdint>
 #include <optional>
@@ -8,14 +8,15 @@
 
 namespace kaustik::pbrt {
 
-// What is unpacked may be so many times as long as the file, beyond so many bytes: a mesh never is.
+// Guard against files that unpack to absurd sizes: the output may be at most kMostGzipRatio times as long as
+// the file, or kFreeGzipBytes long, whichever is more. No real mesh comes close.
 inline constexpr uint64_t kMostGzipRatio = 128;
 inline constexpr uint64_t kFreeGzipBytes = uint64_t{64} << 20;
 
-// By the file's first two bytes.
+// Decides by the first two bytes.
 bool is_gzip(std::string_view bytes);
-// Nothing, with a sentence that says where in the file, when it is damaged, ends early or unpacks to too
-// much.
+// The unpacked bytes; nothing, with a message in `error` that names the byte, when the file is damaged, ends
+// early or unpacks to more than the limits above.
 std::optional<std::string> unpack_gzip(std::string_view bytes, std::string& error);
 
 }  // namespace kaustik::pbrt

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint64_t kLargestImageFile = uint64_t{1} << 32;
 
-// Nothing, with the reason in `error`, where the file cannot be read.
+// The ContentHash of a file; nothing, with a message in `error`, when it cannot be read.
 std::optional<std::string> hash_of(const std::filesystem::path& path, std::string& error) {
   const auto bytes = read_bytes(path, kLargestImageFile, error);
   if (!bytes) return std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-// The image files that a scene names: what lights emit, and textures.
+// Loads the image files that a scene names: emission images of lights, and textures.
 
 #include <filesystem>
 #include <mutex>
@@ -10,26 +10,27 @@
 
 namespace kaustik::pbrt {
 
-// More pixels are refused: 8192 x 8192, 805 MB in memory.
+// Emission images with more pixels than this are refused: 8192 x 8192, 805 MB in memory.
 inline constexpr uint64_t kMostLightPixels = uint64_t{1} << 26;
 
-// Any format that render::image_formats() reads, whole; 8 and 16 bit integers are decoded from sRGB. content:
-// takes the ContentHash of the file, if it could be read. Thread-safe.
+// Reads a whole image in any format that render::image_formats() knows; 8- and 16-bit integers are decoded
+// from sRGB. `content` receives the ContentHash of the file if it could be read. Thread-safe.
 LightImageResult load_light_image(const std::filesystem::path& path, std::string* content = nullptr);
 
-// The textures of a scene. Made with the first of them: a scene without any does not ask for image_formats().
+// The textures of a scene. The library that holds them is made when the first one is loaded, so a scene
+// without textures never asks for image_formats().
 class SceneTextures {
  public:
-  // See TextureImages::load. content: as above. Thread-safe.
+  // See TextureImages::load. `content` receives the ContentHash of the file if it could be read. Thread-safe.
   ImageResult load(const std::filesystem::path& path, const ImageEncoding& encoding, std::string* content);
 
-  // Null where nothing was loaded.
+  // Null when no texture was loaded.
   std::shared_ptr<const ImageLibrary> library() const { return textures_; }
 
  private:
   render::TextureImages& textures();
 
-  std::mutex mutex_;  // of making them
+  std::mutex mutex_;  // guards the creation of textures_
   std::shared_ptr<render::TextureImages> textures_;
 };
 

@@ -15,7 +15,7 @@ namespace kaustik::pbrt {
 
 namespace {
 
-// What the meshes and images that a scene names hold, by name; filled from several threads.
+// Content hashes of the meshes and images that a scene names, by name. add() is thread-safe.
 class NamedContents {
  public:
   void add(const std::string& name, std::string content) {
@@ -29,12 +29,13 @@ class NamedContents {
   std::set<std::pair<std::string, std::string>> contents_;
 };
 
-// Of the texts in the order in which they were opened, then of the other files in the order of their names.
+// Hashes the scene texts in the order in which they were opened, then the other files in the order of their
+// names.
 std::string content_hash(const SourceFiles& files, const NamedContents& named) {
   ContentHash hash;
   const auto add = [&hash](std::string_view text) {
     const uint64_t size = text.size();
-    hash.add(&size, sizeof size);  // so that no end of one is taken for the beginning of the next
+    hash.add(&size, sizeof size);  // separates the texts: moving bytes from one to the next changes the hash
     hash.add(text);
   };
   for (uint32_t i = 0; i < files.size(); ++i) add(files.text(i));

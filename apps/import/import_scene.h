@@ -1,5 +1,6 @@
 #pragma once
-// Reads scenes: pbrt-v4's text format (docs/reference/scene_format.md), and by their ending glTF and OBJ.
+// Reads scenes in pbrt-v4's text format (docs/reference/scene_format.md), glTF and OBJ; the file name's
+// extension decides.
 
 #include <filesystem>
 #include <optional>
@@ -10,22 +11,23 @@
 
 namespace kaustik::pbrt {
 
-// Reads the file, and what it includes, into a description; meshes are not opened. After errors the
-// description holds what could be read, so that later stages can report theirs in the same run: ask
-// diagnostics.has_errors(). Nothing when the file itself cannot be read. Throws nothing but std::bad_alloc.
+// Reads the file and the files that it includes into a description; meshes are not opened. After errors the
+// description holds what could be read, so that later stages can report their errors in the same run: call
+// diagnostics.has_errors(). Nothing when the file itself cannot be read. Throws only std::bad_alloc.
 std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 struct LoadedScene {
   Scene scene;
-  // Film, sampler and integrator lines are left for the caller to interpret (apps/settings); their types and
-  // parameters are checked against the schema except those of the integrator.
+  // The film, sampler and integrator directives are left for the caller to interpret (apps/settings). Their
+  // types and parameters are checked against the schema, except those of the integrator.
   SceneDescription description;
-  // ContentHash of the file, what it includes and the meshes that it names, wherever they lie: in 32 digits.
+  // ContentHash, 32 hexadecimal digits, of the file, the files that it includes, and the meshes and images
+  // that it names. Their contents count, not their paths.
   std::string content_hash;
 };
 
-// import_scene, then build_scene with the meshes that it names, loaded in parallel. Nothing after any error;
-// diagnostics then holds all errors of the run, ordered by place. Warnings alone do not fail.
+// Calls import_scene, then build_scene, which loads meshes and images in parallel. Nothing after any error;
+// `diagnostics` then holds all errors of both steps, sorted by location. Warnings do not make it fail.
 std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace kaustik::pbrt

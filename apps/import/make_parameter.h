@@ -1,5 +1,6 @@
 #pragma once
-// Parameters of directives that no text was written for: other formats, put into pbrt's words.
+// Builds directives and parameters in code: importers of other formats use it to express a scene as pbrt
+// directives.
 
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ inline Parameter make_parameter(ParameterType type, std::string name, std::strin
   return p;
 }
 
-// A directive whose parameters are added one after the other; all lie at the same place.
+// Builds a directive by adding parameters one after the other. All get the same source location.
 template <class D>
 class DirectiveMaker {
  public:

@@ -12,7 +12,7 @@ namespace kaustik::pbrt {
 
 namespace fs = std::filesystem;
 
-// Columns and lines are 32-bit numbers.
+// Bytes; source locations hold lines and columns as 32-bit numbers.
 constexpr uint64_t kLargestSceneFile = 0xffffffffu;
 
 fs::path resolve_path(const std::string& name, const fs::path& naming_file, const fs::path& main_file) {

@@ -1,11 +1,11 @@
 #pragma once
-// A folder for what a scene file holds within itself and only files can hand over.
+// A temporary folder for images that a scene file embeds: image readers take file names only.
 
 #include <filesystem>
 
 namespace kaustik {
 
-// Made below the system's folder for temporary files, and removed with all that is in it.
+// Created in the system's folder for temporary files; the destructor removes it with all its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder();  // throws std::filesystem::filesystem_error

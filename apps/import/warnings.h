@@ -6,7 +6,7 @@
 
 namespace kaustik {
 
-// Says each thing about a file once.
+// Reports each warning about a file once.
 class FileWarnings {
  public:
   FileWarnings(const SourceLocation& where, DiagnosticList& diagnostics)

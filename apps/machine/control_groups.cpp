@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether `name` is one of the comma-separated names.
+// Whether `name` is one of the comma-separated `names`.
 bool has_name(const std::string& names, std::string_view name) {
   std::istringstream stream(names);
   for (std::string part; std::getline(stream, part, ',');)
@@ -19,12 +19,13 @@ bool has_name(const std::string& names, std::string_view name) {
   return false;
 }
 
-// Where a hierarchy is mounted: `root` of it appears at `point`.
+// Where a hierarchy is mounted: its group `root` appears at the folder `point`.
 struct Mount {
   std::string root, point;
 };
 
-// Of /proc/self/mountinfo: "31 23 0:28 ROOT POINT options [tags] - TYPE source SUPER_OPTIONS".
+// Searches /proc/self/mountinfo, whose lines are "31 23 0:28 ROOT POINT options [tags] - TYPE source
+// SUPER_OPTIONS".
 std::optional<Mount> find_mount(CgroupVersion version, std::string_view controller, const std::string& root) {
   std::ifstream file(root + "/proc/self/mountinfo");
   for (std::string line; std::getline(file, line);) {
@@ -42,7 +43,8 @@ std::optional<Mount> find_mount(CgroupVersion version, std::string_view controll
   return std::nullopt;
 }
 
-// The process's group, of /proc/self/cgroup: "0::/path" for v2, "4:cpu,cpuacct:/path" for v1.
+// The process's group by /proc/self/cgroup, whose lines are "0::/path" for v2 and "4:cpu,cpuacct:/path" for
+// v1.
 std::optional<std::string> find_group(CgroupVersion version, std::string_view controller,
                                       const std::string& root) {
   std::ifstream file(root + "/proc/self/cgroup");
@@ -65,8 +67,7 @@ std::vector<fs::path> control_group_folders(CgroupVersion version, std::string_v
   const std::optional<std::string> group = find_group(version, controller, root);
   if (!mount || !group) return {};
   std::vector<fs::path> folders = {root + mount->point};
-  // A group outside the mount shows as "/..", or under another root: then only the mount point is ours to
-  // read.
+  // A group outside the mount shows as "/.." or under another root; only the mount point can be read then.
   const fs::path inside = fs::path(*group).lexically_relative(mount->root);
   if (inside.empty() || std::find(inside.begin(), inside.end(), "..") != inside.end()) return folders;
   for (const fs::path& name : inside)

@@ -1,12 +1,12 @@
 #pragma once
-// The instructions that decide the bits of a render.
+// Names the CPU instructions that a render uses; renders are bit-identical only for the same set.
 
 #include <string>
 
 namespace kaustik::app {
 
-// "AVX2 (avx fma avx2)": Highway's best target here, which the SIMD loops use, and the extensions by which
-// Embree and the mathematical library choose their code.
+// For example "AVX2 (avx fma avx2)": the Highway target that the SIMD loops use on this machine, and the
+// extensions by which Embree and the C library choose their code.
 std::string instruction_set();
 
 }  // namespace kaustik::app

@@ -32,7 +32,7 @@ Json cpu_model() {
   return nullptr;
 }
 
-// "48K" as the kernel writes it, in bytes.
+// Parses a size as the kernel writes it, such as "48K", into bytes.
 uint64_t cache_bytes(const std::string& text) {
   uint64_t bytes = 0;
   for (const char c : text) {
@@ -64,7 +64,7 @@ Json cores() {
           {"usable", limits.usable()}};
 }
 
-// The best first.
+// The Highway targets that this machine supports, best first.
 std::vector<std::string> highway_targets() {
   std::vector<std::string> names;
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(hwy::TargetName(target));

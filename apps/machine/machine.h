@@ -1,13 +1,13 @@
 #pragma once
-// The machine that a benchmark ran on, for whoever compares two of them.
+// Describes the machine that a benchmark ran on.
 
 #include "apps/bench/bench_result.h"
 
 namespace kaustik::app {
 
-// cpu, architecture, isa (Highway's best target here: what the SIMD loops use), caches of the first core,
-// cores (hardware, affinity, cgroup_quota, usable), memory_bytes, system, compiler, libraries. What the
-// system does not tell is null or left out.
+// Keys: cpu, architecture, isa (the Highway target that the SIMD loops use), caches of the first core, cores
+// (hardware, affinity, cgroup_quota, usable), memory_bytes, system, compiler, libraries. Values that the
+// system does not report are null or absent.
 Json machine_json();
 
 }  // namespace kaustik::app

@@ -1,10 +1,10 @@
 #pragma once
-// Makes render::peak_memory_bytes() the peak of what follows.
+// Restarts the measurement behind render::peak_memory_bytes().
 
 namespace kaustik::app {
 
-// Gives free memory back to the system and sets the peak to what is resident now (Linux 4.0, proc(5),
-// clear_refs). False where the system refuses: then the peak stays that of the whole process.
+// Returns free memory to the system and resets the peak to what is resident now (proc(5), clear_refs;
+// Linux 4.0 or later). False if the system refuses; the peak then remains that of the whole process.
 bool restart_peak_memory();
 
 }  // namespace kaustik::app

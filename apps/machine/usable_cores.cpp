@@ -1,4 +1,5 @@
-// Quotas: "CPU Interface Files" in the kernel's cgroup-v2.rst, and sched-bwc.rst for v1.
+// CPU quotas are described in the kernel's cgroup-v2.rst ("CPU Interface Files") and, for v1, in
+// sched-bwc.rst.
 
 #include "apps/machine/usable_cores.h"
 
@@ -49,7 +50,8 @@ std::optional<double> least_quota(const std::string& root) {
   return least;
 }
 
-// Machines may have more cores than a cpu_set_t: the kernel then refuses the size, and a larger one is tried.
+// A machine may have more cores than a cpu_set_t holds. The kernel then refuses the size, and the loop tries
+// a larger one.
 int cores_by_affinity(int otherwise) {
   for (int sets = 1; sets <= 64; sets *= 2) {
     std::vector<cpu_set_t> mask(static_cast<size_t>(sets));

@@ -1,6 +1,6 @@
 #pragma once
-// How many threads the process can keep busy: the machine's cores, its affinity mask and the CPU quota of its
-// control groups, whichever is least.
+// How many threads the process can keep busy: the minimum of the machine's cores, the process's affinity mask
+// and the CPU quota of its control groups.
 
 #include <optional>
 #include <string>
@@ -8,21 +8,21 @@
 
 namespace kaustik::app {
 
-// Cores that a cgroup v2 `cpu.max` grants: "150000 100000", microseconds of CPU time per period, is 1.5.
-// Nothing for "max ...", which is no limit, and for text that is none.
+// The cores that a cgroup v2 file `cpu.max` grants. It holds microseconds of CPU time and of the period:
+// "150000 100000" is 1.5 cores. Nothing for "max ...", which is no limit, and for malformed text.
 std::optional<double> parse_cpu_max(std::string_view text);
 
 struct CoreLimits {
   int hardware = 1;             // online in the machine
-  int affinity = 1;             // that the calling thread may run on
-  std::optional<double> quota;  // cores by cgroup v2 or v1: the least of the group's and its ancestors'
+  int affinity = 1;             // the calling thread may run on
+  std::optional<double> quota;  // the least quota of the cgroup (v2 or v1) and its ancestors, in cores
 
-  // The least of them, at least 1. A part of a core counts as one: less would leave it idle.
+  // The least of the three, at least 1. A fraction of a core counts as a whole one, so that it is not left
+  // idle.
   int usable() const;
 };
 
-// As they hold now. root: where /proc and /sys are looked for, for tests. A file that is missing sets no
-// limit.
+// The limits that hold now. `root`: a prefix of /proc and /sys, for tests. A missing file sets no limit.
 CoreLimits core_limits(const std::string& root = "");
 
 }  // namespace kaustik::app

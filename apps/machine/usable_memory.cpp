@@ -1,4 +1,5 @@
-// Limits: "Memory Interface Files" in the kernel's cgroup-v2.rst, and memory.txt of version 1.
+// Memory limits are described in the kernel's cgroup-v2.rst ("Memory Interface Files") and, for v1, in
+// memory.txt.
 
 #include "apps/machine/usable_memory.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 
-// "MemAvailable:   22243596 kB".
+// Reads the line "MemAvailable:   22243596 kB" of /proc/meminfo; bytes.
 uint64_t available_in_machine(const std::string& root) {
   std::ifstream file(root + "/proc/meminfo");
   std::string name, unit;
@@ -23,7 +24,7 @@ uint64_t available_in_machine(const std::string& root) {
   return kNoLimit;
 }
 
-// One number; version 2 writes "max" for none, version 1 a number near 2^63.
+// The file holds one number. For no limit, v2 writes "max" and v1 a number near 2^63.
 uint64_t limit_in(const std::filesystem::path& path) {
   std::ifstream file(path);
   uint64_t bytes = 0;

@@ -6,9 +6,9 @@
 
 namespace kaustik::app {
 
-// Bytes: what the kernel holds to be available (MemAvailable of /proc/meminfo, no swap), or the least limit
-// of the process's control groups where that is less. root: where /proc and /sys are looked for, for tests. A
-// file that is missing sets no limit; without any, the largest number.
+// In bytes, the minimum of the kernel's estimate (MemAvailable of /proc/meminfo, without swap) and the limits
+// of the process's control groups. `root`: a prefix of /proc and /sys, for tests. A missing file sets no
+// limit; without any limit, the largest uint64_t.
 uint64_t usable_memory(const std::string& root = "");
 
 }  // namespace kaustik::app

@@ -14,7 +14,7 @@ void Checkpoint::after_pass(const render::PassSums& sums) {
   try {
     write(sums);
   } catch (const std::exception& error) {
-    console_.warning(fmt::format("no checkpoint: {}", error.what()));
+    console_.warning(fmt::format("the checkpoint was not written: {}", error.what()));
   }
   since_written_ = {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Partial results written while a render is at work.
+// Writes partial results while a render is running.
 
 #include <string>
 
@@ -9,14 +9,14 @@
 namespace kaustik::app {
 
 struct CheckpointSettings {
-  std::string path;   // empty: none are written
+  std::string path;   // empty = no checkpoints
   double every = 60;  // seconds
 };
 
-// Written after the pass in which the time has run out, and at the end.
+// Writes a checkpoint after the pass in which its interval has elapsed, and at the end.
 class Checkpoint {
  public:
-  // outputs, goal: for the manifest. job and console must outlive it.
+  // `outputs` and `goal` go into the manifest. `job` and `console` must outlive the checkpoint.
   Checkpoint(CheckpointSettings settings, const Job& job, std::vector<std::string> outputs,
              render::PassSet goal, const Console& console)
       : settings_(std::move(settings)),
@@ -25,11 +25,12 @@ class Checkpoint {
         goal_(std::move(goal)),
         console_(console) {}
 
-  // Failures to write are warnings: the render goes on, and the next time may do.
+  // Writes a checkpoint if it is due. A failure to write is only a warning: the render continues, and the
+  // next attempt may succeed.
   void after_pass(const render::PassSums& sums);
-  // stopped_by: the rule that ended the render, or nothing. Unless the last one written holds these passes,
-  // and no rule did. False when there was nothing to write. Throws
-  // PartialError.
+  // Writes the last checkpoint, unless the file already holds these passes and no rule stopped the render.
+  // `stopped_by`: the rule that ended the render, or empty. False when checkpoints are off or no pass is
+  // complete. Throws PartialError.
   bool finish(const render::PassSums& sums, const std::string& stopped_by);
 
  private:

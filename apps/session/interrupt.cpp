@@ -7,7 +7,7 @@ namespace kaustik::app {
 
 namespace {
 
-// A signal handler can reach nothing but this.
+// A signal handler may only access lock-free atomics, so the flag is global.
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 

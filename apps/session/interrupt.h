@@ -1,10 +1,10 @@
 #pragma once
-// SIGINT and SIGTERM as a question that long work asks now and then.
+// Turns SIGINT and SIGTERM into a flag that long work polls.
 
 namespace kaustik::app {
 
-// While one lives, the first signal is remembered and a second one ends the process as usual. Restores the
-// previous handlers. One at a time.
+// While a guard exists, the first signal sets the flag and a second one ends the process as usual. The
+// destructor restores the previous handlers. Only one guard may exist at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -12,7 +12,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  // Whether a signal has come. From any thread.
+  // Whether a signal has arrived. Thread-safe.
   bool requested() const;
 
  private:

@@ -36,7 +36,7 @@ void check_writable(const std::string& path) {
   if (!fs::exists(folder, ignored)) refuse(path, fmt::format("there is no folder {}", folder.string()));
   if (!fs::is_directory(folder, ignored)) refuse(path, fmt::format("{} is not a folder", folder.string()));
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(path, std::strerror(errno));
-  if (fs::is_directory(path, ignored)) refuse(path, "this is a folder");
+  if (fs::is_directory(path, ignored)) refuse(path, "it is a folder");
 }
 
 void check_image_output(const std::string& path) {

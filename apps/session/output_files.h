@@ -1,20 +1,21 @@
 #pragma once
-// Files that a command will write: trouble is found before the work starts.
+// Checks and writes output files. The checks run before the work starts.
 
 #include <string>
 
 namespace kaustik::app {
 
 // Throws ExitError (bad command line) when no file of this name can be written: its folder is missing or
-// read-only, or the name is a folder's. Creates nothing.
+// read-only, or the name belongs to a folder. Creates nothing.
 void check_writable(const std::string& path);
 
-// check_writable, and the extension must be that of a picture that we write. Throws std::runtime_error where
-// its library cannot be loaded.
+// Like check_writable, and the extension must be one of a supported image format. Throws std::runtime_error
+// when the library for that format cannot be loaded.
 void check_image_output(const std::string& path);
 
-// Writes a whole text to a temporary name beside `path` and renames it, so that nobody sees half a file.
-// Throws std::runtime_error with the path and the system's reason; then nothing is left behind.
+// Writes a text to a temporary file beside `path` and renames it, so that no incomplete file is ever visible
+// under its name. Throws std::runtime_error with the path and the system's reason, and removes the temporary
+// file then.
 void write_text_file(const std::string& path, const std::string& text);
 
 }  // namespace kaustik::app

@@ -52,7 +52,7 @@ render::PartialManifest manifest_of(const Job& job, const std::vector<std::strin
                                     const render::PassSet& goal, const render::PassSums& sums,
                                     const std::string& stopped_by) {
   Settings settings = job.settings;
-  settings.render.passes = sums.shares;  // as many as memory asked for stay as many
+  settings.render.passes = sums.shares;  // the number of passes may have been raised to save memory
   render::PartialManifest manifest;
   manifest.build = program_build();
   manifest.isa = instruction_set();
@@ -82,7 +82,7 @@ SettingOverrides settings_of(const render::PartialManifest& manifest, const std:
     for (const auto& [name, texts] : *settings) {
       const Setting* setting = find_setting(name);
       if (!setting)
-        throw ExitError(kBadCommandLine, fmt::format("{}: it names an unknown setting `{}`", path, name));
+        throw ExitError(kBadCommandLine, fmt::format("{}: it contains an unknown setting `{}`", path, name));
       try {
         overrides.add(*setting, texts);
       } catch (const CLI::ValidationError& error) {
@@ -97,8 +97,8 @@ void check_program(const render::PartialManifest& manifest, const std::string& p
   const auto require = [&](const std::string& there, const std::string& here, std::string_view what) {
     if (there == here) return;
     throw ExitError(kBadCommandLine,
-                    fmt::format("{}: made by {} {}, this is {}: the passes would not fit together", path,
-                                what, there, here));
+                    fmt::format("{}: it was made with {} {}, but this is {}: their passes cannot be combined",
+                                path, what, there, here));
   };
   require(manifest.build, program_build(), "kaustik");
   require(manifest.isa, instruction_set(), "the instruction set");

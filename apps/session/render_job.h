@@ -1,5 +1,5 @@
 #pragma once
-// The rays' tree, then the picture: what `render` does once and `bench` many times.
+// Builds the BVH, then renders: `render` does this once, `bench` many times.
 
 #include "render/renderer.h"
 #include "render/statistics_json.h"
@@ -8,10 +8,10 @@ namespace kaustik::app {
 
 struct RenderOutcome {
   render::RenderResult result;
-  render::OuterTimes times;  // bvh alone
+  render::OuterTimes times;  // only `bvh` is set
 };
 
-// On the calling arena's threads; settings.threads bounds the build of the tree.
+// Runs on the threads of the calling task arena; settings.threads limits the build of the BVH.
 RenderOutcome render_job(const Scene& scene, const render::RenderSettings& settings,
                          const render::ProgressCallback& progress, render::RenderTask task = {});
 

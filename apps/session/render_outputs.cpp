@@ -15,17 +15,16 @@ namespace kaustik::app {
 
 namespace {
 
-// Where the photons' flux went, in shares of what the lights emitted.
+// Logs where the photons' flux went, as shares of the emitted flux.
 void report_energy(const render::RenderStatistics& s, const Console& console) {
   const photon::EnergyLedger& e = s.photons.energy;
   if (e.emitted == 0) return;
   const auto share = [&](int64_t units) { return 100 * double(units) / double(e.emitted); };
-  console.note(
-      fmt::format("energy: {:.5g} W emitted (R + G + B); absorbed {:.2f} %, escaped {:.2f} %, not followed "
-                  "further {:.2f} %, "
-                  "lost by roulette {:.2f} %",
-                  e.watts(e.emitted) / double(std::max<uint64_t>(1, s.passes)), share(e.absorbed),
-                  share(e.escaped), share(e.terminated), share(e.roulette)));
+  console.note(fmt::format(
+      "energy: {:.5g} W emitted (R + G + B); absorbed {:.2f} %, escaped {:.2f} %, in paths not followed "
+      "further {:.2f} %, lost by Russian roulette {:.2f} %",
+      e.watts(e.emitted) / double(std::max<uint64_t>(1, s.passes)), share(e.absorbed), share(e.escaped),
+      share(e.terminated), share(e.roulette)));
   if (e.unaccounted() != 0)
     console.warning(
         fmt::format("energy: {:.3g} % of the photons' flux is unaccounted for", share(e.unaccounted())));
@@ -45,37 +44,40 @@ void report_photons(const render::RenderResult& result, const Console& console) 
     console.note(fmt::format("photons: {} emitted; stored: {}", grouped(s.photons.emitted),
                              by_kind(s.photons.stored)));
   if (s.guided.emitted > 0)
-    console.note(fmt::format("guided photons: {} emitted; stored: {}; learned from {}, of which {} served",
-                             grouped(s.guided.emitted), by_kind(s.guided.stored), grouped(s.guide_photons),
-                             grouped(s.guide_hits)));
+    console.note(fmt::format(
+        "guided photons: {} emitted; stored: {}; guide learned from {} photons, of which {} were useful",
+        grouped(s.guided.emitted), by_kind(s.guided.stored), grouped(s.guide_photons),
+        grouped(s.guide_hits)));
   report_energy(s, console);
   if (s.radius > 0) console.note(fmt::format("gather radius: {:.4g} m", s.radius));
   if (result.plan.direct == render::DirectEstimator::kLecture) {
     console.note(fmt::format(
-        "lecture: {} points from photons ({} after climbing); shadow rays at {} with too few photons, "
-        "{} with shadow photons, {} near a cell's face",
+        "lecture: {} points decided by photons ({} of them in a larger cell); shadow rays at {} points with "
+        "too few "
+        "photons, {} with shadow photons, {} near a cell's face",
         grouped(s.lecture.from_photons), grouped(s.lecture.climbed), grouped(s.lecture.fallback_few),
         grouped(s.lecture.fallback_shadow), grouped(s.lecture.fallback_face)));
   }
 }
 
-// One pass alone tells no error.
+// The layers to write. Without the layers error and bias, and with a warning, if they are not known: the
+// error needs two passes.
 std::vector<render::Layer> layers_of(const Outcome& outcome, const Console& console) {
   const std::vector<std::string>& names = outcome.settings.render.aov;
   std::vector<render::Layer> layers = render::layers_from_names(names);
   const bool bias_known =
       !outcome.result.statistics.any_photons() || outcome.settings.render.estimate_bias.value_or(false);
   if (!bias_known && std::erase(layers, render::Layer::kBias) > 0 && names_error_layer(names))
-    console.warning("the layer bias is left out: these passes have not measured it");
+    console.warning("the layer bias is left out: these passes did not measure it");
   if (std::isfinite(outcome.result.error)) return layers;
   std::erase(layers, render::Layer::kError);
   std::erase(layers, render::Layer::kBias);
   if (names_error_layer(names))
-    console.warning("the layers error and bias are left out: they need two passes");
+    console.warning("the layers error and bias are left out: they need at least two passes");
   return layers;
 }
 
-// Of several passes.
+// Logs the error estimate; a single pass has none.
 void report_error(const render::RenderResult& result, const render::RenderSettings& settings,
                   const Console& console) {
   if (!std::isfinite(result.error)) return;
@@ -90,13 +92,13 @@ void add_output_options(CLI::App& parser, OutputOptions& options, const std::str
   parser
       .add_option(
           "-o,--output", options.files,
-          "File to write: .exr (float, with layers), .png, .jpg, or .kpart (a partial result). Give it "
-          "again for more files. Default: " +
+          "File to write: .exr (float, with layers), .png, .jpg, or .kpart (a partial result). Repeat the "
+          "option for more files. Default: " +
               by_default)
       ->option_text("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  parser.add_option("--stats", options.statistics, "Write counts, times and settings as JSON")
+  parser.add_option("--stats", options.statistics, "Write counts, times and settings to this JSON file")
       ->option_text("FILE");
 }
 
@@ -121,7 +123,7 @@ void write_outputs(const OutputOptions& options, const Outcome& outcome, render:
     write.metadata.emplace_back("kaustik:stopped_by", rule);
   write.tone = outcome.settings.tone;
   std::vector<std::string> written;
-  std::exception_ptr trouble;  // with one file must not cost the others
+  std::exception_ptr trouble;  // rethrown at the end, so that one bad file does not cost the others
   for (const std::string& path : options.files) {
     const bool partial = render::is_partial_name(path);
     if (partial && result.sums.passes.empty()) continue;
@@ -157,11 +159,12 @@ void report(const render::RenderResult& result, const render::OuterTimes& times,
       times.load, times.bvh, s.photon_trace_s, s.photon_build_s, s.render_s, times.write, times.total));
   if (s.dropped_samples > 0) {
     console.warning(
-        fmt::format("{} samples were not finite or negative and were left out", s.dropped_samples));
+        fmt::format("{} samples were negative or not finite and were dropped", s.dropped_samples));
     for (const render::DroppedSample& example : s.dropped_examples) console.note("  " + example.text());
   }
   if (s.clamped_sums > 0)
-    console.warning(fmt::format("{} sums of a pixel over a pass were out of range", s.clamped_sums));
+    console.warning(
+        fmt::format("{} pixel sums of a pass were out of range and were clamped", s.clamped_sums));
 }
 
 }  // namespace kaustik::app

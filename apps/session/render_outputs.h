@@ -1,5 +1,5 @@
 #pragma once
-// What the commands that end in pictures write and report.
+// Writes the output files and the closing report of the commands that make pictures.
 
 #include <string>
 #include <vector>
@@ -18,27 +18,28 @@ namespace kaustik::app {
 
 struct OutputOptions {
   std::vector<std::string> files;  // pictures and partial results
-  std::string statistics;          // empty: none
+  std::string statistics;          // empty = none
 };
 
-// -o and --stats. by_default: what is written without -o, for the help.
+// Adds -o and --stats. `by_default`: names what is written without -o, for the help.
 void add_output_options(CLI::App& parser, OutputOptions& options, const std::string& by_default);
 
-// Throws ExitError (bad command line) for what cannot be written.
+// Throws ExitError (bad command line) for a file that cannot be written.
 void check_outputs(const OutputOptions& options);
 
-// Everything that goes into the files.
+// Everything that goes into the output files.
 struct Outcome {
   const render::RenderResult& result;
   const Settings& settings;
   const render::PartialManifest& manifest;
 };
 
-// All files of options, partial results only when a pass is complete; fills times.write. The log says which.
+// Writes all files of `options`, partial results only if at least one pass is complete, and the report. The
+// log names each file. `times.write` is set here.
 void write_outputs(const OutputOptions& options, const Outcome& outcome, render::OuterTimes times,
                    const Console& console);
 
-// Photons, seconds, what was dropped.
+// Logs the photons, the times, and warnings about dropped samples.
 void report(const render::RenderResult& result, const render::OuterTimes& times, const Console& console);
 
 }  // namespace kaustik::app

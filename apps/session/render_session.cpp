@@ -28,14 +28,16 @@ render::RenderResult render_with_bar(const Job& job, const accel::Bvh& bvh, rend
       std::move(task));
 }
 
-// What fills the time: photons of its only pass, or null where there are several.
+// Chooses settings that fill --time. Returns the photons of the only pass, or null when there are several
+// passes.
 std::shared_ptr<render::FirstPhotons> fill_time(const accel::Bvh& bvh, const InterruptGuard& interrupt,
                                                 const Stopwatch& total, const Console& console, Job* job) {
   const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
   return settle_time(job->scene, bvh, total, go_on, console, &job->settings);
 }
 
-// Open where a rule says when to stop; what there is, where it has already.
+// The passes to render: open-ended if a rule decides when to stop, and only the finished ones if the rule is
+// already met.
 render::PassSet goal_of(const Job& job, const RenderSession& session, StopRule& rule) {
   if (rule.met_by(session.done)) return session.done.passes;
   const bool open = job.settings.stop.any() && !session.bounded;
@@ -46,22 +48,21 @@ double seconds_of(const render::RenderStatistics& s) {
   return s.photon_trace_s + s.photon_build_s + s.render_s;
 }
 
-// What an interrupted render leaves.
+// The message that tells what an interrupted render leaves behind.
 std::string interruption(const render::RenderResult& result) {
   switch (result.shown) {
     case render::Shown::kPasses:
       return fmt::format("interrupted: the picture shows passes {}", result.sums.passes.text());
     case render::Shown::kTiles:
-      return "interrupted in the first pass: the picture shows the tiles that were finished, black "
-             "elsewhere; "
-             "there is no pass to go on from";
+      return "interrupted in the first pass: the picture shows the finished tiles and is black elsewhere; "
+             "there is no complete pass to resume from";
     case render::Shown::kNothing:
       break;
   }
-  return "interrupted before a tile was finished: nothing was written";
+  return "interrupted before the first tile was finished: nothing was written";
 }
 
-// How the rule ended the render, if it did.
+// Logs which rule ended the render, if one did.
 void report_stop(const StopRule& rule, const render::RenderResult& result, const Console& console) {
   if (rule.reason().empty()) return;
   const std::string error = rule.progress();
@@ -70,7 +71,8 @@ void report_stop(const StopRule& rule, const render::RenderResult& result, const
                            passes == 1 ? "" : "es", error.empty() ? "" : ": ", error));
 }
 
-// Pictures take little from the manifest; all of it names the versions of libraries that they may not need.
+// Only partial results need a full manifest. It names library versions, for which OpenImageIO must be loaded,
+// so pictures alone get a short one.
 render::PartialManifest manifest_for_outputs(const Job& job, const RenderSession& session,
                                              const render::PassSums& sums, const std::string& stopped_by) {
   if (writes_sums(session)) return manifest_of(job, session.outputs.files, session.goal, sums, stopped_by);
@@ -85,13 +87,13 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   const render::RenderResult& result = outcome.result;
   if (result.cancelled) console.error(interruption(result));
   if (result.shown == render::Shown::kNothing) return kInterrupted;
-  // A checkpoint that cannot be written must not cost the pictures, nor the other way round.
+  // If the checkpoint cannot be written, the pictures still are, and vice versa.
   bool checkpoint_written = false;
   std::string trouble;
   try {
     checkpoint_written = checkpoint.finish(result.sums, rule.reason());
   } catch (const std::exception& error) {
-    trouble = fmt::format("no checkpoint: {}", error.what());
+    trouble = fmt::format("the checkpoint was not written: {}", error.what());
   }
   const render::PartialManifest manifest = manifest_for_outputs(job, session, result.sums, rule.reason());
   report_stop(rule, result, console);
@@ -112,7 +114,7 @@ bool writes_sums(const RenderSession& session) {
 int run_session(Job job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console) {
   int code = kDone;
-  if (writes_sums(session)) program_build();  // asks Embree for its version, now that it is not at work
+  if (writes_sums(session)) program_build();  // asks Embree for its version before it starts to work
   with_thread_limit(job.settings.render.threads, [&] {
     render::OuterTimes times{.load = job.load_seconds};
     const Stopwatch watch;
@@ -121,7 +123,7 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     std::shared_ptr<render::FirstPhotons> photons;
     if (session.fill_time) photons = fill_time(bvh, interrupt, total, console, &job);
     times.trials = watch.seconds() - times.bvh - (photons ? seconds_of(photons->statistics) : 0);
-    if (photons) job.settings.stop.seconds.reset();  // nothing is left to stop
+    if (photons) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)

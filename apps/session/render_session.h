@@ -1,6 +1,6 @@
 #pragma once
-// What `render` and `resume` have in common: passes under a progress bar, checkpoints, files at the end or
-// when a signal comes.
+// What `render` and `resume` share: they render passes with a progress bar and checkpoints, and write files
+// at the end or after a signal.
 
 #include "apps/session/checkpoint.h"
 #include "apps/session/interrupt.h"
@@ -11,21 +11,22 @@ namespace kaustik::app {
 struct RenderSession {
   OutputOptions outputs;
   CheckpointSettings checkpoint;
-  render::PassSet goal;    // empty: all passes that the settings ask for
-  bool bounded = false;    // also where a rule says when to stop, which else knows no last pass
-  render::PassSums done;   // passes that are there, and in the checkpoint's file
-  bool fill_time = false;  // with as many photons and samples, see settle_time()
+  render::PassSet goal;  // empty = all passes that the settings ask for
+  bool bounded =
+      false;  // `goal` holds even with a stop rule, which otherwise renders an open-ended number of passes
+  render::PassSums done;   // finished passes, from a partial result
+  bool fill_time = false;  // choose photons and samples that fill --time, see settle_time()
 };
 
-// Whether files hold complete passes, which can be gone on with: checkpoints, partial results.
+// Whether the session writes complete passes that can be resumed: checkpoints or partial results.
 bool writes_sums(const RenderSession& session);
 
-// Within a thread limit of its own. Returns the exit code: done, or interrupted after writing what there is.
-// total: started when the command was.
+// Renders and writes all files, within a thread limit of its own. Returns the exit code; after an
+// interruption it writes what is finished. `total`: started with the command.
 int run_session(Job job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console);
 
-// --checkpoint-every: for options of commands. Throws CLI::ValidationError.
+// Parses the value of --checkpoint-every into seconds. Throws CLI::ValidationError.
 double checkpoint_interval(const std::string& text);
 
 }  // namespace kaustik::app

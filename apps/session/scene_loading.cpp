@@ -15,8 +15,7 @@ namespace kaustik::app {
 
 namespace {
 
-// Prints all that was found. Scene and settings are reported together, so that one run shows every error of a
-// file.
+// Prints the errors and warnings of scene and settings together, so that one run shows every error of a file.
 void print_diagnostics(const Diagnostics& diagnostics, const Console& console) {
   console.err << diagnostics.format_all();
 }
@@ -32,8 +31,8 @@ bool names_place(const DiagnosticList& diagnostics, const SourceLocation& place)
   });
 }
 
-// The scene could not be built: look at its settings too before giving up. What is out of range for the
-// scene's schema and for the setting that it becomes is said once.
+// Reports a scene that could not be built, together with the errors of its settings. An error that both the
+// schema and the settings find is reported once.
 [[noreturn]] void report_broken_scene(const std::string& path, const Diagnostics& diagnostics,
                                       const Console& console) {
   print_diagnostics(diagnostics, console);
@@ -50,7 +49,8 @@ bool names_place(const DiagnosticList& diagnostics, const SourceLocation& place)
   refuse_scene(path, errors);
 }
 
-// The image's size: the scene's, or the command line's with the missing side in proportion.
+// Sets the image size: the command line's, or the scene's. If only one side is given, the other keeps the
+// scene's aspect ratio.
 void resolve_size(const SceneSettings& file, const render::RenderSettings& settings, Camera& camera) {
   int width = settings.width, height = settings.height;
   const double aspect = double(file.width) / double(file.height);
@@ -72,12 +72,12 @@ void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides, 
   const render::CropWindow& crop = settings.crop;
   if (!crop.empty() && (crop.x1 > camera.width || crop.y1 > camera.height)) {
     throw ExitError(kBadCommandLine,
-                    fmt::format("--crop {} {} {} {} reaches out of the {} x {} image", crop.x0, crop.x1,
+                    fmt::format("--crop {} {} {} {} reaches beyond the {} x {} image", crop.x0, crop.x1,
                                 crop.y0, crop.y1, camera.width, camera.height));
   }
 }
 
-// Bytes of the film of a pass, of the totals and of the picture.
+// Bytes that the film of a pass, the totals and the final picture take.
 uint64_t film_of(const Job& job) {
   const uint64_t pixels = render::rendered_range(job.settings.render.crop, job.scene.camera).pixels();
   return pixels * (sizeof(render::PixelSum) + sizeof(render::PixelTotals) + sizeof(render::PixelResult));

@@ -1,5 +1,5 @@
 #pragma once
-// From a path to a scene that is ready to trace, with the settings that hold for it.
+// Loads a scene and combines its settings with those of the command line.
 
 #include <string>
 #include <string_view>
@@ -16,22 +16,23 @@ struct Job {
   Settings settings;
   std::string path;
   std::string content_hash;  // of the scene's files, see pbrt::LoadedScene
-  std::string scene_output;  // the file's own output name; empty when it has none
+  std::string scene_output;  // output name in the scene file; empty when it has none
   double load_seconds = 0;
 };
 
-// Loads and checks a scene file; defaults, then the file's settings, then the command line's. Warnings go to
-// the console, and the log says what the file asked for. Throws ExitError: bad scene, after printing every
-// error of the file, or bad command line when the crop does not fit the image.
+// Loads and checks a scene file. The command line's settings override the file's, which override the
+// defaults. Warnings go to the console, and the log names the settings that the file makes. Throws ExitError:
+// bad scene, after printing every error of the file, or bad command line when the crop does not fit the
+// image.
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console);
 
-// "12 shapes, 88,066 primitives, 3 materials, 2 lights".
+// For example "12 shapes, 88,066 primitives, 3 materials, 2 lights".
 std::string scene_summary(const Scene& scene);
 
-// 1234567 as "1,234,567".
+// Formats 1234567 as "1,234,567".
 std::string grouped(uint64_t n);
 
-// "1 shape", "1,234 shapes".
+// A number with its noun in singular or plural: "1 shape", "1,234 shapes".
 std::string counted(uint64_t n, std::string_view noun);
 
 }  // namespace kaustik::app

@@ -13,7 +13,7 @@ namespace kaustik::app {
 
 namespace {
 
-// The radius shrinks so that bias and noise vanish with the passes (Knaus and Zwicker 2011).
+// The radius shrinks such that both bias and noise vanish with the number of passes (Knaus and Zwicker 2011).
 constexpr float kConsistentAlpha = 2.0f / 3;
 
 bool has(const std::vector<std::string>& aov, std::string_view layer) {
@@ -40,7 +40,7 @@ void settle_error_settings(const Console& console, Settings* settings) {
   if (render.passes == 0 && (named || settings->stop.any())) {
     render.passes = std::min(kErrorPasses, render.photons);
     const render::PassShare each = render::pass_share(0, render.passes, render.photons, render.spp);
-    console.note(fmt::format("each pass takes {} of the {} samples, and as large a part of the photons",
+    console.note(fmt::format("each pass takes {} of the {} samples and the same share of the photons",
                              each.end_sample, render.spp));
   }
   const bool shown = named || (has(render.aov, "all") && render.passes > 1);

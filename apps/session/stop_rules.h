@@ -1,5 +1,5 @@
 #pragma once
-// Renders that go on until they are good enough, or until their time is over.
+// Rules that stop a render when its error is small enough or its time is up.
 
 #include <optional>
 #include <string>
@@ -12,35 +12,36 @@
 
 namespace kaustik::app {
 
-// Passes that photons and samples are shared out over where an error is to be known and --passes is not
-// given: enough for a standard error, and few enough for maps that hold something.
+// Number of passes when an error estimate is needed and --passes is not given. Photons and samples are
+// divided among the passes: eight are enough for a standard error and leave each photon map a useful size.
 inline constexpr uint64_t kErrorPasses = 8;
 
-// Whether layers are asked for by name that hold the error.
+// Whether `aov` names the layer error or bias.
 bool names_error_layer(const std::vector<std::string>& aov);
 
-// Throws ExitError (bad command line) for rules that make no sense together.
+// Throws ExitError (bad command line) for rules that contradict each other.
 void check_stop_settings(const StopSettings& stop);
 
-// What a new render needs so that its error can be known: passes, the measured bias; and a radius that
-// shrinks where passes go on as long as they have to. Only what nobody has said is changed; the log says
-// what. Throws ExitError (bad command line) where what was said leaves no error to know.
+// Chooses settings that a new render needs for its error estimate: several passes, a bias estimate, and, with
+// a stop rule, a radius that shrinks from pass to pass. Changes only settings that the user left open, and
+// logs the passes. Throws ExitError (bad command line) when the user's settings allow no error estimate.
 void settle_error_settings(const Console& console, Settings* settings);
 
-// Asked after each pass.
+// Decides after each pass whether to stop.
 class StopRule {
  public:
-  // seconds_before: of earlier commands of the same render. total: started when this one was.
+  // `seconds_before`: time spent by earlier commands on the same render. `total`: started with this command.
   StopRule(const StopSettings& settings, double seconds_before, const Stopwatch& total)
       : settings_(settings), seconds_before_(seconds_before), total_(total), last_(seconds()) {}
 
-  // Whether these passes are enough, before the first is rendered: then there is nothing to do.
+  // Whether the passes of an earlier command already suffice.
   bool met_by(const render::PassSums& sums);
-  // Whether these passes are enough, with the one that has just been rendered.
+  // Whether these passes suffice; call it after each pass. Also stops when another pass as long as the last
+  // would exceed the time.
   bool enough(const render::PassSums& sums);
-  // "error 3.2 %, target 1 %": of the passes seen last; empty without --target-error.
+  // For example "error 3.2 %, target 1 %", for the passes checked last; empty without --target-error.
   std::string progress() const;
-  // Why the render ended: empty while it goes on.
+  // The rule that ended the render, such as "target-error 0.01"; empty while it goes on.
   const std::string& reason() const { return reason_; }
 
  private:
@@ -50,12 +51,12 @@ class StopRule {
   StopSettings settings_;
   double seconds_before_;
   const Stopwatch& total_;
-  double last_;                  // when the pass before was asked about
+  double last_;                  // seconds() at the last check
   std::optional<double> error_;  // relative
   std::string reason_;
 };
 
-// "1.83 %"; "unknown" for what is not finite.
+// For example "1.83 %" for 0.0183; "unknown" if it is not finite.
 std::string percent(double share);
 
 }  // namespace kaustik::app

@@ -15,31 +15,31 @@ namespace kaustik::app {
 
 namespace {
 
-// Of the time: what photons get (measured, docs/performance.md); what is left over, since no pass is cut
-// short.
+// Shares of the time: what photons get (measured, docs/performance.md), and a reserve, because a pass is
+// never cut short.
 constexpr double kPhotons = 0.28, kMargin = 0.03;
-constexpr double kTrial = 0.2;  // from so much on a trial is not followed by a larger one
-// Films, their mean, files.
+constexpr double kTrial = 0.2;  // share of the time after which no larger trial follows
+// For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
-// Further samples, of the work of the others: up to so much is hardly worth less than more of the others
-// (measured).
+// Most adaptive samples per base sample. Measured: up to here they are worth about as much as base samples.
 constexpr double kMostFurther = 3;
-// A pass that takes longer, with more samples, would say nothing for long while more of its samples would
-// hardly be better placed: then so many are to fit.
+// A render is split into passes if it would take longer than this (seconds) and fit this many samples per
+// pixel: a single pass would show nothing for long, and more adaptive samples would hardly be placed better.
 constexpr double kLongPass = 4;
 constexpr int kManySamples = 64;
-constexpr int kPasses = 10, kMostSamples = 32;  // of each of those passes
+constexpr int kPasses = 10, kMostSamples = 32;  // planned passes, and samples of each
 constexpr int kMostOfOne = 4096;                // samples of a single pass
-// However short the time: of the scene's, but not more than this.
+// Fewest photons for any time: this share of the scene's number, but not more than kEnoughPhotons.
 constexpr double kFewestPhotons = 1.0 / 16, kEnoughPhotons = 62'500;
 
-// Powers of two are spread best; without further samples to fill what is left, other numbers do, too.
+// The next larger candidate for the samples per pixel. Powers of two are distributed best; without adaptive
+// samples to fill the rest of the time, numbers in between are candidates too.
 int next_number(int spp, double adaptive) {
   if (adaptive > 0) return 2 * spp;
   return spp + (spp < 4 ? 1 : std::max(2, int(std::bit_floor(unsigned(spp))) / 4));
 }
 
-// The largest of these numbers that takes no longer; at least one.
+// The largest candidate that fits into `seconds`; at least one.
 int samples_within(const render::SampleCost& cost, double adaptive, double seconds, int most) {
   int spp = 1;
   for (int more = next_number(1, adaptive); more <= most && cost.of(more, adaptive) <= seconds;
@@ -48,21 +48,22 @@ int samples_within(const render::SampleCost& cost, double adaptive, double secon
   return spp;
 }
 
-// Hundredths, so that they can be said. Not less than what was asked for.
+// The adaptive samples per base sample that fit, rounded down to hundredths, so that the log can state them
+// exactly; not less than asked for.
 float further_within(const render::SampleCost& cost, int spp, double asked, double seconds) {
   if (!(asked > 0)) return 0;
   const double fits = (seconds - cost.of(spp, 0)) / std::max(spp * cost.further, 1e-9);
   return float(std::clamp(std::floor(100 * fits) / 100, asked, std::max(asked, kMostFurther)));
 }
 
-// Two digits, likewise.
+// The photons that fit, rounded down to two digits, so that the log can state them exactly.
 uint64_t photons_within(const render::PhotonCost& cost, double seconds, double fewest) {
   const double photons = std::clamp((seconds - cost.fixed) / cost.each, std::max(fewest, 10.0), 1e12);
   const double unit = std::pow(10.0, std::floor(std::log10(photons)) - 1);
   return uint64_t(std::floor(photons / unit) * unit);
 }
 
-// The choice, at work.
+// Runs the trials and makes the choice.
 class TimePlan {
  public:
   TimePlan(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
@@ -76,7 +77,7 @@ class TimePlan {
         plan_(render::make_plan(render_, scene.needs)),
         fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)) {}
 
-  // Null: in passes. Without radii: cancelled.
+  // Returns null if the render is split into passes, and photons without radii if it was cancelled.
   std::shared_ptr<render::FirstPhotons> settle() {
     render::PhotonTrial trial =
         render::try_photons(scene_, bvh_, render_, plan_, kTrial * seconds_, progress_);
@@ -108,7 +109,8 @@ class TimePlan {
     return render::try_samples(scene_, bvh_, render_, plan_, kTrial * seconds_, photons);
   }
 
-  // What eight have is what the settings say. They have no further samples.
+  // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
+  // them.
   void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples) {
     const double each = left() / kPasses;
     const int spp = samples_within(samples, 0, (1 - kPhotons) * each, kMostSamples);
@@ -147,11 +149,12 @@ std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const acce
   if (photons && !photons->radii) return photons;
   if (!photons) settle_error_settings(console, settings);
   const render::RenderSettings& render = settings->render;
-  console.note(fmt::format(
-      "--time {}s: as with --spp {} --photons {}{}", *settings->stop.seconds, render.spp, render.photons,
-      photons
-          ? fmt::format(" --adaptive {}", render.adaptive)
-          : fmt::format(" --passes {} --alpha {}, in as many passes as come", render.passes, *render.alpha)));
+  console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}", *settings->stop.seconds,
+                           render.spp, render.photons,
+                           photons
+                               ? fmt::format(" --adaptive {}", render.adaptive)
+                               : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
+                                             render.passes, *render.alpha)));
   return photons;
 }
 

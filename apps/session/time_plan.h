@@ -1,5 +1,5 @@
 #pragma once
-// --time: how many photons and samples fill it.
+// Chooses the photons and samples that fill --time.
 
 #include <memory>
 
@@ -12,16 +12,17 @@
 
 namespace kaustik::app {
 
-// Whether the time is all that was said of how much is to be rendered: then trials choose photons, samples
-// and passes, in place of the scene's. Not where passes are asked for: by name, by the error that they tell,
-// or by files that hold them (writes_passes). Nor where no photons are read: paths have no further samples,
-// and come in passes as well as in one.
+// Whether trials choose photons, samples and passes in place of the scene's settings. They do if --time is
+// given without photons, samples or quality. They do not if passes are needed, because of --passes, an error
+// estimate, or files that hold passes (`writes_passes`), nor if the render gathers no photons: path tracing
+// can stop after any pass.
 bool time_decides(const Settings& settings, const SettingOverrides& given, const SceneNeeds& needs,
                   bool writes_passes);
 
-// Chooses them, by trials; the log says what. One pass, whose samples are placed best, whose photons are then
-// returned (without radii: progress cancelled); or as many passes as come, where that one would be long:
-// null. total: started when the command was. Within the render's task arena.
+// Chooses photons, samples and passes by short trial renders, and logs them. Plans a single pass, whose
+// adaptive samples are placed best, and returns its photons (without radii if `progress` cancelled). If that
+// pass would be long, plans an open-ended number of passes and returns null. `total`: started with the
+// command. Call it within the render's task arena.
 std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const accel::Bvh& bvh,
                                                   const Stopwatch& total,
                                                   const render::ProgressCallback& progress,

@@ -15,13 +15,13 @@ std::vector<double>* numbers_of(ShapeDescription& shape, std::string_view name) 
   return nullptr;
 }
 
-// An attribute that must have as many elements as there are vertices.
+// Reads a vertex attribute. Throws unless it has as many elements as there are vertices.
 std::optional<std::vector<double>> attribute(const Document& document, const View& attributes,
                                              const char* name, int components, uint64_t vertices) {
   const auto accessor = attributes[name].index(document.size("accessors"));
   if (!accessor) return std::nullopt;
   if (document.item("accessors", *accessor)["count"].count() != vertices)
-    attributes[name].fail(fmt::format("has not the {} vertices of the positions", vertices));
+    attributes[name].fail(fmt::format("must have as many vertices as the positions, {}", vertices));
   return document.elements(*accessor, components).values;
 }
 
@@ -40,7 +40,7 @@ Deformation::Deformation(const Document& document, const std::vector<PlacedNode>
   for (const PlacedNode& n : nodes) to_world_.emplace(n.node, n.to_world);
 }
 
-// The node's own, or the mesh's; none where all are zero.
+// The morph weights of the node, or else of its mesh; empty if all are zero.
 std::vector<double> Deformation::weights_of(const View& node) const {
   const auto mesh = node["mesh"].index(document_.size("meshes"));
   View list = node["weights"];
@@ -77,7 +77,7 @@ void Deformation::morph(const View& primitive, const std::vector<double>& weight
   }
 }
 
-// From the mesh as it was bound to the world, for each joint.
+// For each joint, the transform from the mesh's bind pose to the world.
 std::vector<glm::dmat4> Deformation::joints_of(const View& skin) const {
   std::vector<glm::dmat4> joints;
   const View list = skin["joints"];
@@ -97,7 +97,7 @@ std::vector<glm::dmat4> Deformation::joints_of(const View& skin) const {
   return joints;
 }
 
-// Each vertex by the mean of its four joints.
+// Linear blend skinning: transforms each vertex by the weighted mean of its four joints.
 void Deformation::bend(const View& primitive, const std::vector<glm::dmat4>& joints,
                        ShapeDescription& shape) const {
   std::vector<double>* P = numbers_of(shape, "P");
@@ -113,7 +113,8 @@ void Deformation::bend(const View& primitive, const std::vector<glm::dmat4>& joi
       const double w = (*weights)[k];
       if (w == 0) continue;
       if (!((*which)[k] >= 0 && (*which)[k] < double(joints.size())))
-        attributes["JOINTS_0"].fail(fmt::format("names joint {}: there are {}", (*which)[k], joints.size()));
+        attributes["JOINTS_0"].fail(
+            fmt::format("names joint {}, but there are {}", (*which)[k], joints.size()));
       m += w * joints[static_cast<size_t>((*which)[k])];
       sum += w;
     }
@@ -122,7 +123,7 @@ void Deformation::bend(const View& primitive, const std::vector<glm::dmat4>& joi
     set(*P, i, glm::dvec3(m * glm::dvec4(at(*P, i), 1)));
     if (N) set(*N, i, glm::transpose(glm::inverse(glm::dmat3(m))) * at(*N, i));
   }
-  // Where joints cancel each other there is no normal.
+  // Joints that cancel each other leave no normal.
   if (N && std::any_of(N->begin(), N->end(), [](double v) { return !std::isfinite(v); }))
     std::erase_if(shape.parameters, [](const Parameter& p) { return p.name == "N"; });
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Meshes as skins and morph targets leave them where nothing is animated.
+// Applies the skins and morph targets of a glTF file to its meshes, in the pose that the file states;
+// animations are not played.
 
 #include <map>
 #include <vector>
@@ -14,10 +15,10 @@ class Deformation {
  public:
   Deformation(const Document& document, const std::vector<PlacedNode>& nodes);
 
-  // Whether the node's mesh stands otherwise than the mesh is written, so that it is no instance of it.
+  // Whether a skin or morph weights deform the node's mesh. It then cannot be an instance of the shared mesh.
   bool applies_to(const View& node) const;
-  // Changes P and N of a primitive's triangles. True where they lie in the world then: a skin's joints place
-  // them, not the node.
+  // Deforms P and N of a primitive's triangles. True if they are then in world space: with a skin, the joints
+  // place the mesh, not the node.
   bool apply(const View& node, const View& primitive, ShapeDescription& shape) const;
 
  private:
@@ -27,7 +28,7 @@ class Deformation {
   void bend(const View& primitive, const std::vector<glm::dmat4>& joints, ShapeDescription& shape) const;
 
   const Document& document_;
-  std::map<uint64_t, glm::dmat4> to_world_;  // of nodes
+  std::map<uint64_t, glm::dmat4> to_world_;  // by node
 };
 
 }  // namespace kaustik::gltf

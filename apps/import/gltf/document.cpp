@@ -12,12 +12,12 @@ namespace kaustik::gltf {
 namespace {
 
 constexpr uint64_t kLargestFile = uint64_t{1} << 36;
-// Per accessor, without bytes to show for it: an accessor of zeros.
+// Elements of an accessor without a buffer, which is all zeros: no file size bounds their number.
 constexpr uint64_t kMostZeros = uint64_t{1} << 24;
 
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
-// All numbers of these files are little endian.
+// Reads a little-endian number, as all numbers of these files are.
 template <class T>
 T little(const char* at) {
   std::make_unsigned_t<std::conditional_t<std::is_floating_point_v<T>, uint32_t, T>> bits = 0;
@@ -31,7 +31,7 @@ T little(const char* at) {
 struct Component {
   uint64_t bytes;
   double (*read)(const char*);
-  double largest;  // what a normalised 1 is
+  double largest;  // the integer that stands for a normalised 1
 };
 
 Component component_of(const View& accessor) {
@@ -50,7 +50,7 @@ Component component_of(const View& accessor) {
     case 5126:
       return {4, [](const char* p) { return double(little<float>(p)); }, 1};
     default:
-      type.fail(fmt::format("is {}, which is none of glTF's", type.count()));
+      type.fail(fmt::format("is {}, which glTF does not define", type.count()));
   }
 }
 
@@ -103,7 +103,7 @@ Document::Document(const std::filesystem::path& path, SourceFiles& files) {
   }
   const std::string version = root()["asset"]["version"].text();
   if (!version.starts_with("2."))
-    throw FormatError("it is not glTF 2.0: `asset.version` is missing or another");
+    throw FormatError("it is not glTF 2.0: `asset.version` is missing or has another value");
   read_buffers(path, files);
 }
 
@@ -113,14 +113,15 @@ void Document::read_json(std::string_view bytes) {
   } catch (const Json::exception& error) {
     throw FormatError(fmt::format("its JSON cannot be read: {}", error.what()));
   }
-  if (!json_.is_object()) throw FormatError("its JSON is no object");
+  if (!json_.is_object()) throw FormatError("its JSON is not an object");
 }
 
-// 12 bytes of header, then chunks of length, type and bytes: JSON first, then perhaps binary.
+// Reads a .glb file: a header of 12 bytes, then chunks of length, type and bytes. The first chunk is JSON,
+// the second, if any, binary.
 void Document::read_container(std::string_view bytes) {
   if (bytes.size() < 20) throw FormatError("the file ends within its header");
   if (const uint32_t version = little<uint32_t>(bytes.data() + 4); version != 2)
-    throw FormatError(fmt::format("it is version {} of .glb: 2 is read", version));
+    throw FormatError(fmt::format("it is version {} of .glb: only version 2 can be read", version));
   const uint64_t length = little<uint32_t>(bytes.data() + 8);
   if (length > bytes.size())
     throw FormatError(fmt::format("the header promises {} bytes: the file has {}", length, bytes.size()));
@@ -206,7 +207,8 @@ std::string_view Document::bytes_of_view(uint64_t i) const {
   return bytes.substr(offset, length);
 }
 
-// Element i begins at offset + i * stride; a stride of 0 means that they lie side by side.
+// Decodes out.count elements; element i begins at offset + i * stride. A stride of 0 means that the elements
+// are contiguous.
 void Document::decode(std::string_view bytes, uint64_t offset, uint64_t stride, const View& accessor,
                       Elements& out) const {
   const Component component = component_of(accessor);
@@ -215,7 +217,7 @@ void Document::decode(std::string_view bytes, uint64_t offset, uint64_t stride, 
   if (stride == 0) stride = size;
   if (stride < size) accessor.fail(fmt::format("has elements of {} bytes every {} bytes", size, stride));
   const uint64_t room = offset <= bytes.size() ? bytes.size() - offset : 0;
-  // So that no product below is beyond 64 bits: counts are whole numbers up to 2^53.
+  // Divides rather than multiplies, so that nothing overflows 64 bits: counts go up to 2^53.
   if (out.count > 0 && (room < size || (room - size) / stride < out.count - 1))
     accessor.fail(fmt::format("reaches beyond its bytes: {} elements of {} bytes from {}, of {}", out.count,
                               size, offset, bytes.size()));
@@ -236,7 +238,7 @@ Elements Document::elements(uint64_t index, int components) const {
   Elements out;
   out.components = components_of(accessor);
   if (out.components != components)
-    accessor.fail(fmt::format("has {} numbers an element: {} are expected", out.components, components));
+    accessor.fail(fmt::format("has {} numbers per element instead of {}", out.components, components));
   out.count = accessor["count"].count();
   if (const auto view = accessor["bufferView"].index(size("bufferViews"))) {
     decode(bytes_of_view(*view), accessor["byteOffset"].count(0),
@@ -249,7 +251,7 @@ Elements Document::elements(uint64_t index, int components) const {
   return out;
 }
 
-// Some elements are replaced.
+// Replaces some elements by those of the accessor's `sparse` part.
 void Document::apply_sparse(const View& accessor, Elements& out) const {
   const View sparse = accessor["sparse"];
   const uint64_t count = sparse["count"].count();

@@ -1,6 +1,6 @@
 #pragma once
-// A glTF 2.0 file: its JSON, and the bytes that it names. Everything is checked against what the files hold
-// before memory is taken for it.
+// Reads a glTF 2.0 file: its JSON and the buffers that it names. All sizes are checked against the files'
+// lengths before memory is allocated for them.
 
 #include <filesystem>
 #include <string_view>
@@ -11,17 +11,17 @@
 
 namespace kaustik::gltf {
 
-// One element after the other: VEC3 is three numbers an element.
+// The numbers of an accessor, element by element.
 struct Elements {
   uint64_t count = 0;
-  int components = 0;
+  int components = 0;  // numbers per element; 3 for VEC3
   std::vector<double> values;
 };
 
 class Document {
  public:
-  // A .gltf or .glb file and the buffers that it names; they are added to `files`, so that they are part of
-  // the scene's hash. Throws FormatError.
+  // Reads a .gltf or .glb file and the buffers that it names. They are added to `files`, so that they count
+  // in the scene's content hash. Throws FormatError.
   Document(const std::filesystem::path& path, SourceFiles& files);
 
   View root() const { return {json_, ""}; }
@@ -30,13 +30,13 @@ class Document {
   uint64_t size(const char* list) const { return root()[list].size(); }
   uint32_t file() const { return file_; }
 
-  // Numbers of an accessor; normalised integers become [0, 1] or [-1, 1]. components: what it must have.
-  // Floats that are not finite are an error.
+  // The numbers of an accessor; normalised integers are scaled to [0, 1] or [-1, 1]. `components`: the
+  // expected numbers per element. Throws FormatError, also for numbers that are not finite.
   Elements elements(uint64_t accessor, int components) const;
   std::string_view bytes_of_view(uint64_t buffer_view) const;
-  // What a URI holds: data in the URI itself, or nothing for the name of a file.
+  // The decoded data of a `data:` URI; nothing if the URI names a file.
   static std::optional<std::string> data_of_uri(const View& uri);
-  // The name of a file that a URI gives, %20 and the like resolved.
+  // The file name that a URI gives, with escapes such as %20 resolved.
   static std::string file_of_uri(const std::string& uri);
 
  private:
@@ -49,7 +49,7 @@ class Document {
 
   Json json_;
   uint32_t file_ = 0;
-  std::string_view binary_;  // of a .glb
+  std::string_view binary_;  // the binary chunk of a .glb
   bool has_binary_ = false;
   std::vector<std::string_view> buffers_;  // views into the files' texts
 };

@@ -15,7 +15,7 @@
 namespace kaustik::gltf {
 namespace {
 
-// Extensions that change nothing here when they are not understood, or that are understood.
+// Extensions that a file may require: they are supported, or ignoring them leaves a usable scene.
 constexpr std::string_view kKnown[] = {"KHR_lights_punctual",        "KHR_materials_emissive_strength",
                                        "KHR_materials_ior",          "KHR_materials_specular",
                                        "KHR_materials_transmission", "KHR_materials_volume",
@@ -50,7 +50,7 @@ class Importer {
     }
     for (const PlacedNode& n : nodes_) add_node(n);
     if (document_.size("animations") > 0)
-      warnings_.say("animations are left out: the scene stands as it is written");
+      warnings_.say("animations are ignored: the scene is rendered in the pose that the file states");
     return std::move(scene_);
   }
 
@@ -60,7 +60,8 @@ class Importer {
     for (uint64_t i = 0; i < required.size(); ++i) {
       const std::string name = required.at(i).text();
       if (std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown))
-        throw FormatError(fmt::format("it requires the extension {}, which is not read", name.substr(0, 60)));
+        throw FormatError(
+            fmt::format("it requires the extension {}, which is not supported", name.substr(0, 60)));
     }
   }
 
@@ -69,7 +70,8 @@ class Importer {
     const auto& m = placed.to_world;
     if (!(std::isfinite(glm::determinant(m)) && glm::determinant(glm::dmat3(m)) != 0)) {
       if (node.has("mesh"))
-        warnings_.say(fmt::format("node {} has no size: its mesh is left out", placed.node));
+        warnings_.say(
+            fmt::format("node {} has a transform without an inverse: its mesh is ignored", placed.node));
       return;
     }
     if (const auto camera = node["camera"].index(document_.size("cameras"))) {
@@ -95,7 +97,7 @@ class Importer {
     shape->area_light = look.area_light;
     if (look.alpha) shape->parameters.push_back(*look.alpha);
     if (look.emits_image && leaves_image(*shape))
-      warnings_.say("textures of emission are not repeated beyond their edges");
+      warnings_.say("emission textures are not repeated beyond their edges");
     return shape;
   }
 
@@ -123,7 +125,8 @@ class Importer {
     return uv && std::any_of(uv->numbers.begin(), uv->numbers.end(), [](double x) { return x < 0 || x > 1; });
   }
 
-  // A mesh of several nodes is an object with instances, but for its lights: those are shapes of their own.
+  // A mesh that several nodes use becomes an object with instances. Its emitting shapes are copied, since
+  // lights cannot be instanced.
   void add_mesh(uint64_t mesh, const glm::dmat4& to_world) {
     if (uses_[mesh] == 1) {
       for (ShapeDescription& shape : shapes_of(mesh)) place(std::move(shape), to_world);
@@ -162,9 +165,9 @@ class Importer {
   Deformation deformation_;
   Textures textures_;
   Materials materials_;
-  std::map<uint64_t, uint64_t> uses_;  // of meshes by nodes
+  std::map<uint64_t, uint64_t> uses_;  // number of uses, by mesh
   std::map<uint64_t, SharedMesh> meshes_;
-  uint64_t total_ = 0;  // numbers of all meshes
+  uint64_t total_ = 0;  // numbers read for all meshes so far
 };
 
 }  // namespace

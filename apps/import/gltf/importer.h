@@ -1,5 +1,5 @@
 #pragma once
-// glTF 2.0 scenes as directives of pbrt (docs/reference/scene_format.md says what becomes of what).
+// Imports glTF 2.0 scenes as pbrt directives (docs/reference/scene_format.md lists the mapping).
 
 #include <filesystem>
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace kaustik::gltf {
 
-// Reads a .gltf or .glb file, with its buffers. Nothing, with an error that says what was wrong, when it is
-// damaged: a byte range beyond its buffer, an index out of range, a node that is its own ancestor, more
-// vertices than fit. What is left out or approximated is one warning each.
+// Reads a .gltf or .glb file with its buffers. Nothing, with an error in `diagnostics`, when it is damaged: a
+// byte range beyond its buffer, an index out of range, a node that is its own ancestor, too many vertices.
+// Each feature that is ignored or approximated gives one warning.
 std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, Diagnostics& diagnostics);
 
-// By the name's ending.
+// Decides by the file name's extension.
 bool is_gltf(const std::filesystem::path& path);
 
 }  // namespace kaustik::gltf

@@ -71,10 +71,10 @@ uint64_t View::count(uint64_t otherwise) const {
 
 uint64_t View::count() const {
   constexpr double kExact = 9007199254740992.0;  // 2^53
-  if (!json_ || !json_->is_number()) fail("must be a whole number");
+  if (!json_ || !json_->is_number()) fail("must be a non-negative integer");
   const double value = json_->get<double>();
   if (!(value >= 0 && value <= kExact && value == std::floor(value)))
-    fail(fmt::format("must be a whole number that is not negative, not {}", value));
+    fail(fmt::format("must be a non-negative integer, not {}", value));
   return static_cast<uint64_t>(value);
 }
 

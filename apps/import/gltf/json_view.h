@@ -1,6 +1,6 @@
 #pragma once
-// A glTF file's JSON, read with checks: what has the wrong type or leads out of a list is an error that names
-// the place.
+// Checked access to a glTF file's JSON: a value of the wrong type or an index out of range throws a
+// FormatError that names the place.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,12 +11,13 @@ namespace kaustik::gltf {
 
 using Json = nlohmann::json;
 
-// What is wrong with the file: one sentence.
+// A damaged or unsupported file; what() is one sentence.
 struct FormatError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A value and its name for messages: "materials[3].pbrMetallicRoughness".
+// A JSON value and its path for messages, such as "materials[3].pbrMetallicRoughness". A View of an absent
+// value exists, but exists() is false.
 class View {
  public:
   View() = default;
@@ -27,26 +28,26 @@ class View {
   const std::string& path() const { return path_; }
   [[noreturn]] void fail(const std::string& what) const;
 
-  // A member of an object; one that does not exist when it is absent. An object is expected.
+  // A member of an object; a View of nothing when it is absent. Throws if this is not an object.
   View operator[](const char* name) const;
   bool has(const char* name) const { return (*this)[name].exists(); }
-  // Of an object's members; none when absent.
+  // The names of an object's members; empty when the object is absent.
   std::vector<std::string> names() const;
-  // An item of a list; out of range is an error.
+  // An item of a list; throws when i is out of range.
   View at(uint64_t i) const;
-  // Of a list; 0 when absent.
+  // The size of a list; 0 when it is absent.
   uint64_t size() const;
 
-  // Of the values themselves; the fallback when absent.
+  // The value itself; `otherwise` when it is absent. The forms without a default throw then.
   double number(double otherwise) const;
   double number() const;
   bool flag(bool otherwise) const;
   std::string text(const std::string& otherwise = {}) const;
-  uint64_t count(uint64_t otherwise) const;  // whole, not negative
+  uint64_t count(uint64_t otherwise) const;  // a non-negative integer
   uint64_t count() const;
-  // `n` finite numbers.
+  // A list of `n` finite numbers; `otherwise` when it is absent.
   std::vector<double> numbers(size_t n, std::vector<double> otherwise) const;
-  // An index into a list of `size` things.
+  // An index below `size`; nothing when it is absent.
   std::optional<uint64_t> index(uint64_t size) const;
 
  private:

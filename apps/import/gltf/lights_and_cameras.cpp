@@ -29,10 +29,10 @@ void add_perspective(const View& camera, DirectiveMaker<CameraDescription>& out,
   const View perspective = camera["perspective"];
   const double yfov = perspective["yfov"].number();
   if (!(yfov > 0 && yfov < std::numbers::pi))
-    perspective["yfov"].fail(fmt::format("is {}: 0 to pi is possible", yfov));
+    perspective["yfov"].fail(fmt::format("is {}: it must lie between 0 and pi", yfov));
   const double aspect = perspective["aspectRatio"].number(16.0 / 9);
   if (!(aspect > 0)) perspective["aspectRatio"].fail("must be above 0");
-  // pbrt's angle is that of the shorter side.
+  // pbrt's `fov` is the angle of the image's shorter side.
   const double fov = aspect >= 1 ? yfov : 2 * std::atan(aspect * std::tan(yfov / 2));
   out.number("fov", glm::degrees(fov));
   add_film(aspect, where, scene);
@@ -63,9 +63,9 @@ Aim aim_of(const View& spot) {
 void add_camera(const View& camera, const glm::dmat4& to_world, FileWarnings& warnings,
                 SceneDescription& scene) {
   const std::string type = camera["type"].text();
-  if (type != "perspective" && type != "orthographic") camera["type"].fail("is no camera of glTF");
+  if (type != "perspective" && type != "orthographic") camera["type"].fail("is not a camera type of glTF");
   if (!renders_camera(type)) {
-    warnings.say(fmt::format("cameras that are {} are left out", type));
+    warnings.say(fmt::format("cameras of type {} are ignored", type));
     return;
   }
   DirectiveMaker<CameraDescription> out(type, warnings.where());
@@ -92,9 +92,10 @@ void add_light(const Document& document, const View& node, const glm::dmat4& to_
   if (!(intensity >= 0)) light["intensity"].fail("is negative");
   const glm::dvec3 colour = intensity * glm::max(glm::dvec3(c[0], c[1], c[2]), 0.0);
   if (light.has("range"))
-    warnings.say("the `range` of lights is left out: light falls off with the square of the distance");
+    warnings.say("the `range` of lights is ignored: light falls off with the square of the distance");
   const bool distant = type == "directional";
-  if (!distant && type != "point" && type != "spot") light["type"].fail("is none of KHR_lights_punctual's");
+  if (!distant && type != "point" && type != "spot")
+    light["type"].fail("is not a light type of KHR_lights_punctual");
   DirectiveMaker<LightDescription> out(distant ? "distant" : type, warnings.where());
   out.rgb(distant ? "L" : "I", colour);
   if (type != "point")

@@ -5,12 +5,13 @@
 
 namespace kaustik::gltf {
 
-// A camera of glTF looks along -z; its image is 720 pixels high unless the file says its shape.
+// Sets the scene's camera and film. glTF's cameras look along -z. The film is 720 pixels high; its width
+// follows from the aspect ratio, 16:9 if the file states none.
 void add_camera(const View& camera, const glm::dmat4& to_world, FileWarnings& warnings,
                 SceneDescription& scene);
 
-// The node's light of KHR_lights_punctual, if it has one. Candela and lux are taken as our W/sr and W/m^2, as
-// pbrt takes photometric units.
+// Adds the node's light of KHR_lights_punctual, if it has one. Candela and lux are read as W/sr and W/m^2, as
+// pbrt reads photometric units.
 void add_light(const Document& document, const View& node, const glm::dmat4& to_world, FileWarnings& warnings,
                SceneDescription& scene);
 

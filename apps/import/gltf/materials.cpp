@@ -53,7 +53,7 @@ Look Materials::make(const View& material, const std::string& name) {
   return look;
 }
 
-// What lets light through, beside what does not.
+// The whole surface: a mix of its opaque and its transmissive part. Returns the material's name.
 std::string Materials::surface(const View& material, const std::string& name) {
   const View transmission = extension(material, "KHR_materials_transmission");
   const double factor = std::clamp(transmission["transmissionFactor"].number(0), 0.0, 1.0);
@@ -90,7 +90,7 @@ std::string Materials::opaque(const View& material, const std::string& name) {
   return mixed(name, dielectric, metal, share);
 }
 
-// Textures that are 0, or 1, everywhere are common, and mix nothing: their mean tells.
+// Textures that are 0 or 1 everywhere are common and need no mixture; their mean shows it.
 Materials::Share Materials::share_of(double factor, const View& texture, int channel) {
   const auto mean = factor > 0 ? textures_.mean(texture, false) : std::nullopt;
   if (!mean) return {factor, std::nullopt};
@@ -99,7 +99,7 @@ Materials::Share Materials::share_of(double factor, const View& texture, int cha
   return {share, textures_.channel(texture, channel, [factor](double v) { return factor * v; })};
 }
 
-// pbrt's mix: `amount` is the share of the second one.
+// Adds a pbrt "mix"; its `amount` is the share of the second material.
 std::string Materials::mixed(const std::string& name, const std::string& first, const std::string& second,
                              const Share& share) {
   Maker m("mix", warnings_.where());
@@ -113,7 +113,8 @@ std::string Materials::mixed(const std::string& name, const std::string& first, 
   return add(std::move(*m), name, View());
 }
 
-// Diffuse and specular colours: what reflects more than any glass, on the mean, is metal.
+// KHR_materials_pbrSpecularGlossiness, by diffuse and specular colours. A mean specular colour above that of
+// any glass means metal.
 std::string Materials::glossy(const View& material, const std::string& name) {
   constexpr double kMostOfGlass = 0.35;
   const View glossiness = extension(material, kGlossiness);
@@ -130,12 +131,12 @@ std::string Materials::glossy(const View& material, const std::string& name) {
   return add(std::move(*m), name, material);
 }
 
-// Light that comes through a sheet, evenly.
+// KHR_materials_diffuse_transmission: a thin sheet that transmits diffusely.
 std::string Materials::sheet(const View& material, const std::string& name) {
   const View transmission = extension(material, kSheet);
   const double through = std::clamp(transmission["diffuseTransmissionFactor"].number(0), 0.0, 1.0);
   if (transmission.has("diffuseTransmissionTexture"))
-    warnings_.say("KHR_materials_diffuse_transmission is rendered by its factors and colours");
+    warnings_.say("KHR_materials_diffuse_transmission is rendered without diffuseTransmissionTexture");
   const Base base = base_of(material);
   Maker m("diffusetransmission", warnings_.where());
   add_colour("reflectance", base.texture, (1 - through) * base.colour(), *m);
@@ -151,7 +152,8 @@ std::string Materials::dielectric_part(const View& material, const std::string& 
   return dielectric_part(material, name, index_of(material));
 }
 
-// A clear coat takes the place of the base's own reflection.
+// A diffuse base under a dielectric coat. With KHR_materials_clearcoat the clear coat replaces the base's own
+// reflection.
 std::string Materials::dielectric_part(const View& material, const std::string& name, double eta) {
   const bool coat = extension(material, kClearcoat)["clearcoatFactor"].number(0) >= 0.5;
   const bool dull = !coat && extension(material, "KHR_materials_specular")["specularFactor"].number(1) == 0;
@@ -173,15 +175,15 @@ std::string Materials::metal_part(const View& material, const std::string& name)
   return add(std::move(*m), name, material);
 }
 
-// Without a volume behind it the surface is a pane.
+// The transmissive part. Without KHR_materials_volume the surface is a thin pane.
 std::string Materials::clear_part(const View& material, const std::string& name) {
   const Base base = base_of(material);
   if (base.colour() != glm::dvec3(1) || base.texture)
-    warnings_.say("transmission is not coloured by the base colour");
+    warnings_.say("the base colour does not tint transmitted light");
   const View volume = extension(material, "KHR_materials_volume");
   const bool pane = !(volume["thicknessFactor"].number(0) > 0);
   if (volume.has("attenuationDistance"))
-    warnings_.say("volumes do not absorb: KHR_materials_volume's attenuation is left out");
+    warnings_.say("the attenuation of KHR_materials_volume is ignored: volumes do not absorb");
   Maker m(pane ? "thindielectric" : "dielectric", warnings_.where());
   m.number("eta", index_of(material));
   if (!pane) add_roughness(material, false, *m);
@@ -197,7 +199,8 @@ void Materials::add_colour(const std::string& parameter, const View& texture, co
                                                 warnings_.where()));
 }
 
-// glTF's roughness is the root of the width of GGX, which is what pbrt takes when it does not map it.
+// glTF's roughness is the square root of the GGX width; pbrt takes the width itself when "remaproughness" is
+// false.
 Materials::Width Materials::width_of(const View& material, bool coat) {
   const auto squared = [](double x) { return x * x; };
   if (const View glossiness = extension(material, kGlossiness); glossiness && !coat) {
@@ -218,7 +221,7 @@ void Materials::add_width(const std::string& parameter, const Width& width, Mate
                                                   std::vector<double>{width.width(1)}, warnings_.where()));
 }
 
-// With KHR_materials_anisotropy facets are wider along the tangent, which is u here.
+// With KHR_materials_anisotropy the lobe is wider along the tangent, which is the direction of u here.
 void Materials::add_roughness(const View& material, bool coat, MaterialDescription& m) {
   const Width width = width_of(material, coat);
   const View anisotropy = coat ? View() : extension(material, "KHR_materials_anisotropy");
@@ -246,7 +249,7 @@ std::string Materials::add(MaterialDescription m, const std::string& name, const
   m.name = name;
   m.name_location = warnings_.where();
   if (const View normal = material["normalTexture"]) {
-    if (normal["scale"].number(1) != 1) warnings_.say("the `scale` of normal maps is left out");
+    if (normal["scale"].number(1) != 1) warnings_.say("the `scale` of normal maps is ignored");
     if (const auto file = textures_.file(normal))
       m.parameters.push_back(textures_.file_parameter("normalmap", *file));
   }
@@ -284,14 +287,16 @@ void Materials::add_light(const View& material, Look& look) {
   look.area_light = static_cast<uint32_t>(scene_.area_lights.size() - 1);
 }
 
-// pbrt's lights show their image once, by the shape's own uv. False where there is none to show.
+// Adds the emission texture to `light`; false if there is none that can be shown. pbrt's area lights show
+// their image once, by the shape's own uv.
 bool Materials::add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set,
                                   Directive& light) {
   const View texture = material["emissiveTexture"];
   if (!texture || textures_.mean(texture).value_or(glm::dvec3(0)) == glm::dvec3(0)) return false;
   if (texture["extensions"].has("KHR_texture_transform") || texture["texCoord"].count(0) != uv_set) {
     warnings_.say(
-        "textures of emission that are moved, or have coordinates of their own, are rendered as their mean");
+        "emission textures with a transform or with texture coordinates of their own are rendered as their "
+        "mean");
     return false;
   }
   const double brightest = std::max(L.x, std::max(L.y, L.z));
@@ -315,19 +320,20 @@ void Materials::warn_of_extensions(const View& material) {
                                             "KHR_materials_volume"};
   for (const std::string& name : material["extensions"].names()) {
     if (std::find(std::begin(kRendered), std::end(kRendered), name) == std::end(kRendered))
-      warnings_.say(fmt::format("{} is left out", name.substr(0, 60)));
+      warnings_.say(fmt::format("{} is ignored", name.substr(0, 60)));
   }
   const View specular = extension(material, "KHR_materials_specular");
   if (specular && specular["specularFactor"].number(1) != 0)
     warnings_.say(
-        "KHR_materials_specular is left out, but where its factor is 0: reflection follows from the index of "
+        "KHR_materials_specular is ignored unless its factor is 0: reflection follows from the index of "
         "refraction");
   if (extension(material, kClearcoat)["clearcoatFactor"].number(0) > 0)
     warnings_.say(
-        "KHR_materials_clearcoat takes the place of the base's own reflection where its factor is 0.5 or "
-        "more, and "
-        "is left out elsewhere and over metal");
-  if (material.has("occlusionTexture")) warnings_.say("occlusion textures are left out: light is traced");
+        "KHR_materials_clearcoat replaces the base's own reflection if its factor is 0.5 or more; otherwise, "
+        "and "
+        "over metal, it is ignored");
+  if (material.has("occlusionTexture"))
+    warnings_.say("occlusion textures are ignored: the renderer computes occlusion itself");
 }
 
 }  // namespace kaustik::gltf

@@ -1,5 +1,5 @@
 #pragma once
-// Materials of a glTF file as the nearest ones of pbrt.
+// Converts the materials of a glTF file to the nearest pbrt materials.
 
 #include <array>
 #include <functional>
@@ -12,13 +12,13 @@
 
 namespace kaustik::gltf {
 
-// What a primitive's material says about its shape.
+// What a primitive's material contributes to its shape.
 struct Look {
   MaterialReference material;
   std::optional<uint32_t> area_light;
   std::optional<Parameter> alpha;
   uint64_t uv_set = 0;
-  bool emits_image = false;  // over 0 to 1 of that set
+  bool emits_image = false;  // shown once, over uv from 0 to 1
 };
 
 class Materials {
@@ -27,21 +27,22 @@ class Materials {
   Materials(const Document& document, Textures& textures, FileWarnings& warnings, SceneDescription& scene)
       : document_(document), textures_(textures), warnings_(warnings), scene_(scene) {}
 
-  // Of a material's index; of glTF's default material without one. tint: multiplies the base colour.
+  // The look of the material with this index; without an index, of glTF's default material. `tint` multiplies
+  // the base colour.
   const Look& look(std::optional<uint64_t> index, const glm::dvec3& tint);
 
  private:
   Look make(const View& material, const std::string& name);
   std::string surface(const View& material, const std::string& name);
   std::string opaque(const View& material, const std::string& name);
-  // Base colour and alpha, or what stands for them in KHR_materials_pbrSpecularGlossiness.
+  // Base colour and alpha, or their equivalent in KHR_materials_pbrSpecularGlossiness.
   struct Base {
     View texture;
-    std::vector<double> factor;  // four
+    std::vector<double> factor;  // red, green, blue, alpha
     glm::dvec3 colour() const { return {factor[0], factor[1], factor[2]}; }
   };
   Base base_of(const View& material) const;
-  // The width of GGX, as a function of a texture's value.
+  // The GGX width alpha as a function of one texture channel.
   struct Width {
     View texture;
     int channel;
@@ -54,7 +55,7 @@ class Materials {
   std::string dielectric_part(const View& material, const std::string& name, double eta);
   std::string metal_part(const View& material, const std::string& name);
   std::string clear_part(const View& material, const std::string& name);
-  // The share of a mixture's second part: a texture's, where one is named.
+  // The share of the second part of a mixture: a texture's name, or else a constant.
   struct Share {
     double constant = 0;
     std::optional<std::string> texture;
@@ -78,7 +79,7 @@ class Materials {
   Textures& textures_;
   FileWarnings& warnings_;
   SceneDescription& scene_;
-  glm::dvec3 tint_{1};  // of the look that is being made
+  glm::dvec3 tint_{1};  // of the look under construction
   std::map<std::pair<std::optional<uint64_t>, std::array<double, 3>>, Look> looks_;
 };
 

@@ -9,12 +9,13 @@
 namespace kaustik::gltf {
 namespace {
 
-// Many primitives may name the same bytes.
+// Numbers of all meshes of a scene. Many primitives may name the same bytes, so the file size is no bound.
 constexpr uint64_t kMostNumbers = uint64_t{1} << 32;
 
 enum class Mode { kTriangles = 4, kStrip = 5, kFan = 6 };
 
-// Three corners a triangle. Strips turn over every second one.
+// Converts corners to a list of triangles with three corners each. Every second triangle of a strip winds the
+// other way.
 std::vector<double> as_triangles(const std::vector<double>& corners, Mode mode) {
   if (mode == Mode::kTriangles) return corners;
   std::vector<double> out;
@@ -33,14 +34,14 @@ std::vector<double> corners_of(const Document& document, const View& primitive, 
     corners = document.elements(*accessor, 1).values;
     for (size_t i = 0; i < corners.size(); ++i) {
       if (!(corners[i] >= 0 && corners[i] < double(vertices)))
-        primitive["indices"].fail(fmt::format("names vertex {}: there are {}", corners[i], vertices));
+        primitive["indices"].fail(fmt::format("names vertex {}, but there are {}", corners[i], vertices));
     }
   } else {
     for (uint64_t i = 0; i < vertices; ++i) corners.push_back(double(i));
   }
   const auto mode = static_cast<Mode>(primitive["mode"].count(4));
   if (mode == Mode::kTriangles && corners.size() % 3 != 0)
-    primitive.fail(fmt::format("has {} corners, which are no triangles", corners.size()));
+    primitive.fail(fmt::format("has {} corners, which is not a multiple of 3", corners.size()));
   return as_triangles(corners, mode);
 }
 
@@ -50,7 +51,8 @@ void add_numbers(uint64_t n, const View& primitive, uint64_t& total) {
     primitive.fail(fmt::format("makes the scene larger than {} numbers", kMostNumbers));
 }
 
-// An attribute that every vertex has.
+// Reads a vertex attribute; nothing when it is absent. Throws unless it has as many elements as there are
+// vertices.
 std::optional<std::vector<double>> attribute(const Document& document, const View& primitive,
                                              const char* name, int components, uint64_t vertices,
                                              uint64_t& total) {
@@ -61,7 +63,7 @@ std::optional<std::vector<double>> attribute(const Document& document, const Vie
               primitive, total);
   Elements e = document.elements(*accessor, components);
   if (e.count != vertices)
-    attributes[name].fail(fmt::format("has {} vertices: positions have {}", e.count, vertices));
+    attributes[name].fail(fmt::format("has {} vertices, but the positions have {}", e.count, vertices));
   return std::move(e.values);
 }
 
@@ -70,17 +72,17 @@ std::optional<std::vector<double>> attribute(const Document& document, const Vie
 std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive, uint64_t uv_set,
                                              uint64_t& total, FileWarnings& warnings) {
   if (primitive["extensions"].has("KHR_draco_mesh_compression"))
-    primitive.fail("is compressed by KHR_draco_mesh_compression, which is not read");
+    primitive.fail("is compressed by KHR_draco_mesh_compression, which is not supported");
   const uint64_t mode = primitive["mode"].count(4);
-  if (mode > 6) primitive["mode"].fail(fmt::format("is {}, which is none of glTF's", mode));
+  if (mode > 6) primitive["mode"].fail(fmt::format("is {}, which glTF does not define", mode));
   if (mode < 4) {
-    warnings.say("points and lines are left out: only triangles are rendered");
+    warnings.say("points and lines are ignored: only triangles are rendered");
     return std::nullopt;
   }
   const View position = primitive["attributes"]["POSITION"];
   const auto accessor = position.index(document.size("accessors"));
   if (!accessor) {
-    warnings.say("primitives without positions are left out");
+    warnings.say("primitives without positions are ignored");
     return std::nullopt;
   }
   const uint64_t vertices = document.item("accessors", *accessor)["count"].count();
@@ -113,7 +115,7 @@ glm::dvec3 mean_vertex_colour(const Document& document, const View& primitive, F
     sum += glm::dvec3(c[i], c[i + 1], c[i + 2]);
     differ = differ || !std::equal(c.begin(), c.begin() + 3, c.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  if (differ) warnings.say("colours of vertices are rendered as the mean of their mesh");
+  if (differ) warnings.say("vertex colours are replaced by their mean over the mesh");
   return c.empty() ? glm::dvec3(1) : glm::clamp(sum / (double(c.size()) / double(n)), 0.0, 1.0);
 }
 

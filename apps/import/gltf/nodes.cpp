@@ -7,11 +7,12 @@
 namespace kaustik::gltf {
 namespace {
 
-// Translation, rotation as a quaternion, scale.
+// The matrix of a translation, a rotation (quaternion x, y, z, w) and a scale. `rotation` names the place for
+// errors.
 glm::dmat4 transform_of(const std::vector<double>& t, const std::vector<double>& r,
                         const std::vector<double>& s, const View& rotation) {
   const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-  if (!(length > 0)) rotation.fail("is no rotation: all of it is zero");
+  if (!(length > 0)) rotation.fail("is not a rotation: it is zero");
   const glm::dquat q(r[3] / length, r[0] / length, r[1] / length, r[2] / length);
   glm::dmat3 m = glm::mat3_cast(q);
   for (int k = 0; k < 3; ++k) m[k] *= s[static_cast<size_t>(k)];
@@ -37,7 +38,7 @@ bool is_visible(const View& node) {
   return node["extensions"]["KHR_node_visibility"]["visible"].flag(true);
 }
 
-// Of the scene that is shown; of a file without scenes every node that is nobody's child.
+// The root nodes of the file's default scene; in a file without scenes, every node that has no parent.
 std::vector<uint64_t> roots_of(const Document& document) {
   const uint64_t nodes = document.size("nodes");
   std::vector<uint64_t> roots;
@@ -65,7 +66,7 @@ std::vector<PlacedNode> placed_nodes(const Document& document) {
   std::vector<bool> met(nodes, false);
   std::vector<PlacedNode> out, waiting;
   const auto push = [&](uint64_t n, const glm::dmat4& parent) {
-    if (met[n]) document.item("nodes", n).fail("has two parents, or is its own ancestor");
+    if (met[n]) document.item("nodes", n).fail("has two parents or is its own ancestor");
     met[n] = true;
     waiting.push_back({n, parent});
   };
@@ -93,7 +94,7 @@ std::vector<glm::dmat4> instances_of(const Document& document, const View& node)
     if (!accessor) return otherwise;
     const Elements e = document.elements(*accessor, components);
     if (count && *count != e.count)
-      attributes[name].fail(fmt::format("has not the {} instances of others", *count));
+      attributes[name].fail(fmt::format("must have {} instances, as the other attributes have", *count));
     count = e.count;
     return e.values;
   };

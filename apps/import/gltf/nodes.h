@@ -1,5 +1,5 @@
 #pragma once
-// The hierarchy of a glTF file, laid flat.
+// Flattens the node hierarchy of a glTF file.
 
 #include <glm/glm.hpp>
 #include <vector>
@@ -13,11 +13,11 @@ struct PlacedNode {
   glm::dmat4 to_world{1};
 };
 
-// Every node of the file's scene, parents before children, in the order of the file. A node that is met twice
-// (two parents, or its own ancestor) is an error.
+// All visible nodes of the file's scene, parents before children, in the order of the file. Throws
+// FormatError for a node that has two parents or is its own ancestor.
 std::vector<PlacedNode> placed_nodes(const Document& document);
 
-// Where the node's mesh stands in it: once, or as often as EXT_mesh_gpu_instancing says.
+// Transforms from mesh to node: the identity, or one per instance of EXT_mesh_gpu_instancing.
 std::vector<glm::dmat4> instances_of(const Document& document, const View& node);
 
 }  // namespace kaustik::gltf

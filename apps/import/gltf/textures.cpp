@@ -11,7 +11,7 @@
 namespace kaustik::gltf {
 namespace {
 
-// By the first bytes: OpenImageIO goes by the name.
+// The file extension that fits the image's first bytes: OpenImageIO chooses the format by it.
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return ".png";
   if (bytes.starts_with("\xff\xd8")) return ".jpg";
@@ -36,8 +36,7 @@ std::optional<uint64_t> Textures::image_of(const View& info) {
   auto source = t["source"].index(document_.size("images"));
   if (!source) source = t["extensions"]["EXT_texture_webp"]["source"].index(document_.size("images"));
   if (!source)
-    warnings_.say(
-        "textures without an image that is PNG, JPEG or WebP (such as KHR_texture_basisu) are left out");
+    warnings_.say("textures without a PNG, JPEG or WebP image (such as KHR_texture_basisu) are ignored");
   return source;
 }
 
@@ -68,7 +67,7 @@ std::optional<ImageFile> Textures::file_of_image(uint64_t index) {
   }
   const std::string extension = data ? extension_of(*data) : "";
   if (extension.empty()) {
-    warnings_.say(fmt::format("image {} is none of PNG, JPEG and WebP: it is left out", index));
+    warnings_.say(fmt::format("image {} is neither PNG nor JPEG nor WebP and is ignored", index));
     images_[index] = std::nullopt;
     return std::nullopt;
   }
@@ -82,8 +81,8 @@ std::optional<ImageFile> Textures::file(const View& info) {
   return image ? file_of_image(*image) : std::nullopt;
 }
 
-// glTF's samplers and transforms of coordinates, as far as pbrt has words for them. t points up here and down
-// there.
+// Adds an "imagemap" with glTF's sampler and texture transform, as far as pbrt can express them. t points up
+// in pbrt and down in glTF.
 std::string Textures::add(const std::string& value_type, const ImageFile& file, const std::string& encoding,
                           const View& info) {
   DirectiveMaker<TextureDescription> texture("imagemap", warnings_.where());
@@ -97,13 +96,12 @@ std::string Textures::add(const std::string& value_type, const ImageFile& file, 
     const View s = document_.item("samplers", *sampler);
     const uint64_t wrap = s["wrapS"].count(10497);
     if (wrap == 33071) texture.text("wrap", "clamp");
-    if (wrap == 33648) warnings_.say("mirrored textures are repeated");
+    if (wrap == 33648) warnings_.say("mirrored textures are repeated without mirroring");
   }
   if (const View transform = info["extensions"]["KHR_texture_transform"]) {
     const auto offset = transform["offset"].numbers(2, {0, 0}), scale = transform["scale"].numbers(2, {1, 1});
-    if (transform["rotation"].number(0) != 0)
-      warnings_.say("rotations of KHR_texture_transform are left out");
-    // t' = 1 - (v scale + offset) with v = 1 - t.
+    if (transform["rotation"].number(0) != 0) warnings_.say("rotations of KHR_texture_transform are ignored");
+    // glTF samples at v' = v scale + offset with v = 1 - t; in pbrt's t that is t' = 1 - v'.
     texture.number("uscale", scale[0]).number("vscale", scale[1]);
     texture.number("udelta", offset[0]).number("vdelta", 1 - scale[1] - offset[1]);
   }

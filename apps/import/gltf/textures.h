@@ -1,6 +1,7 @@
 #pragma once
-// Images of a glTF file as textures of pbrt. Those that lie within the file, and those that pbrt has no words
-// for (one channel of an image, a factor), are written to a folder that lives as long as the scene.
+// Converts the images of a glTF file to pbrt textures. Images embedded in the file, and those that pbrt
+// cannot express (one channel of an image, a factor), are written to a temporary folder that lives as long as
+// the scene.
 
 #include <functional>
 #include <map>
@@ -12,7 +13,7 @@
 
 namespace kaustik::gltf {
 
-// A file and the place whose folder its name is relative to.
+// An image file; its name is relative to the folder of the file at `where`.
 struct ImageFile {
   std::string name;
   SourceLocation where;
@@ -24,18 +25,21 @@ class Textures {
            SceneDescription& scene)
       : document_(document), path_(std::move(path)), warnings_(warnings), files_(files), scene_(scene) {}
 
-  // All of these take a textureInfo of glTF and give nothing when it names no image, or one that cannot be
-  // read (with a warning). Names of textures that are added to the scene:
+  // The following functions take a textureInfo of glTF. They return nothing when it names no image or, with a
+  // warning, when the image cannot be read.
+  //
+  // Adds a colour texture, multiplied by `factor`, to the scene and returns its name.
   std::optional<std::string> colour(const View& info, const glm::dvec3& factor);
-  // A channel (0 to 3) as numbers; map is applied to each, and gives 0 to 1.
+  // Adds a float texture of one channel (0 to 3) and returns its name. `map` is applied to each value and
+  // must return 0 to 1.
   std::optional<std::string> channel(const View& info, int channel, const std::function<double(double)>& map);
-  // The image itself, and that of its colours times a factor.
+  // The image file; the second function returns a copy with its colours multiplied by `factor`.
   std::optional<ImageFile> file(const View& info);
   std::optional<ImageFile> tinted_file(const View& info, const glm::dvec3& factor);
-  // Its mean colour: linear, or the mean of the numbers where they are not sRGB.
+  // The mean colour in linear light; with srgb = false, the mean of the stored numbers.
   std::optional<glm::dvec3> mean(const View& info, bool srgb = true);
 
-  // "texture name" [ texture ]
+  // The parameter `"texture name" [ texture ]`.
   Parameter parameter(const std::string& name, const std::string& texture) const;
   static Parameter file_parameter(const std::string& name, const ImageFile& file);
 
@@ -53,7 +57,8 @@ class Textures {
   SourceFiles& files_;
   SceneDescription& scene_;
   std::shared_ptr<TemporaryFolder> folder_;
-  uint32_t folder_file_ = 0;  // a name in the folder, which its files are beside
+  uint32_t folder_file_ =
+      0;  // id of a placeholder in the folder, to which the names of its files are relative
   std::map<uint64_t, std::optional<ImageFile>> images_;
   std::map<std::string, std::string> made_;  // textures by what they were made from
   uint64_t derived_ = 0;

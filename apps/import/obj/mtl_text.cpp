@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kColours[] = {"ka", "kd", "ks", "ke"};
 constexpr std::string_view kNumbers[] = {"ns", "ni", "d", "tr", "illum", "pr", "pm"};
 constexpr std::string_view kMaps[] = {"map_kd", "map_ke", "map_d", "map_bump", "bump", "norm"};
-// Known, and without effect.
+// Known keywords that have no effect here: dropped without a warning.
 constexpr std::string_view kSilent[] = {"tf", "map_ka", "sharpness", "map_aat"};
 
 template <class Names>
@@ -41,7 +41,7 @@ class Cleaner {
   Cleaner(const std::filesystem::path& folder, FileWarnings& warnings, MapOptionsOf& options)
       : folder_(folder), warnings_(warnings), options_(options) {}
 
-  // Empty where the line says nothing.
+  // One line rewritten; empty for blank lines, comments and dropped keywords.
   std::string line(const std::string& text) {
     std::istringstream words(text);
     std::string keyword;
@@ -62,10 +62,10 @@ class Cleaner {
 
  private:
   void say_left_out(const std::string& keyword) {
-    warnings_.say(fmt::format("`{}` of materials is left out", keyword.substr(0, 40)));
+    warnings_.say(fmt::format("the material keyword `{}` is ignored", keyword.substr(0, 40)));
   }
 
-  // A colour of one number is grey.
+  // Rewrites a colour or number. A colour given by one number is grey.
   std::string values(const std::string& keyword, const std::string& key, const std::string& rest) {
     std::istringstream words(rest);
     std::vector<double> found;
@@ -85,7 +85,7 @@ class Cleaner {
     return fmt::format("{} {}", keyword, fmt::join(found, " "));
   }
 
-  // Options have one word, but for those of up to three numbers.
+  // Rewrites a map. Its options take one word each; -s, -o and -t take up to three numbers, -mm takes two.
   std::string map(const std::string& key, const std::string& rest) {
     MapOptions found;
     size_t at = 0;
@@ -119,7 +119,7 @@ class Cleaner {
     if (std::filesystem::is_regular_file(folder_ / name, ignored)) return name;
     const std::string last = name.substr(name.find_last_of('/') + 1);
     if (std::filesystem::is_regular_file(folder_ / last, ignored)) return last;
-    // Some programs write options behind the name.
+    // Some programs write the options after the name.
     if (const size_t options = name.find(" -"); options != name.npos) return file_of(name.substr(0, options));
     warnings_.say(fmt::format("there is no file \"{}\": this map is left out", name));
     return std::nullopt;

@@ -21,10 +21,11 @@ namespace {
 
 constexpr uint64_t kLargestFile = uint64_t{1} << 34;
 
-// A file of an OBJ and the texts that go with it, as assimp is to see them.
+// Gives assimp an OBJ file and its material libraries, rewritten by clean_mtl.
 class ObjFiles : public Assimp::DefaultIOSystem {
  public:
-  // Files become part of the scene's hash; libraries of materials that are missing are a warning.
+  // Reads the OBJ file and its material libraries into diagnostics.files, so that they count in the scene's
+  // content hash. A missing library gives a warning. False, with an error, when the OBJ file cannot be read.
   bool read(const std::filesystem::path& path, Diagnostics& diagnostics) {
     std::string error;
     auto text = pbrt::read_bytes(path, kLargestFile, error);
@@ -46,7 +47,7 @@ class ObjFiles : public Assimp::DefaultIOSystem {
     return true;
   }
 
-  // What is no OBJ is one of its libraries: all of them stand in the place of whichever assimp asks for.
+  // Any file but the OBJ is a material library: assimp gets the text of all libraries whichever it asks for.
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (is_obj(file)) return DefaultIOSystem::Open(file, mode);
     return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(materials_.data()), materials_.size());
@@ -55,7 +56,7 @@ class ObjFiles : public Assimp::DefaultIOSystem {
   const MapOptionsOf& options() const { return options_; }
 
  private:
-  // Names may hold blanks, or be several.
+  // The names after `mtllib`: one name with blanks if such a file exists, else several names.
   static std::vector<std::string> libraries_of(const std::string& names,
                                                const std::filesystem::path& folder) {
     std::error_code ignored;
@@ -72,7 +73,7 @@ class ObjFiles : public Assimp::DefaultIOSystem {
                    FileWarnings& warnings, Diagnostics& diagnostics) {
     std::string error;
     auto text = pbrt::read_bytes(path.parent_path() / name, kLargestFile, error);
-    if (!text) return diagnostics.warning(where, fmt::format("{}: its materials are grey", error));
+    if (!text) return diagnostics.warning(where, fmt::format("{}; its materials become grey", error));
     materials_ += clean_mtl(*text, path.parent_path(), warnings, options_);
     diagnostics.files.add((path.parent_path() / name).string(), std::move(*text));
   }
@@ -92,7 +93,7 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-// Importers delete their handlers, but this one is not theirs.
+// Takes the IO handler back from the importer, which would otherwise delete it.
 struct Borrowed {
   Assimp::Importer& importer;
   ~Borrowed() { importer.SetIOHandler(nullptr); }

@@ -1,6 +1,6 @@
 #pragma once
-// Wavefront OBJ files with their MTL materials, read by assimp, as directives of pbrt
-// (docs/reference/scene_format.md says what becomes of what).
+// Imports Wavefront OBJ files with their MTL materials, read by assimp, as pbrt directives
+// (docs/reference/scene_format.md lists the mapping).
 
 #include <filesystem>
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace kaustik {
 
-// Nothing, with an error that says what was wrong, when the file cannot be read: indices out of range,
-// positions that are not finite, no faces at all. What is left out is one warning each.
+// Nothing, with an error in `diagnostics`, when the file cannot be read or is invalid: indices out of range,
+// positions that are not finite, no faces at all. Each ignored feature gives one warning.
 std::optional<SceneDescription> import_obj(const std::filesystem::path& path, Diagnostics& diagnostics);
 
-// By the name's ending.
+// Decides by the file name's extension.
 bool is_obj(const std::filesystem::path& path);
 
 }  // namespace kaustik

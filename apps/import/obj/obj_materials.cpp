@@ -11,7 +11,7 @@
 namespace kaustik {
 namespace {
 
-// As written; the fallback where it is not, or not finite.
+// The value of a key; `otherwise` when it is absent or not finite.
 double number(const aiMaterial& mtl, const char* key, unsigned type, unsigned index, double otherwise) {
   float value = 0;
   const bool there = mtl.Get(key, type, index, value) == aiReturn_SUCCESS && std::isfinite(value);
@@ -70,7 +70,7 @@ void add_reflectance(const aiMaterial& mtl, const MtlContext& context, Maker& m)
                        context.warnings.where()));
 }
 
-// Programs write maps of normals as `map_Bump`, too: those are blue.
+// Some programs write normal maps as `map_Bump`; their mean colour is blue.
 void add_normals(const aiMaterial& mtl, const MtlContext& context, Maker& m) {
   auto file = map_of(mtl, aiTextureType_NORMALS);
   if (const auto bump = map_of(mtl, aiTextureType_HEIGHT); bump && !file) {
@@ -79,12 +79,12 @@ void add_normals(const aiMaterial& mtl, const MtlContext& context, Maker& m) {
     if (mean && mean->z > 0.75 && mean->x < 0.65 && mean->y < 0.65)
       file = bump;
     else
-      context.warnings.say("`map_Bump` is left out, where it is no map of normals");
+      context.warnings.say("`map_Bump` is ignored unless it is a normal map");
   }
   if (file) m.text("normalmap", *file);
 }
 
-// Phong's exponent as a width of GGX: as wide as Blinn's lobe of that exponent (Walter et al. 2007, 5.2).
+// The GGX width alpha that matches a Blinn-Phong lobe of this exponent (Walter et al. 2007, section 5.2).
 double width_of(double exponent) {
   return std::sqrt(2 / (std::max(exponent, 0.0) + 2));
 }
@@ -96,7 +96,7 @@ Maker clear(const aiMaterial& mtl, const SourceLocation& where) {
   return m;
 }
 
-// A metal reflects by Ks where it has one: Kd of metals is often black.
+// A metal's reflectance is Ks if that is not black, else Kd: many files set Kd of metals to black.
 Maker metal(const aiMaterial& mtl, const SourceLocation& where, double width) {
   Maker m("conductor", where);
   const glm::dvec3 ks = colour(mtl, AI_MATKEY_COLOR_SPECULAR, glm::dvec3(0));
@@ -108,7 +108,8 @@ Maker metal(const aiMaterial& mtl, const SourceLocation& where, double width) {
 
 int illum_of(const aiMaterial& mtl) {
   int illum = 2;
-  mtl.Get(AI_MATKEY_SHADING_MODEL, illum);  // assimp's names of models; the number itself where it has one
+  mtl.Get(AI_MATKEY_SHADING_MODEL,
+          illum);  // assimp's enumerator; overwritten by the file's number if there is one
   mtl.Get("$mat.illum", 0, 0, illum);
   return illum;
 }

@@ -9,21 +9,22 @@
 
 namespace kaustik {
 
-// What a material is read with: options of maps, and the folder that these lie in.
+// What the functions below need besides the material itself.
 struct MtlContext {
   const MapOptionsOf& options;
-  const std::filesystem::path& folder;
+  const std::filesystem::path& folder;  // of the map files
   FileWarnings& warnings;
   SceneDescription& scene;
 };
 
-// The nearest material of pbrt, without a name. Textures that it needs are added to the scene.
+// The nearest pbrt material, without a name. Textures that it needs are added to the scene.
 MaterialDescription material_of_mtl(const aiMaterial& mtl, const MtlContext& context);
 
-// Ke, or map_Ke times it, as the radiance of an area light; nothing where it is black.
+// An area light of radiance Ke, or of the image map_Ke times Ke's largest component. Nothing if the material
+// does not emit.
 std::optional<Directive> light_of_mtl(const aiMaterial& mtl, const SourceLocation& where);
 
-// map_d, or d, as the `alpha` of shapes.
+// The `alpha` parameter of shapes from map_d or d; nothing for opaque and for clear materials.
 std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, const MtlContext& context);
 
 }  // namespace kaustik

@@ -12,7 +12,7 @@
 namespace kaustik::pbrt {
 namespace {
 
-constexpr double kSodiumLine = 587.6;  // nm: where indices of refraction are given
+constexpr double kSodiumLine = 587.6;  // nm; the wavelength at which indices of refraction are quoted
 
 bool takes(const ParameterSpec& spec, ParameterType type) {
   return std::find(spec.types.begin(), spec.types.end(), type) != spec.types.end();
@@ -33,18 +33,18 @@ void set_rgb(Parameter& p, const glm::dvec3& c) {
   p.type = ParameterType::kRgb;
   p.strings.clear();
   p.numbers = {c.x, c.y, c.z};
-  // What later checks have to say is said of the first value.
+  // Later checks report errors at the location of the first value.
   p.value_places.resize(std::min<size_t>(p.value_places.size(), 1));
 }
 
-// Into the gamut, and no brighter or darker: a light of luminance 1 keeps it.
+// Cuts negative components and scales the rest so that the luminance stays the same.
 glm::dvec3 cut_light(const glm::dvec3& c) {
   const glm::dvec3 cut = glm::max(c, 0.0);
   const auto y = [](const glm::dvec3& v) { return 0.2126 * v.x + 0.7152 * v.y + 0.0722 * v.z; };
   return cut == c || !(y(cut) > 0) ? cut : cut * (y(c) / y(cut));
 }
 
-// Into what the schema takes: shares end at 1.
+// Clamps to the range that the schema allows, such as [0, 1] for a reflectance.
 glm::dvec3 cut_surface(const glm::dvec3& c, const ParameterSpec& spec) {
   return glm::clamp(c, std::max(0.0, spec.range.low), spec.range.high);
 }
@@ -58,7 +58,7 @@ void change_space(Parameter& p, const ParameterSpec& spec, const ColourSpace& sp
   }
 }
 
-// A metal's eta and k belong together: what they give in common is its colour.
+// Replaces spectral `eta` and `k` of a metal by rgb values that together give the metal's colour.
 void join_metal(const std::map<std::string, Spectrum>& spectra, Directive& directive) {
   for (Parameter& eta : directive.parameters) {
     if (!eta.name.ends_with("eta") || eta.type != ParameterType::kRgb) continue;
@@ -106,19 +106,20 @@ void ColourReducer::reduce_spectrum(Parameter& p, const ParameterSpec& spec, con
     p.value_places.resize(std::min<size_t>(p.value_places.size(), 1));
     if (!warned_of_dispersion_)
       diagnostics_.warning(
-          p.location, fmt::format("dispersion is not rendered: `{}` is its value at {} nm, {:.5g}", p.name,
-                                  kSodiumLine, p.numbers[0]));
+          p.location, fmt::format("dispersion is not rendered: `{}` is taken at {} nm, where it is {:.5g}",
+                                  p.name, kSodiumLine, p.numbers[0]));
     warned_of_dispersion_ = true;
     return;
   }
-  // Two numbers are pbrt-v3's blackbody: temperature and factor.
+  // pbrt-v3's blackbody has two numbers: temperature and factor.
   const double factor = p.type == ParameterType::kBlackbody && p.numbers.size() == 2 ? p.numbers[1] : 1;
   if (!light) return set_rgb(p, cut_surface(factor * reflected_colour(s), spec));
   const glm::dvec3 c = emitted_colour(s);
   if (!std::isfinite(c.x + c.y + c.z)) {
-    diagnostics_.error(p.value_location(0), fmt::format("nobody sees the light of `{}`: its spectrum is zero "
-                                                        "from 360 nm to 830 nm",
-                                                        p.name));
+    diagnostics_.error(p.value_location(0),
+                       fmt::format("the light of `{}` is invisible: its spectrum is zero "
+                                   "from 360 nm to 830 nm",
+                                   p.name));
     return set_rgb(p, glm::dvec3(1));
   }
   set_rgb(p, factor * cut_light(c));
@@ -130,10 +131,9 @@ std::optional<Spectrum> ColourReducer::spectrum_of(const Parameter& p) {
   const bool good = p.numbers.size() == 1 || p.numbers.size() == 2;
   if (good && p.numbers[0] >= kLeast && p.numbers[0] <= kMost && p.numbers.back() >= 0)
     return blackbody(p.numbers[0]);
-  diagnostics_.error(
-      good ? p.value_location(0) : p.location,
-      fmt::format("`{}` takes a temperature of {} to {:.0f} kelvin, and after it a factor at most", p.name,
-                  kLeast, kMost));
+  diagnostics_.error(good ? p.value_location(0) : p.location,
+                     fmt::format("`{}` takes a temperature from {} to {:.0f} kelvin and an optional factor",
+                                 p.name, kLeast, kMost));
   return std::nullopt;
 }
 
@@ -145,7 +145,7 @@ std::optional<Spectrum> ColourReducer::from_samples(const std::vector<double>& p
                                                     const SourceLocation& where,
                                                     const std::function<SourceLocation(size_t)>& place) {
   if (pairs.empty() || pairs.size() % 2 != 0) {
-    diagnostics_.error(where, fmt::format("a spectrum is pairs of wavelength and value, not {} number{}",
+    diagnostics_.error(where, fmt::format("a spectrum takes pairs of wavelength and value, not {} number{}",
                                           pairs.size(), pairs.size() == 1 ? "" : "s"));
     return std::nullopt;
   }
@@ -157,7 +157,8 @@ std::optional<Spectrum> ColourReducer::from_samples(const std::vector<double>& p
       return std::nullopt;
     }
     if (pairs[i + 1] < 0) {
-      diagnostics_.error(place(i + 1), fmt::format("a spectrum is not negative: {}", pairs[i + 1]));
+      diagnostics_.error(place(i + 1),
+                         fmt::format("a spectrum must not be negative, but has the value {}", pairs[i + 1]));
       return std::nullopt;
     }
     wavelengths.push_back(pairs[i]);
@@ -176,7 +177,7 @@ std::optional<Spectrum> ColourReducer::from_name(const Parameter& p) {
   if (const auto nearest = nearest_to_missing_spectrum(name)) {
     const std::string instead = nearest->empty() ? "" : fmt::format("; \"{}\" is the nearest", *nearest);
     diagnostics_.error(p.value_location(0),
-                       fmt::format("there are no numbers here for pbrt's spectrum \"{}\": give a file of "
+                       fmt::format("pbrt's spectrum \"{}\" is not built in: give a file of "
                                    "wavelengths and values{}",
                                    name, instead));
     return std::nullopt;
@@ -184,8 +185,8 @@ std::optional<Spectrum> ColourReducer::from_name(const Parameter& p) {
   std::string error;
   if (const auto file = open_(name, error)) return from_file(p, *file);
   const std::string hint = name_hint(name, spectrum_names());
-  diagnostics_.error(p.value_location(0), fmt::format("no spectrum is named \"{}\"{} As a file: {}", name,
-                                                      hint.empty() ? "." : hint, error));
+  diagnostics_.error(p.value_location(0), fmt::format("no spectrum is named \"{}\"{} Read as a file name: {}",
+                                                      name, hint.empty() ? "." : hint, error));
   return std::nullopt;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Spectra, blackbodies and colours of other spaces, reduced to linear Rec. 709: what comes after the importer
-// knows "rgb" only.
+// Converts spectra, blackbodies and colours of other colour spaces to linear Rec. 709: later stages know only
+// "rgb".
 
 #include <functional>
 #include <optional>
@@ -12,7 +12,8 @@
 
 namespace kaustik::pbrt {
 
-// The id of a text file that a parameter names; nothing with the reason in `error`.
+// Opens a text file that a parameter names: its id; nothing, with a message in `error`, when it cannot be
+// read.
 using TextOpener = std::function<std::optional<uint32_t>(const std::string& name, std::string& error)>;
 
 class ColourReducer {
@@ -20,12 +21,13 @@ class ColourReducer {
   ColourReducer(TextOpener open, Diagnostics& diagnostics)
       : open_(std::move(open)), diagnostics_(diagnostics) {}
 
-  // Makes rgb of "spectrum" and "blackbody" parameters where the directive's type takes rgb, and a float of a
-  // spectrum where it takes an index of refraction. Spectra of lights have luminance 1, as in pbrt-v4; those
-  // of surfaces the colour that they show under D65. Names are pbrt's (core/spectrum/named_spectra.h) or
-  // files of wavelengths and values. "rgb" is taken from the colour space to ours. Colours outside of our
-  // gamut are cut off at zero. Parameters that are wrong are removed, with an error; those that the type does
-  // not take are left for the schema to complain about. directive: "Material", ...
+  // Converts the colour parameters of a directive to linear Rec. 709. "spectrum" and "blackbody" become rgb
+  // where the type takes rgb, and a float where it takes an index of refraction. Spectra of lights are scaled
+  // to luminance 1, as in pbrt-v4; spectra of surfaces become their colour under D65. Named spectra are
+  // pbrt's (core/spectrum/named_spectra.h) or files of wavelengths and values. "rgb" is converted from
+  // `space`. Negative components of colours outside the gamut become zero. Invalid parameters are removed
+  // with an error; parameters that the type does not take are left for the schema check to report.
+  // `directive`: "Material", ...
   void reduce(std::string_view directive, const ColourSpace& space, Directive& out);
 
  private:

@@ -18,9 +18,9 @@ constexpr std::array kTypes = {ParameterType::kFloat,  ParameterType::kInteger, 
                                ParameterType::kPoint3, ParameterType::kVector3,  ParameterType::kNormal,
                                ParameterType::kRgb,    ParameterType::kSpectrum, ParameterType::kBlackbody,
                                ParameterType::kTexture};
-// Integers are kept in doubles.
-constexpr size_t kMostParameters = 1000;                // of a directive: they are compared with each other
-constexpr double kLargestInteger = 9007199254740992.0;  // 2^53
+constexpr size_t kMostParameters = 1000;  // of a directive: duplicates are found in quadratic time
+// 2^53: integers are stored in doubles.
+constexpr double kLargestInteger = 9007199254740992.0;
 
 std::string quoted(const Token& token) {
   if (token.is(TokenKind::kEnd)) return "the end of the file";
@@ -101,20 +101,21 @@ bool add_value(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
   return false;
 }
 
-// Of a number that no double can hold: is it too small (then it is zero) rather than too large?
+// Tells whether a number that does not fit into a double is too small (and counts as zero) rather than too
+// large.
 bool is_tiny(std::string_view text) {
   const size_t exponent = text.find_first_of("eE");
   if (exponent != text.npos) return text.find('-', exponent) != text.npos;
   return text.find_first_of("123456789") > text.find('.');
 }
 
-// After a bad value: the rest of the list says nothing new.
+// Skips the rest of a list after a bad value, so that it causes no further errors.
 void skip_list(Tokenizer& tokens) {
   while (is_value(tokens.peek())) tokens.next();
   if (tokens.peek().is(TokenKind::kClose)) tokens.next();
 }
 
-// "xyz L", of pbrt-v3.
+// Tells whether this is pbrt-v3's type `xyz`, as in "xyz L".
 bool is_xyz(const Token& declaration) {
   constexpr std::string_view kBlanks = " \t";
   const size_t begin = declaration.text.find_first_not_of(kBlanks);
@@ -129,7 +130,7 @@ void to_rgb(Parameter& p) {
   }
 }
 
-// Splits "type name"; reports what is wrong with it.
+// Splits "type name" into the parameter's type and name. False, with an error, when it is malformed.
 bool parse_declaration(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
   constexpr std::string_view kBlanks = " \t";
   const std::string_view text = token.text;
@@ -158,7 +159,7 @@ bool parse_declaration(const Token& token, Parameter& p, DiagnosticList& diagnos
 }  // namespace
 
 std::optional<ParameterType> parameter_type(std::string_view word) {
-  // pbrt-v3's words.
+  // pbrt-v3's names of types.
   if (word == "color" || word == "xyz") return ParameterType::kRgb;
   if (word == "point") return ParameterType::kPoint3;
   if (word == "vector") return ParameterType::kVector3;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and typed parameter lists: "rgb L" [ 17 12 4 ].
+// Parses numbers and typed parameter lists such as "rgb L" [ 17 12 4 ].
 
 #include <optional>
 #include <vector>
@@ -9,19 +9,20 @@
 
 namespace kaustik::pbrt {
 
-// The number that a token says; nothing, with an error added, when it is none or lies beyond the range of
-// floats.
+// The value of a number token; nothing, with an error, when it is not a number or outside the range of a
+// float.
 std::optional<double> parse_number(const Token& token, DiagnosticList& diagnostics);
 
-// Exactly `count` numbers, in brackets or not. what: "LookAt".
+// Reads exactly `count` numbers, with or without brackets; nothing, with an error, when there are fewer.
+// `what`: the directive, for the message.
 std::optional<std::vector<double>> parse_numbers(Tokenizer& tokens, size_t count, std::string_view what,
                                                  DiagnosticList& diagnostics);
 
-// The values that follow a declaration, one or a bracketed list, into the parameter. False after an error;
-// then the next token is the first that is not a part of the list.
+// Reads the values after a declaration, one value or a bracketed list, into `parameter`. False after an
+// error; the next token is then the first after the list.
 bool parse_values(Tokenizer& tokens, Parameter& parameter, DiagnosticList& diagnostics);
 
-// All parameters up to the next directive. Those with errors are left out.
+// Reads all parameters up to the next directive. Invalid ones are reported and skipped.
 std::vector<Parameter> parse_parameters(Tokenizer& tokens, DiagnosticList& diagnostics);
 
 std::optional<ParameterType> parameter_type(std::string_view word);

@@ -25,7 +25,7 @@ constexpr Renaming kTypes[] = {
     {"AreaLightSource", "area", "diffuse"},
 };
 
-// The meaning is the same, or nearly.
+// Renamed parameters whose meaning is the same or nearly so.
 constexpr Renaming kParameters[] = {
     {"PixelFilter", "xwidth", "xradius"},
     {"PixelFilter", "ywidth", "yradius"},
@@ -39,16 +39,16 @@ struct Dropped {
 
 constexpr Dropped kDropped[] = {
     {"Film", "maxsampleluminance", "samples are not clamped"},
-    {"Sampler", "dimensions", "points have as many as they need"},
+    {"Sampler", "dimensions", "sample points have as many dimensions as they need"},
     {"Sampler", "samplepixelcenter", "samples are spread over the pixel"},
-    {"LightSource", "nsamples", "samples are set for the whole render"},
-    {"LightSource", "samples", "samples are set for the whole render"},
-    {"AreaLightSource", "nsamples", "samples are set for the whole render"},
-    {"AreaLightSource", "samples", "samples are set for the whole render"},
-    {"Texture", "trilinear", "filtering is another"},
-    {"Texture", "aamode", "filtering is another"},
+    {"LightSource", "nsamples", "the number of samples holds for the whole render"},
+    {"LightSource", "samples", "the number of samples holds for the whole render"},
+    {"AreaLightSource", "nsamples", "the number of samples holds for the whole render"},
+    {"AreaLightSource", "samples", "the number of samples holds for the whole render"},
+    {"Texture", "trilinear", "textures are filtered in another way"},
+    {"Texture", "aamode", "textures are filtered in another way"},
     {"Shape", "shadowalpha", "shadows follow `alpha`"},
-    {"Shape", "discarddegenerateUVs", "such coordinates do no harm"},
+    {"Shape", "discarddegenerateUVs", "degenerate uv coordinates do no harm"},
 };
 
 Parameter* find(Directive& d, std::string_view name) {
@@ -116,16 +116,16 @@ void V3Upgrader::upgrade_material(Directive& m) {
               fmt::format("pbrt-v3's material \"{}\" becomes {}", from, change));
 }
 
-// `scale` multiplies the image, as `iso` does.
+// v3's `scale` multiplies the image, as `iso` / 100 does.
 void V3Upgrader::upgrade_film(Directive& film) {
   Parameter* scale = find(film, "scale");
   if (!scale || scale->numbers.size() != 1 || film.find("iso")) return;
-  warn_once("Film/scale", scale->location, "`scale` of pbrt-v3's `Film` becomes `iso`, 100 times as much");
+  warn_once("Film/scale", scale->location, "`scale` of pbrt-v3's `Film` becomes `iso`, multiplied by 100");
   scale->name = "iso";
   scale->numbers[0] *= 100;
 }
 
-// Latitudes and longitudes, +y up, as v4 has them.
+// v3's "environment" is v4's "spherical" with the mapping "equirectangular".
 void V3Upgrader::upgrade_camera(Directive& camera) {
   if (camera.type != "environment") return;
   rename_type("Camera", "environment", "spherical", camera);
@@ -133,7 +133,7 @@ void V3Upgrader::upgrade_camera(Directive& camera) {
       make_parameter(ParameterType::kString, "mapping", "equirectangular", camera.type_location));
 }
 
-// Coordinates were pairs of floats.
+// In v3, uv coordinates were declared as floats.
 void V3Upgrader::upgrade_shape(Directive& shape) {
   for (const std::string_view name : {"uv", "st"}) {
     Parameter* p = find(shape, name);
@@ -144,7 +144,7 @@ void V3Upgrader::upgrade_shape(Directive& shape) {
   if (shape.type == "loopsubdiv") rename("Shape", "nlevels", "levels", shape);
 }
 
-// The image of v4's projector is all of its colour.
+// v4's "projection" light takes its colour from the image alone, so the luminance of `I` moves into `scale`.
 void V3Upgrader::fold_intensity(Directive& light) {
   const Parameter* I = light.find("I");
   if (!I || I->type != ParameterType::kRgb || I->numbers.size() != 3) return;
@@ -160,7 +160,7 @@ void V3Upgrader::fold_intensity(Directive& light) {
   erase(light, "I");
 }
 
-// Red along u and green along v.
+// v3's "uv" shows u as red and v as green: a "bilerp" of four corner colours does the same.
 void V3Upgrader::upgrade_uv(Directive& texture) {
   rename_type("Texture", "uv", "bilerp", texture);
   const auto corner = [&](std::string_view name, double u, double v) {
@@ -170,7 +170,7 @@ void V3Upgrader::upgrade_uv(Directive& texture) {
   corner("v00", 0, 0), corner("v01", 0, 1), corner("v10", 1, 0), corner("v11", 1, 1);
 }
 
-// `scale` was a colour.
+// In v3, a light's `scale` was a colour.
 void V3Upgrader::upgrade_light(Directive& light) {
   if (light.type == "projection") fold_intensity(light);
   const Parameter* scale = light.find("scale");
@@ -182,10 +182,11 @@ void V3Upgrader::upgrade_light(Directive& light) {
   const Parameter factor = *scale;
   const bool grey = factor.numbers[0] == factor.numbers[1] && factor.numbers[1] == factor.numbers[2];
   Parameter* colour = find(light, name);
-  if (!grey && colour && colour->type != ParameterType::kRgb) return;  // for the schema to complain about
+  if (!grey && colour && colour->type != ParameterType::kRgb) return;  // the schema check reports it
   if (!grey && colour && colour->numbers.size() != 3) return;
   erase(light, "scale");
-  warn_once("Light/scale", factor.location, "`scale` of pbrt-v3's lights is a colour: it multiplies theirs");
+  warn_once("Light/scale", factor.location,
+            "`scale` of pbrt-v3's lights is a colour: it multiplies the light's own");
   if (grey) {
     light.parameters.push_back(factor);
     light.parameters.back().type = ParameterType::kFloat;

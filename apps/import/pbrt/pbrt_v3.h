@@ -1,5 +1,5 @@
 #pragma once
-// What pbrt-v3 wrote otherwise than pbrt-v4, put into the words of v4: what comes after knows nothing of v3.
+// Rewrites pbrt-v3's directives as pbrt-v4's, so that later stages need not know v3.
 
 #include <set>
 #include <string>
@@ -14,10 +14,10 @@ class V3Upgrader {
  public:
   explicit V3Upgrader(DiagnosticList& diagnostics) : diagnostics_(diagnostics) {}
 
-  // Materials (matte, plastic, glass, metal, uber, substrate, translucent, disney, kdsubsurface, fourier, mix
-  // of two names, none) become the nearest ones of v4, types and parameters get their new names, and what v4
-  // has no more is left out: each with one warning that says so. Directives of v4 are left as they are. word:
-  // "Material", ...
+  // Materials of v3 (matte, plastic, glass, metal, uber, substrate, translucent, disney, kdsubsurface,
+  // fourier, mix of two names, none) become the nearest v4 materials, types and parameters get their new
+  // names, and parameters that v4 dropped are removed. Each change gives one warning. v4 directives stay
+  // unchanged. `word`: the directive, "Material", ...
   void upgrade(std::string_view word, Directive& directive);
 
  private:

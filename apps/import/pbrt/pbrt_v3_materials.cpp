@@ -35,7 +35,7 @@ void set_default(Directive& d, std::string_view name, double value) {
   if (!d.find(name)) add(d, ParameterType::kRgb, name, {value, value, value});
 }
 
-// A single number; `otherwise` for what is absent or a texture.
+// The value of a parameter with one number; `otherwise` when it is absent or a texture.
 double number(const Directive& d, std::string_view name, double otherwise) {
   const Parameter* p = d.find(name);
   return p && p->numbers.size() == 1 ? p->numbers[0] : otherwise;
@@ -48,14 +48,14 @@ bool is_black(const Directive& d, std::string_view name, bool otherwise) {
          std::all_of(p->numbers.begin(), p->numbers.end(), [](double v) { return v == 0; });
 }
 
-// pbrt-v3's TrowbridgeReitzDistribution::RoughnessToAlpha.
+// The GGX width of a v3 roughness: pbrt-v3's TrowbridgeReitzDistribution::RoughnessToAlpha.
 double v3_alpha(double roughness) {
   const double x = std::log(std::max(roughness, 1e-3));
   return 1.62142 + 0.819955 * x + 0.1734 * x * x + 0.0171201 * x * x * x + 0.000640711 * x * x * x * x;
 }
 
-// Numbers become GGX widths; textures of roughness stay, and are mapped as in v4. otherwise: v3's default of
-// the material. smooth_at_zero: it is a smooth one there.
+// Converts numeric roughness to GGX widths. Roughness textures stay and are mapped as in v4. `otherwise`: the
+// material's default roughness in v3. `smooth_at_zero`: roughness 0 means a smooth surface.
 void keep_width(Directive& d, double otherwise, bool smooth_at_zero = false) {
   bool textured = false, given = false;
   for (const std::string_view name : {"roughness", "uroughness", "vroughness"}) {
@@ -82,7 +82,7 @@ std::string coated(Directive& d, double diffuse, double roughness) {
   rename(d, "index", "eta");
   erase(d, {"Ks"});
   keep_width(d, roughness);
-  return "\"coateddiffuse\": the coat reflects by Fresnel's equations, not by `Ks`";
+  return "\"coateddiffuse\": the coat reflects by the Fresnel equations, and `Ks` is ignored";
 }
 
 std::string matte(Directive& d) {
@@ -106,7 +106,7 @@ std::string glass(Directive& d) {
   rename(d, "index", "eta");
   erase(d, {"Kr", "Kt"});
   keep_width(d, 0, true);
-  return "\"dielectric\": it neither colours nor absorbs, `Kr` and `Kt` are left out";
+  return "\"dielectric\", which neither tints nor absorbs: `Kr` and `Kt` are ignored";
 }
 
 std::string metal(Directive& d) {
@@ -116,9 +116,9 @@ std::string metal(Directive& d) {
 }
 
 std::string mirror(Directive& d) {
-  if (!d.find("Kr")) return "";  // ours has the same name
+  if (!d.find("Kr")) return "";  // kaustik has a material "mirror" of its own
   rename(d, "Kr", "reflectance");
-  return "our \"mirror\", `Kr` its `reflectance`";
+  return "kaustik's \"mirror\" with `Kr` as its `reflectance`";
 }
 
 std::string uber(Directive& d) {
@@ -126,15 +126,15 @@ std::string uber(Directive& d) {
   if (clear) {
     erase(d, {"Kd", "Ks", "opacity"});
     glass(d);
-    return "\"dielectric\" where `Kt` is all that it has, else \"coateddiffuse\"";
+    return "\"dielectric\" if only `Kt` is set, else \"coateddiffuse\"";
   }
   erase(d, {"Kr", "Kt", "opacity"});
   coated(d, 0.25, 0.1);
-  return "\"coateddiffuse\" (\"dielectric\" where `Kt` is all that it has); `Kr`, `Kt` and `opacity` are "
-         "left out";
+  return "\"coateddiffuse\" (\"dielectric\" if only `Kt` is set); `Kr`, `Kt` and `opacity` are "
+         "ignored";
 }
 
-// reflect and transmit share out Kd; where they are colours and Kd a texture, half each.
+// v3's `reflect` and `transmit` multiply Kd. If Kd is a texture, both sides get half of it.
 std::string translucent(Directive& d) {
   const Parameter* kd = d.find("Kd");
   const bool textured = kd && kd->numbers.empty();
@@ -151,14 +151,14 @@ std::string translucent(Directive& d) {
   d.parameters.push_back(std::move(reflectance));
   d.parameters.push_back(std::move(transmittance));
   if (textured) add(d, ParameterType::kFloat, "scale", {0.5});
-  return "\"diffusetransmission\": `Ks` is left out";
+  return "\"diffusetransmission\"; `Ks` is ignored";
 }
 
 std::string disney(Directive& d) {
   const bool clear = number(d, "spectrans", 0) > 0.5, metallic = number(d, "metallic", 0) > 0.5;
   rename(d, "color", "reflectance");
   set_default(d, "reflectance", 0.5);
-  // Its alpha is roughness^2; v4's is the root.
+  // disney's GGX width is roughness^2; v4 would take the root.
   const double roughness = number(d, "roughness", 0.5);
   const double alpha = std::max(0.001, roughness * roughness);
   erase(d, {"spectrans", "metallic", "anisotropic", "specular", "speculartint", "sheen", "sheentint",
@@ -168,11 +168,11 @@ std::string disney(Directive& d) {
   d.type = clear ? "dielectric" : metallic ? "conductor" : "coateddiffuse";
   if (clear) erase(d, {"reflectance"});
   if (metallic && !clear) erase(d, {"eta"});
-  return "\"dielectric\" where `spectrans` is above 0.5, else \"conductor\" where `metallic` is, else "
-         "\"coateddiffuse\": `color`, `roughness` and `eta` are what is kept";
+  return "\"dielectric\" if `spectrans` is above 0.5, else \"conductor\" if `metallic` is, else "
+         "\"coateddiffuse\"; only `color`, `roughness` and `eta` are kept";
 }
 
-// sigma_a and sigma_s are known to both versions.
+// "subsurface" exists in both versions; these parameters occur only in v3.
 std::string subsurface(Directive& d) {
   const bool of_v3 =
       d.find("Kr") || d.find("Kt") || d.find("Kd") || d.find("index") || d.type != "subsurface";
@@ -196,8 +196,8 @@ std::string fourier(Directive& d) {
   return "v4's \"measured\"";
 }
 
-// v3's amount is the share of the first material, v4's that of the second: they change places, so that a
-// texture serves, too.
+// v3's `amount` is the share of the first material, v4's that of the second. Swapping the materials works for
+// textured amounts too.
 std::string mix(Directive& d) {
   const Parameter* first = d.find("namedmaterial1");
   const Parameter* second = d.find("namedmaterial2");
@@ -215,7 +215,7 @@ std::string mix(Directive& d) {
   }
   erase(d, {"namedmaterial1", "namedmaterial2"});
   d.parameters.push_back(std::move(materials));
-  return "v4's \"mix\" in the other order: its `amount` is that of the second material";
+  return "v4's \"mix\" with its materials swapped, since v4's `amount` is the share of the second";
 }
 
 std::string none(Directive& d) {

@@ -1,5 +1,5 @@
 #pragma once
-// Materials of pbrt-v3 (and its disney) as those of pbrt-v4.
+// Converts pbrt-v3's materials (including disney) to pbrt-v4's.
 
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace kaustik::pbrt {
 
-// Rewrites type and parameters; says what it became and what was lost: `"diffuse"`. Empty, and nothing done,
-// for what is no material of v3. GGX widths are kept: v3's and v4's roughness mean different ones, so the
-// width itself is given.
+// Rewrites type and parameters, and describes the result for a warning, such as `"diffuse"`. Empty, with
+// nothing changed, if it is not a v3 material. v3 and v4 map roughness to different GGX widths, so the result
+// holds the width itself, with "remaproughness" false.
 std::string upgrade_v3_material(Directive& material);
 
 }  // namespace kaustik::pbrt

@@ -10,7 +10,7 @@
 namespace kaustik::pbrt {
 namespace {
 
-// Millimetres; the front comes first. A radius of zero is a plane or the stop.
+// One surface of a lens file, in mm, listed from the front. A radius of zero is a plane or the aperture stop.
 struct Element {
   double radius, thickness, eta;
 };
@@ -26,7 +26,7 @@ std::optional<std::vector<Element>> read_lens(uint32_t file, const SourceLocatio
   }
   if (numbers.empty() || numbers.size() % 4 != 0) {
     diagnostics.error(where,
-                      fmt::format("a lens is rows of radius, thickness, index and diameter, not {} numbers",
+                      fmt::format("a lens has rows of radius, thickness, index and diameter, not {} numbers",
                                   numbers.size()));
     return std::nullopt;
   }
@@ -35,9 +35,10 @@ std::optional<std::vector<Element>> read_lens(uint32_t file, const SourceLocatio
   return lens;
 }
 
-// From where a ray that comes in along the axis leaves (Hecht 2016, section 6.2): its height over its slope.
+// The paraxial focal length in mm: traces a ray that enters parallel to the axis and divides its height by
+// its slope behind the lens (Hecht 2016, section 6.2).
 double focal_length(const std::vector<Element>& lens) {
-  double y = 1, slope = 0, eta = 1;  // slope times index
+  double y = 1, slope = 0, eta = 1;  // `slope` is multiplied by the index of refraction
   for (const Element& e : lens) {
     const double behind = e.eta > 0 ? e.eta : 1;
     if (e.radius != 0) {
@@ -54,7 +55,7 @@ double number(const Directive* d, std::string_view name, double otherwise) {
   return p && p->numbers.size() == 1 && p->numbers[0] > 0 ? p->numbers[0] : otherwise;
 }
 
-// Of the film's shorter side, at that distance from the lens; millimetres, degrees.
+// The angle in degrees that the film's shorter side subtends at `distance` (mm) from the lens.
 double field_of_view(const Directive* film, double distance) {
   const double x = number(film, "xresolution", 1280), y = number(film, "yresolution", 720);
   const double shorter = number(film, "diagonal", 35) * std::min(x, y) / std::hypot(x, y);
@@ -80,8 +81,8 @@ void replace_realistic_camera(CameraDescription& replaced, const Directive* film
   const double distance = 1 / (1 / f - 1 / (1000 * focus));
   if (!(f > 0 && distance > 0 && std::isfinite(distance)))
     return diagnostics.error(name->value_location(0),
-                             "this lens has no picture: its focal length is not positive, or "
-                             "beyond `focusdistance`");
+                             "this lens forms no image: its focal length is not positive or "
+                             "exceeds `focusdistance`");
   const double radius = number(&camera, "aperturediameter", 1) / 2000, fov = field_of_view(film, distance);
   diagnostics.warning(
       camera.type_location,

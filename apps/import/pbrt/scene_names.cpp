@@ -1,4 +1,4 @@
-// Names of textures and materials that are used twice.
+// Names of textures and materials that a scene defines more than once.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,8 @@ void replace(const LaterNames& later, std::string& name) {
 
 }  // namespace
 
-// The name itself, or another where it is taken: what follows in this block means the new definition.
+// Registers a definition and returns its unique name: the name itself, or a new one if it is taken. In the
+// rest of the block the name refers to the new definition.
 std::string SceneParser::define(std::string_view what, const std::string& name, const SourceLocation& where,
                                 std::set<std::string>& known, LaterNames& later) {
   if (known.insert(name).second) return name;
@@ -33,15 +34,16 @@ std::string SceneParser::define(std::string_view what, const std::string& name, 
   for (size_t n = 2; own.empty() || !known.insert(own).second; ++n) own = fmt::format("{} ({})", name, n);
   later[name] = own;
   if (warned_.insert(std::string(what)).second)
-    diagnostics_.warning(where,
-                         fmt::format("{} `{}` is defined again, as in pbrt-v3: this one holds up to the end "
-                                     "of the block",
-                                     what, name));
+    diagnostics_.warning(
+        where, fmt::format("{} `{}` is defined again, as pbrt-v3 allows: this definition holds up to the end "
+                           "of the block",
+                           what, name));
   return own;
 }
 
-// A texture's own operands have its type, but for shares; elsewhere the schema says what is asked for.
-// Textures of the other type are taken where there are no others, for a better message.
+// Replaces names that were defined again by their unique names. Whether a parameter takes a float or a
+// spectrum texture follows from the type of the enclosing texture, else from the schema. A name that only
+// exists as a float texture is resolved as one, so that the schema's error names it.
 void SceneParser::resolve_names(std::string_view word, Directive& directive, bool of_float_texture) const {
   if (state_.float_textures.empty() && state_.spectrum_textures.empty() && state_.materials.empty()) return;
   for (Parameter& p : directive.parameters) {

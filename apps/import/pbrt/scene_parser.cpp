@@ -13,14 +13,14 @@
 namespace kaustik::pbrt {
 namespace {
 
-// A file with more errors than this is no scene.
+// Parsing stops after this many errors: the file is not a scene.
 constexpr size_t kMostErrors = 1000;
 constexpr size_t kMostNestedBlocks = 10'000;
-constexpr size_t kMostUnclosed = 10;  // that are reported
-// Defaults are copied into every shape that they apply to.
+constexpr size_t kMostUnclosed = 10;  // reported at the end of the file
+// Values of a default set by `Attribute`: it is copied into every shape that it applies to.
 constexpr size_t kLongestDefault = 1024;
 
-// As in pbrt, the last one of a name holds.
+// Of several parameters with one name, keeps the last, as pbrt does, and warns.
 void keep_last_ones(std::vector<Parameter>& parameters, DiagnosticList& diagnostics) {
   for (size_t i = parameters.size(); i-- > 0;) {
     const auto first = std::find_if(parameters.begin(), parameters.end(),
@@ -75,7 +75,7 @@ const std::map<std::string_view, SceneParser::Entry>& SceneParser::directives() 
       {"Shape", {&P::on_shape, kWorld}},
       {"Texture", {&P::on_texture, kWorld}},
       {"Transform", {&P::on_transform, kAny}},
-      // pbrt, too, lets these save the whole state.
+      // As in pbrt, these two save and restore the whole state.
       {"TransformBegin", {&P::on_attribute_begin, kWorld}},
       {"TransformEnd", {&P::on_attribute_end, kWorld}},
       {"TransformTimes", {&P::on_transform_times, kOptions}},
@@ -136,7 +136,7 @@ void SceneParser::run(const Token& word) {
   if (entry.block == Block::kOptions && in_world_) {
     diagnostics_.error(word.location, fmt::format("`{}` belongs before `WorldBegin`", word.text));
   } else if (entry.block == Block::kWorld && !in_world_ && !misses_world_begin_) {
-    // Once: the same is wrong with everything that follows.
+    // Reported once only: all later directives would repeat it.
     misses_world_begin_ = true;
     diagnostics_.error(word.location, fmt::format("`{}` belongs after `WorldBegin`", word.text));
   }
@@ -150,7 +150,7 @@ void SceneParser::report_unknown(const Token& word) {
                                                 name_hint(word.text, names)));
 }
 
-// To the next directive. A first word that is none was meant as an argument.
+// Skips to the next directive. If the next word is not a directive, it was meant as an argument.
 void SceneParser::skip_arguments() {
   if (tokens_->peek().is(TokenKind::kWord) && !directives().contains(tokens_->peek().text)) tokens_->next();
   while (!tokens_->peek().is(TokenKind::kEnd)) {
@@ -187,7 +187,7 @@ bool SceneParser::read_directive(const Token& word, std::string_view target, Dir
   return true;
 }
 
-// What the line does not say itself.
+// Adds the defaults of `target` for parameters that the directive does not set.
 void SceneParser::add_defaults(std::string_view target, std::vector<Parameter>& parameters) {
   const auto found = state_.defaults.find(target);
   if (found == state_.defaults.end()) return;
@@ -200,11 +200,12 @@ void SceneParser::add_defaults(std::string_view target, std::vector<Parameter>& 
 }
 
 void SceneParser::on_attribute(const Token& word) {
-  const auto target = quoted("what it is for, \"shape\", \"light\", \"material\" or \"texture\",", word);
+  const auto target = quoted("its target, \"shape\", \"light\", \"material\" or \"texture\",", word);
   if (!target) return;
   const std::string name = unescape(target->text);
   std::vector<Parameter> parameters = parse_parameters(*tokens_, diagnostics_);
-  if (name == "medium") return warn_once(word, "`Attribute \"medium\"` is ignored: there are no media");
+  if (name == "medium")
+    return warn_once(word, "`Attribute \"medium\"` is ignored: participating media are not rendered");
   constexpr std::string_view kTargets[] = {"shape", "light", "material", "texture"};
   if (std::find(std::begin(kTargets), std::end(kTargets), name) == std::end(kTargets)) {
     diagnostics_.error(target->location, fmt::format("unknown target \"{}\" of `Attribute`{}", name,
@@ -239,7 +240,7 @@ void SceneParser::warn_once(const Token& word, std::string message) {
 void SceneParser::push(bool object, const SourceLocation& where) {
   if (stack_.size() >= kMostNestedBlocks) {
     if (ignored_pushes_++ == 0) {
-      diagnostics_.error(where, fmt::format("more than {} blocks inside each other", kMostNestedBlocks));
+      diagnostics_.error(where, fmt::format("more than {} nested blocks", kMostNestedBlocks));
     }
     return;
   }
@@ -252,7 +253,7 @@ void SceneParser::pop(bool object, const Token& word) {
     return;
   }
   if (stack_.empty()) {
-    diagnostics_.error(word.location, fmt::format("`{}` closes nothing", word.text));
+    diagnostics_.error(word.location, fmt::format("`{}` closes no open block", word.text));
     return;
   }
   if (stack_.back().object != object) {

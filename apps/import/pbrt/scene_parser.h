@@ -1,5 +1,5 @@
 #pragma once
-// The directives of a pbrt scene, executed into a description.
+// Parses a pbrt scene: executes its directives, which fill a SceneDescription.
 
 #include <filesystem>
 #include <map>
@@ -26,7 +26,7 @@ class SceneParser {
                  diagnostics),
         v3_(diagnostics) {}
 
-  // Reads a whole scene. After an error it goes on at the next directive.
+  // Reads a whole scene. After an error, parsing continues at the next directive.
   SceneDescription parse(uint32_t file);
 
  private:
@@ -119,14 +119,14 @@ class SceneParser {
   GraphicsState state_;
   std::vector<Open> stack_;
   std::map<std::string, glm::dmat4, std::less<>> coordinate_systems_;
-  std::map<std::string, size_t, std::less<>> objects_;                    // into scene_.objects
-  std::set<std::string> float_textures_, spectrum_textures_, materials_;  // defined so far
+  std::map<std::string, size_t, std::less<>> objects_;                    // indices into scene_.objects
+  std::set<std::string> float_textures_, spectrum_textures_, materials_;  // names defined so far
   std::set<std::string> warned_;
   std::optional<size_t> open_object_;
   bool in_world_ = false;
-  bool misses_world_begin_ = false;  // reported
-  bool stopped_ = false;             // too many errors
-  uint64_t ignored_pushes_ = 0;      // blocks opened beyond the limit
+  bool misses_world_begin_ = false;  // and this has been reported
+  bool stopped_ = false;             // after too many errors or too large includes
+  uint64_t ignored_pushes_ = 0;      // open blocks beyond the nesting limit
   uint64_t bytes_read_ = 0;
   uint64_t files_included_ = 0;
   std::vector<uint32_t> open_files_;

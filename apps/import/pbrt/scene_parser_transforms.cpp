@@ -1,4 +1,4 @@
-// Transforms, and the settings of the whole scene.
+// Directives for transforms and for settings of the whole scene.
 
 #include <fmt/format.h>
 
@@ -86,12 +86,13 @@ void SceneParser::on_active_transform(const Token& word) {
     return skip_arguments();
   }
   state_.at_end_time = which.text == "EndTime";
-  if (which.text != "All") warn_once(word, "nothing moves: things stand as they do when the shutter opens");
+  if (which.text != "All")
+    warn_once(word, "motion is not rendered: everything stays where it is when the shutter opens");
 }
 
 void SceneParser::on_transform_times(const Token& word) {
   if (!parse_numbers(*tokens_, 2, word.text, diagnostics_)) return skip_arguments();
-  diagnostics_.warning(word.location, "`TransformTimes` is ignored: nothing moves");
+  diagnostics_.warning(word.location, "`TransformTimes` is ignored: motion is not rendered");
 }
 
 void SceneParser::on_camera(const Token& word) {
@@ -121,7 +122,8 @@ void SceneParser::on_setting(const Token& word) {
   slot = std::move(setting);
 }
 
-// Option "seed" 3, or with its type, Option "integer seed" 3. Dashes, underscores and capitals do not count.
+// Reads `Option "seed" 3` or, with its type, `Option "integer seed" 3`. Dashes, underscores and case are
+// ignored.
 void SceneParser::on_option(const Token& word) {
   const auto declaration = quoted("a name", word);
   if (!declaration) return;
@@ -136,7 +138,7 @@ void SceneParser::on_option(const Token& word) {
   if (spec) p.type = spec->types.front();
   if (blank != text.npos) p.type = parameter_type(std::string_view(text).substr(0, blank)).value_or(p.type);
   if (!spec) {
-    scene_.options.push_back(std::move(p));  // for the schema to complain about
+    scene_.options.push_back(std::move(p));  // the schema check reports it
     return skip_arguments();
   }
   if (parse_values(*tokens_, p, diagnostics_)) scene_.options.push_back(std::move(p));
@@ -156,11 +158,11 @@ void SceneParser::on_color_space(const Token& word) {
 }
 
 void SceneParser::on_world_end(const Token& word) {
-  diagnostics_.warning(word.location, "`WorldEnd` is of pbrt-v3: the scene ends with the file");
+  diagnostics_.warning(word.location, "`WorldEnd` is pbrt-v3's and ignored: the scene ends with the file");
 }
 
 void SceneParser::on_world_begin(const Token& word) {
-  if (in_world_) return diagnostics_.error(word.location, "a second `WorldBegin`");
+  if (in_world_) return diagnostics_.error(word.location, "this is a second `WorldBegin`");
   if (scene_.camera && scene_.camera->type == "realistic") {
     const auto open = [this](const std::string& name, std::string& error) {
       return open_beside(name, error);

@@ -1,4 +1,4 @@
-// Materials, lights, shapes, objects and included files.
+// Directives for materials, lights, shapes, objects and included files.
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@ namespace kaustik::pbrt {
 namespace {
 
 constexpr size_t kDeepestInclude = 64;
-// Files that include others twice each grow without end long before they are deep.
+// Limits of the total: files that each include the next one twice grow exponentially before they are deep.
 constexpr uint64_t kMostBytes = uint64_t{8} << 30;
 constexpr uint64_t kMostIncludes = 100'000;
 
@@ -25,7 +25,7 @@ void SceneParser::on_texture(const Token& word) {
   const auto value_type = quoted("its type, \"float\" or \"spectrum\",", word);
   if (!value_type || !read_directive(word, "texture", texture)) return;
   texture.value_type = unescape(value_type->text);
-  if (texture.value_type == "color") texture.value_type = "spectrum";  // pbrt-v3's word
+  if (texture.value_type == "color") texture.value_type = "spectrum";  // pbrt-v3's name of it
   const bool is_float = texture.value_type == "float";
   resolve_names("Texture", texture, is_float);
   texture.name =
@@ -89,7 +89,8 @@ void SceneParser::on_light(const Token& word) {
   if (!read_directive(word, "light", light)) return;
   colours_.reduce(word.text, *state_.colour_space, light);
   light.light_to_world = state_.ctm;
-  // Of these it only turns directions, so that pbrt takes whatever else stands in it.
+  // For lights at infinity the transform only turns directions. Scenes may contain any translation there, as
+  // pbrt ignores it.
   if (light.type == "infinite" || light.type == "distant")
     light.light_to_world = glm::dmat4(glm::dmat3(state_.ctm));
   scene_.lights.push_back(std::move(light));
@@ -110,7 +111,7 @@ void SceneParser::on_object_begin(const Token& word) {
   if (!name) return;
   push(true, word.location);
   if (open_object_) {
-    diagnostics_.error(word.location, "an object inside another one",
+    diagnostics_.error(word.location, "an object cannot contain another one",
                        {{scene_.objects[*open_object_].location, "the outer one"}});
     return;
   }
@@ -136,7 +137,7 @@ void SceneParser::on_object_instance(const Token& word) {
   const auto name = quoted("a name", word);
   if (!name) return;
   if (open_object_) {
-    return diagnostics_.error(word.location, "an instance inside an object",
+    return diagnostics_.error(word.location, "an object cannot contain an instance",
                               {{scene_.objects[*open_object_].location, "the object"}});
   }
   scene_.instances.push_back({unescape(name->text), name->location, state_.ctm});
@@ -159,8 +160,7 @@ void SceneParser::include(const Token& word, bool keep_state) {
   const auto name = quoted("a file name", word);
   if (!name) return;
   if (open_files_.size() >= kDeepestInclude) {
-    return diagnostics_.error(name->location,
-                              fmt::format("more than {} files included inside each other", kDeepestInclude));
+    return diagnostics_.error(name->location, fmt::format("more than {} nested includes", kDeepestInclude));
   }
   std::string error;
   const auto file = open_beside(unescape(name->text), error);
@@ -173,7 +173,7 @@ void SceneParser::include(const Token& word, bool keep_state) {
   if (bytes_read_ > kMostBytes || ++files_included_ > kMostIncludes) {
     if (!stopped_)
       diagnostics_.error(name->location,
-                         "the included files are too many or too long in all: reading stops here");
+                         "the included files are too many or too large in total: reading stops here");
     stopped_ = true;
     return;
   }
@@ -182,14 +182,14 @@ void SceneParser::include(const Token& word, bool keep_state) {
   if (!keep_state) state_ = before;
 }
 
-// A name and parameters, or two names.
+// Ignores `MakeNamedMedium "name" <parameters>` and `MediumInterface "inside" "outside"` with one warning
+// each.
 void SceneParser::on_medium(const Token& word) {
-  warn_once(
-      word,
-      word.text == "MediumInterface"
-          ? "`MediumInterface` is ignored: there is nothing between surfaces, glass does not absorb, and "
-            "media within material \"interface\" are not seen"
-          : "`MakeNamedMedium` is ignored: there is nothing between surfaces");
+  warn_once(word, word.text == "MediumInterface"
+                      ? "`MediumInterface` is ignored: participating media are not rendered, so glass does "
+                        "not absorb and "
+                        "media inside of \"interface\" surfaces are invisible"
+                      : "`MakeNamedMedium` is ignored: participating media are not rendered");
   skip_arguments();
 }
 

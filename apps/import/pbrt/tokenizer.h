@@ -1,5 +1,5 @@
 #pragma once
-// Words, strings, numbers and brackets of a pbrt file, with their places.
+// Splits a pbrt file into words, strings, numbers and brackets with their locations.
 
 #include <string>
 #include <string_view>
@@ -12,15 +12,14 @@ enum class TokenKind { kWord, kString, kNumber, kOpen, kClose, kEnd };
 
 struct Token {
   TokenKind kind = TokenKind::kEnd;
-  std::string_view text;  // of strings: between the quotes, escapes as written
+  std::string_view text;  // for strings: the text between the quotes, with escapes unresolved
   SourceLocation location;
 
   bool is(TokenKind k) const { return kind == k; }
 };
 
-// Splits a file's text, which must outlive the tokens. Comments (# to the end of the line) and blanks are
-// skipped. Strings that are not closed on their line and characters that belong to no token are reported, and
-// reading goes on.
+// Splits a file's text, which must outlive the tokens. Skips comments (# to the end of the line) and blanks.
+// Reports unclosed strings and control characters, and continues after them.
 class Tokenizer {
  public:
   Tokenizer(uint32_t file, std::string_view text, DiagnosticList& diagnostics);
@@ -45,7 +44,7 @@ class Tokenizer {
   Token peeked_;
 };
 
-// The string that was meant: \" \\ \n \t and the like resolved.
+// Resolves the escapes of a string: \" \\ \n \t \r \b \f.
 std::string unescape(std::string_view text);
 
 }  // namespace kaustik::pbrt

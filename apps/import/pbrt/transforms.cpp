@@ -22,7 +22,7 @@ std::optional<glm::dmat4> look_at(const std::vector<double>& v) {
   const auto right = unit(glm::cross(*up, *ahead));
   if (!right) return std::nullopt;
   const glm::dvec3 camera_up = glm::cross(*ahead, *right);
-  // The inverse of a rigid motion, written down: rows are the axes.
+  // The inverse of a rigid motion has the camera's axes as rows.
   const glm::dmat3 rotation = glm::transpose(glm::dmat3(*right, camera_up, *ahead));
   glm::dmat4 m(rotation);
   m[3] = glm::dvec4(-(rotation * eye), 1);
@@ -32,7 +32,7 @@ std::optional<glm::dmat4> look_at(const std::vector<double>& v) {
 std::optional<glm::dmat4> rotate(const std::vector<double>& v) {
   const auto axis = unit(glm::dvec3(v[1], v[2], v[3]));
   if (!axis) return std::nullopt;
-  // Quarter turns are exact: tiles that are turned against each other must keep their common corners.
+  // Quarter turns are exact, so that tiles rotated against each other keep their common corners.
   const double turns = std::remainder(v[0], 360.0) / 90.0;
   double s = std::sin(glm::radians(v[0]));
   double c = std::cos(glm::radians(v[0]));

@@ -1,5 +1,5 @@
 #pragma once
-// pbrt's transforms as matrices for column vectors (pharr 2023, chapter 3.9).
+// pbrt's transforms as matrices for column vectors (Pharr 2023, section 3.9).
 
 #include <glm/glm.hpp>
 #include <optional>
@@ -7,17 +7,17 @@
 
 namespace kaustik::pbrt {
 
-// World to camera, left-handed: +z ahead, +y up, +x right. values: eye, point looked at, up. Nothing when
-// they leave the frame undefined.
+// World to camera, left-handed: +z ahead, +y up, +x right. `values`: eye, look-at point, up vector. Nothing
+// when they do not define a frame.
 std::optional<glm::dmat4> look_at(const std::vector<double>& values);
-// values: angle in degrees, axis. Nothing for an axis of length zero.
+// `values`: angle in degrees, axis. Nothing for an axis of length zero.
 std::optional<glm::dmat4> rotate(const std::vector<double>& values);
 glm::dmat4 translate(const std::vector<double>& values);
 glm::dmat4 scale(const std::vector<double>& values);
-// Sixteen numbers, column by column, as in the file.
+// `values`: sixteen numbers in column-major order, as in the file.
 glm::dmat4 matrix(const std::vector<double>& values);
 
-// Of an affine map an affine one, to the bit: glm's last row can be off by a rounding.
+// The inverse. For an affine map the last row is exactly (0, 0, 0, 1): glm::inverse may round it.
 glm::dmat4 inverse_transform(const glm::dmat4& m);
 
 }  // namespace kaustik::pbrt

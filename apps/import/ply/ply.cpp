@@ -18,8 +18,8 @@ namespace {
 
 constexpr uint64_t kLargestMeshFile = uint64_t{1} << 38;
 
-// What pbrt takes for uv where the file has none: a triangle's (0, 0), (1, 0), (1, 1) and a quad's with (0,
-// 1) as well. They are kept where faces have no corners in common. Any number of threads may add faces.
+// pbrt's default uv for meshes without texture coordinates: (0, 0), (1, 0), (1, 1) for a triangle, and (0, 1)
+// for the fourth corner of a quad. They are usable only if no two faces share a corner. add() is thread-safe.
 class BareFaces {
  public:
   explicit BareFaces(size_t vertices) : uv_(vertices), taken_(vertices) {}
@@ -61,7 +61,7 @@ class MeshReader {
  private:
   const PlyElement& vertex() const { return header_.elements[header_.vertex]; }
 
-  // Calls fn(block) for all, in parallel; keeps the error of the first block that has one.
+  // Calls fn(block) for all blocks in parallel and keeps the error of the first block that has one.
   template <class Fn>
   bool for_each_block(const PlyExtent& extent, const Fn& fn) {
     std::vector<std::string> errors(extent.blocks.size());
@@ -71,7 +71,7 @@ class MeshReader {
     return error_.empty();
   }
 
-  // Indices of properties that all are there, or nothing.
+  // Indices of the named vertex properties, or nothing unless all of them exist.
   std::optional<std::vector<size_t>> columns(std::initializer_list<std::string_view> names) const {
     std::vector<size_t> found;
     for (const std::string_view name : names) {

@@ -1,5 +1,6 @@
 #pragma once
-// Triangle meshes from PLY files (Turk 1994; ascii, little and big endian), packed by gzip or not.
+// Loads triangle meshes from PLY files (Turk 1994; ASCII, little and big endian), optionally compressed by
+// gzip.
 
 #include <filesystem>
 
@@ -7,12 +8,13 @@
 
 namespace kaustik::pbrt {
 
-// Vertices keep their order and number; normals (nx ny nz) and texture coordinates (u v, s t, texture_u
-// texture_v, texture_s texture_t) are kept where every vertex has them; quads and polygons are triangulated,
-// concave ones by cutting off ears. The file's structure is checked before anything is allocated from what it
-// claims: a header that promises more than the file holds, a truncated file, faces of fewer than three
-// vertices, indices out of range and positions that are not finite are refused with the place in the file.
-// Read in parallel. content: takes the ContentHash of the file, if it could be read. Thread-safe.
+// Vertices keep their order and number. Normals (nx ny nz) and texture coordinates (u v, s t, texture_u
+// texture_v, texture_s texture_t) are read if the vertex element declares them. Quads and polygons are
+// triangulated, concave ones by ear clipping. The structure of the file is checked before any memory is
+// allocated for it. Errors that name the byte in the file: a header that promises more than the file holds, a
+// truncated file, faces of fewer than three vertices, indices out of range, positions that are not finite.
+// Blocks are read in parallel. `content` receives the ContentHash of the file if it could be read.
+// Thread-safe.
 MeshResult load_ply(const std::filesystem::path& path, std::string* content = nullptr);
 
 }  // namespace kaustik::pbrt

@@ -45,7 +45,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
-// Next word of a line, empty at its end; moves on behind it.
+// The next word of a line, empty at its end; moves `at` behind it.
 std::string_view next_word(std::string_view line, size_t& at) {
   while (at < line.size() && is_blank(line[at])) ++at;
   const size_t begin = at;
@@ -143,7 +143,7 @@ class Walker {
     }
   }
 
-  // One line per element, as every writer does; blank ones are skipped.
+  // Expects one line per element, as every writer emits them; skips blank lines.
   void walk_line(uint64_t i) {
     while (position_ < bytes_.size()) {
       const size_t end = std::min(bytes_.find('\n', position_), bytes_.size());
@@ -158,7 +158,7 @@ class Walker {
     error_ = ends_early(position_, element_, i);
   }
 
-  // Lengths of the lists before the corners must be known.
+  // Counts the corners of a face. Lists that stand before the corners have to be stepped over.
   void count_line(uint64_t i, std::string_view line) {
     size_t at = 0;
     for (size_t k = 0; k <= *indices_; ++k) {
@@ -167,9 +167,9 @@ class Walker {
       int64_t n = -1;
       std::from_chars(word.data(), word.data() + word.size(), n);
       if (!check_length(i, k, n)) return;
-      // As many words as there are on the line, at most.
+      // n may exceed what the line holds, so the line's end stops the loop too.
       for (int64_t j = 0; j < n && k < *indices_ && at < line.size(); ++j) next_word(line, at);
-      // What a line is too short for is no triangle to find room for.
+      // A line shorter than its own count would reserve memory for triangles that do not exist.
       if (k == *indices_ && static_cast<uint64_t>(n) > line.size()) {
         error_ = ply_error(position_, fmt::format("element `face` {} has too few values on its line", i));
       }

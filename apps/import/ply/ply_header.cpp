@@ -15,7 +15,7 @@ struct Scalar {
   std::string_view name, other_name;
   uint32_t size;
 };
-// In the order of PlyType.
+// In the order of the enumerators of PlyType.
 constexpr std::array<Scalar, 8> kScalars = {{{"char", "int8", 1},
                                              {"uchar", "uint8", 1},
                                              {"short", "int16", 2},
@@ -119,7 +119,8 @@ class HeaderReader {
     return true;
   }
 
-  // Index of the only element of that name; the number of elements where there is none.
+  // Index of the only element with that name; the number of elements when none has it; nothing, with an
+  // error, when two have it.
   std::optional<size_t> only(std::string_view name) {
     size_t found = header_.elements.size();
     for (size_t i = 0; i < header_.elements.size(); ++i) {
@@ -147,13 +148,13 @@ class HeaderReader {
     return header_.elements[*face].find_indices() || fail("faces have no list `vertex_indices`");
   }
 
-  // The least that the promised elements need.
+  // Compares the least number of bytes that the declared elements need with the size of the file.
   bool check_size() {
     const uint64_t rest = bytes_.size() - position_;
     uint64_t needed = 0;
     for (const PlyElement& e : header_.elements) {
       const uint64_t least = header_.format == PlyFormat::kAscii ? 2 * e.properties.size() : e.least_size();
-      // A text may end without a blank.
+      // + 1: the last value of a text file may lack the separator after it.
       if (least > 0 && e.count > (rest + 1 - std::min(rest + 1, needed)) / least) {
         return fail(
             fmt::format("the header promises {} of element `{}`, more than the file's {} bytes can hold",

@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PLY file (Turk 1994), and what of it a mesh needs.
+// Reads the header of a PLY file (Turk 1994) and checks that it describes a mesh.
 
 #include <cstdint>
 #include <optional>
@@ -16,8 +16,8 @@ bool is_integer(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat;  // of the entries, for lists
-  std::optional<PlyType> count;    // of lists
+  PlyType type = PlyType::kFloat;  // for lists: the type of the entries
+  std::optional<PlyType> count;    // for lists: the type of the length; scalars have none
 };
 
 struct PlyElement {
@@ -25,12 +25,12 @@ struct PlyElement {
   uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  // Index of a property that is no list; nothing when absent.
+  // Index of a scalar property; nothing when absent.
   std::optional<size_t> find(std::string_view property) const;
   bool has_lists() const;
-  // Index of the list of a face's vertices.
+  // Index of the property that lists a face's vertices; nothing when absent.
   std::optional<size_t> find_indices() const;
-  // Bytes of an element whose lists are empty.
+  // Size in bytes of a binary element whose lists are empty.
   uint64_t least_size() const;
 };
 
@@ -38,14 +38,14 @@ struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
   size_t vertex = 0, face = 0;  // indices of these elements
-  size_t body = 0;              // where the elements begin
+  size_t body = 0;              // byte where the elements begin
 };
 
-// "byte N: message".
+// Formats an error as "byte N: message".
 std::string ply_error(size_t position, std::string_view message);
 
-// Nothing, with an error, unless there are vertices with x, y, z and faces with indices, and no more of
-// either than the file's size can hold.
+// Reads the header. Nothing, with a message in `error`, unless it declares vertices with x, y, z and faces
+// with indices, and no more elements than a file of this size can hold.
 std::optional<PlyHeader> read_ply_header(std::string_view bytes, std::string& error);
 
 }  // namespace kaustik::pbrt

@@ -5,7 +5,7 @@ namespace {
 
 using Corners = std::vector<uint32_t>;
 
-// Newell's normal: its length is twice the area.
+// The polygon's mean normal by Newell's method; its length is twice the area.
 glm::dvec3 mean_normal(std::span<const uint32_t> corners, const std::vector<Point3>& P) {
   glm::dvec3 n(0);
   const glm::dvec3 o(P[corners[0]]);
@@ -14,7 +14,7 @@ glm::dvec3 mean_normal(std::span<const uint32_t> corners, const std::vector<Poin
   return n;
 }
 
-// Twice the area of a triangle as seen along n, times |n|: positive when it winds like the polygon.
+// Twice the area of a triangle as seen along n, times |n|; positive when it winds as the polygon does.
 double turn(const std::vector<Point3>& P, const glm::dvec3& n, uint32_t a, uint32_t b, uint32_t c) {
   const glm::dvec3 p(P[a]);
   return glm::dot(n, glm::cross(glm::dvec3(P[b]) - p, glm::dvec3(P[c]) - p));
@@ -53,7 +53,7 @@ void triangulate(std::span<const uint32_t> corners, const std::vector<Point3>& P
   while (left.size() > 3) {
     size_t ear = 0;
     while (ear < left.size() && !is_ear(left, ear, P, n)) ++ear;
-    if (ear == left.size()) ear = 1;  // of a polygon that crosses itself
+    if (ear == left.size()) ear = 1;  // a polygon that crosses itself may have no ear: cut off any corner
     const size_t size = left.size();
     *triangles++ = {left[(ear + size - 1) % size], left[ear], left[(ear + 1) % size]};
     left.erase(left.begin() + std::ptrdiff_t(ear));

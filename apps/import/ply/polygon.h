@@ -1,5 +1,5 @@
 #pragma once
-// Polygons in space as triangles.
+// Triangulates polygons in space.
 
 #include <array>
 #include <span>
@@ -9,11 +9,12 @@
 
 namespace kaustik::pbrt {
 
-// Most corners of a polygon that is not convex; others of so many become a fan all the same.
+// Polygons with more corners are split into a fan even where they are concave: ear clipping takes cubic time.
 inline constexpr size_t kMostEars = 1024;
 
-// Writes n - 2 triangles of the polygon's n >= 3 corners (indices into P), with its winding: a fan about the
-// first corner where the polygon is convex, else by cutting off ears, as seen along its mean normal.
+// Writes n - 2 triangles for a polygon of n >= 3 corners (indices into P); they wind as the polygon does. A
+// convex polygon becomes a fan about its first corner; a concave one is cut by ear clipping in the plane
+// across its mean normal.
 void triangulate(std::span<const uint32_t> corners, const std::vector<Point3>& P,
                  std::array<uint32_t, 3>* triangles);
 

@@ -92,7 +92,7 @@ TEST_F(ImportGltfExtensions, ColoursOfVerticesAsTheirMean) {
       R"("nodes": [ { "mesh": 0 } ])", colours.text()));
   EXPECT_THAT(numbers(s.materials.at(0), "reflectance"), ElementsAre(0.5, 0.5, 0.25));
   EXPECT_THAT(diagnostics_.format_all(),
-              HasSubstr("colours of vertices are rendered as the mean of their mesh"));
+              HasSubstr("vertex colours are replaced by their mean over the mesh"));
 }
 
 // Joints a and b, each with half of every vertex: the mean of two translations, whatever the node's own is.

@@ -115,7 +115,7 @@ TEST_F(ImportHostile, IncludesThatAreTooMany) {
   messages("WorldBegin Include \"f0.pbrt\"");
   ASSERT_EQ(diagnostics_.error_count(), 1u);
   EXPECT_EQ(diagnostics_.entries()[0].message,
-            "the included files are too many or too long in all: reading stops here");
+            "the included files are too many or too large in total: reading stops here");
 }
 
 TEST_F(ImportHostile, LongTokensAreCut) {
