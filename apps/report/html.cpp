@@ -71,7 +71,8 @@ std::string filled(std::string_view page,
     const std::string_view name = page.substr(begin + 2, end - begin - 2);
     const auto value =
         std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == name; });
-    if (value == values.end()) throw std::logic_error("the page names an unknown part: " + std::string(name));
+    if (value == values.end())
+      throw std::logic_error("the page template contains an unknown name: " + std::string(name));
     out.append(page.substr(0, begin)).append(value->second);
     page.remove_prefix(end + 2);
   }

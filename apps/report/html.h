@@ -1,5 +1,5 @@
 #pragma once
-// Texts made fit for places in an HTML page.
+// Escapes texts for HTML pages and fills page templates.
 
 #include <string>
 #include <string_view>
@@ -8,18 +8,18 @@
 
 namespace kaustik::app {
 
-// For element content and quoted attributes: & < > " ' as entities.
+// Escapes & < > " ' as entities, for element content and quoted attributes.
 std::string html_escaped(std::string_view text);
 
-// JSON for the inside of a script element: < > & as \u escapes, which leave its value as it is and cannot end
-// the element. U+2028 and U+2029 too.
+// Makes JSON safe inside a script element: writes < > & U+2028 and U+2029 as \u escapes. The JSON's value
+// stays the same, and it cannot end the element.
 std::string script_json(std::string_view json);
 
-// RFC 4648, with padding.
+// Encodes bytes as base64 (RFC 4648) with padding.
 std::string base64(std::string_view bytes);
 
-// The template with each {{name}} replaced by its value, which is not looked at again. Throws
-// std::logic_error for a name without a value.
+// Replaces each {{name}} of the template by its value; values are not searched again. Throws std::logic_error
+// for a name without a value.
 std::string filled(std::string_view page,
                    const std::vector<std::pair<std::string_view, std::string>>& values);
 

@@ -1,14 +1,14 @@
 "use strict";
-// Draws what the page holds as JSON: charts, the picture slider, the gallery. Texts only ever become text nodes.
+// Draws the charts, the picture slider and the gallery from the JSON in the page. Texts are inserted as text nodes only, never as HTML.
 (() => {
 const data = JSON.parse(document.getElementById("data").textContent);
 const cells = data.cells;
 const byId = id => document.getElementById(id);
 
-// Colours that stay apart for the colour-blind (Okabe and Ito 2008), and shapes for those who print in grey.
+// Colours that colour-blind readers can tell apart (Okabe and Ito 2008), and shapes for prints in grey.
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#4d4d4d"];
 const SHAPES = ["circle", "rect", "triangle", "rectRot", "star", "crossRot", "cross"];
-const PHASES = [["bvh", "rays' tree", "#4d4d4d"], ["photon_trace", "photons", "#e69f00"],
+const PHASES = [["bvh", "BVH", "#4d4d4d"], ["photon_trace", "photons", "#e69f00"],
                 ["photon_build", "maps", "#56b4e9"], ["render", "render", "#0072b2"]];
 
 function countText(n) {
@@ -22,7 +22,7 @@ const secondsText = s => `${short(s)} s`;
 const relative = cell => cell.error.relative_rmse;
 const seconds = cell => cell.seconds.total.median;
 
-// Names of a cell's series: only what differs within the sweep.
+// The name of a cell's series: the values of these keys that vary within the sweep.
 const varies = key => new Set(cells.map(cell => cell[key])).size > 1;
 function nameOf(cell, keys) {
   const parts = [];
@@ -33,7 +33,7 @@ function nameOf(cell, keys) {
   return parts.join(", ") || cell.method;
 }
 
-// Cells that share these keys, in the order of the sweep: [{name, cells}].
+// Groups cells that have the same values for these keys, in the order of the sweep: [{name, cells}].
 function seriesBy(chosen, keys) {
   const groups = new Map();
   for (const cell of chosen) {
@@ -50,11 +50,11 @@ function dataset(name, points, index, more = {}) {
           pointHoverRadius: 7, pointStyle: SHAPES[index % SHAPES.length], showLine: true, ...more};
 }
 
-// A point keeps the number of its cell, for tooltips and for whoever looks for it.
+// A chart point; it stores the index of its cell for the tooltip.
 const point = (cell, x, y) => ({x, y, cell: cells.indexOf(cell)});
 const sorted = points => points.sort((a, b) => a.x - b.x);
 
-// Labels at 1, 2 and 5 times powers of ten; fewer where they would be many. The ends of an axis are no round numbers.
+// Labels ticks at 1, 2 and 5 times powers of ten, fewer on long axes and more on short ones. The ends of an axis, which are not round numbers, get no label.
 function tickText(format) {
   return function (value, _index, ticks) {
     const mantissa = value / 10 ** Math.floor(Math.log10(value) + 1e-9), digit = Math.round(mantissa);
@@ -64,8 +64,7 @@ function tickText(format) {
   };
 }
 
-// From a bit below the least of the values to a bit above the greatest, 0.8 decades at least, so that some ticks fall
-// into it.
+// A logarithmic axis from slightly below the least value to slightly above the greatest, at least 0.8 decades long, so that it contains some ticks.
 function logAxis(title, format, values) {
   const least = Math.min(...values), most = Math.max(...values);
   const margin = Math.max(1.25, Math.sqrt(10 ** 0.8 * least / most));
@@ -81,7 +80,7 @@ function tooltip(item) {
   return lines;
 }
 
-// Logarithmic axes have no place for 0: such points lie a decade below the least of the others. Whether there are any.
+// Moves points at 0, which a logarithmic axis cannot show, to a decade below the least of the others. Returns whether there are any.
 function floorZeros(datasets, key) {
   const points = datasets.flatMap(d => d.data), above = points.map(p => p[key]).filter(value => value > 0);
   const floor = above.length ? Math.min(...above) / 10 : 1e-6;
@@ -90,12 +89,12 @@ function floorZeros(datasets, key) {
   return zeros.length > 0;
 }
 
-// x, y: what makes an axis of the values that lie along it.
+// x, y: functions that make an axis from the values along it.
 function scatter(id, datasets, x, y) {
   const zeros = {x: floorZeros(datasets, "x"), y: floorZeros(datasets, "y")};
   const axis = (key, made) => {
     const scale = made(datasets.flatMap(d => d.data.map(p => p[key])));
-    if (zeros[key]) scale.title.text += "; the least are 0";
+    if (zeros[key]) scale.title.text += "; the lowest points are 0";
     return scale;
   };
   return new Chart(byId(id), {
@@ -118,7 +117,7 @@ const RELMSE = values => logAxis("relMSE", value => value.toExponential(0), valu
 function drawErrorCharts() {
   const withPhotons = cells.filter(cell => cell.photons);
   const keys = ["method", "spp", "radius"];
-  // Methods without photons move with their samples.
+  // Methods without photons vary with their samples.
   const without = seriesBy(cells.filter(cell => !cell.photons), ["method"]);
   const overTime = [...seriesBy(withPhotons, keys), ...without]
     .map((s, i) => dataset(s.name, s.cells.map(c => point(c, seconds(c), relative(c))), i));
@@ -133,7 +132,7 @@ function drawErrorCharts() {
     dataset(s.name, sorted(s.cells.map(c => point(c, c.r0.largest, relative(c)))), i)), RADIUS, ERROR);
 }
 
-// Squared bias and variance of one method and sample count, over radius or photons.
+// Draws squared bias and variance of one method and sample count over radius or photons.
 function drawParts() {
   const all = seriesBy(cells.filter(cell => cell.photons), ["method", "spp"]);
   const select = byId("parts-series"), axis = byId("parts-axis");
@@ -155,8 +154,8 @@ function drawParts() {
       datasets.push(dataset(`bias\u00b2, ${s.name}`, bias.filter(p => p.y > 0), i));
       datasets.push(dataset(`variance, ${s.name}`, variance, i, {borderDash: [6, 4], backgroundColor: "#fff"}));
     });
-    byId("parts-note").textContent = data.seeds < 2 ? "They need two seeds at least."
-      : hidden ? `${hidden} value${hidden > 1 ? "s" : ""} of bias\u00b2 at or below zero cannot be shown here.` : "";
+    byId("parts-note").textContent = data.seeds < 2 ? "They need at least two seeds."
+      : hidden ? `${hidden} value${hidden > 1 ? "s" : ""} of bias\u00b2 at or below zero cannot be shown on a logarithmic axis.` : "";
     chart = scatter("error-parts", datasets, radius ? RADIUS : PHOTONS, RELMSE);
   };
   select.addEventListener("change", draw);
@@ -180,7 +179,7 @@ function drawPhases() {
                 tooltip: {callbacks: {label: item => `${item.dataset.label}: ${secondsText(item.raw)}`}}}}});
 }
 
-// Pictures: the reference, then every cell.
+// The choices of the picture slider: the reference, then every cell.
 const label = cell => `${nameOf(cell, ["method", "spp", "photons", "radius"])}: ${percent(relative(cell))}, ${secondsText(seconds(cell))}`;
 const choices = [{label: "reference", picture: data.reference.picture, map: null},
                  ...cells.map(c => ({label: label(c), picture: c.picture, map: c.error_map}))];
@@ -206,7 +205,7 @@ function setUpSlider() {
     byId("right-image").style.clipPath = `inset(0 0 0 ${slider.value}%)`;
     byId("divider").style.left = `${slider.value}%`;
   };
-  // The picture itself can be dragged, too.
+  // Dragging on the picture moves the divider too.
   const drag = event => {
     const box = byId("compare").getBoundingClientRect();
     slider.value = 100 * (event.clientX - box.left) / box.width;

@@ -31,7 +31,7 @@ Json pictures_json(const SweepResult& result, const std::filesystem::path& folde
   return out;
 }
 
-// The flags stand out as what is to be typed.
+// The advice as list items, with the options to type set as code.
 std::string advice_html(const SweepResult& result) {
   std::string out;
   for (const Advice& advice : advice_of(result.cells)) {
@@ -60,7 +60,8 @@ std::string facts_html(const SweepResult& result) {
   add("Reference", reference_text(result.reference));
   add("Seeds", fmt::format("{} for each point", result.seeds));
   if (result.mask_bright)
-    add("Left out", fmt::format("2 pixels around radiance above {}", *result.mask_bright));
+    add("Not compared",
+        fmt::format("pixels with radiance above {} and 2 pixels around them", *result.mask_bright));
   const Json& cpu = result.machine.contains("cpu") ? result.machine["cpu"] : Json(nullptr);
   add("Machine",
       fmt::format("{}, {} thread{}", cpu.is_string() ? cpu.get<std::string>() : "unknown processor",

@@ -1,5 +1,5 @@
 #pragma once
-// A sweep as one HTML page that needs nothing else: no network, no other file.
+// Writes the result of a sweep as one self-contained HTML page, which needs no network and no other file.
 
 #include <string>
 
@@ -7,8 +7,9 @@
 
 namespace kaustik::app {
 
-// UTF-8. folder: where the pictures lie that the result names; they become data: URIs. Texts of the result,
-// the scene's name among them, are escaped. Throws std::runtime_error when a picture cannot be read.
+// The page in UTF-8. `folder` holds the pictures that the result names; they are embedded as data: URIs. All
+// texts of the result, including the scene's name, are escaped. Throws std::runtime_error when a picture
+// cannot be read.
 std::string sweep_report(const SweepResult& result, const std::string& folder);
 
 }  // namespace kaustik::app

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures that a report shows, of a size that keeps it fit to send.
+// Writes the pictures of a report, reduced so that the report stays small enough to send.
 
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace kaustik::app {
 
-inline constexpr int kPictureSide = 400;  // pixels of the longer side, at most
+inline constexpr int kPictureSide = 400;  // most pixels of the longer side
 
-// Tone-mapped PNG.
+// Writes a tone-mapped PNG.
 void write_picture(const std::string& path, const render::Image& image, const render::ToneSettings& tone);
 
-// Relative squared error per pixel in false colours (render/picture/compare.h); averaged before it is
-// coloured.
+// Writes a PNG of the relative squared error per pixel in false colours (render/picture/compare.h). Errors
+// are averaged to the reduced size before they are coloured.
 void write_error_map(const std::string& path, const render::Image& reference, const render::Image& image);
 
 }  // namespace kaustik::app

@@ -24,12 +24,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Each pass does what a render of so many photons does, and the radii shrink from there. A smaller radius to
-// begin with would let few passes end with more noise than what is measured against them.
+// Photons of each pass, which also set its initial gather radius. With fewer photons and a smaller radius, a
+// reference of few passes could be noisier than the renders measured against it.
 constexpr uint64_t kPassPhotons = 1'000'000;
-constexpr double kPassSamples = 1 << 20;       // of all pixels, about
+constexpr double kPassSamples = 1 << 20;       // camera samples of each pass over all pixels, approximately
 constexpr uint64_t kSeedApart = 0x7265660000;  // added to the sweep's seed
-constexpr double kLongest = 1e12;              // seconds that the progress tells: far from the end of 64 bits
+constexpr double kLongest = 1e12;              // most seconds that the progress shows; avoids 64-bit overflow
 constexpr const char *kPictureName = "reference.exr", *kAboutName = "reference.json";
 
 Settings reference_settings(const Job& job, render::Method method) {
@@ -51,7 +51,7 @@ Settings reference_settings(const Job& job, render::Method method) {
   return settings;
 }
 
-// A job with other settings for a while.
+// Replaces a job's settings for the guard's lifetime.
 class SettingsGuard {
  public:
   SettingsGuard(Job& job, Settings settings) : job_(job), previous_(std::move(job.settings)) {
@@ -72,13 +72,13 @@ double mean_of(const render::Image& image) {
   return sum / (3.0 * double(image.pixels.size()));
 }
 
-// Throws ImageError, also for another size than the job's.
+// Reads an image. Throws ImageError, also when its size is not the job's.
 render::Image read_picture(const std::string& path, const Job& job) {
   render::Image image = render::read_image(path);
   const auto [width, height] = picture_size(job);
   if (image.width != width || image.height != height)
-    throw render::ImageError(path, fmt::format("{} x {} pixels, the scene's picture {} x {}", image.width,
-                                               image.height, width, height));
+    throw render::ImageError(path, fmt::format("it has {} x {} pixels, but the scene's picture has {} x {}",
+                                               image.width, image.height, width, height));
   return image;
 }
 
@@ -93,15 +93,16 @@ Reference read_reference(const std::string& path, const Job& job) {
   return reference;
 }
 
-// The one that an earlier run finished. Throws what is wrong with it.
+// Reads the reference that an earlier run finished. Throws an exception that names the problem if it is
+// unusable.
 Reference kept_reference(const Job& job, const SweepFolder& folder) {
   const std::optional<Json> about = folder.read(kAboutName);
-  if (!about) throw std::runtime_error(folder.path(kAboutName) + ": it is no JSON");
+  if (!about) throw std::runtime_error(folder.path(kAboutName) + ": it is not valid JSON");
   Reference reference;
   reference.image = read_picture(folder.path(kPictureName), job);
   if (about->at("hash") != picture_hash(reference.image))
     throw std::runtime_error(
-        fmt::format("{}: this is not the picture that {} describes", folder.path(kPictureName), kAboutName));
+        fmt::format("{}: it is not the picture that {} describes", folder.path(kPictureName), kAboutName));
   about->at("source").get_to(reference.about.source);
   about->at("seconds").get_to(reference.about.seconds);
   about->at("passes").get_to(reference.about.passes);
@@ -119,7 +120,7 @@ std::optional<Reference> find_reference(const Job& job, const SweepFolder& folde
   try {
     return kept_reference(job, folder);
   } catch (const Json::exception&) {
-    return warn(folder.path(kAboutName) + ": something is missing, or of another kind");
+    return warn(folder.path(kAboutName) + ": a value is missing or has the wrong type");
   } catch (const std::exception& error) {
     return warn(error.what());
   }
@@ -130,7 +131,7 @@ double seconds_in(const render::PassSums& sums) {
   return s.photon_trace_s + s.photon_build_s + s.render_s;
 }
 
-// Passes of an interrupted run. The folder's own mark has checked scene, build and settings.
+// The passes of an interrupted run. Scene, build and settings need no check: SweepFolder has done it.
 render::PassSums begun_passes(const std::string& path, const Console& console) {
   if (!fs::exists(path)) return {};
   try {

@@ -12,7 +12,7 @@ namespace kaustik::app {
 
 namespace {
 
-// How much of its render's work is done.
+// The share of a render's work that is done. `work`: its photons and camera samples.
 double fraction_of(const render::Progress& p, const SweepPoint& point, uint64_t work) {
   const double photons = double(point.photons) / double(work);
   const double phase = p.total > 0 ? double(p.done) / double(p.total) : 0;
@@ -22,7 +22,7 @@ double fraction_of(const render::Progress& p, const SweepPoint& point, uint64_t 
   return (double(p.pass) + in_pass) / double(std::max<uint64_t>(p.passes, 1));
 }
 
-// One point of the grid at work.
+// Renders one point of the grid with all seeds.
 class CellRun {
  public:
   CellRun(const SweepJob& sweep, const SweepPoint& point, const SweepFolder& folder)
@@ -47,7 +47,8 @@ class CellRun {
     return found;
   }
 
-  // False when cancelled. go_on is told the work that is done, of work() for each seed.
+  // Renders all seeds; false when cancelled. go_on(done) receives the work done so far, out of work() per
+  // seed.
   bool render_all(const std::function<bool(uint64_t done)>& go_on) {
     for (uint64_t i = 0; i < sweep_.grid.seeds; ++i) {
       render::RenderSettings s = settings_.render;
@@ -64,13 +65,13 @@ class CellRun {
     return true;
   }
 
-  // Of one seed: photons and camera samples cost about the same.
+  // The work of one seed: photons plus camera samples, which cost about the same.
   uint64_t work() const {
     const auto [width, height] = picture_size(sweep_.job);
     return cell_.point.photons + uint64_t(width) * uint64_t(height) * uint64_t(cell_.point.spp);
   }
 
-  // After render_all; kept in the folder.
+  // Call after render_all. Computes the cell and stores it in the folder.
   SweepCell finish() {
     cell_.error = errors_.parts();
     for (size_t i = 0; i < kPhases; ++i) cell_.seconds[i] = spread_of(seconds_[i]);

@@ -1,5 +1,5 @@
 #pragma once
-// The renders of a sweep.
+// Renders the cells of a sweep.
 
 #include <functional>
 #include <optional>
@@ -20,17 +20,18 @@ struct SweepJob {
   render::CompareOptions compare;
 };
 
-// Work done and in all, in photons and samples; false cancels. From worker threads, one at a time.
+// Reports progress in photons plus camera samples; returning false cancels. Called from worker threads, one
+// at a time.
 using SweepProgress = std::function<bool(uint64_t done, uint64_t total)>;
 
 struct RunCells {
-  std::vector<SweepCell> cells;  // all that are finished, in the grid's order
-  size_t reused = 0;             // of them, those that an earlier run had finished
+  std::vector<SweepCell> cells;  // the finished cells in the grid's order
+  size_t reused = 0;             // number of these that an earlier run finished
   bool cancelled = false;
 };
 
-// Takes what is finished from the folder and renders the rest, one cell after the other, each with all seeds;
-// keeps each cell when it is finished.
+// Takes finished cells from the folder and renders the others one after the other, each with all seeds. Each
+// cell is stored in the folder when it is finished.
 RunCells run_cells(const SweepJob& sweep, const std::vector<SweepPoint>& points, const SweepFolder& folder,
                    const SweepProgress& progress, const Console& console);
 

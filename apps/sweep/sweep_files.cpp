@@ -12,7 +12,7 @@ namespace kaustik::app {
 
 namespace {
 
-constexpr int kFormat = 1;  // grows when a reader of the old format would misread the new one
+constexpr int kFormat = 1;  // incremented when readers of the old format would misread the new one
 
 Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);

@@ -1,20 +1,20 @@
 #pragma once
-// A sweep's result as texts: the JSON of a cell (what a finished cell leaves, and all that a later run needs
-// of it), the whole as JSON and CSV. docs/cli.md explains the fields.
+// Writes a sweep's result as JSON and CSV, and single cells as JSON, from which a later run reads them.
+// docs/cli.md explains the fields.
 
 #include "apps/sweep/sweep_result.h"
 
 namespace kaustik::app {
 
 Json cell_json(const SweepCell& cell);
-// The inverse but for point and flags, which the caller knows. Throws std::runtime_error or nlohmann's
-// errors.
+// The inverse of cell_json, except that point and flags are left for the caller to set. Throws
+// std::runtime_error or nlohmann::json exceptions.
 SweepCell cell_from_json(const Json& in);
 
-// Indented, ends in a newline; with the Pareto front and the advice, which follow from the cells.
+// The whole result, with the Pareto front and the advice computed from the cells.
 Json sweep_json(const SweepResult& result);
 
-// One line a cell after the names of the columns; numbers as in the JSON, empty where that has null.
+// A header line, then one line per cell. Numbers are written as in the JSON; null becomes an empty field.
 std::string sweep_csv(const SweepResult& result);
 
 }  // namespace kaustik::app

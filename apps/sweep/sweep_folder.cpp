@@ -26,11 +26,11 @@ constexpr const char* kCommonName = "sweep-of.json";
   throw ExitError(kBadCommandLine, message);
 }
 
-// The folder, made where it is missing.
+// Creates the folder if it is missing and returns its path. Throws ExitError when it cannot be written.
 fs::path made(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    refuse(fmt::format("cannot write {}: this is not a folder", folder.string()));
+    refuse(fmt::format("cannot write {}: it is not a folder", folder.string()));
   fs::create_directories(folder / "cells", error);
   if (error) refuse(fmt::format("cannot write {}: {}", folder.string(), error.message()));
   if (access(folder.c_str(), W_OK | X_OK) != 0 || access((folder / "cells").c_str(), W_OK | X_OK) != 0)
@@ -38,7 +38,7 @@ fs::path made(const fs::path& folder) {
   return folder;
 }
 
-// "scene (there 1f.., here 2a..)": the first thing that is not the same.
+// Describes the first value that differs, such as "scene hash: there 1f.., here 2a..".
 std::string difference(const Json& there, const Json& here, const std::string& name = {}) {
   if (there.is_object() && here.is_object()) {
     for (const auto& [key, value] : here.items()) {
@@ -51,7 +51,7 @@ std::string difference(const Json& there, const Json& here, const std::string& n
   const auto text = [](const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   };
-  return fmt::format("{}: there {}, here {}", name, text(there), text(here));
+  return fmt::format("{}: in the folder {}, now {}", name, text(there), text(here));
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ FolderLock::FolderLock(const fs::path& folder)
   if (file_ < 0) refuse(fmt::format("cannot write {}: {}", folder.string(), std::strerror(errno)));
   if (flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(file_);
-  refuse(fmt::format("{}: another sweep is at work in this folder", folder.string()));
+  refuse(fmt::format("{}: another sweep is running in this folder", folder.string()));
 }
 
 FolderLock::~FolderLock() {
@@ -76,9 +76,9 @@ SweepFolder::SweepFolder(const std::string& path, const Json& common)
   }
   const std::optional<Json> there = read(kCommonName);
   if (!there)
-    refuse(fmt::format("{} is damaged: remove the folder, or give another", this->path(kCommonName)));
+    refuse(fmt::format("{} is damaged: remove the folder or choose another", this->path(kCommonName)));
   if (*there != Json::parse(common_))
-    refuse(fmt::format("{} holds another sweep: give another folder. {}", path,
+    refuse(fmt::format("{} holds the results of another sweep: choose another folder. {}", path,
                        difference(*there, Json::parse(common_))));
 }
 
@@ -101,7 +101,7 @@ std::optional<SweepCell> SweepFolder::find(const std::string& key, const Console
   if (!fs::exists(path(name))) return std::nullopt;
   try {
     const std::optional<Json> json = read(name);
-    if (!json) throw std::runtime_error("it is no JSON");
+    if (!json) throw std::runtime_error("it is not valid JSON");
     SweepCell cell = cell_from_json(*json);
     for (const std::string& picture : {cell.picture, cell.error_map})
       if (!fs::is_regular_file(path(picture))) throw std::runtime_error(picture + " is missing");

@@ -1,14 +1,12 @@
 #pragma once
-// The folder of a sweep: what it belongs to, and the cells that are finished. Each file appears when it is
-// complete, so a kill costs the cell at work, not those before.
+// The folder of a sweep, which holds what the sweep belongs to and its finished cells. Each file appears only
+// when it is complete, so killing the program loses at most the cell that is being rendered.
 //
 //   sweep-of.json   what all cells have in common: scene, build, settings, reference
-//   reference.exr, reference.json, reference.kpart (while it is rendered)
-//   cells/KEY.json, KEY.png, KEY-error.png; KEY hashes the common part, the reference's picture and the
-//   cell's
-//     own settings
+//   reference.exr, reference.json; reference.kpart while it is rendered
+//   cells/KEY.json, KEY.png, KEY-error.png; KEY hashes sweep-of.json, the reference and the cell's settings
 //   sweep.json, sweep.csv, report.html   once every cell is finished
-//   .lock           of the sweep at work
+//   .lock           held by the running sweep
 
 #include <filesystem>
 #include <optional>
@@ -19,8 +17,8 @@
 
 namespace kaustik::app {
 
-// One process at a time in a folder. Ends with the process, however that ends; file systems without locks
-// hold nobody off.
+// Lets only one process at a time use a folder. The lock ends with the process, also after a crash. On file
+// systems without locks it has no effect.
 class FolderLock {
  public:
   // Throws ExitError (bad command line) when another sweep holds it.
@@ -35,19 +33,19 @@ class FolderLock {
 
 class SweepFolder {
  public:
-  // Makes the folder where it is missing. Throws ExitError (bad command line) when it cannot be written,
-  // another sweep is at work in it, or it belongs to a sweep of another scene, build, settings or reference:
-  // says which.
+  // Creates the folder if it is missing. Throws ExitError (bad command line) when the folder cannot be
+  // written, another sweep is running in it, or it belongs to a sweep with another scene, build, settings or
+  // reference; the message names the difference.
   SweepFolder(const std::string& path, const Json& common);
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  // Of a cell with these settings of its own.
+  // The key of a cell with these settings.
   std::string key(const Json& own) const;
-  // The finished cell of this key; nothing when it is not there or, after a warning, unusable.
+  // The finished cell of this key; nothing when it does not exist or, with a warning, when it is unusable.
   std::optional<SweepCell> find(const std::string& key, const Console& console) const;
   void keep(const std::string& key, const SweepCell& cell) const;
 
-  // The JSON file of this name; nothing when there is none or it is damaged.
+  // The JSON file of this name; nothing when it does not exist or is damaged.
   std::optional<Json> read(const std::string& name) const;
 
  private:

@@ -47,17 +47,17 @@ std::vector<render::Method> methods_from(const std::vector<std::string>& texts) 
   for (const std::string& text : texts) {
     const auto method = render::from_name<render::Method>(render::kMethodNames, text);
     if (!method)
-      refuse(fmt::format("--methods: `{}` is no method{}", text, name_hint(text, render::kMethodNames)));
+      refuse(fmt::format("--methods: unknown method `{}`{}", text, name_hint(text, render::kMethodNames)));
     add_once("--methods", text, *method, &methods);
   }
   return methods;
 }
 
-// What the render would refuse, with nothing rendered yet.
+// Checks here what the render would refuse later, so that nothing has been rendered in vain.
 void check_passes(uint64_t passes, uint64_t photons) {
   if (passes > photons)
-    refuse(fmt::format("--photons: {} photons are fewer than the {} passes that share them",
-                       count_text(photons), count_text(passes)));
+    refuse(fmt::format("--photons: {} photons cannot be divided among {} passes", count_text(photons),
+                       count_text(passes)));
 }
 
 }  // namespace

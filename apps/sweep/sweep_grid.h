@@ -1,5 +1,5 @@
 #pragma once
-// The grid of a sweep: which renders it is made of.
+// The grid of a sweep: the combinations of settings that it renders.
 
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace kaustik::app {
 
-// The lists as they were typed. methods, spp: empty when not given; then the scene's own holds.
+// The lists as typed. `methods` and `spp` may be empty; then the scene's own setting holds.
 struct GridTexts {
   std::vector<std::string> photons = {"100k", "1M"}, radii = {"0.5x", "auto", "2x"}, methods{}, spp{};
   std::string seeds = "5";
@@ -26,33 +26,34 @@ struct SweepGrid {
   uint64_t seeds = 5;
 };
 
-// One setting of the knobs: a point of the charts, rendered once for each seed.
+// One combination of settings: a point in the charts, rendered once per seed.
 struct SweepPoint {
   render::Method method = render::Method::kAuto;
   int spp = 1;
-  uint64_t photons = 0;  // 0: the method reads no photons, and so no radius
+  uint64_t photons = 0;  // 0 = the method uses no photons and hence no radius
   RadiusChoice radius;
 
   bool reads_photons() const { return photons > 0; }
   bool operator==(const SweepPoint&) const = default;
 };
 
-// Throws ExitError (bad command line): what is no photon count, radius, method or sample count, or is given
-// twice.
+// Throws ExitError (bad command line) for an invalid photon count, radius, method or sample count, and for
+// values given twice.
 SweepGrid parse_grid(const GridTexts& texts);
 
-// Settings of a point, of any seed. Without --methods the estimators are the scene's own; with it, the
-// method's but for those that the command line names.
+// The settings of a point, without the seed. Without --methods the estimators are the scene's own; with it,
+// they are the method's, except those that the command line names.
 Settings settings_at(const SweepPoint& point, const SweepGrid& grid, const Settings& base,
                      const SettingOverrides& overrides);
 
-// By method, samples, photons, radius, as the lists have them. A method that reads no photons has one point
-// for each sample count. Throws ExitError (bad command line) for a point with fewer photons than passes.
+// All points, ordered by method, samples, photons and radius as in the lists. A method that uses no photons
+// has one point per sample count. Throws ExitError (bad command line) for a point with fewer photons than
+// passes.
 std::vector<SweepPoint> points_of(const SweepGrid& grid, const Settings& base,
                                   const SettingOverrides& overrides, const SceneNeeds& needs);
 
-// "--method photon --photons 1M --radius 0.5x --width 64": what to type for the point, of the lists that the
-// grid varies or the user gave, and the settings that the command line gave.
+// The options that render the point, such as "--method photon --photons 1M --radius 0.5x --width 64": its
+// values in the grid, and the settings given on the command line.
 std::string flags_of(const SweepPoint& point, const SweepGrid& grid, const SettingOverrides& overrides);
 
 }  // namespace kaustik::app

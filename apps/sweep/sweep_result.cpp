@@ -28,7 +28,7 @@ std::string seconds_text(double seconds) {
   return seconds < 10 ? fmt::format("{:.2g} s", seconds) : fmt::format("{:.0f} s", seconds);
 }
 
-// The cheapest cell whose relative error is at most this.
+// The fastest cell whose relative error is at most `target`.
 std::optional<size_t> cheapest(const std::vector<SweepCell>& cells, const std::vector<size_t>& front,
                                double target) {
   for (const size_t i : front)
@@ -48,11 +48,11 @@ std::vector<Advice> advice_of(const std::vector<SweepCell>& cells) {
       const SweepCell& best = cells[front.back()];
       advice.push_back(
           {target, std::nullopt, front.back(),
-           fmt::format("{} is out of this grid's reach. Its best: {} with {}, {}.", percent(target),
+           fmt::format("No point of this grid reaches {}. The best is {} with {}, {}.", percent(target),
                        percent(std::sqrt(best.error.relmse)), best.flags, seconds_text(best.time()))});
       break;
     }
-    // Where one cell serves several targets, the hardest says it all.
+    // If one cell is the fastest for several targets, keep only the smallest target.
     if (!advice.empty() && advice.back().cell == found) advice.pop_back();
     advice.push_back({target, found, *found,
                       fmt::format("For {} on this scene: {}, {}.", percent(target), cells[*found].flags,

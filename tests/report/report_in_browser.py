@@ -121,7 +121,7 @@ def check_zeros(browser, kaustik, out):
         const chart = Chart.getChart("error-time"), y = chart.scales.y;
         return chart.data.datasets.flatMap(d => d.data.map(p => y.min < p.y && p.y < y.max));""")
     assert inside and all(inside), inside
-    assert "the least are 0" in browser.execute_script("return Chart.getChart('error-time').scales.y.options.title.text")
+    assert "the lowest points are 0" in browser.execute_script("return Chart.getChart('error-time').scales.y.options.title.text")
 
 
 def check_table(browser, rows):

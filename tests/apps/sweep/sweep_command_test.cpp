@@ -244,7 +244,7 @@ TEST_F(SweepCommand, ARenderedReferenceTellsItsNoise) {
 
 TEST_F(SweepCommand, RefusesTheFolderOfAnotherSweep) {
   expect_done(sweep(against_file()));
-  expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}), "holds another sweep");
+  expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}), "holds the results of another sweep");
   expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}),
                  "settings max-bounces: there \"16\", here \"3\"");
   expect_refused(sweep({"--reference-time", "1s"}), "reference");
@@ -345,7 +345,7 @@ TEST_F(SweepCommand, OneSweepAtATimeInAFolder) {
   const int file = open(path("out/.lock").c_str(), O_RDWR);
   ASSERT_GE(file, 0);
   ASSERT_EQ(flock(file, LOCK_EX | LOCK_NB), 0);
-  expect_refused(sweep(against_file()), "another sweep is at work");
+  expect_refused(sweep(against_file()), "another sweep is running");
   close(file);
   expect_done(sweep(against_file()));
 }

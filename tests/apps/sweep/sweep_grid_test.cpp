@@ -156,7 +156,7 @@ TEST(SweepResult, AdviceNamesTheCheapestOfTheFront) {
   EXPECT_EQ(advice[0].text, "For 20 % on this scene: --photons 1k, 0.5 s.");
   // Serves 10, 5 and 2 %.
   EXPECT_EQ(advice[1].text, "For 2 % on this scene: --photons 4M, 3.1 s.");
-  EXPECT_EQ(advice[2].text, "1 % is out of this grid's reach. Its best: 1.9 % with --photons 1G, 60 s.");
+  EXPECT_EQ(advice[2].text, "No point of this grid reaches 1 %. The best is 1.9 % with --photons 1G, 60 s.");
   EXPECT_EQ(advice[2].cell, std::nullopt);
 }
 
