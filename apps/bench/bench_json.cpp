@@ -10,7 +10,7 @@ namespace kaustik::app {
 
 namespace {
 
-constexpr int kFormat = 1;  // grows when a reader of the old format would misread the new one
+constexpr int kFormat = 1;  // incremented when readers of the old format would misread the new one
 
 template <size_t N>
 Json spreads_json(const std::array<Spread, N>& spreads, const std::array<std::string_view, N>& names) {
@@ -65,7 +65,7 @@ uint64_t whole(const Json& object, std::string_view key, uint64_t least, uint64_
 
 std::string text_of(const Json& object, std::string_view key) {
   const Json& value = field(object, key);
-  if (!value.is_string()) refuse(key, "a text");
+  if (!value.is_string()) refuse(key, "a string");
   return value.get<std::string>();
 }
 
@@ -134,7 +134,7 @@ std::string bench_json(const BenchResult& result) {
 
 BenchResult bench_from_json(const std::string& text) {
   const Json in = Json::parse(text, nullptr, false);
-  if (in.is_discarded()) throw std::runtime_error("this is no JSON");
+  if (in.is_discarded()) throw std::runtime_error("it is not valid JSON");
   whole(in, "kaustik_bench", kFormat, kFormat);
   BenchResult result;
   result.version = text_of(in, "version");

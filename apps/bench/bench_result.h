@@ -1,5 +1,5 @@
 #pragma once
-// What a benchmark found, as a value: measured, written to JSON, read back, printed and drawn.
+// The result of a benchmark.
 
 #include <array>
 #include <cstdint>
@@ -13,21 +13,21 @@ namespace kaustik::app {
 
 using Json = nlohmann::ordered_json;
 
-// Of repeated measurements.
+// Median and range of repeated measurements.
 struct Spread {
   double median = 0, min = 0, max = 0;
 };
 
-// values: at least one. The median of an even number is the mean of the middle two.
+// The spread of at least one value. The median of an even number of values is the mean of the middle two.
 Spread spread_of(std::vector<double> values);
 
-// Wall-clock phases, by the names that --stats gives them.
+// Phases of a render, with the names that --stats uses. Their times are wall-clock times.
 enum class Phase { kBvh, kPhotonTrace, kPhotonBuild, kRender, kTotal };
 inline constexpr std::array<std::string_view, 5> kPhaseNames = {"bvh", "photon_trace", "photon_build",
                                                                 "render", "total"};
 inline constexpr size_t kPhases = kPhaseNames.size();
 
-// What is counted per second: the first three of photon tracing, the others of the image.
+// Counts per second. The first three are per second of photon tracing, the others per second of rendering.
 enum class Rate {
   kPhotons,
   kPhotonRays,
@@ -44,15 +44,15 @@ inline constexpr std::array<std::string_view, 9> kRateNames = {
     "shadow_rays", "bounce_rays", "gather_queries",     "gather_candidates"};
 inline constexpr size_t kRates = kRateNames.size();
 
-// One photon count on one number of threads.
+// The measurements for one photon count and one number of threads.
 struct BenchPoint {
   uint64_t photons = 1;
   int threads = 1;
   std::array<Spread, kPhases> seconds;    // by Phase; total is the sum of the others, run by run
-  std::array<Spread, kRates> per_second;  // by Rate; 0 where the phase took no time
-  Spread busy_cores;                      // CPU time of the process over the time of the run
+  std::array<Spread, kRates> per_second;  // by Rate; 0 if the phase took no time
+  Spread busy_cores;                      // CPU time of the process divided by the time of the run
   Spread peak_memory_bytes;               // resident, of the process
-  Json counters = Json::object();         // exact, the same in every run of these photons
+  Json counters = Json::object();         // exact counts, equal in all runs with this photon count
 
   const Spread& operator[](Phase phase) const { return seconds[static_cast<size_t>(phase)]; }
   const Spread& operator[](Rate rate) const { return per_second[static_cast<size_t>(rate)]; }
@@ -63,16 +63,16 @@ struct BenchResult {
   Json machine = Json::object();      // see machine_json
   Json settings = Json::object();     // of the render, without photons and threads
   uint64_t repeat = 1;
-  std::vector<BenchPoint> points;  // by photon count, then by threads, as the command line gave them
+  std::vector<BenchPoint> points;  // by photon count, then by threads, in the order of the command line
 };
 
-// The first point of the same photon count: what speed-ups are measured against.
+// The first point with the same photon count; speed-ups are relative to it.
 const BenchPoint& baseline_of(const BenchResult& result, const BenchPoint& point);
 
-// The baseline's median over this point's times. Nothing when the phase took no time in one of them.
+// The baseline's median time divided by this point's times. Nothing if the phase took no time in one of them.
 std::optional<Spread> speed_up(const BenchResult& result, const BenchPoint& point, Phase phase);
 
-// The speed-up per thread added: 1 is ideal.
+// The speed-up divided by the ratio of thread counts; 1 is ideal.
 std::optional<double> efficiency(const BenchResult& result, const BenchPoint& point, Phase phase);
 
 }  // namespace kaustik::app

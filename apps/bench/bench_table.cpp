@@ -14,7 +14,7 @@ namespace kaustik::app {
 namespace {
 
 constexpr size_t kLabelWidth = 24, kCellWidth = 26;
-constexpr size_t kColumns = 4;  // side by side; more threads go below
+constexpr size_t kColumns = 4;  // columns per block; more threads start another block below
 
 struct Unit {
   double size = 1;
@@ -25,7 +25,7 @@ constexpr Unit kSeconds[] = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}};
 constexpr Unit kCounts[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}};
 constexpr Unit kBytes[] = {{1e9, "GB"}, {1e6, "MB"}, {1e3, "kB"}};
 
-// The largest unit that leaves a number of at least 1, or the smallest.
+// The largest unit in which the value is at least 1, else the smallest unit.
 template <size_t N>
 Unit unit_for(double value, const Unit (&units)[N]) {
   const auto fits = [&](const Unit& unit) { return value >= unit.size; };
@@ -47,7 +47,7 @@ std::string cell(const Spread& s, const Unit (&units)[N]) {
 
 using Points = std::vector<const BenchPoint*>;
 
-// Nothing is printed when no column has a text.
+// Adds a row, unless all its cells are empty.
 template <class Cell>
 void add_row(std::string& table, std::string_view label, const Points& points, Cell&& text_of) {
   std::string line = fmt::format("  {:<{}}", label, kLabelWidth);
@@ -72,7 +72,7 @@ constexpr std::pair<Rate, std::string_view> kRateRows[] = {{Rate::kPhotons, "pho
                                                            {Rate::kGatherQueries, "gathers/s"},
                                                            {Rate::kGatherCandidates, "photons tested/s"}};
 
-constexpr std::pair<Phase, std::string_view> kPhaseRows[] = {{Phase::kBvh, "ray tree build"},
+constexpr std::pair<Phase, std::string_view> kPhaseRows[] = {{Phase::kBvh, "BVH build"},
                                                              {Phase::kPhotonTrace, "photon trace"},
                                                              {Phase::kPhotonBuild, "photon map build"},
                                                              {Phase::kRender, "image"},
@@ -106,7 +106,7 @@ void add_columns(std::string& table, const BenchResult& result, const Points& po
   }
 }
 
-// {"stored": {"direct": 5}} as "stored.direct 5".
+// Writes nested counters with dotted names: {"stored": {"direct": 5}} becomes "stored.direct 5". Omits zeros.
 void flatten(const Json& value, const std::string& name, std::vector<std::string>& out) {
   if (value.is_object()) {
     for (const auto& [key, inner] : value.items()) flatten(inner, name.empty() ? key : name + "." + key, out);

@@ -21,7 +21,7 @@ struct Run {
   Json counters;
 };
 
-// All runs of one point.
+// All runs of one point of the benchmark.
 struct PointRuns {
   uint64_t photons = 1;
   int threads = 1;
@@ -45,7 +45,7 @@ std::array<double, kRates> rates_of(const render::RenderStatistics& s) {
           rendered(s.gather_candidates)};
 }
 
-// Of all threads of the process.
+// CPU time of all threads of the process.
 double cpu_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -71,14 +71,14 @@ std::optional<Run> run_once(const Scene& scene, render::RenderSettings settings,
   return run;
 }
 
-// The promise of the renderer, checked by every benchmark.
+// Checks that the counters do not depend on the number of threads, as the renderer promises.
 void check_counters(const std::vector<PointRuns>& all, const PointRuns& point, const Json& counters) {
   for (const PointRuns& other : all) {
     if (other.photons != point.photons || other.runs.empty() || other.runs.front().counters == counters)
       continue;
-    throw std::runtime_error(fmt::format("{} photons count differently on {} and {} threads: {} and {}",
-                                         point.photons, other.threads, point.threads,
-                                         other.runs.front().counters.dump(), counters.dump()));
+    throw std::runtime_error(
+        fmt::format("the counters for {} photons differ between {} and {} threads: {} and {}", point.photons,
+                    other.threads, point.threads, other.runs.front().counters.dump(), counters.dump()));
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The runs of a benchmark: the same render again and again, on one scene in memory.
+// Runs a benchmark: repeats the same render with one scene in memory.
 
 #include <functional>
 
@@ -18,15 +18,16 @@ struct BenchPlan {
   uint64_t runs() const { return photons.size() * threads.size() * repeat; }
 };
 
-// Asked for often, from worker threads too, with the runs that are done; false cancels.
+// Receives the number of finished runs; returning false cancels. Called often, also from worker threads.
 using BenchProgress = std::function<bool(uint64_t done)>;
 
-// By Phase; the total is the sum of the others.
+// The seconds of a render by Phase; the total is the sum of the others.
 std::array<double, kPhases> phase_seconds(const RenderOutcome& outcome);
 
-// Every round renders each point once, so that a machine that slows down does so for all alike. A run builds
-// the rays' tree and the photon maps anew and renders the image; nothing is written. Fills BenchPoint's
-// fields. Nothing when cancelled. Throws std::runtime_error when runs of the same photons count differently.
+// Measures all points. Each round renders every point once, so that changes in the machine's speed affect all
+// points alike. A run builds the BVH and the photon maps anew and renders the image without writing it.
+// Nothing when cancelled. Throws std::runtime_error when the counters of runs with the same photon count
+// differ.
 std::optional<std::vector<BenchPoint>> measure(const Scene& scene, const render::RenderSettings& settings,
                                                const BenchPlan& plan, const BenchProgress& progress);
 

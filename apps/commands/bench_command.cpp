@@ -1,4 +1,4 @@
-// kaustik bench: how fast a scene renders, over photon counts and threads.
+// kaustik bench: measures how fast a scene renders, for lists of photon counts and threads.
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ struct Options {
   SettingOverrides overrides;
 };
 
-constexpr int kMostThreads = 65535;  // as of `render --threads`
+constexpr int kMostThreads = 65535;  // as for `render --threads`
 
 // All but photons and threads, which are lists here, and those of files that are not written.
 constexpr std::string_view kSettings[] = {"method",      "passes",       "direct",  "caustics", "indirect",
@@ -46,7 +46,7 @@ constexpr std::string_view kSettings[] = {"method",      "passes",       "direct
                                           "min-photons", "node-photons", "lookup",  "emission", "max-bounces",
                                           "spp",         "seed",         "width",   "height",   "crop"};
 
-// 1, 2, 4 ... and the usable cores themselves.
+// 1, 2, 4 ... and the number of usable cores.
 std::vector<int> doubling_threads(int usable) {
   std::vector<int> threads;
   for (int t = 1; t < usable; t *= 2) threads.push_back(t);
@@ -64,18 +64,18 @@ BenchPlan plan_of(const Options& options, const CoreLimits& cores) {
   return plan;
 }
 
-// The folder may be made later, but its own folder must be there.
+// Checks that figures can be written. The folder need not exist yet, but its parent must.
 void check_plot_folder(const std::string& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) return check_writable((fs::path(path) / "figure.svg").string());
   if (fs::exists(path, ignored))
-    throw ExitError(kBadCommandLine, fmt::format("cannot write {}: this is not a folder", path));
+    throw ExitError(kBadCommandLine, fmt::format("cannot write {}: it is not a folder", path));
   check_writable(path.substr(0, path.find_last_not_of('/') + 1));
 }
 
 void check_options(const Options& options) {
   if (options.scene.empty() == options.from.empty())
-    throw ExitError(kBadCommandLine, "give a scene to measure, or --from FILE of an earlier result");
+    throw ExitError(kBadCommandLine, "give a scene to measure, or --from FILE with an earlier result");
   if (!options.json.empty()) check_writable(options.json);
   if (!options.plot.empty()) check_plot_folder(options.plot);
 }
@@ -96,7 +96,7 @@ void warn_of_noise(const BenchPlan& plan, const CoreLimits& cores, const Console
     console.warning(fmt::format("{} threads share {} usable core{}", most, cores.usable(),
                                 cores.usable() == 1 ? "" : "s"));
   if (!restart_peak_memory())
-    console.warning("the peak of memory cannot be restarted here: it is that of all runs so far");
+    console.warning("the peak memory cannot be reset on this system: it is the peak of all runs so far");
 }
 
 std::vector<BenchPoint> measure_job(const Job& job, const BenchPlan& plan, const InterruptGuard& interrupt,
@@ -142,7 +142,8 @@ BenchResult read_result(const std::string& path) {
   try {
     return bench_from_json(text.str());
   } catch (const std::exception& error) {
-    throw ExitError(kBadCommandLine, fmt::format("{} is no result of kaustik bench: {}", path, error.what()));
+    throw ExitError(kBadCommandLine,
+                    fmt::format("{} is not a result of kaustik bench: {}", path, error.what()));
   }
 }
 
@@ -170,18 +171,18 @@ int run_bench(const Options& options, const Console& console) {
 void add_options(CLI::App& parser, Options& options) {
   parser.add_option("SCENE", options.scene, "Scene file")->option_text(" ");
   add_list_option(parser, "--photons", options.photons, "COUNTS",
-                  "Photon counts, separated by commas: 1M,10M. Default: 1M");
-  add_list_option(parser, "--threads", options.threads, "COUNTS",
-                  "Numbers of threads, separated by commas; speed-ups are over the first. Each bounds all "
-                  "threads of the process. Default: 1, 2, 4 ... up to the usable cores");
-  parser.add_option("--repeat", options.repeat, "Runs of each point. Default: 5")->option_text("COUNT");
-  parser.add_option("--json", options.json, "Write the result as JSON")->option_text("FILE");
+                  "Photon counts, separated by commas, like 1M,10M. Default: 1M");
+  add_list_option(
+      parser, "--threads", options.threads, "COUNTS",
+      "Thread counts, separated by commas. Speed-ups are relative to the first. Default: 1, 2, 4 ... up "
+      "to the usable cores");
+  parser.add_option("--repeat", options.repeat, "Runs per point. Default: 5")->option_text("COUNT");
+  parser.add_option("--json", options.json, "Write the result to this JSON file")->option_text("FILE");
   parser.add_option("--plot", options.plot, "Draw scaling curves into this folder, as SVG")
       ->option_text("FOLDER");
-  CLI::Option* from = parser
-                          .add_option("--from", options.from,
-                                      "Print and plot the JSON of an earlier run; nothing is measured")
-                          ->option_text("FILE");
+  CLI::Option* from =
+      parser.add_option("--from", options.from, "Read the JSON of an earlier run instead of measuring")
+          ->option_text("FILE");
   add_setting_options(parser, options.overrides, kSettings);
   for (CLI::Option* option : parser.get_options())
     if (option != from && option->get_name() != "--help" && option->get_name() != "--plot" &&
@@ -197,7 +198,7 @@ Command make_bench_command(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   add_options(*command.parser, *options);
   command.parser->add_flag("-q,--quiet", *command.quiet,
-                           "No log and no progress; warnings and errors still come");
+                           "Suppress log and progress, but not warnings and errors");
   command.run = [options](const Console& console) { return run_bench(*options, console); };
   return command;
 }

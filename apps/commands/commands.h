@@ -1,5 +1,6 @@
 #pragma once
-// The subcommands. Each adds its options to a CLI11 command and leaves there what to do once they are parsed.
+// The subcommands. Each function adds a CLI11 subcommand with its options, and returns what to run after
+// parsing.
 
 #include <functional>
 #include <memory>
@@ -15,9 +16,10 @@ namespace kaustik::app {
 
 struct Command {
   CLI::App* parser = nullptr;
-  // Returns the exit code; throws ExitError, or anything else for failures while working.
+  // Runs the command and returns the exit code. Throws ExitError, or any other exception for a failure during
+  // the work.
   std::function<int(const Console&)> run;
-  // Set by --quiet where the command has it.
+  // Set by --quiet, if the command has this option.
   std::shared_ptr<bool> quiet = std::make_shared<bool>(false);
 };
 

@@ -1,4 +1,4 @@
-// kaustik compare: how far a picture is from a reference.
+// kaustik compare: measures how much a picture differs from a reference.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ struct Options {
   std::optional<float> mask_bright;
 };
 
-// JSON has no infinity: equal pictures have no PSNR to print.
+// JSON cannot represent infinity, the PSNR of equal pictures.
 nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
@@ -58,7 +58,7 @@ std::string as_text(const render::CompareResult& r) {
   return text;
 }
 
-// Pictures that cannot be read or do not match are a bad command line: nothing was compared.
+// Compares the files. Throws ExitError (bad command line) for pictures that cannot be read or differ in size.
 render::CompareResult compare_files(const Options& options) {
   try {
     const render::Image reference = render::read_image(options.reference);
@@ -77,8 +77,8 @@ render::CompareResult compare_files(const Options& options) {
 int run_compare(const Options& options, const Console& console) {
   if (!options.heatmap.empty()) check_image_output(options.heatmap);
   const render::CompareResult result = compare_files(options);
-  if (result.compared == 0) throw ExitError(kBadCommandLine, "no pixel is left to compare");
-  // A pixel that is not finite in the image alone is an error without bound.
+  if (result.compared == 0) throw ExitError(kBadCommandLine, "there is no pixel to compare");
+  // A pixel that is not finite in the image only counts as an infinite error.
   const bool finite = result.nan_image == 0;
   const bool within = !options.max_relmse || (finite && result.relmse <= *options.max_relmse);
   console.out << (options.json ? as_json(result, within) : as_text(result)) << '\n';
@@ -93,26 +93,29 @@ int run_compare(const Options& options, const Console& console) {
 
 Command make_compare_command(CLI::App& program) {
   Command command;
-  command.parser = program.add_subcommand("compare", "Measure how far a picture is from a reference");
+  command.parser = program.add_subcommand("compare", "Measure how much a picture differs from a reference");
   const auto options = std::make_shared<Options>();
   CLI::App& parser = *command.parser;
   parser.add_option("REF", options->reference, "Reference picture")->required()->option_text(" ");
-  parser.add_option("IMG", options->image, "Picture to judge, of the same size")
+  parser.add_option("IMG", options->image, "Picture to compare, of the same size")
       ->required()
       ->option_text(" ");
   parser.add_flag("--json", options->json, "Print JSON");
-  parser.add_option("--heatmap", options->heatmap, "Write the relative squared error per pixel as a picture")
+  parser
+      .add_option("--heatmap", options->heatmap,
+                  "Write the relative squared error per pixel as a picture in false colours")
       ->option_text("FILE");
   parser
       .add_option(
           "--max-relmse", options->max_relmse,
-          "Exit with 1 when relMSE, the mean of (I - R)^2 / (R^2 + 0.01), is above X. Default: no limit")
+          "Exit with code 1 if relMSE, the mean of (I - R)^2 / (R^2 + 0.01), is above X. Default: no limit")
       ->option_text("X")
       ->check(CLI::NonNegativeNumber);
   parser
-      .add_option("--mask-bright", options->mask_bright,
-                  "Leave out 2 pixels around reference pixels brighter than L [W/(m^2 sr)]: edges of lights. "
-                  "Default: nothing is left out")
+      .add_option(
+          "--mask-bright", options->mask_bright,
+          "Ignore reference pixels brighter than L [W/(m^2 sr)] and 2 pixels around them, such as edges of "
+          "lights. Default: ignore none")
       ->option_text("L")
       ->check(CLI::NonNegativeNumber);
   command.run = [options](const Console& console) { return run_compare(*options, console); };

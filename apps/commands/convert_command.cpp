@@ -1,4 +1,5 @@
-// kaustik convert: any scene that is read, as pbrt-v4 text with its meshes and images beside it.
+// kaustik convert: writes a scene of any readable format as pbrt-v4 text, with its meshes and images beside
+// it.
 
 #include <fmt/format.h>
 
@@ -23,16 +24,17 @@ struct Options {
   std::string scene, output;
 };
 
-// Meshes of fewer corners are easier to edit as text.
+// Meshes with at most this many corners stay in the text, where they are easier to edit.
 constexpr size_t kFewCorners = 36;
 
 void check_names(const Options& options) {
   if (!options.output.ends_with(".pbrt"))
-    throw ExitError(kBadCommandLine, fmt::format("{}: scenes are written as .pbrt", options.output));
+    throw ExitError(kBadCommandLine, fmt::format("{}: the output must end in .pbrt", options.output));
   check_writable(options.output);
   std::error_code ignored;
   if (fs::equivalent(options.scene, options.output, ignored))
-    throw ExitError(kBadCommandLine, fmt::format("{} would replace what it is made from", options.output));
+    throw ExitError(kBadCommandLine,
+                    fmt::format("{} is the input itself: choose another output", options.output));
 }
 
 std::string text_of(const Options& options, const SceneDescription& scene, const SourceFiles& files,
@@ -54,7 +56,7 @@ std::string text_of(const Options& options, const SceneDescription& scene, const
          scene_text(scene, beside);
 }
 
-// Words that pbrt does not know.
+// Logs materials and integrators that pbrt does not know.
 void note_our_own(const SceneDescription& scene, const Console& console) {
   std::set<std::string> own;
   for (const MaterialDescription& m : scene.materials) {
@@ -62,7 +64,7 @@ void note_our_own(const SceneDescription& scene, const Console& console) {
   }
   if (scene.integrator && scene.integrator->type == "photonmap") own.insert("integrator \"photonmap\"");
   if (!own.empty())
-    console.note(fmt::format("kaustik's own, which pbrt does not know: {}", fmt::join(own, ", ")));
+    console.note(fmt::format("pbrt does not know these extensions of kaustik: {}", fmt::join(own, ", ")));
 }
 
 int run_convert(const Options& options, const Console& console) {
@@ -79,7 +81,7 @@ int run_convert(const Options& options, const Console& console) {
   note_our_own(loaded->description, console);
   console.note(fmt::format("wrote {}: {}", options.output, scene_summary(loaded->scene)));
   if (folder.meshes() + folder.copies() > 0)
-    console.note(fmt::format("  beside it {}: {}, {}", folder.folder().string(),
+    console.note(fmt::format("  its folder {} holds {} and {}", folder.folder().string(),
                              counted(folder.meshes(), "mesh file"), counted(folder.copies(), "copied file")));
   return kDone;
 }
@@ -96,10 +98,10 @@ Command make_convert_command(CLI::App& program) {
       ->option_text(" ");
   parser
       .add_option("OUTPUT", options->output,
-                  "Scene to write, .pbrt; meshes and images go to the folder NAME-files beside it")
+                  "Scene to write, NAME.pbrt; meshes and images go to the folder NAME-files beside it")
       ->required()
       ->option_text(" ");
-  parser.add_flag("-q,--quiet", *command.quiet, "No log; warnings and errors still come");
+  parser.add_flag("-q,--quiet", *command.quiet, "Suppress the log, but not warnings and errors");
   command.run = [options](const Console& console) { return run_convert(*options, console); };
   return command;
 }

@@ -1,4 +1,4 @@
-// kaustik info: what is in a scene file.
+// kaustik info: shows the contents of a scene file.
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ std::string_view type_name(const Shape& shape) {
   return kNames[shape.geometry.index()];
 }
 
-// How many shapes use each material or group, by index.
+// How many shapes use each material or surface group, by index.
 template <class Field>
 std::vector<uint64_t> uses_of(const Scene& scene, size_t size, Field Shape::*field) {
   std::vector<uint64_t> uses(size, 0);
@@ -137,8 +137,9 @@ std::string bounds_text(const Scene& scene) {
       fmt::format("bounds     {} to {} m\n", triple_text(in_world(scene, scene.bounds.min), digits),
                   triple_text(in_world(scene, scene.bounds.max), digits));
   if (far)
-    text += fmt::format("origin     {} m: the scene is far from the world's and has its own\n",
-                        triple_text(scene.origin, digits));
+    text += fmt::format(
+        "origin     {} m: the scene is far from the world's origin and is rendered relative to this point\n",
+        triple_text(scene.origin, digits));
   return text;
 }
 
@@ -174,7 +175,7 @@ std::string info_text(const std::string& path, const Job& job) {
 
 int run_info(const Options& options, const Console& console) {
   Console quiet = console;
-  quiet.quiet = true;  // the report says it all
+  quiet.quiet = true;  // the report contains what the log would say
   Job job;
   with_thread_limit(0, [&] { job = load_job(options.scene, {}, quiet); });
   if (options.json) {
@@ -189,7 +190,8 @@ int run_info(const Options& options, const Console& console) {
 
 Command make_info_command(CLI::App& program) {
   Command command;
-  command.parser = program.add_subcommand("info", "Show what is in a scene and what it needs");
+  command.parser =
+      program.add_subcommand("info", "Show the contents of a scene and which estimators it needs");
   const auto options = std::make_shared<Options>();
   command.parser->add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
   command.parser->add_flag("--json", options->json, "Print JSON");

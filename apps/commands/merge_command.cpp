@@ -1,4 +1,4 @@
-// kaustik merge: partial results to a picture, or to one partial result.
+// kaustik merge: combines partial results into a picture or one partial result.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ struct MergeOptions {
 
 constexpr std::string_view kSettings[] = {"aov", "exposure", "tonemap"};
 
-// A file whose sums are in the total.
+// A file whose sums have been added to the total.
 struct MergedPart {
   std::string path;
   render::PassSet passes;
@@ -60,21 +60,21 @@ render::PartialResult merge_files(const MergeOptions& options) {
   return total;
 }
 
-// Passes are missing where the settings ask for them, unless a rule found fewer enough, or where there are
-// later ones.
+// Throws ExitError for missing passes, or logs them with --allow-gaps. A pass is missing if a later one
+// exists, or if the settings ask for it and no stop rule ended the render earlier.
 void check_gaps(const MergeOptions& options, const render::PartialResult& total, const Console& console) {
   const render::PassSums& sums = total.sums;
   const uint64_t end = std::max(total.manifest.stopped_by.empty() ? sums.shares : 0, sums.passes.end());
   const render::PassSet missing = render::PassSet(0, end).without(sums.passes);
   if (missing.empty()) return;
   const std::string message = fmt::format("passes {} of {} are missing", missing.text(), end);
-  if (!options.allow_gaps) refuse(message + "; --allow-gaps merges what there is");
+  if (!options.allow_gaps) refuse(message + "; --allow-gaps merges the others");
   console.note(message);
 }
 
 int run_merge(const MergeOptions& options, const Console& console) {
   const Stopwatch watch;
-  if (options.outputs.files.empty()) refuse("-o names the file to write; there is no default");
+  if (options.outputs.files.empty()) refuse("-o is required: it names the file to write");
   check_outputs(options.outputs);
   render::PartialResult total = merge_files(options);
   check_gaps(options, total, console);
@@ -96,15 +96,15 @@ int run_merge(const MergeOptions& options, const Console& console) {
 
 Command make_merge_command(CLI::App& program) {
   Command command;
-  command.parser = program.add_subcommand("merge", "Join partial results to a picture");
+  command.parser = program.add_subcommand("merge", "Merge partial results into a picture");
   const auto options = std::make_shared<MergeOptions>();
   CLI::App& parser = *command.parser;
   parser.add_option("PARTS", options->parts, "Partial results (.kpart) of one render, in any order")
       ->required()
       ->option_text(" ");
   add_output_options(parser, options->outputs, "none");
-  parser.add_flag("--allow-gaps", options->allow_gaps, "Merge although passes are missing");
-  parser.add_flag("-q,--quiet", *command.quiet, "No log; warnings and errors still come");
+  parser.add_flag("--allow-gaps", options->allow_gaps, "Merge even if passes are missing");
+  parser.add_flag("-q,--quiet", *command.quiet, "Suppress the log, but not warnings and errors");
   add_setting_options(parser, options->overrides, kSettings);
   command.run = [options](const Console& console) { return run_merge(*options, console); };
   return command;

@@ -1,4 +1,4 @@
-// kaustik photons: the photons themselves, as a point cloud and as a picture.
+// kaustik photons: writes the photons as a point cloud and as a picture.
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ photon::KindMask mask_of(const std::vector<std::string>& kinds) {
     const auto found = std::find(names.begin(), names.end(), kind);
     if (found == names.end()) {
       throw ExitError(kBadCommandLine,
-                      fmt::format("--kinds: `{}` is no kind of photon{}", kind, name_hint(kind, names)));
+                      fmt::format("--kinds: unknown kind of photon `{}`{}", kind, name_hint(kind, names)));
     }
     *fields[static_cast<size_t>(found - names.begin())] = true;
   }
@@ -57,7 +57,7 @@ void check_outputs(const Options& options) {
   }
   if (!options.cloud.empty()) {
     if (!options.cloud.ends_with(".ply")) {
-      throw ExitError(kBadCommandLine, fmt::format("{}: photons are written as .ply", options.cloud));
+      throw ExitError(kBadCommandLine, fmt::format("{}: the point cloud must end in .ply", options.cloud));
     }
     check_writable(options.cloud);
   }
@@ -87,7 +87,7 @@ int shoot_and_write(const Options& options, const photon::KindMask& mask, const 
   photon::ShootResult shot;
   {
     ProgressBar bar(console);
-    std::mutex mutex;  // shoot() reports from its workers
+    std::mutex mutex;  // shoot() reports progress from its worker threads
     shot = photon::shoot(job.scene, bvh, trace, [&](uint64_t done, uint64_t total) {
       const std::lock_guard lock(mutex);
       bar.update({"photons", done, total});
@@ -136,8 +136,10 @@ Command make_photons_command(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App& parser = *command.parser;
   parser.add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
-  parser.add_option("-o,--output", options->cloud, "Point cloud to write: binary .ply")->option_text("FILE");
-  parser.add_option("--image", options->image, "Picture of the same points from the scene's camera")
+  parser.add_option("-o,--output", options->cloud, "Point cloud to write, a binary .ply")
+      ->option_text("FILE");
+  parser
+      .add_option("--image", options->image, "Picture to write: the same points seen by the scene's camera")
       ->option_text("FILE");
   parser
       .add_option("--kinds", options->kinds,
@@ -146,7 +148,7 @@ Command make_photons_command(CLI::App& program) {
       ->delimiter(',')
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
+  parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
   add_setting_options(parser, options->overrides, kSettings);
   command.run = [options](const Console& console) { return run_photons(*options, console); };
   return command;

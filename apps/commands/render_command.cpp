@@ -1,4 +1,4 @@
-// kaustik render: a scene file to pictures.
+// kaustik render: renders a scene file to pictures.
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ struct RenderOptions {
   SettingOverrides overrides;
 };
 
-// What -o says, or the scene's Film "filename", or the scene's name as EXR in the working directory.
+// The files of -o, or the scene's Film "filename", or the scene's name as EXR in the working directory.
 std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job) {
   if (!options.outputs.files.empty()) return options.outputs.files;
   const std::string name = job.scene_output.empty()
@@ -41,20 +41,19 @@ void check_passes(const RenderOptions& options, const Job& job) {
   if (settings.passes > settings.photons &&
       render::kinds_needed(render::make_plan(settings, job.scene.needs)).any())
     throw ExitError(kBadCommandLine,
-                    fmt::format("--passes {}: there must be at least as many photons, not {}",
+                    fmt::format("--passes {}: {} photons cannot be divided among so many passes",
                                 settings.passes, settings.photons));
   if (!options.passes.empty() && job.settings.render.passes == 0)
     throw ExitError(
         kBadCommandLine,
-        "--pass-range needs --passes, the number of passes that photons and samples are shared over");
+        "--pass-range needs --passes, the number of passes among which photons and samples are divided");
   if (!options.passes.empty() && job.settings.stop.any())
-    throw ExitError(kBadCommandLine,
-                    "--pass-range says which passes to render: no --target-error, no --time");
+    throw ExitError(kBadCommandLine, "--pass-range cannot be combined with --target-error or --time");
 }
 
 void note_checkpoint(const RenderOptions& options, const Console& console) {
   if (!options.checkpoint.path.empty() && std::filesystem::exists(options.checkpoint.path))
-    console.warning(fmt::format("{} is there and will be replaced; `kaustik resume` would go on with it",
+    console.warning(fmt::format("{} exists and will be replaced; `kaustik resume` would continue it",
                                 options.checkpoint.path));
 }
 
@@ -80,15 +79,17 @@ int run_render(const RenderOptions& options, const Console& console) {
 void add_pass_options(CLI::App& parser, RenderOptions& options) {
   CLI::Option* checkpoint =
       parser
-          .add_option("--checkpoint", options.checkpoint.path,
-                      "Write complete passes to a partial result (.kpart) now and then, and at the end: "
-                      "`kaustik resume` goes on with it")
+          .add_option(
+              "--checkpoint", options.checkpoint.path,
+              "Write the complete passes to this partial result (.kpart) from time to time and at the end. "
+              "`kaustik resume` continues from it")
           ->option_text("FILE");
   parser
       .add_option_function<std::string>(
           "--checkpoint-every",
           [&options](const std::string& text) { options.checkpoint.every = checkpoint_interval(text); },
-          "Time between checkpoints, which come at the end of a pass, like 60s, 10m or 1.5h. Default: 60s")
+          "Least time between checkpoints, like 60s, 10m or 1.5h. They are written at the end of a pass. "
+          "Default: 60s")
       ->option_text("TIME")
       ->needs(checkpoint);
   parser
@@ -102,7 +103,7 @@ void add_pass_options(CLI::App& parser, RenderOptions& options) {
                   fmt::format("`{}`: expected passes BEGIN:END, like 0:16 or 0:4,8:12", text));
             options.passes = *passes;
           },
-          "Render only passes A to B - 1; needs --passes. `kaustik merge` joins the parts. Default: all")
+          "Render only passes A to B - 1; needs --passes. `kaustik merge` combines the parts. Default: all")
       ->option_text("A:B");
 }
 
@@ -113,12 +114,13 @@ Command make_render_command(CLI::App& program) {
   command.parser = program.add_subcommand("render", "Render a scene to EXR, PNG or JPEG files");
   const auto options = std::make_shared<RenderOptions>();
   CLI::App& parser = *command.parser;
-  parser.add_option("SCENE", options->scene, "Scene file in pbrt-v4's text format")
+  parser.add_option("SCENE", options->scene, "Scene file: .pbrt, .gltf, .glb or .obj")
       ->required()
       ->option_text(" ");
-  add_output_options(parser, options->outputs, "the scene's Film \"filename\"");
+  add_output_options(parser, options->outputs,
+                     "the scene's Film \"filename\", else the scene's name with .exr");
   add_pass_options(parser, *options);
-  parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
+  parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
   add_setting_options(parser, options->overrides);
   command.run = [options](const Console& console) { return run_render(*options, console); };
   return command;

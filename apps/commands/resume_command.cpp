@@ -1,4 +1,4 @@
-// kaustik resume: goes on with a render from a partial result.
+// kaustik resume: continues a render from a partial result.
 
 #include <fmt/format.h>
 
@@ -21,24 +21,25 @@ struct ResumeOptions {
   std::string partial, scene;
   OutputOptions outputs;
   double checkpoint_every = CheckpointSettings{}.every;
-  uint64_t passes = 0;  // 0: as the render was to have
+  uint64_t passes = 0;  // total number at the end; 0 = as the partial result's settings say
   SettingOverrides overrides;
 };
 
 constexpr std::string_view kSettings[] = {"threads",         "aov", "exposure", "tonemap", "target-error",
                                           "target-quantile", "time"};
 
-// The passes that there will be in the end.
+// The passes that exist at the end.
 render::PassSet goal_of(const ResumeOptions& options, const render::PartialResult& part) {
   const render::PassSet& goal = part.manifest.goal;
   if (options.passes == 0) return goal;
   if (options.passes < part.sums.passes.end())
-    throw ExitError(kBadCommandLine, fmt::format("--passes {}: {} holds passes {} already", options.passes,
+    throw ExitError(kBadCommandLine, fmt::format("--passes {}: {} already holds passes {}", options.passes,
                                                  options.partial, part.sums.passes.text()));
   return render::PassSet(goal.first(), options.passes);
 }
 
-// The scene with the settings of the render that is gone on with.
+// Loads the scene with the settings of the partial result. Throws ExitError if the scene's contents have
+// changed.
 Job load_again(const ResumeOptions& options, const render::PartialManifest& manifest,
                const Console& console) {
   SettingOverrides overrides = settings_of(manifest, options.partial);
@@ -49,11 +50,11 @@ Job load_again(const ResumeOptions& options, const render::PartialManifest& mani
   if (job.content_hash != manifest.scene_hash)
     throw ExitError(
         kBadCommandLine,
-        fmt::format("{} is not the scene of {}: its files or meshes have changed", scene, options.partial));
+        fmt::format("{} is not the scene of {}: the contents of its files differ", scene, options.partial));
   return job;
 }
 
-// Rules for when to stop, given now or held by the part.
+// Checks the stop rules, whether given now or stored in the partial result.
 void check_rules(const ResumeOptions& options, const Job& job, const render::PassSet& goal,
                  const Console& console) {
   const StopSettings& stop = job.settings.stop;
@@ -62,14 +63,14 @@ void check_rules(const ResumeOptions& options, const Job& job, const render::Pas
   if (goal.first() > 0)
     throw ExitError(
         kBadCommandLine,
-        fmt::format("{} is the part of a render that is to hold passes {}: no --target-error, no --time",
+        fmt::format("{} is only a part of a render, passes {}: --target-error and --time cannot be used",
                     options.partial, goal.text()));
   const render::RenderSettings& settings = job.settings.render;
   const bool photons = render::kinds_needed(render::make_plan(settings, job.scene.needs)).any();
   if (stop.target_error && photons && !settings.estimate_bias.value_or(false))
     console.warning(
-        fmt::format("the passes of {} have not measured their bias: --target-error is held against the "
-                    "noise alone",
+        fmt::format("the passes of {} did not measure their bias: --target-error limits the noise "
+                    "alone",
                     options.partial));
 }
 
@@ -91,7 +92,7 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   check_rules(options, job, session.goal, console);
   const bool open = job.settings.stop.any() && !session.bounded;
   console.note(fmt::format("{} holds passes {}; to render: {}", options.partial, part.sums.passes.text(),
-                           open ? "until they are enough" : session.goal.without(part.sums.passes).text()));
+                           open ? "as many as needed" : session.goal.without(part.sums.passes).text()));
   session.done = std::move(part.sums);
   return run_session(std::move(job), std::move(session), interrupt, total, console);
 }
@@ -107,14 +108,15 @@ void add_pass_options(CLI::App& parser, ResumeOptions& options) {
                                          fmt::format("`{}`: expected a whole number, 1 to 2147483647", text));
             options.passes = *passes;
           },
-          "Passes that there will be in the end, also more than the render was to have: each is like those "
-          "that are there. Default: as the render was to have")
+          "Total number of passes at the end, which may exceed the number that the render asked for. "
+          "Default: "
+          "that number")
       ->option_text("COUNT");
   parser
       .add_option_function<std::string>(
           "--checkpoint-every",
           [&options](const std::string& text) { options.checkpoint_every = checkpoint_interval(text); },
-          "Time between checkpoints, which replace PART at the end of a pass. Default: 60s")
+          "Least time between checkpoints, which replace PART at the end of a pass. Default: 60s")
       ->option_text("TIME");
 }
 
@@ -122,19 +124,20 @@ void add_pass_options(CLI::App& parser, ResumeOptions& options) {
 
 Command make_resume_command(CLI::App& program) {
   Command command;
-  command.parser = program.add_subcommand("resume", "Go on with a render from its checkpoint");
+  command.parser = program.add_subcommand("resume", "Continue a render from its checkpoint");
   const auto options = std::make_shared<ResumeOptions>();
   CLI::App& parser = *command.parser;
   parser.add_option("PART", options->partial, "Partial result (.kpart): a checkpoint, or merged parts")
       ->required()
       ->option_text(" ");
-  add_output_options(parser, options->outputs, "the files that the render was to write");
+  add_output_options(parser, options->outputs, "the files of the interrupted render");
   add_pass_options(parser, *options);
   parser
       .add_option("--scene", options->scene,
-                  "Where the scene lies now; its contents must be the same. Default: where it lay")
+                  "Path of the scene if it has moved; its contents must be the same. Default: the path "
+                  "stored in PART")
       ->option_text("FILE");
-  parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
+  parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
   add_setting_options(parser, options->overrides, kSettings);
   command.run = [options](const Console& console) { return run_resume(*options, console); };
   return command;

@@ -1,4 +1,5 @@
-// kaustik sweep: error against time, over photon counts, radii, methods and samples, with a report.
+// kaustik sweep: measures error against time for lists of photon counts, radii, methods and samples, and
+// writes a report.
 
 #include <fmt/format.h>
 
@@ -62,7 +63,7 @@ bool among(const std::string_view (&names)[Size], std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-// The settings that all cells have in common.
+// The settings that all cells share, as texts by name.
 Json common_settings(const Settings& settings) {
   Json out = Json::object();
   for (const bool sums : {true, false})
@@ -80,7 +81,7 @@ std::string hash_of_file(const std::string& path) {
   return hash.text();
 }
 
-// Pictures that can hold any radiance.
+// Extensions of picture formats that can hold any radiance.
 constexpr std::string_view kFloatPictures[] = {".exr", ".hdr", ".pfm", ".tif", ".tiff"};
 
 Json reference_mark(const Options& options, const Job& job) {
@@ -89,7 +90,7 @@ Json reference_mark(const Options& options, const Job& job) {
   return {{"method", render::name_of(method)}, {"seconds", options.reference.seconds}};
 }
 
-// What the cells of one folder have in common: errors and seconds of one table must belong together.
+// What all cells of a folder share. Cells that differ in any of it must not be mixed in one table.
 Json common_of(const Options& options, const Job& job, int threads) {
   Json out;
   out["kaustik_sweep_of"] = 1;
@@ -108,17 +109,17 @@ void warn_of_reference(const Options& options, const Job& job, const Console& co
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (!extension.empty() && !among(kFloatPictures, extension))
     console.warning(
-        fmt::format("the reference {} is in a format of whole numbers: radiance above 1 is cut off, and "
-                    "its steps count as errors",
+        fmt::format("the reference {} is in an integer format: radiance above 1 is clipped, and "
+                    "rounding counts as error",
                     options.reference.file));
   if (options.reference.method == render::Method::kMc && job.scene.needs.specular)
     console.warning(
-        "the reference `mc` finds no light of point lights through glass or by mirrors, and that of small "
-        "lights "
-        "rarely");
+        "the reference `mc` never finds the light of point lights through glass or mirrors, and rarely that "
+        "of "
+        "small lights");
 }
 
-// The reference, with its progress bar. Ends the command when interrupted.
+// Makes the reference, with a progress bar. Throws ExitError when interrupted.
 Reference reference_of(const Options& options, Job& job, const SweepFolder& folder,
                        const InterruptGuard& interrupt, const Console& console) {
   ProgressBar bar(console);
@@ -128,7 +129,8 @@ Reference reference_of(const Options& options, Job& job, const SweepFolder& fold
   };
   std::optional<Reference> reference = make_reference(options.reference, job, folder, progress, console);
   bar.clear();
-  if (!reference) throw ExitError(kInterrupted, "interrupted; the same command goes on with the reference");
+  if (!reference)
+    throw ExitError(kInterrupted, "interrupted; run the same command again to continue the reference");
   const SweepReference& about = reference->about;
   console.note(fmt::format("reference: {}{}", about.source,
                            about.noise ? fmt::format(", noise {:.2g} in relMSE", *about.noise) : ""));
@@ -149,10 +151,10 @@ std::vector<SweepCell> cells_of(const SweepJob& sweep, const std::vector<SweepPo
       },
       console);
   bar.clear();
-  if (run.reused > 0) console.note(fmt::format("{} of an earlier run", counted(run.reused, "point")));
+  if (run.reused > 0) console.note(fmt::format("reused {} of an earlier run", counted(run.reused, "point")));
   if (run.cancelled)
-    throw ExitError(kInterrupted, fmt::format("interrupted with {} of {} points finished; the same command "
-                                              "goes on with the others",
+    throw ExitError(kInterrupted, fmt::format("interrupted with {} of {} points finished; run the same "
+                                              "command again to continue",
                                               run.cells.size(), points.size()));
   return std::move(run.cells);
 }
@@ -170,7 +172,7 @@ void warn_of_noise(const SweepResult& result, const Console& console) {
   for (const SweepCell& cell : result.cells)
     if (result.reference.noise && cell.error.relmse < 4 * *result.reference.noise)
       return console.warning(
-          "the reference's own noise is more than a quarter of the smallest error: give it more time");
+          "the reference's own noise is more than a quarter of a measured error: increase --reference-time");
 }
 
 int run_sweep(const Options& options, const Console& console) {
@@ -178,7 +180,7 @@ int run_sweep(const Options& options, const Console& console) {
   const InterruptGuard interrupt;
   const int asked = options.overrides.alone().render.threads;
   const int threads = asked > 0 ? asked : core_limits().usable();
-  program_build();  // asks Embree for its version, now that it is not at work
+  program_build();  // asks Embree for its version before it starts to work
   with_thread_limit(threads, [&] {
     Job job = load_job(options.scene, options.overrides, console);
     const auto points = points_of(grid, job.settings, options.overrides, job.scene.needs);
@@ -215,16 +217,15 @@ double reference_time(const std::string& text) {
 
 render::Method method_named(const std::string& text) {
   if (const auto method = render::from_name<render::Method>(render::kMethodNames, text)) return *method;
-  throw CLI::ValidationError("--reference-method",
-                             fmt::format("`{}` is no method{}", text, name_hint(text, render::kMethodNames)));
+  throw CLI::ValidationError("--reference-method", fmt::format("unknown method `{}`{}", text,
+                                                               name_hint(text, render::kMethodNames)));
 }
 
 void add_reference_options(CLI::App& parser, Options& options) {
   CLI::Option* file =
       parser
-          .add_option(
-              "--reference", options.reference.file,
-              "Picture to measure against, linear, of the size that is rendered. Default: one is rendered")
+          .add_option("--reference", options.reference.file,
+                      "Reference picture, linear and of the rendered size. Default: a reference is rendered")
           ->option_text("FILE");
   parser
       .add_option_function<std::string>(
@@ -237,14 +238,15 @@ void add_reference_options(CLI::App& parser, Options& options) {
       .add_option_function<std::string>(
           "--reference-method",
           [&options](const std::string& text) { options.reference.method = method_named(text); },
-          "Method of the reference: mc, auto ... Default: mc where the scene has no mirror or glass, else "
+          "Method of the reference: mc, auto ... Default: mc for scenes without mirrors and glass, else "
           "auto")
       ->option_text("NAME")
       ->excludes(file);
   parser
-      .add_option("--mask-bright", options.mask_bright,
-                  "Leave out 2 pixels around reference pixels brighter than L [W/(m^2 sr)]: edges of lights. "
-                  "Default: nothing is left out")
+      .add_option(
+          "--mask-bright", options.mask_bright,
+          "Ignore reference pixels brighter than L [W/(m^2 sr)] and 2 pixels around them, such as edges of "
+          "lights. Default: ignore none")
       ->option_text("L")
       ->check(CLI::NonNegativeNumber);
 }
@@ -252,13 +254,16 @@ void add_reference_options(CLI::App& parser, Options& options) {
 void add_grid_options(CLI::App& parser, GridTexts& grid) {
   add_list_option(parser, "--photons", grid.photons, "COUNTS",
                   "Photon counts, separated by commas. Default: 100k,1M");
-  add_list_option(parser, "--radius", grid.radii, "RADII",
-                  "Gather radii: auto, multiples of it like 0.5x, or metres. Default: 0.5x,auto,2x");
+  add_list_option(
+      parser, "--radius", grid.radii, "RADII",
+      "Gather radii, separated by commas: auto, multiples of it like 0.5x, or metres. Default: 0.5x,auto,2x");
   add_list_option(parser, "--methods", grid.methods, "NAMES",
-                  "Methods, as of `render --method`. Default: what the scene says");
-  add_list_option(parser, "--spp", grid.spp, "COUNTS", "Samples per pixel. Default: what the scene says");
+                  "Methods, separated by commas; see `render --method`. Default: the scene's");
+  add_list_option(parser, "--spp", grid.spp, "COUNTS",
+                  "Samples per pixel, separated by commas. Default: the scene's");
   parser
-      .add_option("--seeds", grid.seeds, "Renders of each point, with seeds that follow --seed. Default: 5")
+      .add_option("--seeds", grid.seeds,
+                  "Renders per point, with consecutive seeds from --seed on. Default: 5")
       ->option_text("COUNT");
 }
 
@@ -272,15 +277,14 @@ Command make_sweep_command(CLI::App& program) {
   CLI::App& parser = *command.parser;
   parser.add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
   parser
-      .add_option(
-          "-o,--output", options->folder,
-          "Folder for the results; made when it is missing. One of an interrupted sweep is gone on with")
+      .add_option("-o,--output", options->folder,
+                  "Folder for the results, created if missing. An interrupted sweep in it is continued")
       ->required()
       ->option_text("FOLDER");
   add_grid_options(parser, options->grid);
   add_reference_options(parser, *options);
   add_setting_options(parser, options->overrides, kSettings);
-  parser.add_flag("-q,--quiet", *command.quiet, "No log and no progress; warnings and errors still come");
+  parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
   command.run = [options](const Console& console) { return run_sweep(*options, console); };
   return command;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Options that take several values, separated by commas.
+// Command-line options that take several values, separated by commas.
 
 #include <cstdint>
 #include <limits>
@@ -13,14 +13,16 @@ class App;
 
 namespace kaustik::app {
 
-// texts: the default, replaced when the option is given; repeated options collect.
+// Adds an option. `texts` holds the default, which is replaced when the option is given; a repeated option
+// adds its values.
 void add_list_option(CLI::App& parser, const std::string& name, std::vector<std::string>& texts,
                      const std::string& value_name, const std::string& description);
 
-// 1 to most, suffixes allowed. Throws ExitError (bad command line) naming the option.
+// Parses an integer from 1 to `most`; the suffixes of parse_count are allowed. Throws ExitError (bad command
+// line), which names the option.
 uint64_t whole_number(std::string_view option, const std::string& text, uint64_t most);
 
-// The same for each text; one that is given twice is refused too.
+// Calls whole_number for each text. Also throws ExitError for a value that is given twice.
 std::vector<uint64_t> whole_numbers(std::string_view option, const std::vector<std::string>& texts,
                                     uint64_t most = std::numeric_limits<uint64_t>::max());
 

@@ -48,14 +48,13 @@ Setting radius_setting() {
       .range = "above 0, auto, or a multiple of auto like 0.5x",
       .default_text = "auto",
       .doc =
-          "Gather radius r0 of the photon maps. auto: for each map so that noise and bias balance; M photons "
-          "in a map have k ~ M^(2/3) of them in reach, for a million 160 (direct), 232 (caustic, shrinking "
-          "where "
-          "there are more) or 500 (indirect). 0.5x: half of that."};
+          "Gather radius r0 of the photon maps. auto: chosen for each map to balance noise and bias. A "
+          "gather in a map of M photons then finds k ~ M^(2/3) of them: with a million photons 160 (direct), "
+          "232 (caustic; the radius shrinks where there are more) or 500 (indirect). 0.5x: half of auto."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     const std::optional<RadiusChoice> choice = parse_radius(texts[0]);
     if (!choice)
-      return fmt::format("`{}`: expected a radius in metres above 0, auto, or a multiple of auto's like 0.5x",
+      return fmt::format("`{}`: expected a radius in metres above 0, auto, or a multiple of auto like 0.5x",
                          texts[0]);
     choice->apply(settings);
     return std::nullopt;
@@ -69,10 +68,10 @@ Setting alpha_setting() {
             .kind = ValueKind::kNumber,
             .value_name = "A",
             .range = "above 0, at most 1",
-            .default_text = "1; 0.667 where --target-error or --time bring passes",
+            .default_text = "1; 0.667 with --target-error, or when --time renders several passes",
             .doc =
-                "How the radius shrinks over the passes: r^2 of pass i + 1 is (i + A) / (i + 1) times that "
-                "of pass i. 1: not at all. 0.667: bias and noise both vanish with the passes."};
+                "How the radius shrinks over the passes: r^2 of pass i + 1 is (i + A) / (i + 1) times r^2 of "
+                "pass i. 1: it stays the same. 0.667: both bias and noise vanish with the number of passes."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     const std::optional<float> value = parse_number(texts[0]);
     if (!value || *value <= 0 || *value > 1)
@@ -87,17 +86,19 @@ Setting alpha_setting() {
 Setting adaptive_setting() {
   constexpr float kMost = 100;
   const float usual = RenderSettings{}.adaptive;
-  Setting s{
-      .name = "adaptive",
-      .kind = ValueKind::kNumber,
-      .value_name = "W",
-      .range = "0 to 100, off, on",
-      .default_text = fmt::format("{}", usual),
-      .doc =
-          "Further samples, for up to W times the work of the others, in those pixels around which "
-          "samples differ most for what they cost. off: 0, on: the default. A crop then has other noise "
-          "than the same part of the whole picture. Renders in several passes and methods that trace "
-          "paths from the camera have none."};
+  Setting s{.name = "adaptive",
+            .kind = ValueKind::kNumber,
+            .value_name = "W",
+            .range = "0 to 100, off, on",
+            .default_text = fmt::format("{}", usual),
+            .doc =
+                "Adaptive samples: further samples in the pixels where they reduce noise most for their "
+                "cost, for up to W "
+                "times the work of the --spp samples. off: 0, on: the default. A crop then has different "
+                "noise from the "
+                "same part of the whole picture. Renders in several passes and methods that trace paths from "
+                "the camera "
+                "take no adaptive samples."};
   s.assign = [usual, kMost](Settings& settings, Texts texts) -> Complaint {
     std::optional<float> value = parse_number(texts[0]);
     if (texts[0] == "off") value = 0.0f;
@@ -118,8 +119,9 @@ Setting cone_k_setting() {
             .range = "1 or more",
             .default_text = fmt::format("{}", RenderSettings{}.cone_k),
             .doc =
-                "Slope of the cone kernel, whose weight is 1 - d / (k r0): 1 falls to zero at r0, larger is "
-                "flatter."};
+                "Slope of the cone kernel, whose weight at distance d is 1 - d / (K r0). With 1 it falls to "
+                "zero at r0; "
+                "larger values make it flatter."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     const std::optional<float> value = parse_number(texts[0]);
     if (!value || *value < 1) return fmt::format("`{}`: expected a number, 1 or more", texts[0]);
@@ -137,7 +139,7 @@ Setting exposure_setting() {
             .unit = "stops",
             .range = "-64 to 64",
             .default_text = "0",
-            .doc = "Brightens PNG and JPEG files by 2^STOPS; EXR files keep the radiance."};
+            .doc = "Multiplies the radiance by 2^STOPS for PNG and JPEG files. EXR files keep the radiance."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     const std::optional<float> value = parse_number(texts[0]);
     if (!value || std::abs(*value) > 64) return fmt::format("`{}`: expected stops, -64 to 64", texts[0]);

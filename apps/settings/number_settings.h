@@ -1,22 +1,22 @@
 #pragma once
-// Rows of the settings table that hold a number with a fraction, and the forms of a radius.
+// Rows of the settings table that hold a real number, and the forms of a gather radius.
 
 #include "apps/settings/table.h"
 
 namespace kaustik::app {
 
-// r0 as people ask for it: metres, or a multiple of what the program chooses for each map.
+// A requested radius r0: in metres, or as a multiple of the radius that `auto` chooses for each map.
 struct RadiusChoice {
   std::optional<float> metres;
-  float factor = 1;  // of auto's radii, where metres is unset
+  float factor = 1;  // multiple of auto's radii, if `metres` is unset
 
   static RadiusChoice of(const Settings& settings);
   void apply(Settings& settings) const;
-  std::string text() const;  // "auto", "0.5x" or "0.011": parse_radius gives the choice back
+  std::string text() const;  // "auto", "0.5x" or "0.011"; parse_radius reads it back
   bool operator==(const RadiusChoice&) const = default;
 };
 
-// "auto", "0.5x" or metres, above zero; nothing otherwise.
+// Parses "auto", a multiple such as "0.5x", or metres, above zero; nothing for other texts.
 std::optional<RadiusChoice> parse_radius(std::string_view text);
 
 Setting radius_setting();

@@ -22,7 +22,7 @@ std::string described(const QualityPreset& preset) {
 std::string explanation() {
   std::vector<std::string> presets;
   for (const QualityPreset& preset : kQualityPresets) presets.push_back(described(preset));
-  return fmt::format("Preset of photons, spp and passes. {}.", fmt::join(presets, "; "));
+  return fmt::format("Preset of --photons, --spp and --passes. {}.", fmt::join(presets, "; "));
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ Setting quality_setting() {
   Setting s{.name = "quality",
             .kind = ValueKind::kChoice,
             .value_name = "NAME",
-            .default_text = "the defaults below",
+            .default_text = "the defaults of these settings",
             .doc = doc};
   for (const QualityPreset& preset : kQualityPresets) s.choices.push_back(preset.name);
   s.range = fmt::format("{}", fmt::join(s.choices, ", "));
@@ -42,13 +42,13 @@ Setting quality_setting() {
         std::find_if(kQualityPresets.begin(), kQualityPresets.end(),
                      [&](const QualityPreset& candidate) { return candidate.name == texts[0]; });
     if (preset == kQualityPresets.end())
-      return fmt::format("`{}` is none of its values{}", texts[0], name_hint(texts[0], names));
+      return fmt::format("`{}` is not a valid value{}", texts[0], name_hint(texts[0], names));
     settings.render.photons = preset->photons;
     settings.render.spp = preset->spp;
     settings.render.passes = preset->passes;
     return std::nullopt;
   };
-  // What it set is shown under the names of what it set.
+  // The settings that it changed are shown under their own names.
   s.show = [](const Settings&) { return std::vector<std::string>{}; };
   return s;
 }

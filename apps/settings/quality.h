@@ -1,6 +1,6 @@
 #pragma once
-// --quality: presets of how much work an image is worth. docs/accuracy.md shows what each gives on our
-// scenes.
+// The setting --quality: presets of photons, samples and passes. docs/accuracy.md shows their results on the
+// scenes of this repository.
 
 #include <array>
 
@@ -19,8 +19,8 @@ inline constexpr std::array<QualityPreset, 4> kQualityPresets = {{{"draft", 200'
                                                                   {"high", 5'000'000, 64, 0},
                                                                   {"reference", 64'000'000, 1024, 64}}};
 
-// Its value replaces photons, spp and passes. Whoever says more than the quality in one place assigns
-// the quality first, so that the explicit word holds (SettingOverrides::apply, settings_from_scene).
+// Assigning it replaces photons, spp and passes. Callers assign the quality before other settings from the
+// same source, so that explicit values win (SettingOverrides::apply, settings_from_scene).
 Setting quality_setting();
 
 }  // namespace kaustik::app

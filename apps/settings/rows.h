@@ -1,5 +1,5 @@
 #pragma once
-// Parts of the settings table.
+// Helpers and rows for the settings table.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ std::vector<std::string> as_texts(const Values&... values) {
   return {fmt::format("{}", values)...};
 }
 
-// When a render is good enough, and what of its error is measured.
+// The rows for stop rules and the bias estimate.
 std::vector<Setting> stop_rows();
 
 }  // namespace kaustik::app

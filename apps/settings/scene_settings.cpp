@@ -15,7 +15,7 @@ namespace {
 
 using Names = std::span<const std::string_view>;
 
-// pbrt's integrators besides those that are interpreted.
+// pbrt's integrators that are not interpreted.
 constexpr std::string_view kOtherIntegrators[] = {
     "volpath",    "bdpt",       "mlt",           "ambientocclusion", "function", "lightpath",
     "randomwalk", "simplepath", "simplevolpath", "directlighting",   "whitted"};
@@ -24,7 +24,7 @@ bool contains(Names names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// A number as the settings' parsers read it: whole ones without a fraction.
+// Formats a number for the settings' parsers: integers without a fraction.
 std::string number_text(double value) {
   constexpr double kExact = 9007199254740992.0;  // 2^53
   const bool whole = std::abs(value) <= kExact && value == std::trunc(value);
@@ -37,7 +37,7 @@ std::vector<std::string> value_texts(const Parameter& parameter) {
   return texts;
 }
 
-// The types of the file that can carry a setting.
+// Whether a parameter of this type can hold the setting's value.
 bool type_fits(const Setting& setting, ParameterType type) {
   if (type == ParameterType::kString) return true;
   switch (setting.kind) {
@@ -65,7 +65,7 @@ std::string_view expected_type(const Setting& setting) {
   }
 }
 
-// One parameter of Integrator "photonmap".
+// Assigns one parameter of Integrator "photonmap" to the setting of the same name.
 void assign_parameter(const Parameter& parameter, Settings& settings, DiagnosticList& diagnostics) {
   const Setting* setting = find_setting(parameter.name);
   if (!setting) {
@@ -93,7 +93,7 @@ void assign_parameter(const Parameter& parameter, Settings& settings, Diagnostic
   }
 }
 
-// Warns of parameters that pbrt knows, refuses those that it does not.
+// Warns of parameters that pbrt knows but kaustik ignores, and reports an error for unknown ones.
 void check_pbrt_parameters(const Directive& integrator, Names used, Names ignored,
                            DiagnosticList& diagnostics) {
   std::vector<std::string_view> all(used.begin(), used.end());
@@ -112,7 +112,7 @@ void check_pbrt_parameters(const Directive& integrator, Names used, Names ignore
   }
 }
 
-// The single number of a parameter; the fallback when it is absent. A wrong type or count is an error.
+// The single number of a parameter; nothing when it is absent or, with an error, when it is not one number.
 std::optional<double> number_of(const Directive& directive, std::string_view name,
                                 DiagnosticList& diagnostics) {
   const Parameter* parameter = directive.find(name);
@@ -122,7 +122,7 @@ std::optional<double> number_of(const Directive& directive, std::string_view nam
   return std::nullopt;
 }
 
-// Hands a number of pbrt's integrator to the setting that means the same, which checks it.
+// Assigns a number of pbrt's directive to the equivalent setting, which checks it.
 void forward(const Directive& integrator, std::string_view from, std::string_view to, Settings& settings,
              DiagnosticList& diagnostics) {
   const std::optional<double> value = number_of(integrator, from, diagnostics);
@@ -133,7 +133,7 @@ void forward(const Directive& integrator, std::string_view from, std::string_vie
   }
 }
 
-// pbrt counts scattering events from zero; here the first one is the least that makes sense.
+// Sets max_bounces from pbrt's maxdepth. pbrt allows 0; the least value here is 1.
 void take_maxdepth(const Directive& integrator, Settings& settings, DiagnosticList& diagnostics) {
   constexpr int kPbrtDefault = 5;
   settings.render.max_bounces = kPbrtDefault;
@@ -175,7 +175,8 @@ void apply_path(const Directive& integrator, SceneSettings& out, DiagnosticList&
   out.notes.push_back("Integrator \"path\": method mc");
 }
 
-// Before all else: the file's own numbers hold, wherever they stand in it.
+// Applies "quality" before the other parameters, so that explicit numbers win wherever they stand in the
+// file.
 void apply_quality(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
   if (integrator.type != "photonmap") return;
   if (const Parameter* quality = integrator.find("quality"))
@@ -192,13 +193,14 @@ void apply_integrator(const Directive& integrator, SceneSettings& out, Diagnosti
   } else if (integrator.type == "path") {
     apply_path(integrator, out, diagnostics);
   } else if (contains(kOtherIntegrators, integrator.type)) {
-    out.notes.push_back(fmt::format(
-        "Integrator \"{}\" is pbrt's own: its parameters are ignored, method auto renders", integrator.type));
+    out.notes.push_back(
+        fmt::format("Integrator \"{}\" is not supported: its parameters are ignored, and method auto is used",
+                    integrator.type));
   } else {
     std::vector<std::string_view> names = {"photonmap", "sppm", "path"};
     names.insert(names.end(), std::begin(kOtherIntegrators), std::end(kOtherIntegrators));
     diagnostics.error(integrator.type_location,
-                      fmt::format("unknown integrator `{}`{}; ours is `photonmap`", integrator.type,
+                      fmt::format("unknown integrator `{}`{}; kaustik's own is `photonmap`", integrator.type,
                                   name_hint(integrator.type, names)));
   }
 }
@@ -215,7 +217,7 @@ void apply_sampler(const Directive& sampler, Settings& settings, DiagnosticList&
   }
 }
 
-// A side of the image in pixels.
+// Reads one side of the image in pixels.
 void take_resolution(const Directive& film, std::string_view name, int& side, DiagnosticList& diagnostics) {
   constexpr double kMost = 65535;
   const std::optional<double> value = number_of(film, name, diagnostics);
@@ -223,11 +225,12 @@ void take_resolution(const Directive& film, std::string_view name, int& side, Di
   if (*value >= 1 && *value <= kMost && *value == std::trunc(*value)) {
     side = static_cast<int>(*value);
   } else {
-    diagnostics.error(film.find(name)->value_location(0), fmt::format("`{}` is 1 to 65535 pixels", name));
+    diagnostics.error(film.find(name)->value_location(0),
+                      fmt::format("`{}` must be 1 to 65535 pixels", name));
   }
 }
 
-// pbrt's crop: fractions of the image, or pixels; x0 x1 y0 y1 in both.
+// Reads pbrt's crop, x0 x1 y0 y1: "cropwindow" in fractions of the image, or "pixelbounds" in pixels.
 void take_crop(const Directive& film, SceneSettings& out, DiagnosticList& diagnostics) {
   for (const std::string_view name : {"cropwindow", "pixelbounds"}) {
     const Parameter* parameter = film.find(name);

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene file says about how it wants to be rendered: its Film, Sampler and Integrator lines.
+// Reads the render settings of a scene file from its Film, Sampler and Integrator directives.
 
 #include <array>
 #include <optional>
@@ -13,21 +13,21 @@
 namespace kaustik::app {
 
 struct SceneSettings {
-  Settings settings;               // defaults, overlaid with what the file says
-  int width = 1280, height = 720;  // of the Film line; pbrt's defaults
+  Settings settings;               // the defaults, changed as the file says
+  int width = 1280, height = 720;  // from Film; these are pbrt's defaults
   std::string output;              // Film "filename"; empty when not given
   bool fixed_screen_window =
-      false;                       // the camera line gives its own: another aspect ratio must not replace it
+      false;  // the camera sets its screen window: another aspect ratio must not change it
   std::vector<std::string> notes;  // one sentence each, for the log
 };
 
-// Interprets the lines. Sampler "pixelsamples" is the samples per pixel; Film gives the size, the crop and
-// the default output. Integrator "photonmap" takes every setting of settings_table() by its name (dashes may
-// be left out). Integrator "sppm" asks for shadow rays, caustic photons and indirect photons with its
-// maxdepth, photonsperiteration and radius; "path" for method mc with its maxdepth (both: 5 when not given,
-// as in pbrt). Any other integrator of pbrt is a note, and the method stays auto. Parameters that pbrt knows
-// and that mean nothing here are one warning each; unknown ones, unknown integrators and bad values are
-// errors.
+// Interprets the directives. Sampler "pixelsamples" sets the samples per pixel; Film sets the size, the crop
+// and the default output. Integrator "photonmap" takes every setting of settings_table() by its name (dashes
+// may be left out). Integrator "sppm" sets shadow rays, caustic photons and indirect photons, with its
+// maxdepth, photonsperiteration and radius; "path" sets method mc with its maxdepth. In both, maxdepth
+// defaults to 5, as in pbrt. Any other integrator of pbrt gives a note, and the method stays auto. Each
+// parameter of pbrt that has no effect here gives a warning. Unknown parameters, unknown integrators and bad
+// values are errors.
 SceneSettings settings_from_scene(const SceneDescription& description, DiagnosticList& diagnostics);
 
 }  // namespace kaustik::app

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of the settings table as options of a subcommand.
+// Adds rows of the settings table as options to a subcommand.
 
 #include <span>
 #include <string>
@@ -15,26 +15,27 @@ class App;
 
 namespace kaustik::app {
 
-// What the command line sets, in the order in which it was given: applied over the scene file's settings.
+// The settings given on the command line, in their order. They are applied over the scene file's settings.
 class SettingOverrides {
  public:
-  // Throws CLI::ValidationError when the values are bad.
+  // Adds a setting. Throws CLI::ValidationError when the values are invalid.
   void add(const Setting& setting, std::vector<std::string> texts);
-  // All of others, after what is there.
+  // Appends all settings of `others`.
   void append(const SettingOverrides& others);
-  // --method drops estimators that the scene file chose: it is the command line's word on all three.
-  // --quality replaces what the scene file says of photons, samples, passes and radius, and yields to the
-  // command line's own word on them.
+  // Applies the settings. --method also resets the three estimators that the scene file chose. --quality
+  // replaces the scene file's photons, samples and passes, but not values for them that the command line
+  // gives itself.
   void apply(Settings& settings) const;
   bool sets(std::string_view name) const;
-  // The settings with nothing but the command line.
+  // The default settings with only the command line applied.
   Settings alone() const;
 
  private:
   std::vector<std::pair<const Setting*, std::vector<std::string>>> given_;
 };
 
-// Adds --name for each setting of the table, or for those of `names` only. overrides must outlive command.
+// Adds an option --name for each setting of the table, or only for those in `names` if it is not empty.
+// `overrides` must outlive `command`.
 void add_setting_options(CLI::App& command, SettingOverrides& overrides,
                          std::span<const std::string_view> names = {});
 

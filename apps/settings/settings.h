@@ -1,5 +1,5 @@
 #pragma once
-// Everything that `kaustik render` can be told, from whichever side: defaults, scene file, command line.
+// All settings of a render, from whichever source: defaults, scene file, command line.
 
 #include <optional>
 
@@ -8,11 +8,12 @@
 
 namespace kaustik::app {
 
-// When a render has enough passes; with none of these, when it has as many as were asked for.
+// The rules that decide when a render has enough passes. Without any, it renders the number of passes asked
+// for.
 struct StopSettings {
   std::optional<double> target_error;     // relative, see render::relative_error()
-  std::optional<double> target_quantile;  // of the pixels; unset: their mean
-  std::optional<double> seconds;
+  std::optional<double> target_quantile;  // of the pixels; unset = their mean
+  std::optional<double> seconds;          // time limit
   bool any() const { return target_error || seconds; }
 };
 

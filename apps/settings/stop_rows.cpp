@@ -8,13 +8,13 @@ namespace kaustik::app {
 
 namespace {
 
-// What a rule takes: above 0, at most `most`; "none" takes one back that the scene's file or a partial result
-// holds.
+// The values that a rule accepts: above 0 and at most `most`. "none" removes a rule that the scene file or a
+// partial result sets.
 struct RuleValue {
   std::optional<double> StopSettings::*field;
   std::optional<double> (*parse)(std::string_view);
   std::string_view expected;
-  std::string_view unit = "";  // of the text that parse understands
+  std::string_view unit = "";  // suffix with which `show` writes the value
   double most = std::numeric_limits<double>::infinity();
 };
 
@@ -36,16 +36,16 @@ Setting rule(Setting s, const RuleValue& rule) {
 }
 
 Setting target_error_row() {
-  return rule({.name = "target-error",
-               .value_name = "E",
-               .range = "above 0, like 1% or 0.01; none",
-               .default_text = "none",
-               .doc = "Render passes until the picture's error is below E: the bound that holds with 90 % "
-                      "confidence for "
-                      "noise and kernel bias, relative to the radiance, as a mean over pixels. Radiance "
-                      "below a tenth of "
-                      "the picture's mean counts as that."},
-              {&StopSettings::target_error, parse_share, "a share above 0, like 1% or 0.01"});
+  return rule(
+      {.name = "target-error",
+       .value_name = "E",
+       .range = "above 0, like 1% or 0.01; none",
+       .default_text = "none",
+       .doc =
+           "Render passes until the picture's error is at most E. The error is the 90 % confidence bound of "
+           "noise and kernel bias, relative to the radiance, as a mean over the pixels. Radiance below a "
+           "tenth of the picture's mean counts as a tenth of it."},
+      {&StopSettings::target_error, parse_share, "a share above 0, like 1% or 0.01"});
 }
 
 Setting target_quantile_row() {
@@ -54,7 +54,7 @@ Setting target_quantile_row() {
        .value_name = "Q",
        .range = "above 0, at most 1, like 95% or 0.95; none",
        .default_text = "none (the mean)",
-       .doc = "The error that --target-error bounds is that of this quantile of the pixels, not their mean."},
+       .doc = "Make --target-error limit the error at this quantile of the pixels instead of their mean."},
       {&StopSettings::target_quantile, parse_share, "a share above 0, at most 1, like 95% or 0.95", "", 1});
 }
 
@@ -64,10 +64,13 @@ Setting time_row() {
        .value_name = "TIME",
        .range = "like 60s, 10m or 1.5h; none",
        .default_text = "none",
-       .doc = "How long the render may take, from the start of the program. Where no passes are asked for, "
-              "and neither photons nor samples on the command line, trials choose how many fill it. Else "
-              "passes until the next would end later; a first pass there is always. Of a render that is "
-              "resumed, the time of its earlier passes counts."},
+       .doc =
+           "Time limit of the render, counted from the start of the program. If no passes are asked for and "
+           "the "
+           "command line sets neither photons nor samples, trials choose how many of them fill the time. "
+           "Otherwise "
+           "passes are rendered until the next one would end too late; the first is always rendered. For a "
+           "resumed render the time of its earlier passes counts."},
       {&StopSettings::seconds, parse_duration, "a time above 0 with its unit, like 60s, 10m or 1.5h", "s"});
 }
 
@@ -77,10 +80,11 @@ Setting estimate_bias_row() {
             .kind = ValueKind::kChoice,
             .value_name = "NAME",
             .range = "off, on",
-            .default_text = "on where the error is asked for",
+            .default_text = "on if the error is asked for",
             .doc =
-                "Measure the bias of the photon maps' kernels, by reading them at half the radius too, once "
-                "a pixel and pass. Asked for by --target-error and by the layers error and bias."};
+                "Measure the bias of the photon maps' kernels by gathering at half the radius too, once per "
+                "pixel and "
+                "pass. --target-error and the layers error and bias turn it on."};
   s.choices.assign(kOffOn.begin(), kOffOn.end());
   s.assign = [kOffOn](Settings& settings, Texts texts) -> Complaint {
     const std::optional<bool> on = render::from_name<bool>(kOffOn, texts[0]);

@@ -27,7 +27,7 @@ std::optional<T> whole_in_range(std::string_view text, uint64_t least, uint64_t 
   return static_cast<T>(*value);
 }
 
-// A whole number, suffixes allowed. zero: what 0 means in the table, when it has a meaning of its own.
+// A row for an integer, with suffixes. `zero`: how the table describes 0, if 0 has a special meaning.
 template <class T>
 Setting count(std::string_view name, std::string_view unit, T RenderSettings::*field, uint64_t least,
               uint64_t most, std::string_view zero, std::string_view doc) {
@@ -49,10 +49,11 @@ Setting count(std::string_view name, std::string_view unit, T RenderSettings::*f
 
 template <size_t N>
 Complaint not_a_choice(const std::string& text, const std::array<std::string_view, N>& names) {
-  return fmt::format("`{}` is none of its values{}", text, name_hint(text, names));
+  return fmt::format("`{}` is not a valid value{}", text, name_hint(text, names));
 }
 
-// One name of several. Field: a pointer to an enum, or to an optional of one whose default is the method's.
+// A row for one of several names. Field is an enum, or an optional enum, which the method sets if it is
+// unset.
 template <class Enum, class Field, size_t N>
 Setting choice(std::string_view name, Field RenderSettings::*field,
                const std::array<std::string_view, N>& names, std::string default_text, std::string_view doc) {
@@ -88,7 +89,7 @@ Setting crop_setting() {
             .unit = "pixels",
             .range = "X0 < X1, Y0 < Y1",
             .default_text = "whole image",
-            .doc = "Renders only columns X0 to X1 - 1 and rows Y0 to Y1 - 1, row 0 on top.",
+            .doc = "Render only columns X0 to X1 - 1 and rows Y0 to Y1 - 1. Row 0 is at the top.",
             .values = 4};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     std::array<int, 4> edges{};
@@ -132,14 +133,14 @@ Setting aov_setting() {
             .value_name = "NAMES",
             .range = fmt::format("{}, all, none", fmt::join(render::kLayerNames, ", ")),
             .default_text = "none",
-            .doc = "Layers that EXR files get besides the image, separated by commas."};
+            .doc = "Layers to write to EXR files besides the image, separated by commas."};
   s.choices.assign(render::kLayerNames.begin(), render::kLayerNames.end());
   s.choices.insert(s.choices.end(), {"all", "none"});
   s.assign = [names = s.choices](Settings& settings, Texts texts) -> Complaint {
     std::vector<std::string> layers = split_at_commas(texts);
     for (const std::string& layer : layers) {
       if (std::find(names.begin(), names.end(), layer) == names.end()) {
-        return fmt::format("`{}` is no layer{}", layer, name_hint(layer, names));
+        return fmt::format("`{}` is not a layer{}", layer, name_hint(layer, names));
       }
     }
     std::erase(layers, "none");
@@ -160,7 +161,7 @@ Setting tonemap_setting() {
       .value_name = "NAME",
       .range = fmt::format("{}", fmt::join(render::kTonemapNames, ", ")),
       .default_text = std::string(render::kTonemapNames[static_cast<size_t>(render::ToneSettings{}.tonemap)]),
-      .doc = "How PNG and JPEG files bring radiance into range. srgb clips."};
+      .doc = "How PNG and JPEG files map radiance to the range from 0 to 1. srgb: by clipping."};
   s.choices.assign(render::kTonemapNames.begin(), render::kTonemapNames.end());
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     const std::optional<render::Tonemap> value = render::tonemap_from_name(texts[0]);
@@ -178,77 +179,90 @@ Setting tonemap_setting() {
 constexpr uint64_t kMaxInt = std::numeric_limits<int>::max();
 constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
 constexpr uint64_t kMaxUint64 = std::numeric_limits<uint64_t>::max();
-constexpr std::string_view kByMethod = "by the method";
+constexpr std::string_view kByMethod = "set by --method";
 
 // Which estimator computes which paths.
 void add_methods(std::vector<Setting>& table) {
   table.push_back(
       choice("method", &RenderSettings::method, render::kMethodNames,
-             "Preset of the three estimators below. raytrace: direct light by shadow rays, mirrors and glass "
-             "seen, nothing else. mc: path tracing, the reference. hybrid: direct light by the lecture's "
-             "test, caustics from photons, indirect light by paths. photon: everything from photons. auto: "
-             "the cheapest mix for what the scene needs."));
+             "Preset of the estimators --direct, --caustics and --indirect. raytrace: direct light by shadow "
+             "rays, and "
+             "what mirrors and glass show; no caustics and no indirect light. mc: unbiased path tracing, for "
+             "references. hybrid: direct light by the lecture's test, caustics from photons, indirect light "
+             "by paths. "
+             "photon: everything from photons. auto: the fastest mix for the scene."));
   table.push_back(choice<render::DirectEstimator>(
       "direct", &RenderSettings::direct, render::kDirectNames, std::string(kByMethod),
-      "Direct light. shadow-rays: a sample of a light and a ray to it. photons: the density of direct "
-      "photons. "
-      "lecture: photons where they suffice, else shadow rays. predicted: as shadow-rays, but where photons "
-      "predict what the ray would meet it is seldom traced, without bias. signed: light as if nothing were "
-      "in its way, less what shadow photons carry."));
-  table.push_back(choice<render::CausticEstimator>(
-      "caustics", &RenderSettings::caustics, render::kCausticNames, std::string(kByMethod),
-      "Light that reaches a diffuse surface through mirrors and glass only."));
+      "Estimator of direct light. shadow-rays: sample a light and trace a ray to it. photons: the density of "
+      "direct photons. lecture: photons where they suffice, else shadow rays. predicted: like shadow-rays, "
+      "but "
+      "where photons predict the visibility only few rays are traced, without bias. signed: the unoccluded "
+      "light "
+      "minus the flux of shadow photons."));
+  table.push_back(choice<render::CausticEstimator>("caustics", &RenderSettings::caustics,
+                                                   render::kCausticNames, std::string(kByMethod),
+                                                   "Estimator of caustics, the light that reaches a diffuse "
+                                                   "surface by way of mirrors and glass only. photons: "
+                                                   "from photon maps. paths: by path tracing. off: none."));
   table.push_back(choice<render::IndirectEstimator>(
       "indirect", &RenderSettings::indirect, render::kIndirectNames, std::string(kByMethod),
-      "Light after a diffuse reflection before the one that is seen."));
+      "Estimator of indirect light, which a diffuse surface has reflected before it reaches the visible one. "
+      "paths: by path tracing. photons: from photon maps. off: none."));
 }
 
 void add_photons(std::vector<Setting>& table) {
   table.push_back(
-      count("photons", "photons", &RenderSettings::photons, 1, kMaxUint64, {}, "Photons to emit."));
-  table.push_back(
-      count("passes", "passes", &RenderSettings::passes, 0, kMaxInt, "0 (as memory allows)",
-            "Share photons and samples out over so many equal passes, each with maps of its own that only "
-            "one pass holds in memory; both are rounded up. 0: one, or as many as it takes for the maps to "
-            "fit."));
+      count("photons", "photons", &RenderSettings::photons, 1, kMaxUint64, {}, "Number of photons to emit."));
+  table.push_back(count(
+      "passes", "passes", &RenderSettings::passes, 0, kMaxInt, "0 (as memory allows)",
+      "Number of equal passes among which photons and samples are divided; both are rounded up. Each pass "
+      "has "
+      "photon maps of its own, so that only those of one pass are in memory. 0: one pass, or as many as "
+      "needed for the maps to fit into memory."));
   table.push_back(radius_setting());
   table.push_back(alpha_setting());
-  table.push_back(count("nearest", "photons", &RenderSettings::nearest, 0, kMaxUint32, "0 (off)",
-                        "K above 0: the radius shrinks to the K-th nearest photon where more are in reach."));
-  table.push_back(choice("kernel", &RenderSettings::kernel, render::kKernelNames,
-                         "Weight of a photon by its distance, normalised over the disc of radius r0."));
-  table.push_back(cone_k_setting());
-  table.push_back(count("min-photons", "photons", &RenderSettings::min_photons, 0, kMaxUint32, {},
-                        "M0 of the lecture's test: a node answers only when it holds more photons."));
-  table.push_back(count("node-photons", "photons", &RenderSettings::node_photons, 1, kMaxUint32, {},
-                        "N0: an octree node of at most so many photons is not divided."));
-  table.push_back(choice("lookup", &RenderSettings::lookup, render::kLookupNames,
-                         "exact: every photon in reach. leaf: the lecture's, those of one octree node."));
   table.push_back(
-      choice("emission", &RenderSettings::emission, render::kEmissionNames,
-             "Photon directions of area lights. cosine: equal flux each. uniform-angle: the lecture's, "
-             "uniform in angle and weighted."));
+      count("nearest", "photons", &RenderSettings::nearest, 0, kMaxUint32, "0 (off)",
+            "If above 0, the radius shrinks to the K-th nearest photon where more than K are in reach."));
+  table.push_back(
+      choice("kernel", &RenderSettings::kernel, render::kKernelNames,
+             "Weight of a photon as a function of its distance, normalised over the disc of radius r0."));
+  table.push_back(cone_k_setting());
+  table.push_back(
+      count("min-photons", "photons", &RenderSettings::min_photons, 0, kMaxUint32, {},
+            "M0 of the lecture's test: an octree node decides only if it holds more photons than this."));
+  table.push_back(count("node-photons", "photons", &RenderSettings::node_photons, 1, kMaxUint32, {},
+                        "N0 of the lecture: an octree node with at most this many photons is not divided."));
   table.push_back(choice(
-      "guide", &RenderSettings::guide, render::kGuideNames,
-      "Caustics from photons of their own, emitted where photons were found to reach mirrors and glass "
-      "and a diffuse surface behind, and indirect light from photons emitted where they were found to reach "
-      "what is seen. off: all kinds from the same photons."));
+      "lookup", &RenderSettings::lookup, render::kLookupNames,
+      "Which photons a gather uses. exact: all within the radius. leaf: those of one octree node, as in the "
+      "lecture."));
+  table.push_back(choice("emission", &RenderSettings::emission, render::kEmissionNames,
+                         "Distribution of photon directions at area lights. cosine: photons of equal flux. "
+                         "uniform-angle: uniform in "
+                         "angle and weighted, as in the lecture."));
+  table.push_back(choice("guide", &RenderSettings::guide, render::kGuideNames,
+                         "Guided emission. on: caustic photons are emitted where earlier photons reached a "
+                         "diffuse surface by way of "
+                         "mirrors and glass, and indirect photons where earlier photons reached visible "
+                         "surfaces. off: all kinds "
+                         "come from the same photons."));
   table.push_back(count("max-bounces", "bounces", &RenderSettings::max_bounces, 1, 65535, {},
-                        "Longest chain of reflections and refractions of photons and paths."));
+                        "Most reflections and refractions of a photon or path."));
 }
 
 void add_image(std::vector<Setting>& table) {
   table.push_back(count("spp", "samples", &RenderSettings::spp, 1, kMaxInt, {}, "Camera samples per pixel."));
   table.push_back(adaptive_setting());
   table.push_back(count("seed", {}, &RenderSettings::seed, 0, kMaxUint64, {},
-                        "Random seed. The same seed gives the same bits."));
-  table.push_back(count("threads", "threads", &RenderSettings::threads, 0, 65535, "0 (every usable core)",
-                        "Upper bound on the threads of the process. The image does not depend on it."));
+                        "Random seed. The same seed gives a bit-identical image."));
+  table.push_back(count("threads", "threads", &RenderSettings::threads, 0, 65535, "0 (all usable cores)",
+                        "Most threads that the process uses. The image does not depend on it."));
   table.back().decides_sums = false;
   table.push_back(count("width", "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
-                        "Image width. Given alone, the height follows in proportion."));
+                        "Image width. If it is given alone, the height keeps the aspect ratio."));
   table.push_back(count("height", "pixels", &RenderSettings::height, 0, 65535, "0 (the scene's)",
-                        "Image height. Given alone, the width follows in proportion."));
+                        "Image height. If it is given alone, the width keeps the aspect ratio."));
   table.push_back(crop_setting());
   table.push_back(aov_setting());
   table.push_back(exposure_setting());
@@ -265,7 +279,7 @@ std::vector<Setting> make_table() {
   return table;
 }
 
-// Equal but for dashes.
+// Whether two names are equal, ignoring dashes.
 bool same_name(std::string_view a, std::string_view b) {
   size_t i = 0, j = 0;
   for (;;) {

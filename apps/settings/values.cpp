@@ -10,7 +10,7 @@ namespace kaustik::app {
 
 namespace {
 
-// Decimal digits and the power of ten that they are multiplied by.
+// A decimal number: its digits times 10^exponent.
 struct Decimal {
   std::string digits;
   int exponent = 0;
@@ -20,7 +20,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Power of ten of a suffix; zero for any other character.
+// The power of ten of a suffix; zero for any other character.
 int suffix_exponent(char c) {
   switch (c) {
     case 'k':
@@ -37,7 +37,7 @@ int suffix_exponent(char c) {
   }
 }
 
-// digits [. digits] [e exponent], all of text.
+// Parses `digits [. digits] [e exponent]`; nothing unless this is all of `text`.
 std::optional<Decimal> parse_decimal(std::string_view text) {
   Decimal decimal;
   size_t i = 0;
@@ -56,7 +56,7 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   return decimal;
 }
 
-// A finite number.
+// Parses a finite number; nothing for other texts.
 std::optional<double> parse_double(std::string_view text) {
   double value = 0;
   const char* end = text.data() + text.size();
@@ -65,7 +65,7 @@ std::optional<double> parse_double(std::string_view text) {
   return value;
 }
 
-constexpr double kMostSeconds = 1e9;  // thirty years
+constexpr double kMostSeconds = 1e9;  // about thirty years
 
 }  // namespace
 

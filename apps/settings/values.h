@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as people write them on a command line.
+// Parses numbers as users write them on a command line.
 
 #include <cstdint>
 #include <optional>
@@ -8,25 +8,25 @@
 
 namespace kaustik::app {
 
-// A whole number, exactly: digits with an optional fraction, power of ten and suffix k, M, G or T (powers of
-// 1000), e.g. "10M", "2.5G", "1e6", "250". Nothing when it is not one, is no whole number or does not fit in
-// 64 bits.
+// Parses a non-negative integer without rounding: digits with an optional fraction, power of ten and suffix
+// k, M, G or T (powers of 1000), such as "10M", "2.5G", "1e6", "250". Nothing for other texts, fractions and
+// values that do not fit in 64 bits.
 std::optional<uint64_t> parse_count(std::string_view text);
 
-// The other way, as short as it is exact: 10000000 as "10M", 1500 as "1500".
+// The inverse, with a suffix if the number is a multiple of its unit: 10000000 as "10M", 1500 as "1500".
 std::string count_text(uint64_t n);
 
-// A whole number with sign, no suffix.
+// Parses an integer with optional sign and without suffix; nothing for other texts.
 std::optional<int64_t> parse_integer(std::string_view text);
 
-// Seconds of a time with its unit: "90s", "1.5h", "10m", "250ms". Nothing when it is none, negative or above
-// 10^9 seconds.
+// Parses a duration with its unit, such as "90s", "1.5h", "10m" or "250ms", into seconds. Nothing for other
+// texts, negative durations and those above 10^9 s.
 std::optional<double> parse_duration(std::string_view text);
 
-// A part of one: "1%" or "0.01". Nothing when it is neither.
+// Parses a share such as "1%" or "0.01"; nothing for other texts.
 std::optional<double> parse_share(std::string_view text);
 
-// A finite decimal number within float's range (subnormals included).
+// Parses a finite decimal number within the range of a float, including subnormals; nothing for other texts.
 std::optional<float> parse_number(std::string_view text);
 
 }  // namespace kaustik::app

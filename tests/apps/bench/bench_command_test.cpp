@@ -185,7 +185,7 @@ TEST_F(BenchCommand, BadCommandLinesExitWithTwoBeforeAnythingIsMeasured) {
       {{scene, "--plot", path("no/plots")}, "there is no folder"},
       {{scene, "--plot", path("not-a-folder")}, "not a folder"},
       {{"--from", path("missing.json")}, "missing.json: No such file"},
-      {{"--from", path("text.json")}, "no result of kaustik bench"},
+      {{"--from", path("text.json")}, "not a result of kaustik bench"},
       {{"--from", path("render.json")}, "\"kaustik_bench\" is missing"},
       {{"--from", path("render.json"), "--repeat", "2"}, "excludes"},
       {{"--from", path("render.json"), "--spp", "2"}, "excludes"}};

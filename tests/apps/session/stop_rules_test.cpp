@@ -115,7 +115,7 @@ TEST_F(StopRules, WhatWasNotMeasuredIsNotShownAndSaid) {
 
 TEST_F(StopRules, APartOfASplitRenderTakesNoRule) {
   expect_done(render({"--passes", "8", "--pass-range", "4:8", "-o", path("p.kpart")}));
-  expect_refused({"resume", path("p.kpart"), "--time", "5s", "-o", path("a.exr")}, "no --time");
+  expect_refused({"resume", path("p.kpart"), "--time", "5s", "-o", path("a.exr")}, "--time cannot be used");
   expect_refused({"resume", path("p.kpart"), "--target-quantile", "50%", "-o", path("a.exr")},
                  "--target-quantile needs --target-error");
 }

@@ -231,7 +231,7 @@ TEST_F(SweepCommand, AnInterruptedReferenceIsGoneOnWith) {
 TEST_F(SweepCommand, ARenderedReferenceTellsItsNoise) {
   const Outcome outcome = run_kaustik(sweep({"--reference-time", "50ms", "--reference-method", "mc"}));
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("finds no light of point lights through glass"));
+  EXPECT_THAT(outcome.err, HasSubstr("never finds the light of point lights through glass"));
   const Json reference = result()["reference"];
   EXPECT_THAT(reference["source"].get<std::string>(), HasSubstr("method mc"));
   EXPECT_GE(reference["passes"], 2);
@@ -244,7 +244,8 @@ TEST_F(SweepCommand, ARenderedReferenceTellsItsNoise) {
 
 TEST_F(SweepCommand, RefusesTheFolderOfAnotherSweep) {
   expect_done(sweep(against_file()));
-  expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}), "holds the results of another sweep");
+  expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}),
+                 "holds the results of another sweep");
   expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}),
                  "settings max-bounces: there \"16\", here \"3\"");
   expect_refused(sweep({"--reference-time", "1s"}), "reference");
@@ -265,7 +266,7 @@ TEST_F(SweepCommand, BadInputExitsWithTwo) {
   expect_refused(sweep({"--reference", path("none.exr")}), "none.exr");
   expect_refused(sweep({"--reference", scene_}, "bad"), "--reference");
   write("file", "");
-  expect_refused(sweep(against_file(), "file"), "this is not a folder");
+  expect_refused(sweep(against_file(), "file"), "it is not a folder");
   expect_refused({"sweep", scene_}, "--output is required");
   EXPECT_EQ(run_kaustik({"sweep", path("no.pbrt"), "-o", path("x")}).code, kBadScene);
 }
@@ -361,7 +362,7 @@ TEST_F(SweepCommand, StopRulesOfTheSceneAreLeftOut) {
 
 TEST_F(SweepCommand, APictureOfWholeNumbersIsWarnedOf) {
   EXPECT_EQ(run_kaustik({"render", scene_, "--spp", "1", "-o", path("ref.png"), "-q"}).code, kDone);
-  const std::string warning = "a format of whole numbers";
+  const std::string warning = "in an integer format";
   EXPECT_THAT(run_kaustik(sweep({"--reference", path("ref.png")}, "png")).err, HasSubstr(warning));
   EXPECT_THAT(run_kaustik(sweep(against_file())).err, Not(HasSubstr(warning)));
 }
