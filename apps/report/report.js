@@ -1,5 +1,6 @@
 "use strict";
-// Draws the charts, the picture slider and the gallery from the JSON in the page. Texts are inserted as text nodes only, never as HTML.
+// Draws the charts, the picture slider and the gallery from the JSON in the page. Texts are inserted as text nodes
+// only, never as HTML.
 (() => {
 const data = JSON.parse(document.getElementById("data").textContent);
 const cells = data.cells;
@@ -54,7 +55,8 @@ function dataset(name, points, index, more = {}) {
 const point = (cell, x, y) => ({x, y, cell: cells.indexOf(cell)});
 const sorted = points => points.sort((a, b) => a.x - b.x);
 
-// Labels ticks at 1, 2 and 5 times powers of ten, fewer on long axes and more on short ones. The ends of an axis, which are not round numbers, get no label.
+// Labels ticks at 1, 2 and 5 times powers of ten, fewer on long axes and more on short ones. The ends of an axis,
+// which are not round numbers, get no label.
 function tickText(format) {
   return function (value, _index, ticks) {
     const mantissa = value / 10 ** Math.floor(Math.log10(value) + 1e-9), digit = Math.round(mantissa);
@@ -64,7 +66,8 @@ function tickText(format) {
   };
 }
 
-// A logarithmic axis from slightly below the least value to slightly above the greatest, at least 0.8 decades long, so that it contains some ticks.
+// A logarithmic axis from slightly below the least value to slightly above the greatest, at least 0.8 decades
+// long, so that it contains some ticks.
 function logAxis(title, format, values) {
   const least = Math.min(...values), most = Math.max(...values);
   const margin = Math.max(1.25, Math.sqrt(10 ** 0.8 * least / most));
@@ -80,7 +83,8 @@ function tooltip(item) {
   return lines;
 }
 
-// Moves points at 0, which a logarithmic axis cannot show, to a decade below the least of the others. Returns whether there are any.
+// Moves points at 0, which a logarithmic axis cannot show, to a decade below the least of the others. Returns
+// whether there are any.
 function floorZeros(datasets, key) {
   const points = datasets.flatMap(d => d.data), above = points.map(p => p[key]).filter(value => value > 0);
   const floor = above.length ? Math.min(...above) / 10 : 1e-6;

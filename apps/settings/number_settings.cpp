@@ -139,7 +139,7 @@ Setting exposure_setting() {
             .unit = "stops",
             .range = "-64 to 64",
             .default_text = "0",
-            .doc = "Multiplies the radiance by 2^STOPS for PNG and JPEG files. EXR files keep the radiance."};
+            .doc = "Multiply the radiance by 2^STOPS for PNG and JPEG files. EXR files keep the radiance."};
   s.assign = [](Settings& settings, Texts texts) -> Complaint {
     const std::optional<float> value = parse_number(texts[0]);
     if (!value || std::abs(*value) > 64) return fmt::format("`{}`: expected stops, -64 to 64", texts[0]);

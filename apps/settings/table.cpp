@@ -206,7 +206,7 @@ void add_methods(std::vector<Setting>& table) {
                                                    "from photon maps. paths: by path tracing. off: none."));
   table.push_back(choice<render::IndirectEstimator>(
       "indirect", &RenderSettings::indirect, render::kIndirectNames, std::string(kByMethod),
-      "Estimator of indirect light, which a diffuse surface has reflected before it reaches the visible one. "
+      "Estimator of indirect light, which reaches the visible surface after a diffuse reflection elsewhere. "
       "paths: by path tracing. photons: from photon maps. off: none."));
 }
 
@@ -221,9 +221,8 @@ void add_photons(std::vector<Setting>& table) {
       "needed for the maps to fit into memory."));
   table.push_back(radius_setting());
   table.push_back(alpha_setting());
-  table.push_back(
-      count("nearest", "photons", &RenderSettings::nearest, 0, kMaxUint32, "0 (off)",
-            "If above 0, the radius shrinks to the K-th nearest photon where more than K are in reach."));
+  table.push_back(count("nearest", "photons", &RenderSettings::nearest, 0, kMaxUint32, "0 (off)",
+                        "Shrink the radius to the COUNT-th nearest photon where more photons are in reach."));
   table.push_back(
       choice("kernel", &RenderSettings::kernel, render::kKernelNames,
              "Weight of a photon as a function of its distance, normalised over the disc of radius r0."));
