@@ -19,7 +19,7 @@ constexpr std::pair<Phase, std::string_view> kCurves[] = {{Phase::kTotal, "total
                                                           {Phase::kPhotonTrace, "photon trace"},
                                                           {Phase::kPhotonBuild, "photon map build"},
                                                           {Phase::kRender, "image"},
-                                                          {Phase::kBvh, "ray tree build"}};
+                                                          {Phase::kBvh, "BVH build"}};
 
 bool worth_drawing(Phase phase, const Points& points) {
   return std::any_of(points.begin(), points.end(), [phase](const BenchPoint* p) {

@@ -97,7 +97,7 @@ TEST(ScalingFigures, TheIdealLineIsLinearInThreads) {
 
 TEST(ScalingFigures, PhasesThatTakeNoTimeAreLeftOut) {
   for (const Figure& figure : scaling_figures(some_result()))
-    for (const Curve& curve : figure.chart.curves) EXPECT_NE(curve.name, "ray tree build");
+    for (const Curve& curve : figure.chart.curves) EXPECT_NE(curve.name, "BVH build");
 }
 
 // One point, no photons, values that no axis can show: still a picture, in bounded time.

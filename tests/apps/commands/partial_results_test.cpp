@@ -106,8 +106,7 @@ TEST_F(PartialResults, ResumedWithOtherThreadsIsTheWhole) {
 TEST_F(PartialResults, ACheckpointThatIsThereIsNamed) {
   const Arguments arguments = render({"-o", path("a.exr"), "--checkpoint", path("a.kpart")});
   EXPECT_EQ(run_kaustik(arguments).err, "");
-  EXPECT_THAT(run_kaustik(arguments).err,
-              HasSubstr("a.kpart is there and will be replaced; `kaustik resume`"));
+  EXPECT_THAT(run_kaustik(arguments).err, HasSubstr("a.kpart exists and will be replaced; `kaustik resume`"));
 }
 
 // More passes than were asked for: those that --pass-range gives.

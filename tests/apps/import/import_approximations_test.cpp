@@ -80,7 +80,7 @@ TEST_F(ImportApproximations, LensesAreThin) {
   EXPECT_NEAR(scene->camera->find("focaldistance")->numbers[0], 0.1, 1e-12);
   write("lens.dat", "50 0 1.5 20 1");
   EXPECT_THAT(messages("Camera \"realistic\" \"string lensfile\" \"lens.dat\"\nWorldBegin"),
-              HasSubstr("scene.pbrt:1:38: error: a lens is rows of radius"));
+              HasSubstr("scene.pbrt:1:38: error: a lens has rows of radius"));
   EXPECT_EQ(diagnostics_.error_count(), 1u);
 }
 

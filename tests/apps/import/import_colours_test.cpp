@@ -68,7 +68,7 @@ TEST_F(ImportColours, FilesOfSpectra) {
   expect_near(intensity(world("LightSource \"point\" \"spectrum I\" \"light.spd\"")), emitted_colour(flat));
   write("bad.spd", "300 2\n900");
   EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"bad.spd\""),
-              testing::HasSubstr("a spectrum is pairs of wavelength and value, not 3 numbers"));
+              testing::HasSubstr("a spectrum takes pairs of wavelength and value, not 3 numbers"));
   write("worse.spd", "300 2\n200 2");
   EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"worse.spd\""),
               testing::HasSubstr("worse.spd:2:1: error: wavelengths must increase"));

@@ -67,23 +67,23 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{
             R"(Material "diffuse" "spectrum reflectance" "metal-CuZn-eta")",
-            R"(2:43: error: there are no numbers here for pbrt's spectrum "metal-CuZn-eta": give a file of wavelengths and values; "metal-Cu-eta" is the nearest)"},
-        Case{R"(Material "diffuse" "spectrum reflectance" "metal-Cu-et")",
-             R"(2:43: error: no spectrum is named "metal-Cu-et"; did you mean `metal-Cu-eta`? As a file: )"
-             R"(cannot open "metal-Cu-et": no such file)"},
+            R"(2:43: error: pbrt's spectrum "metal-CuZn-eta" is not built in: give a file of wavelengths and values; "metal-Cu-eta" is the nearest)"},
+        Case{
+            R"(Material "diffuse" "spectrum reflectance" "metal-Cu-et")",
+            R"(2:43: error: no spectrum is named "metal-Cu-et"; did you mean `metal-Cu-eta`? Read as a file name: )"
+            R"(cannot open "metal-Cu-et": no such file)"},
         Case{R"(Material "diffuse" "spectrum reflectance" [ 400 1 500 ])",
-             R"(2:20: error: a spectrum is pairs of wavelength and value, not 3 numbers)"},
+             R"(2:20: error: a spectrum takes pairs of wavelength and value, not 3 numbers)"},
         Case{R"(Material "diffuse" "spectrum reflectance" [ 400 1 400 2 ])",
              R"(2:51: error: wavelengths must increase: 400 nm follows 400 nm)"},
         Case{R"(Material "diffuse" "spectrum reflectance" [ 400 -1 500 2 ])",
-             R"(2:49: error: a spectrum is not negative: -1)"},
+             R"(2:49: error: a spectrum must not be negative, but has the value -1)"},
         Case{R"(Material "diffuse" "texture reflectance" "wood")",
              R"(2:42: error: no spectrum texture is named `wood`)"},
-        Case{
-            R"(LightSource "point" "blackbody I" 0)",
-            R"(2:35: error: `I` takes a temperature of 100 to 10000000 kelvin, and after it a factor at most)"},
+        Case{R"(LightSource "point" "blackbody I" 0)",
+             R"(2:35: error: `I` takes a temperature from 100 to 10000000 kelvin and an optional factor)"},
         Case{R"(LightSource "point" "spectrum I" [ 300 1 350 1 ])",
-             R"(2:36: error: nobody sees the light of `I`: its spectrum is zero from 360 nm to 830 nm)"},
+             R"(2:36: error: the light of `I` is invisible: its spectrum is zero from 360 nm to 830 nm)"},
         Case{R"(LightSource "point" "blackbody scale" 5500)",
              R"(2:21: error: "blackbody scale" is not rendered: light "point" takes "float scale" only)"},
         Case{
@@ -173,17 +173,18 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{R"(Texture "a" "imagemap")", R"(2:23: error: `Texture` needs a type in quotes)"},
         Case{R"(MakeNamedMedium "fog" "string type" "homogeneous")",
-             R"(2:1: warning: `MakeNamedMedium` is ignored: there is nothing between surfaces)"},
+             R"(2:1: warning: `MakeNamedMedium` is ignored: participating media are not rendered)"},
         Case{
             R"(MediumInterface "" "fog")",
-            R"(2:1: warning: `MediumInterface` is ignored: there is nothing between surfaces, glass does not absorb, )"
-            R"(and media within material "interface" are not seen)"},
+            R"(2:1: warning: `MediumInterface` is ignored: participating media are not rendered, so glass does not absorb )"
+            R"(and media inside of "interface" surfaces are invisible)"},
         Case{R"(ActiveTransform EndTime)",
-             R"(2:1: warning: nothing moves: things stand as they do when the shutter opens)"},
+             R"(2:1: warning: motion is not rendered: everything stays where it is when the shutter opens)"},
         Case{R"(ActiveTransform Sometimes)",
              R"(2:1: error: `ActiveTransform` needs All, StartTime or EndTime)"},
-        Case{R"(WorldEnd)", R"(2:1: warning: `WorldEnd` is of pbrt-v3: the scene ends with the file)"},
-        Case{R"(WorldBegin)", R"(2:1: error: a second `WorldBegin`)"},
+        Case{R"(WorldEnd)",
+             R"(2:1: warning: `WorldEnd` is pbrt-v3's and ignored: the scene ends with the file)"},
+        Case{R"(WorldBegin)", R"(2:1: error: this is a second `WorldBegin`)"},
         Case{R"(Film "rgb")", R"(2:1: error: `Film` belongs before `WorldBegin`)"},
         Case{R"(ColorSpace "rec2021")",
              R"(2:12: error: unknown color space "rec2021"; did you mean `rec2020`? known: srgb, dci-p3, )"
@@ -198,14 +199,14 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(Transform [1 2 3])",
              R"(2:17: error: `Transform` takes 16 numbers: expected number 4, not `]`)"},
         Case{R"(Translate 1e40 0 0)", R"(2:11: error: `1e40` is beyond the range of floats)"},
-        Case{R"(AttributeEnd)", R"(2:1: error: `AttributeEnd` closes nothing)"},
+        Case{R"(AttributeEnd)", R"(2:1: error: `AttributeEnd` closes no open block)"},
         Case{R"(AttributeBegin)", R"(2:1: error: this block is not closed: expected `AttributeEnd`)"},
         Case{"ObjectBegin \"a\"\nAttributeEnd\nObjectEnd",
              R"(3:1: error: `AttributeEnd` does not close this block)"},
         Case{"ObjectBegin \"a\" ObjectEnd\nObjectBegin \"a\" ObjectEnd",
              R"(3:13: error: object `a` is defined twice)"},
         Case{"ObjectBegin \"a\"\nObjectInstance \"a\"\nObjectEnd",
-             R"(3:1: error: an instance inside an object)"},
+             R"(3:1: error: an object cannot contain an instance)"},
         Case{"ObjectBegin \"tree\" ObjectEnd\nObjectInstance \"tre\"",
              R"(3:16: error: no object is named `tre`; did you mean `tree`?)"},
         Case{R"(NamedMaterial "gold" Shape "sphere" Shape "sphere")",
@@ -215,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{
             "MakeNamedMaterial \"a\" \"string type\" \"mirror\"\nMakeNamedMaterial \"a\" \"string type\" "
             "\"mirror\"",
-            R"(3:19: warning: material `a` is defined again, as in pbrt-v3: this one holds up to the end of the block)"},
+            R"(3:19: warning: material `a` is defined again, as pbrt-v3 allows: this definition holds up to the end of the block)"},
         Case{
             R"(Attribute "shpae" "float radius" 2)",
             R"(2:11: error: unknown target "shpae" of `Attribute`; did you mean `shape`? known: shape, light, )"

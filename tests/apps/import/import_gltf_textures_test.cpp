@@ -187,7 +187,7 @@ TEST_F(GltfTextures, DamagedImages) {
   EXPECT_TRUE(s.textures.empty());
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("cannot read"));
   textured(R"({ "normalTexture": { "index": 0 } })", "no image");
-  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("image 0 is none of PNG, JPEG and WebP"));
+  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("image 0 is neither PNG nor JPEG nor WebP"));
 }
 
 }  // namespace

@@ -43,12 +43,12 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{R"("accessors": [ { "bufferView": 0, "componentType": 5126, "count": -3, "type": "VEC3" } ],
           "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
           "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ], "nodes": [ { "mesh": 0 } ])",
-               "accessors[0].count` must be a whole number that is not negative, not -3"},
+               "accessors[0].count` must be a non-negative integer, not -3"},
         Damage{
             R"("nodes": [ { "children": [ 1 ] }, { "children": [ 0 ] } ], "scenes": [ { "nodes": [ 0 ] } ])",
-            "nodes[0]` has two parents, or is its own ancestor"},
+            "nodes[0]` has two parents or is its own ancestor"},
         Damage{R"("nodes": [ { "children": [ 0 ] } ], "scenes": [ { "nodes": [ 0 ] } ])",
-               "nodes[0]` has two parents, or is its own ancestor"},
+               "nodes[0]` has two parents or is its own ancestor"},
         Damage{R"("nodes": [ { "children": [ 5 ] } ])", "nodes[0].children[0]` is 5: there are 1"},
         Damage{R"("nodes": [ { "mesh": 2 } ])", "nodes[0].mesh` is 2: there are 0"},
         Damage{R"("nodes": { "mesh": 2 })", "`nodes` must be a list"},
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                "nodes[0].translation[2]` must be a number"},
         Damage{R"("nodes": [ { "rotation": [ 0, 0, 0, 0 ] } ])", "nodes[0].rotation` is no rotation"},
         Damage{R"("extensionsRequired": [ "KHR_draco_mesh_compression" ])",
-               "it requires the extension KHR_draco_mesh_compression, which is not read"},
+               "it requires the extension KHR_draco_mesh_compression, which is not supported"},
         Damage{
             R"("cameras": [ { "type": "perspective", "perspective": { "yfov": 4 } } ], "nodes": [ { "camera": 0 } ])",
             "cameras[0].perspective.yfov` is 4"}));

@@ -57,7 +57,7 @@ TEST_F(ImportHostile, DeepBlocksEndWithOneError) {
   std::string text;
   for (int i = 0; i < 1'000'000; ++i) text += "AttributeBegin\n";
   for (int i = 0; i < 1'000'000; ++i) text += "AttributeEnd\n";
-  EXPECT_EQ(first_lines(text), "10002:1: error: more than 10000 blocks inside each other\n");
+  EXPECT_EQ(first_lines(text), "10002:1: error: more than 10000 nested blocks\n");
 }
 
 TEST_F(ImportHostile, DeepTransformsAndObjectsEndWithOneError) {
@@ -101,7 +101,7 @@ TEST_F(ImportHostile, IncludesThatAreTooDeep) {
   }
   messages("WorldBegin Include \"f0.pbrt\"");
   ASSERT_EQ(diagnostics_.error_count(), 1u);
-  EXPECT_EQ(diagnostics_.entries()[0].message, "more than 64 files included inside each other");
+  EXPECT_EQ(diagnostics_.entries()[0].message, "more than 64 nested includes");
 }
 
 // Ten times as many at each of six levels.

@@ -135,9 +135,10 @@ TEST_F(ImportTextures, SaysWhatIsWrongWithTextures) {
       first_lines(R"(Texture "t" "float" "ptex")"),
       "2:21: error: pbrt's texture \"ptex\" is not rendered; there are: constant, scale, mix, directionmix, "
       "checkerboard, dots, bilerp, imagemap, fbm, wrinkled, windy, marble\n");
-  EXPECT_EQ(first_lines("Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"mix\""),
-            "3:9: warning: texture `t` is defined again, as in pbrt-v3: this one holds up to the end of the "
-            "block\n");
+  EXPECT_EQ(
+      first_lines("Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"mix\""),
+      "3:9: warning: texture `t` is defined again, as pbrt-v3 allows: this definition holds up to the end "
+      "of the block\n");
   EXPECT_EQ(first_lines(R"(Texture "t" "float" "constant" "rgb value" [1 1 1])"),
             "2:32: error: `value` is a number here: \"float value\"\n");
   EXPECT_EQ(first_lines(R"(Texture "t" "float" "imagemap")"),

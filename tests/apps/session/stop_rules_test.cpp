@@ -159,7 +159,7 @@ class FilledTime : public testing::ProgramTest {
 };
 
 TEST_F(FilledTime, IsOnePassThatOptionsRepeat) {
-  EXPECT_THAT(render("300ms", "a").err, HasSubstr("--time 0.3s: as with --spp "));
+  EXPECT_THAT(render("300ms", "a").err, HasSubstr("--time 0.3s is rendered with --spp "));
   const nlohmann::json json = stats("a"), settings = json["settings"];
   EXPECT_EQ(json["photons"]["passes"], 1);
   EXPECT_GE(settings["adaptive"], 0.75);
@@ -172,7 +172,8 @@ TEST_F(FilledTime, IsOnePassThatOptionsRepeat) {
 }
 
 TEST_F(FilledTime, IsManyPassesWhereThatIsLong) {
-  EXPECT_THAT(render("4.5s", "a").err, HasSubstr(" --passes 8 --alpha 0.6666667, in as many passes as come"));
+  EXPECT_THAT(render("4.5s", "a").err,
+              HasSubstr(" --passes 8 --alpha 0.6666667, and more passes until the time is up"));
   const nlohmann::json json = stats("a");
   EXPECT_EQ(json["passes_of_settings"], 8);
   EXPECT_NEAR(json["settings"]["alpha"], 2.0 / 3, 1e-6);
@@ -249,7 +250,8 @@ TEST_F(StopRules, SenselessRulesAreRefused) {
   expect_refused(render({"--time", "60", "-o", out}), "with its unit");
   expect_refused(render({"--time", "5s", "--passes", "4", "--pass-range", "0:2", "-o", out}), "--pass-range");
   expect_refused(render({"--aov", "error", "--passes", "1", "-o", out}), "--passes 2 or more");
-  expect_refused(render({"--photons", "3", "--passes", "4", "-o", out}), "at least as many photons");
+  expect_refused(render({"--photons", "3", "--passes", "4", "-o", out}),
+                 "3 photons cannot be divided among so many passes");
   EXPECT_FALSE(exists("a.exr"));
 }
 

@@ -262,7 +262,7 @@ TEST_F(SweepCommand, BadInputExitsWithTwo) {
   expect_refused(sweep({"--reference-time", "0s"}), "--reference-time");
   expect_refused(sweep({"--reference-method", "best"}), "--reference-method");
   expect_refused(sweep(against_file() + Arguments{"--width", "12"}),
-                 "24 x 16 pixels, the scene's picture 12 x 8");
+                 "it has 24 x 16 pixels, but the scene's picture has 12 x 8");
   expect_refused(sweep({"--reference", path("none.exr")}), "none.exr");
   expect_refused(sweep({"--reference", scene_}, "bad"), "--reference");
   write("file", "");
@@ -368,7 +368,8 @@ TEST_F(SweepCommand, APictureOfWholeNumbersIsWarnedOf) {
 }
 
 TEST_F(SweepCommand, ABadGridIsFoundBeforeAnythingIsRendered) {
-  expect_refused(with_reference({"--photons", "100", "--passes", "1000"}), "fewer than the 1k passes");
+  expect_refused(with_reference({"--photons", "100", "--passes", "1000"}),
+                 "cannot be divided among 1k passes");
   EXPECT_FALSE(exists("out"));
 }
 

@@ -57,7 +57,8 @@ TEST(SweepGrid, RefusesWhatIsNoGrid) {
   EXPECT_THAT(refusal({.radii = {"auto", "1x"}}), HasSubstr("`1x` is given twice"));
   for (const char* text : {"0", "-1", "x", "0x", "nan", "infx", "autox", ""})
     EXPECT_THAT(refusal({.radii = {text}}), HasSubstr("expected auto, a multiple of it")) << text;
-  EXPECT_THAT(refusal({.methods = {"photons"}}), HasSubstr("`photons` is no method; did you mean `photon`?"));
+  EXPECT_THAT(refusal({.methods = {"photons"}}),
+              HasSubstr("unknown method `photons`; did you mean `photon`?"));
   EXPECT_THAT(refusal({.methods = {"mc", "mc"}}), HasSubstr("given twice"));
   EXPECT_THAT(refusal({.spp = {"0"}}), HasSubstr("--spp: `0`"));
   EXPECT_THAT(refusal({.seeds = "0"}), HasSubstr("--seeds: `0`"));
@@ -127,7 +128,7 @@ TEST(SweepGrid, RefusesFewerPhotonsThanPasses) {
     FAIL();
   } catch (const ExitError& error) {
     EXPECT_EQ(error.code(), kBadCommandLine);
-    EXPECT_THAT(error.what(), HasSubstr("100 photons are fewer than the 1k passes"));
+    EXPECT_THAT(error.what(), HasSubstr("100 photons cannot be divided among 1k passes"));
   }
   // Paths take no photons.
   EXPECT_THAT(points_of(parse_grid({.photons = {"100"}, .methods = {"mc"}}), base, {}, glass()), SizeIs(1));
