@@ -1,3 +1,5 @@
+// Sums of statistics.
+
 #include "render/statistics.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// The JSON document of `--stats`, and image metadata.
+
 #include "render/statistics_json.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Renders tiles in parallel, first with even and then with adaptive samples, and merges their counts.
+
 #include "render/tiles.h"
 
 #include <tbb/parallel_for.h>

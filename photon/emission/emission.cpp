@@ -1,3 +1,5 @@
+// Emission of one photon: the scalar code that emission_lanes.cpp repeats in lanes.
+
 #include "photon/emission/emission.h"
 
 namespace kaustik::photon {

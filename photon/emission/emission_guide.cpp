@@ -1,3 +1,5 @@
+// Grows the density tree of guided emission from hits, and warps random numbers through it.
+
 #include "photon/emission/emission_guide.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Closed-form integrals of the kernels beyond straight edges, summed over the edges near a point.
+
 #include "photon/estimate/boundary_correction.h"
 
 #include <array>

@@ -1,3 +1,5 @@
+// Packs a whole group of photons in SIMD lanes.
+
 #include "photon/record/record_sink.h"
 
 namespace kaustik::photon {

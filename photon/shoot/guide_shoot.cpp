@@ -1,3 +1,5 @@
+// Learns an EmissionGuide in rounds, and decides when guiding is worthwhile.
+
 #include "photon/shoot/guide_shoot.h"
 
 #include <tbb/parallel_for.h>

@@ -1,3 +1,5 @@
+// Peak memory of a shoot and of the maps built from it, as extrapolated from a small shoot.
+
 #include "photon/shoot/memory_estimate.h"
 
 #include <fmt/format.h>

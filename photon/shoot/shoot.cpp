@@ -1,3 +1,6 @@
+// The parallel shoot as a pipeline: blocks are handed out, traced, given their place in order, and copied
+// there.
+
 #include "photon/shoot/shoot.h"
 
 #include <tbb/concurrent_queue.h>

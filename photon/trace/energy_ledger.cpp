@@ -1,3 +1,5 @@
+// Sums of ledgers, and the choice of the unit.
+
 #include "photon/trace/energy_ledger.h"
 
 #include <algorithm>

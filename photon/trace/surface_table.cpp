@@ -1,3 +1,5 @@
+// Fills the rows of the surface table from shapes and materials.
+
 #include "photon/trace/surface_table.h"
 
 namespace kaustik::photon {

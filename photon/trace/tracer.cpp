@@ -1,3 +1,5 @@
+// The parts of the tracer that are not templates.
+
 #include "photon/trace/tracer.h"
 
 namespace kaustik::photon {

@@ -1,3 +1,5 @@
+// Traces straight photons from each light and collects their observations.
+
 #include "photon/visibility/visibility_shoot.h"
 
 #include <tbb/enumerable_thread_specific.h>

@@ -1,3 +1,5 @@
+// Sorts the observations by cell and builds the trees from the sorted keys.
+
 #include "photon/visibility/visibility_tree.h"
 
 #include <tbb/parallel_sort.h>

@@ -1,3 +1,5 @@
+// Finds the threshold of relative variance at which the further samples take the allowed work.
+
 #include "render/adaptive/sample_counts.h"
 
 #include <algorithm>

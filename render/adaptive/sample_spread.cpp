@@ -1,3 +1,5 @@
+// Variance of samples from their moments, and of pixel means about a plane.
+
 #include "render/adaptive/sample_spread.h"
 
 #include <algorithm>

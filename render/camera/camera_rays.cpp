@@ -1,3 +1,5 @@
+// Generates the camera rays of a block and intersects them in packets.
+
 #include "render/camera/camera_rays.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Light samples, predicted visibility, and the MIS weights of emission that rays meet.
+
 #include "render/estimators/lighting.h"
 
 namespace kaustik::render {

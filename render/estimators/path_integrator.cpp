@@ -1,3 +1,5 @@
+// The path loop: emission, light samples, BSDF sample, Russian roulette.
+
 #include "render/estimators/path_integrator.h"
 
 namespace kaustik::render {

@@ -1,3 +1,5 @@
+// Standard errors and kernel bias of pixels from the sums of passes.
+
 #include "render/film/error_estimate.h"
 
 #include <algorithm>

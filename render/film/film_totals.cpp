@@ -1,3 +1,5 @@
+// Exact sums of films: choice of units, addition of passes, means.
+
 #include "render/film/film_totals.h"
 
 #include <algorithm>

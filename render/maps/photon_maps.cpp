@@ -1,3 +1,5 @@
+// Shoots the photons of a pass, builds the maps, and sets how they are gathered.
+
 #include "render/maps/photon_maps.h"
 
 #include <atomic>
@@ -147,7 +149,7 @@ uint64_t visibility_photons(const Scene& scene, const RenderSettings& settings) 
 }
 
 // Caustic photons that uniform emission leaves on its way to other kinds cost nothing. If their share is at
-// least this, guided ones are not worth their rays (docs/performance.md).
+// least this, guided ones are not worth their rays (docs/decisions/010-guided-photons.md).
 constexpr double kEnoughCaustics = 1.0 / 64;
 
 // Learns a guide for one kind, which depends on scene and settings alone. Indirect photons lie wherever there

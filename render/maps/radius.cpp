@@ -1,3 +1,5 @@
+// Automatic gather radii from distances to the k-th nearest photon.
+
 #include "render/maps/radius.h"
 
 #include <tbb/parallel_for.h>
@@ -21,7 +23,8 @@ struct RadiusRule {
   double of_million;  // k for M = 10^6
   double least;       // lower bound: with few photons in reach their noise shows, however small the map
 };
-// Measured (docs/accuracy.md): direct light and caustics have edges, indirect light is smooth.
+// Measured (docs/decisions/031-gather-radius.md): direct light and caustics have edges, indirect light is
+// smooth.
 constexpr RadiusRule kDirectRule{160, 64};
 constexpr RadiusRule kIndirectRule{500, 200};
 constexpr RadiusRule kCausticRule{232, kFewestInReach};

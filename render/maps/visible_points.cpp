@@ -1,3 +1,5 @@
+// Traces pilot camera rays to the points where light is gathered, and counts these points in cells.
+
 #include "render/maps/visible_points.h"
 
 #include <tbb/parallel_for.h>

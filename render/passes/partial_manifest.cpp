@@ -1,3 +1,5 @@
+// Writes and reads the manifest; each group of values has one list of names for both directions.
+
 #include "render/passes/partial_manifest.h"
 
 #include <fmt/format.h>

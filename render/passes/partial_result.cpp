@@ -1,3 +1,5 @@
+// Writes and reads partial results, with checks of size, version and hash.
+
 #include "render/passes/partial_result.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Set operations on ranges of passes, and their text form.
+
 #include "render/passes/pass_set.h"
 
 #include <fmt/format.h>

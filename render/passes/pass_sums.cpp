@@ -1,3 +1,5 @@
+// Adds the sums of two parts of a render.
+
 #include "render/passes/pass_sums.h"
 
 #include <stdexcept>

@@ -1,3 +1,5 @@
+// Times trial shoots and trial windows, and fits the cost of photons and samples.
+
 #include "render/passes/pass_trials.h"
 
 #include <tbb/parallel_for.h>

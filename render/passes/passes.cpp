@@ -1,3 +1,5 @@
+// Share of each pass, radius reduction, and the number of passes that memory requires.
+
 #include "render/passes/passes.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Error measures and error images.
+
 #include "render/picture/compare.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Variance and bias from the moments of several images, and the noise of a reference.
+
 #include "render/picture/error_parts.h"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+// Writes EXR files with OpenEXR.
+
 #include "render/picture/exr_file.h"
 
 #include <OpenEXR/ImfChannelList.h>

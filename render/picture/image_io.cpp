@@ -1,3 +1,5 @@
+// Chooses the format from the file name and converts films and images for it.
+
 #include "render/picture/image_io.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Projects photons to pixels, counts them, and blends their colours over a dim view of the scene.
+
 #include "render/picture/photon_view.h"
 
 #include <tbb/blocked_range.h>

@@ -1,3 +1,5 @@
+// Box filter along one axis at a time.
+
 #include "render/picture/shrink.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Tone mapping operators and the sRGB transfer curve.
+
 #include "render/picture/tonemap.h"
 
 namespace kaustik::render {

@@ -34,7 +34,7 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
       // Direct light with predicted visibility has the error of shadow rays in less time. Nothing is
       // predicted for a sky, since part of it is visible nearly everywhere. Indirect light from photons has
       // less error in the same time than paths on every scene measured, and no fireflies where a small bright
-      // patch lights the room (docs/accuracy.md).
+      // patch lights the room (docs/decisions/032-indirect-light-from-photons.md).
       plan.direct = needs.any_light && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
       plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
       break;
