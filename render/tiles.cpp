@@ -55,7 +55,7 @@ class TilePass {
   bool render() {
     if (!each_tile(&TilePass::first_samples)) return false;
     if (!counts_) return true;
-    counts_->share_out(samples(), ctx_.samples.further_work);
+    counts_->choose_counts(samples(), ctx_.samples.further_work);
     sort_by_work();
     return each_tile(&TilePass::further_samples);
   }

@@ -43,20 +43,20 @@ class GuideLearner {
       learned.emitted += trace.photons;
       rounds_.push_back({double(trace.photons), std::move(learned.guide)});
       learned.guide = EmissionGuide(weighted(), scene_.lights.size() > 1 ? 5 : 4);
-      if (is_vain(learned.guide) || serves_enough()) break;
+      if (has_nothing_to_gain(learned.guide) || uniform_is_enough()) break;
     }
     learned.hits = starts_.size();
-    if (learned.guide.variance() > kMostVariance || serves_enough()) learned.guide = {};
+    if (learned.guide.variance() > kMostVariance || uniform_is_enough()) learned.guide = {};
     return learned;
   }
 
  private:
   // Nothing to gain: many photons were useful, and their starts are nearly uniform.
-  bool is_vain(const EmissionGuide& guide) const {
+  bool has_nothing_to_gain(const EmissionGuide& guide) const {
     return starts_.size() >= (1u << 12) && guide.variance() > 0.9;
   }
   // The first, uniform round found so many useful photons that guiding is not needed.
-  bool serves_enough() const { return double(uniform_hits_) >= settings_.enough * rounds_[0].photons; }
+  bool uniform_is_enough() const { return double(uniform_hits_) >= settings_.enough * rounds_[0].photons; }
 
   struct Round {
     double photons = 0;

@@ -84,7 +84,7 @@ SampleSpread SampleCounts::neighbours(size_t i) const {
   return sum;
 }
 
-void SampleCounts::share_out(uint64_t first, double further_work) {
+void SampleCounts::choose_counts(uint64_t first, double further_work) {
   SampleSpread all;
   double roots = 0;
   for (const SampleSpread& half : spreads_) {

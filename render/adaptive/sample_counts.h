@@ -32,7 +32,7 @@ class SampleCounts {
   // together take at most `further_work` times the work of the first. Counts follow the fourth root of
   // variance / (work (mean^2 + m^2)), where m^2 keeps dim pixels from taking all samples; the ratio is that
   // of all light or of traced light, whichever is larger. Where the limit of k is reached, less work is done.
-  void share_out(uint64_t first, double further_work);
+  void choose_counts(uint64_t first, double further_work);
 
   uint64_t count(int x, int y, int half) const { return counts_[index(x, y, half)]; }
   // Which light the samples beyond the first ones compute.

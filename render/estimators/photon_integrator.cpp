@@ -107,7 +107,7 @@ void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* resul
 }
 
 // How the camera ray left its previous point: by a delta lobe, or by a glossy lobe with density pdf.
-struct LeftBy {
+struct LastScatter {
   bool glossy = false;
   LightReceiver ref;
   float pdf = 0;
@@ -120,23 +120,24 @@ struct Branch {
   Rgb beta{1};
   float share = 1;  // share of the sample: the product of the Fresnel factors where it was split
   int events = 0;
-  LeftBy last{};
+  LastScatter last{};
 };
 
 // Emission that the ray meets. After a glossy lobe it has the MIS weight of BSDF sampling, since lights are
 // sampled at glossy lobes too.
-Rgb emission_seen(const Scene& scene, const LeftBy& last, const SurfaceInteraction& si, const Vector3& d) {
+Rgb emission_seen(const Scene& scene, const LastScatter& last, const SurfaceInteraction& si,
+                  const Vector3& d) {
   const Rgb Le = emitted(scene, si, -d);
   if (!last.glossy || is_black(Le)) return Le;
   return Le * emitter_hit_weight(scene, last.ref, d, last.pdf, si);
 }
-Rgb escape_seen(const Scene& scene, const LeftBy& last, const Ray& ray) {
+Rgb escape_seen(const Scene& scene, const LastScatter& last, const Ray& ray) {
   return last.glossy ? escaped_weighted(scene, last.ref, ray, last.pdf) : escaped(scene, ray);
 }
 
 // Russian roulette for chains over coated surfaces whose throughput is below kDim: they soon contribute
 // little, while each of their points takes a gather. Draws a dimension only then.
-bool is_worth_it(Rgb* beta, Sampler& sampler) {
+bool survives_coats(Rgb* beta, Sampler& sampler) {
   constexpr float kDim = 0.05f;
   const float q = max_component(*beta) / kDim;
   if (q >= 1) return true;
@@ -147,7 +148,7 @@ bool is_worth_it(Rgb* beta, Sampler& sampler) {
 
 // Russian roulette for the gather at the end of a dim branch, which costs as much as that of a bright one.
 // Returns the weight of the point, 0 where it is skipped. Draws a dimension only for dim branches.
-float worth(float share, Sampler& sampler) {
+float gather_weight(float share, Sampler& sampler) {
   constexpr float kBright = 0.25f;
   if (share >= kBright) return 1;
   const float q = share / kBright;
@@ -190,28 +191,28 @@ class CameraPath {
     if (branch.events == 0) set_features(x, branch.ray.o, result_);
     const Lobes parts = lobes(*x.bsdf);
     if (parts.broad)
-      if (const float weight = worth(branch.share, sampler_); weight > 0)
+      if (const float weight = gather_weight(branch.share, sampler_); weight > 0)
         add_reflected(ctx_, x, weight * branch.beta, sampler_, maps_);
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy)
       result_->emitted +=
           branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
-    if (parts.glossy || parts.broad || !divide(branch, cone, x)) go_on(branch, cone, x);
+    if (parts.glossy || parts.broad || !split(branch, cone, x)) continue_specular(branch, cone, x);
   }
 
-  void go_on(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
+  void continue_specular(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
     const auto s = scatter(x, sampler_, Scatter::kSpecular);
     if (!s) return;
     Rgb beta = from.beta * s->weight;
-    if (lobes(*x.bsdf).broad && !is_worth_it(&beta, sampler_)) return;
+    if (lobes(*x.bsdf).broad && !survives_coats(&beta, sampler_)) return;
     push({x.si.spawn(s->wi), cone, beta, from.share, from.events + 1,
-          LeftBy{s->glossy, x.receiver(), s->pdf}});
+          LastScatter{s->glossy, x.receiver(), s->pdf}});
   }
 
   // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
   // random instead makes the faint reflection of a light in glass noisy. Returns false and does nothing where
   // there are not two such rays or the dimmer of them is below kDim.
-  bool divide(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
+  bool split(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
     constexpr float kDim = 1.0f / 256;
     if (waiting_ + 2 > kMostWaiting) return false;
     const auto reflected = scatter_delta(x, 0), refracted = scatter_delta(x, kOneMinusEpsilon);
@@ -219,7 +220,7 @@ class CameraPath {
     if (from.share * std::min(reflected->pdf, refracted->pdf) < kDim) return false;
     for (const BsdfSample* s : {&*reflected, &*refracted})
       push({x.si.spawn(s->wi), cone, from.beta * s->weight * s->pdf, from.share * s->pdf, from.events + 1,
-            LeftBy{false, x.receiver(), s->pdf}});
+            LastScatter{false, x.receiver(), s->pdf}});
     return true;
   }
 

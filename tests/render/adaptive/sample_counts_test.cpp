@@ -90,7 +90,7 @@ SampleCounts counts_of(const Fn& spread, uint64_t first, double further_work) {
     for (int x = 0; x < kPixels; x += kRayBlock)
       for (int half = 0; half < kHalves; ++half)
         counts.spread(x, y, half) = spread(x / kRayBlock, y / kRayBlock, half);
-  counts.share_out(first, further_work);
+  counts.choose_counts(first, further_work);
   return counts;
 }
 
