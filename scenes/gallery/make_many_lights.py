@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Prints many-lights.pbrt: a long hall with small coloured lamps in a grid on its ceiling. Argument: how many."""
+"""Prints many-lights.pbrt: a long hall with small coloured lights in a grid on its ceiling. Argument: how many."""
 import math
 import sys
 
 count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
 columns = max(1, round(math.sqrt(count / 10)))
 rows = math.ceil(count / columns)
-side = 0.15 * min(4 / columns, 40 / rows)  # a lamp's
-print(f"""# A hall of 4 m x 40 m with {count} lamps on its ceiling, each a square of {side:.3g} m. Made by make_many_lights.py.
+side = 0.15 * min(4 / columns, 40 / rows)  # of a light
+print(f"""# A hall of 4 m x 40 m with {count} lights on its ceiling, each a square of {side:.3g} m. Made by make_many_lights.py.
 LookAt 0 1.6 0.5  0 1.2 12  0 1 0
 Camera "perspective" "float fov" 55
 Film "rgb" "integer xresolution" 320 "integer yresolution" 240 "string filename" "many-lights.exr"
