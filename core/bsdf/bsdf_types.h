@@ -16,7 +16,7 @@
 //   float pdf(wo, wi) const
 //     density per solid angle of the diffuse samples of sample_f
 //   std::optional<BsdfSample> sample_f(wo, uc, u, mode) const
-//     nothing if no light is scattered
+//     uc in [0, 1) chooses the lobe, u in [0, 1)^2 the direction; nothing if no light is scattered
 //   Rgb albedo() const
 //     hemispherical reflectance, for the AOV
 //   static constexpr std::string_view kName

@@ -123,7 +123,8 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
   if (!ok) return std::nullopt;
   if (material == MaterialTable::kInterface) {
     if (shape.area_light) {
-      diagnostics_.warning(shape.location, "the area light is ignored: material \"interface\" is no surface",
+      diagnostics_.warning(shape.location,
+                           "the area light is ignored: material \"interface\" is not a surface",
                            {{description_.area_lights[*shape.area_light].location, "the area light"}});
     }
     return std::nullopt;
@@ -159,7 +160,8 @@ void Builder::collect(MaterialTable& materials) {
     for (const ShapeDescription& shape : object.shapes) {
       if (const auto item = add_item(shape, o, materials)) items.push_back(*item);
       if (shape.area_light) {
-        diagnostics_.warning(shape.location, "the area light is ignored: shapes of an object are no lights");
+        diagnostics_.warning(shape.location,
+                             "the area light is ignored: shapes of an object cannot be lights");
       }
     }
   }
@@ -173,9 +175,8 @@ bool Builder::fits_memory(const std::map<std::string_view, std::vector<size_t>>&
     const auto found = items_of.find(instance.object);
     if (found != items_of.end()) placed += found->second.size();
     if (placed <= kMostPlacements) continue;
-    diagnostics_.error(
-        instance.location,
-        fmt::format("instances place more than the {} shapes that are accepted", kMostPlacements));
+    diagnostics_.error(instance.location,
+                       fmt::format("instances place more than {} shapes, the limit", kMostPlacements));
     return false;
   }
   return true;

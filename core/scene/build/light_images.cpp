@@ -32,8 +32,8 @@ bool check_pixels(const std::string& file, LightImage& image, const SourceLocati
     c = glm::max(c, Rgb(0));
   }
   if (negatives > 0) {
-    diagnostics.warning(where, fmt::format("\"{}\": {} pixel{} below zero: taken as zero, the first is {}",
-                                           file, negatives, negatives == 1 ? "" : "s", first));
+    diagnostics.warning(where, fmt::format("\"{}\": {} negative pixel{} taken as zero; the first is {}", file,
+                                           negatives, negatives == 1 ? "" : "s", first));
   }
   return true;
 }
@@ -47,7 +47,8 @@ std::shared_ptr<const LightImage> grey_image(const LightImage& image) {
 }  // namespace
 
 std::shared_ptr<const LightImage> LightImages::load(const std::string& file, const SourceLocation& where) {
-  LightImageResult result = load_ ? load_(file, where) : LightImageResult{{}, "there is no reader of images"};
+  LightImageResult result =
+      load_ ? load_(file, where) : LightImageResult{{}, "image files cannot be read here"};
   if (result.error.empty() && result.image.pixels.empty())
     result.error = fmt::format("\"{}\" has no pixels", file);
   if (!result.error.empty()) {
@@ -80,10 +81,11 @@ std::shared_ptr<const DirectionMap> LightImages::directions(const ParameterReade
     return nullptr;
   }
   if (lat_long) {
-    diagnostics_.warning(parameters.location(name),
-                         fmt::format("\"{}\" is read as a latitude-longitude map, +z on top; pbrt-v4 takes "
-                                     "square equal-area maps only",
-                                     file));
+    diagnostics_.warning(
+        parameters.location(name),
+        fmt::format("\"{}\" is read as a latitude-longitude map with +z at the top; pbrt-v4 takes "
+                    "only square equal-area maps",
+                    file));
   }
   const auto layout = square ? DirectionMap::Layout::kEqualArea : DirectionMap::Layout::kLatLong;
   if (around == Around::kLight) return std::make_shared<const DirectionMap>(grey_image(*image), layout);

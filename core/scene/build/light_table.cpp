@@ -46,7 +46,7 @@ bool LightTable::scale(const ParameterReader& parameters, DiffuseAreaLight& ligh
     const Rgb white = light.image ? light.image->mean_of_pixels() : Rgb(1);
     const float emitted = luminance(light.flux_of(light.area, white));
     if (!(emitted > 0) || is_black(light.L)) {
-      diagnostics_.error(parameters.location("power"), "`power` of a light that emits nothing");
+      diagnostics_.error(parameters.location("power"), "`power` is given for a light that emits nothing");
       return false;
     }
     light.L *= static_cast<float>(parameters.number("power")) / emitted;
@@ -66,7 +66,7 @@ bool LightTable::make(const ShapeDescription& description, Shape& shape, std::ve
     const bool sphere =
         std::holds_alternative<Sphere>(shape.geometry) || std::holds_alternative<Quadric>(shape.geometry);
     diagnostics_.error(description.location,
-                       sphere ? "a sphere or cylinder that is scaled unevenly cannot be a light"
+                       sphere ? "a sphere or cylinder that is scaled non-uniformly cannot be a light"
                               : "the area of this light is zero or not finite",
                        {{directive.location, "the area light"}});
     return false;

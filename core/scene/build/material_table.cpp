@@ -82,14 +82,16 @@ uint32_t MaterialTable::mix(const MaterialDescription& material, const TypeSpec&
                             DiagnosticList& diagnostics) {
   const Parameter* names = material.find("materials");
   if (!names) {
-    diagnostics.error(material.type_location, "material \"mix\" needs `materials`: the names of two");
+    diagnostics.error(material.type_location,
+                      "material \"mix\" needs `materials`, the names of two materials");
     return default_material();
   }
   uint32_t found[2];
   for (size_t i = 0; i < 2; ++i) {
     found[i] = resolve({std::nullopt, names->strings[i], names->value_location(i)}, diagnostics);
     if (found[i] == kInterface) {
-      diagnostics.error(names->value_location(i), "material \"interface\" is no surface and cannot be mixed");
+      diagnostics.error(names->value_location(i),
+                        "material \"interface\" is not a surface and cannot be mixed");
       return default_material();
     }
   }

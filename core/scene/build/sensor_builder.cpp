@@ -28,7 +28,7 @@ void check_name(const Directive& film, DiagnosticList& diagnostics) {
   if (std::find(std::begin(kMeasured), std::end(kMeasured), name) != std::end(kMeasured)) {
     diagnostics.warning(
         p->value_location(0),
-        fmt::format("sensor \"{}\" is taken for \"cie1931\": there are no measurements of it here", name));
+        fmt::format("sensor \"{}\" is replaced by \"cie1931\": its measurements are not available", name));
     return;
   }
   std::vector<std::string_view> names(std::begin(kMeasured), std::end(kMeasured));

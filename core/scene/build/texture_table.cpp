@@ -68,8 +68,8 @@ class TextureTable::Maker {
     Texture made = make_type();
     if (cost_ > kMostLookups) {
       error(texture_.name_location,
-            fmt::format("texture `{}` needs {} or more textures: at most {} are rendered", texture_.name,
-                        cost_, kMostLookups));
+            fmt::format("texture `{}` takes {} or more lookups of textures: at most {} are supported",
+                        texture_.name, cost_, kMostLookups));
     }
     if (!ok_) return std::nullopt;
     return made;
@@ -106,7 +106,8 @@ class TextureTable::Maker {
   Rgb value(std::string_view name) {
     const Parameter* given = texture_.find(name);
     if (value_ == TextureValue::kFloat && given && given->type != ParameterType::kFloat)
-      error(given->location, fmt::format("`{}` is a number here: \"float {}\"", name, name));
+      error(given->location,
+            fmt::format("`{}` must be a number in a float texture: \"float {}\"", name, name));
     return p_.rgb(name);
   }
   TextureOperand operand(std::string_view name) { return operand(name, value_); }
@@ -115,7 +116,8 @@ class TextureTable::Maker {
     if (!given || given->type != ParameterType::kTexture) {
       const bool number = kind == TextureValue::kFloat;
       if (number && given && given->type != ParameterType::kFloat)
-        error(given->location, fmt::format("`{}` is a number here: \"float {}\"", name, name));
+        error(given->location,
+              fmt::format("`{}` must be a number in a float texture: \"float {}\"", name, name));
       return TextureOperand{p_.rgb(name)};
     }
     TextureOperand found{Rgb(0), table_.find(*given, kind, diagnostics_)};
@@ -140,7 +142,7 @@ class TextureTable::Maker {
     const glm::dvec3 d = glm::dmat3(texture_.texture_to_world) * p_.vec3("dir");
     const double length = glm::length(d);
     if (length > 0 && std::isfinite(length)) return Vector3(d / length);
-    error(p_.location("dir"), "`dir` must be a direction");
+    error(p_.location("dir"), "`dir` must be a vector of finite length above zero");
     return {};
   }
 
@@ -250,7 +252,7 @@ void TextureTable::load_images(DiagnosticList& diagnostics) {
   tbb::parallel_for(size_t{0}, requests_.size(), [&](size_t i) {
     ImageRequest& request = requests_[i];
     request.result = images_.load ? images_.load(request.filename, request.where, request.encoding)
-                                  : ImageResult{0, "images are not read here"};
+                                  : ImageResult{0, "image files cannot be read here"};
   });
   for (const ImageRequest& request : requests_) {
     Texture& texture = set_->texture(request.texture);
@@ -280,7 +282,7 @@ uint32_t TextureTable::find(const Parameter& parameter, TextureValue value,
   const auto& other = names(value == TextureValue::kFloat ? TextureValue::kSpectrum : TextureValue::kFloat);
   if (other.contains(name)) {
     diagnostics.error(where,
-                      fmt::format("`{}` takes a {} texture: `{}` is none", parameter.name, kind, name));
+                      fmt::format("`{}` takes a {} texture, which `{}` is not", parameter.name, kind, name));
     return kNoIndex;
   }
   std::vector<std::string_view> candidates;
@@ -294,7 +296,7 @@ std::optional<uint32_t> TextureTable::load_linear_image(const std::string& filen
                                                         const SourceLocation& where,
                                                         DiagnosticList& diagnostics) const {
   const ImageResult result = images_.load ? images_.load(filename, where, {ImageEncoding::Kind::kLinear})
-                                          : ImageResult{0, "images are not read here"};
+                                          : ImageResult{0, "image files cannot be read here"};
   if (result.error.empty()) return result.image;
   diagnostics.error(where, result.error);
   return std::nullopt;

@@ -82,50 +82,53 @@ ParameterSpec spectrum(std::string_view name, const glm::dvec3& value, std::stri
 MaterialRow subsurface_row() {
   const Range coat{double(kLeastCoatEta), double(kLargestCoatEta)};
   TypeSpec spec{
-      "subsurface", "A medium under a smooth or rough surface.",
+      "subsurface", "A scattering medium under a smooth or rough surface.",
       rough_material(
-          {without_default(
-               rgb("reflectance", 0, "", kUnit, "share of the light that entered which comes back"),
-               "of `name`, else of `sigma_a` and `sigma_s`"),
+          {without_default(rgb("reflectance", 0, "", kUnit,
+                               "share of the light entering the medium that leaves it again"),
+                           "from `name`, else from `sigma_a` and `sigma_s`"),
            text("name", "none",
-                "a medium of Jensen et al. 2001, of which the diffuse reflectance is taken: Apple, Chicken1, "
+                "a medium of Jensen et al. 2001 whose diffuse reflectance is used: Apple, Chicken1, "
                 "Chicken2, Cream, Ketchup, Marble, Potato, Skimmilk, Skin1, Skin2, Spectralon, Wholemilk; "
-                "others have 0.5"),
-           spectrum("sigma_a", {0.0011, 0.0024, 0.014}, "absorption"),
-           spectrum("sigma_s", {2.55, 3.21, 3.77}, "scattering"),
-           number("g", 0, "", {-1, 1}, "mean cosine of scattering"),
+                "other names give 0.5"),
+           spectrum("sigma_a", {0.0011, 0.0024, 0.014}, "absorption coefficient"),
+           spectrum("sigma_s", {2.55, 3.21, 3.77}, "scattering coefficient"),
+           number("g", 0, "", {-1, 1}, "mean cosine of the scattering angle"),
            number("eta", 1.33, "", coat, "index of refraction"),
-           ignored("mfp", {ParameterType::kRgb}, "light comes out where it went in"),
-           ignored("scale", {ParameterType::kFloat}, "light comes out where it went in", 1)})};
-  spec.approximated = "as \"coateddiffuse\" that reflects as much: light comes out where it went in";
+           ignored("mfp", {ParameterType::kRgb}, "light leaves where it entered"),
+           ignored("scale", {ParameterType::kFloat}, "light leaves where it entered", 1)})};
+  spec.approximated = "as \"coateddiffuse\" of the same reflectance: light leaves where it entered";
   return {std::move(spec), make_subsurface};
 }
 
 MaterialRow coated_conductor_row() {
   std::vector<ParameterSpec> own = {
-      without_default(rgb("reflectance", 0, "", kUnit, "reflectance at normal incidence, of bare metal"),
+      without_default(rgb("reflectance", 0, "", kUnit, "reflectance of the bare metal at normal incidence"),
                       "none"),
       metal_index("conductor.eta", "real part of the metal's index of refraction"),
-      metal_index("conductor.k", "imaginary part"),
-      number("conductor.roughness", 0, "", kNotNegative, "of GGX microfacets; 0: smooth"),
+      metal_index("conductor.k", "imaginary part of the metal's index of refraction"),
+      number("conductor.roughness", 0, "", kNotNegative, "roughness of the GGX microfacets; 0: smooth"),
       number("interface.eta", 1.5, "", kPositive, "index of refraction of the coat")};
   for (const std::string_view name : {"conductor.uroughness", "conductor.vroughness"})
-    own.push_back(without_default(number(name, 0, "", kNotNegative, "along u (v) of the surface"),
-                                  "conductor.roughness"));
-  own.push_back(flag("remaproughness", true, "alpha of GGX is the root of roughness, else roughness itself"));
+    own.push_back(without_default(
+        number(name, 0, "", kNotNegative, "roughness along u (or v) of the surface"), "conductor.roughness"));
+  own.push_back(
+      flag("remaproughness", true,
+           "true: the alpha of GGX is the square root of the roughness; false: it is the roughness"));
   for (const std::string_view name : {"interface.roughness", "interface.uroughness", "interface.vroughness"})
     own.push_back(
         ignored(name, {ParameterType::kFloat, ParameterType::kTexture}, "the coat reflects nothing"));
   for (ParameterSpec& p : medium_of_coat()) own.push_back(std::move(p));
   TypeSpec spec{"coatedconductor", "Metal under a coat of glass or varnish.", material(std::move(own))};
   spec.approximated =
-      "as the metal that lies in the coat's index of refraction: the coat itself reflects nothing";
+      "as metal surrounded by the coat's index of refraction: the coat itself reflects nothing";
   return {std::move(spec), make_coated_conductor};
 }
 
 MaterialRow measured_row() {
-  TypeSpec spec{"measured", "A BSDF that was measured.", material({text("filename", "none", "is not read")})};
-  spec.approximated = "as \"diffuse\" of reflectance 0.5: its file is not read";
+  TypeSpec spec{"measured", "A measured BSDF.",
+                material({text("filename", "none", "file of the measurements; it is not read")})};
+  spec.approximated = "as \"diffuse\" with reflectance 0.5: the file is not read";
   return {std::move(spec), [](const MaterialInputs&) -> Bsdf { return Lambertian{Rgb(0.5f)}; }};
 }
 

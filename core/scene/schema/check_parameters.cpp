@@ -55,7 +55,7 @@ bool check_type(const Context& c, const ParameterSpec& spec, const Parameter& p)
     case ParameterType::kSpectrum:
     case ParameterType::kBlackbody:
       c.diagnostics.error(p.location,
-                          fmt::format("{} is not rendered: {} takes {} only", given, c.owner(), expected));
+                          fmt::format("{} is not supported: {} takes only {}", given, c.owner(), expected));
       break;
     default:
       c.diagnostics.error(p.location,
@@ -168,7 +168,7 @@ const TypeSpec* find_type(const Category& category, const Directive& directive, 
   const auto& pbrt = category.only_in_pbrt;
   if (std::find(pbrt.begin(), pbrt.end(), directive.type) != pbrt.end()) {
     diagnostics.error(directive.type_location,
-                      fmt::format("pbrt's {} \"{}\" is not rendered; there are: {}", category.noun,
+                      fmt::format("pbrt's {} \"{}\" is not supported; known: {}", category.noun,
                                   directive.type, fmt::join(names, ", ")));
   } else {
     diagnostics.error(directive.type_location,

@@ -14,13 +14,14 @@ namespace {
 using namespace spec;
 
 ParameterSpec scale() {
-  return number("scale", 1, "", kNotNegative, "multiplies the light");
+  return number("scale", 1, "", kNotNegative, "factor on the emission");
 }
 ParameterSpec power_spec() {
-  return without_default(number("power", 0, "W", kPositive,
-                                "total power of a white light: the luminance of that of a coloured one is as "
-                                "many times as much as its colour's, as in pbrt. `scale` multiplies it"),
-                         "none");
+  return without_default(
+      number("power", 0, "W", kPositive,
+             "total power of a white light; the luminance of a coloured light's power is this "
+             "value times the luminance of its colour, as in pbrt. `scale` is a further factor"),
+      "none");
 }
 ParameterSpec image(std::string_view doc) {
   return text("filename", "none", doc);
@@ -41,7 +42,8 @@ bool scale_to(const LightInputs& in, std::string_view name, double of_white, Emi
   const ParameterReader& p = in.parameters;
   if (p.has(name)) {
     if (!(of_white > 0) || is_dark(emission)) {
-      in.diagnostics.error(p.location(name), fmt::format("`{}` of a light that emits nothing", name));
+      in.diagnostics.error(p.location(name),
+                           fmt::format("`{}` is given for a light that emits nothing", name));
       return false;
     }
     emission *= static_cast<float>(p.number(name)) / static_cast<float>(of_white);
@@ -88,8 +90,8 @@ std::optional<glm::mat3> rotation(const LightInputs& in) {
   for (int c = 0; c < 3; ++c) {
     if (glm::length(m[c] - size * orthogonal[c]) <= kTolerance * size) continue;
     in.diagnostics.error(in.parameters.directive().location,
-                         "the transform of this light scales unevenly or shears: expected a rotation, with "
-                         "mirroring or even scaling");
+                         "the transform of this light scales non-uniformly or shears: expected a rotation, "
+                         "mirroring or uniform scaling");
     return std::nullopt;
   }
   return glm::mat3(orthogonal);
@@ -232,51 +234,52 @@ ParameterSpec illuminance(std::string_view doc) {
 }
 
 ParameterSpec portal() {
-  ParameterSpec p =
-      list(ParameterType::kPoint3, "portal", 4, "none", "m",
-           "corners of a rectangle, in the world, through which alone the light comes; the sky is "
-           "on the side of cross(p3 - p0, p1 - p0)");
+  ParameterSpec p = list(ParameterType::kPoint3, "portal", 4, "none", "m",
+                         "corners, in world space, of a rectangle through which all light enters; the sky is "
+                         "on the side of cross(p3 - p0, p1 - p0)");
   p.max_items = 4;
   return p;
 }
 
 std::vector<LightRow> make_light_rows() {
   const ParameterSpec intensity = rgb("I", 1, "W/sr", kNotNegative, "radiant intensity");
-  const ParameterSpec from = point("from", {0, 0, 0}, "where it stands");
-  const ParameterSpec to = point("to", {0, 0, 1}, "where it points");
+  const ParameterSpec from = point("from", {0, 0, 0}, "position");
+  const ParameterSpec to = point("to", {0, 0, 1}, "point that the light is aimed at");
   return {
-      {{"point", "Shines alike in all directions.", {intensity, scale(), power_spec(), from}}, make_point},
+      {{"point", "Emits equally in all directions.", {intensity, scale(), power_spec(), from}}, make_point},
       {{"spot",
-        "Shines in a cone; falls off smoothly over its last `conedeltaangle` degrees.",
+        "Emits into a cone, with a smooth falloff over the last `conedeltaangle` degrees.",
         {intensity, scale(), power_spec(), from, to,
-         number("coneangle", 30, "degrees", {0, 180, true, false}, "from the axis to the cone's edge"),
-         number("conedeltaangle", 5, "degrees", {0, 180}, "width of the fall-off inside that edge")}},
+         number("coneangle", 30, "degrees", {0, 180, true, false},
+                "angle from the axis to the edge of the cone"),
+         number("conedeltaangle", 5, "degrees", {0, 180}, "width of the falloff inside the edge")}},
        make_spot},
       {{"goniometric",
-        "Shines from a point, by an image of all directions whose +z is the light's +y.",
+        "A point light whose intensity in each direction is given by an image; the image's +z is the light's "
+        "+y.",
         {intensity, scale(), power_spec(),
-         image(
-             "factor of `I`, the mean of R, G and B: a square equal-area map, or a latitude-longitude map of "
-             "2:1 (not in pbrt-v4)")}},
+         image("factor on `I`, the mean of R, G and B: a square equal-area map, or a 2:1 latitude-longitude "
+               "map "
+               "(not in pbrt-v4)")}},
        make_goniometric},
       {{"projection",
-        "Shines from a point, through an image before it: along +z, its upper edge towards +y.",
+        "A projector: emits from a point along +z through an image whose upper edge is towards +y.",
         {scale(), power_spec(), image("radiant intensity, R G B"),
          number("fov", 90, "degrees", {0, 180, true, true}, "full angle of the image's shorter side")}},
        make_projection},
       {{"distant",
         "Parallel light from `from` towards `to`.",
-        {rgb("L", 1, "W/m^2", kNotNegative, "irradiance on a plane that faces it"), scale(),
-         illuminance("irradiance of white light, which `L` and `scale` multiply"), from, to}},
+        {rgb("L", 1, "W/m^2", kNotNegative, "irradiance on a plane facing the light"), scale(),
+         illuminance("irradiance of a white light; `L` and `scale` are factors on it"), from, to}},
        make_distant},
       {{"infinite",
-        "Radiance from every direction: the same, or by an image.",
+        "Radiance from every direction: constant, or given by an image.",
         {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(),
-         illuminance("irradiance of a plane that faces the light's +z, of white light, which `L` and `scale` "
-                     "multiply; for images and portals the luminance of that irradiance, which `scale` "
-                     "multiplies"),
-         image("radiance: a square equal-area map as in pbrt-v4, or a latitude-longitude map of 2:1 as in "
-               "pbrt-v3, both about +z"),
+         illuminance(
+             "irradiance on a plane facing the light's +z: for a constant light that of white light, with "
+             "`L` and `scale` as factors; for images and portals its luminance, with `scale` as a factor"),
+         image("radiance: a square equal-area map as in pbrt-v4, or a 2:1 latitude-longitude map as in "
+               "pbrt-v3, both around +z"),
          portal()}},
        make_infinite},
   };
@@ -284,13 +287,13 @@ std::vector<LightRow> make_light_rows() {
 
 std::vector<TypeSpec> make_area_light_types() {
   return {{"diffuse",
-           "Makes the shapes that follow emit the same radiance in all directions, on their outside. Where a "
-           "shape's `alpha` is 0 everywhere it shines, but no ray meets it.",
+           "Makes the shapes that follow emit the same radiance in all directions on their outside. A "
+           "shape whose `alpha` is 0 everywhere emits light, but rays do not hit it.",
            {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(), power_spec(),
             flag("twosided", false, "emits on both sides"),
             text("filename", "none",
                  "radiance instead of `L`: an image over the uv of the shape, (0, 0) its lower left corner; "
-                 "bilinear, clamped at the edges")}}};
+                 "interpolated bilinearly and clamped at the edges")}}};
 }
 
 }  // namespace

@@ -28,22 +28,24 @@ std::vector<ParameterSpec> material(std::vector<ParameterSpec> own) {
 }
 
 std::vector<ParameterSpec> rough_material(std::vector<ParameterSpec> own) {
-  own.push_back(number("roughness", 0, "", kNotNegative, "of GGX microfacets; 0: smooth"));
+  own.push_back(number("roughness", 0, "", kNotNegative, "roughness of the GGX microfacets; 0: smooth"));
   for (const std::string_view name : {"uroughness", "vroughness"})
-    own.push_back(
-        without_default(number(name, 0, "", kNotNegative, "along u (v) of the surface"), "roughness"));
-  own.push_back(flag("remaproughness", true, "alpha of GGX is the root of roughness, else roughness itself"));
+    own.push_back(without_default(
+        number(name, 0, "", kNotNegative, "roughness along u (or v) of the surface"), "roughness"));
+  own.push_back(
+      flag("remaproughness", true,
+           "true: the alpha of GGX is the square root of the roughness; false: it is the roughness"));
   return material(std::move(own));
 }
 
 std::vector<ParameterSpec> medium_of_coat() {
   constexpr ParameterType kNumber = ParameterType::kFloat;
   return {ignored("albedo", {ParameterType::kRgb, kNumber, ParameterType::kTexture},
-                  "there is no medium in the coat", 0),
-          ignored("g", {kNumber, ParameterType::kTexture}, "of a medium", 0),
+                  "the coat holds no medium", 0),
+          ignored("g", {kNumber, ParameterType::kTexture}, "the coat holds no medium", 0),
           ignored("thickness", {kNumber, ParameterType::kTexture}, "no effect without a medium", 0.01),
-          ignored("maxdepth", {ParameterType::kInteger}, "all inner reflections are there", 10),
-          ignored("nsamples", {ParameterType::kInteger}, "no random walk", 1)};
+          ignored("maxdepth", {ParameterType::kInteger}, "all inner reflections are included", 10),
+          ignored("nsamples", {ParameterType::kInteger}, "no random walk is made", 1)};
 }
 
 ParameterSpec metal_index(std::string_view name, std::string_view doc) {

@@ -56,13 +56,13 @@ std::vector<MaterialRow> make_material_rows() {
         rough_material(
             {without_default(rgb("reflectance", 0, "", kUnit, "reflectance at normal incidence"), "none"),
              metal_index("eta", "real part of the index of refraction"),
-             metal_index("k", "imaginary part")})},
+             metal_index("k", "imaginary part of the index of refraction")})},
        [](const MaterialInputs& p) -> Bsdf { return metal_of(p); }},
       {{"mirror", "Ideal mirror of constant reflectance, both sides. Not in pbrt.",
         material({rgb("reflectance", 1, "", kUnit, "share of the light that is reflected")})},
        [](const MaterialInputs& p) -> Bsdf { return Mirror{p.rgb("reflectance")}; }},
       {{"thindielectric",
-        "A pane of glass without thickness: all reflections in it, and straight transmission.",
+        "A pane of glass without thickness: straight transmission, and all reflections inside it.",
         material(
             {number("eta", 1.5, "", kPositive, "index of refraction of the pane over its surroundings")})},
        [](const MaterialInputs& p) -> Bsdf { return ThinDielectric{static_cast<float>(p.number("eta"))}; }},
@@ -70,8 +70,8 @@ std::vector<MaterialRow> make_material_rows() {
         "A sheet that scatters light evenly to both sides. Shares that add up to more than one are scaled to "
         "one; pbrt lets such a sheet create light.",
         material({rgb("reflectance", 0.25, "", kUnit, "share of the light that is reflected"),
-                  rgb("transmittance", 0.25, "", kUnit, "share that comes through"),
-                  number("scale", 1, "", kNotNegative, "multiplies both shares, up to one each")})},
+                  rgb("transmittance", 0.25, "", kUnit, "share of the light that is transmitted"),
+                  number("scale", 1, "", kNotNegative, "factor on both shares, which are limited to one")})},
        make_diffuse_transmission},
       {{"coateddiffuse",
         "Diffuse under a coat of glass or varnish, both sides. All reflections between coat and base are "
@@ -86,7 +86,7 @@ std::vector<MaterialRow> make_material_rows() {
         "At each hit one of two materials; the second with probability `amount`. Both are named materials "
         "defined before it, and may be mixtures themselves.",
         {two_names("materials", "names of the first and the second material"),
-         textured(number("amount", 0.5, "", kUnit, "share of the second material"))}},
+         textured(number("amount", 0.5, "", kUnit, "probability of the second material"))}},
        nullptr},
       {{"interface", "No surface at all: its shapes are left out.", {}}, nullptr},
   };

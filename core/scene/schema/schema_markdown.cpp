@@ -31,7 +31,7 @@ std::string default_text(const ParameterSpec& p) {
 std::string row(const ParameterSpec& p) {
   std::string meaning(p.doc);
   if (p.state == ParameterState::kIgnored) meaning = "*ignored with a warning:* " + meaning;
-  if (p.neutral) meaning += fmt::format(" ({} is accepted in silence)", *p.neutral);
+  if (p.neutral) meaning += fmt::format(" ({} is accepted without a warning)", *p.neutral);
   return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, type_text(p), default_text(p), p.unit,
                      p.range.text(), meaning);
 }
@@ -60,8 +60,8 @@ std::string schema_markdown() {
                           table(*type));
     }
     if (!c.only_in_pbrt.empty()) {
-      text +=
-          fmt::format("Of pbrt, and not rendered (an error): `{}`.\n\n", fmt::join(c.only_in_pbrt, "`, `"));
+      text += fmt::format("Types of pbrt that are not supported (an error): `{}`.\n\n",
+                          fmt::join(c.only_in_pbrt, "`, `"));
     }
   }
   return text + fmt::format("### Option\n\n{}\n\n{}", option_type().doc, table(option_type()));

@@ -12,12 +12,11 @@ using Type = ParameterType;
 
 // Adds the parameters that all shapes have.
 std::vector<ParameterSpec> shape(std::vector<ParameterSpec> own) {
+  own.push_back(text("surfacegroup", "found from shared edges",
+                     "name of the surface that the shape is part of: photons are shared among all shapes of "
+                     "that name, and with no others. Not in pbrt"));
   own.push_back(
-      text("surfacegroup", "found from shared edges",
-           "name of the surface that the shape is a part of: photons count across all shapes of one "
-           "name, and of no other. Not in pbrt"));
-  own.push_back(textured(number("alpha", 1, "", kUnit,
-                                "share of the surface that is there: rays meet it with this probability")));
+      textured(number("alpha", 1, "", kUnit, "opacity: the probability that a ray hits the surface")));
   return own;
 }
 
@@ -29,41 +28,45 @@ std::vector<TypeSpec> make_shape_types() {
   const ParameterSpec face_indices =
       ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
   const Range turn{0, 360, true, false};
-  const ParameterSpec phimax =
-      number("phimax", 360, "degrees", turn, "how far it reaches about the axis, from +x");
+  const ParameterSpec phimax = number("phimax", 360, "degrees", turn, "extent about the axis, from +x");
   return {
       {"trianglemesh", "Triangles. Without `N`, the outside is the side of cross(p1 - p0, p2 - p0).",
        shape({P,
               list(Type::kInteger, "indices", 3, "0 1 2 when there are three vertices", "",
-                   "three vertices per triangle, from zero"),
+                   "three vertex indices per triangle, counted from zero"),
               N, uv, ignored("S", {Type::kVector3}, "tangents"), face_indices})},
       {"plymesh", "Triangles, quads and polygons of a PLY file (ascii or binary), with normals and uv.",
-       shape({text("filename", "required", "beside the scene file, unless absolute"),
-              ignored("displacement", {Type::kTexture, Type::kFloat}, "displaced geometry", 0),
-              ignored("edgelength", {Type::kFloat}, "of displaced geometry")})},
-      {"sphere", "About the origin, exact; an ellipsoid under a transform that does not scale evenly.",
+       shape({text("filename", "required", "path, relative to the scene file"),
+              ignored("displacement", {Type::kTexture, Type::kFloat}, "displacement is not supported", 0),
+              ignored("edgelength", {Type::kFloat}, "displacement is not supported")})},
+      {"sphere",
+       "A sphere about the origin, exact; under a transform that scales non-uniformly, an ellipsoid.",
        shape({number("radius", 1, "m", kPositive, "radius"),
-              without_default(number("zmin", 0, "m", kAnyNumber, "where it is cut off below"), "-radius"),
-              without_default(number("zmax", 0, "m", kAnyNumber, "where it is cut off above"), "radius"),
+              without_default(number("zmin", 0, "m", kAnyNumber, "lower limit, where the sphere is cut off"),
+                              "-radius"),
+              without_default(number("zmax", 0, "m", kAnyNumber, "upper limit, where the sphere is cut off"),
+                              "radius"),
               phimax})},
-      {"cylinder", "About the z axis, without caps; the outside is away from the axis.",
+      {"cylinder", "A cylinder about the z axis, without caps; the outside is away from the axis.",
        shape({number("radius", 1, "m", kPositive, "radius"), number("zmin", -1, "m", kAnyNumber, "lower end"),
               number("zmax", 1, "m", kAnyNumber, "upper end"), phimax})},
-      {"disk", "In the plane z = height; the outside is the side of +z.",
+      {"disk", "A disk in the plane z = height; the outside is the side of +z.",
        shape({number("radius", 1, "m", kPositive, "outer radius"),
               number("innerradius", 0, "m", kNotNegative, "radius of the hole"),
-              number("height", 0, "m", kAnyNumber, "where it lies along z"), phimax})},
+              number("height", 0, "m", kAnyNumber, "position along z"), phimax})},
       {"bilinearmesh",
        "Patches of four corners p00 p10 p01 p11. Flat convex ones become two triangles, others a grid.",
        shape({list(Type::kPoint3, "P", 4, "required", "m", "corners"),
               list(Type::kInteger, "indices", 4, "0 1 2 3 when there are four corners", "",
-                   "four corners per patch, from zero"),
+                   "four corner indices per patch, counted from zero"),
               N, uv, face_indices,
-              ignored("emissionfilename", {Type::kString}, "lights are sampled by their own image")})},
+              ignored("emissionfilename", {Type::kString}, "an area light is sampled by its own image")})},
       {"loopsubdiv", "The limit surface of Loop's subdivision (Loop 1987), as triangles with its normals.",
-       shape({P, list(Type::kInteger, "indices", 3, "required", "", "three vertices per triangle, from zero"),
-              integer("levels", 3, "", {0, 12}, "how often each triangle is cut into four"),
-              ignored("scheme", {Type::kString}, "there is one scheme")})},
+       shape({P,
+              list(Type::kInteger, "indices", 3, "required", "",
+                   "three vertex indices per triangle, counted from zero"),
+              integer("levels", 3, "", {0, 12}, "how many times each triangle is divided into four"),
+              ignored("scheme", {Type::kString}, "there is only one scheme")})},
   };
 }
 
@@ -82,32 +85,34 @@ std::vector<TypeSpec> make_film_types() {
       "The image.",
       {integer("xresolution", 1280, "pixels", side, "width"),
        integer("yresolution", 720, "pixels", side, "height"),
-       text("filename", "named after the scene", "where the image goes unless `-o` says so"), crop, bounds,
-       number("diagonal", 35, "mm", kPositive, "of pbrt's realistic camera; without effect on the others"),
-       text("sensor", "cie1931", "colours are those of this one, in linear Rec. 709"),
+       text("filename", "named after the scene", "name of the image file; the command line may give another"),
+       crop, bounds, number("diagonal", 35, "mm", kPositive, "affects only pbrt's realistic camera"),
+       text("sensor", "cie1931",
+            "only `cie1931` is available, in linear Rec. 709; pbrt's other sensors are replaced by it"),
        number("iso", 100, "", kPositive, "radiance is multiplied by iso / 100"),
        without_default(number("exposuretime", 1, "s", kPositive, "radiance is multiplied by it"),
                        "shutterclose - shutteropen"),
-       number("whitebalance", 0, "K", {0, 25000}, "daylight of this colour becomes white; 0: as it is"),
+       number("whitebalance", 0, "K", {0, 25000},
+              "colour temperature of the light that becomes white; 0: no white balance"),
        ignored("maxcomponentvalue", {Type::kFloat}, "samples are not clamped"),
        ignored("savefp16", {Type::kBool}, "layers are 32-bit floats")}};
   TypeSpec gbuffer = rgb, spectral = rgb;
   gbuffer.name = "gbuffer";
-  gbuffer.approximated = "as \"rgb\"; `--aov` chooses layers";
+  gbuffer.approximated = "as \"rgb\"; the layers are chosen on the command line";
   gbuffer.parameters.push_back(
-      ignored("coordinatesystem", {Type::kString}, "layers are in the world's coordinates"));
+      ignored("coordinatesystem", {Type::kString}, "layers are in world coordinates"));
   spectral.name = "spectral";
-  spectral.approximated = "as \"rgb\": there are three colours";
-  spectral.parameters.push_back(ignored("nbuckets", {Type::kInteger}, "there are three colours"));
+  spectral.approximated = "as \"rgb\": light is rendered in three colours";
+  spectral.parameters.push_back(ignored("nbuckets", {Type::kInteger}, "light is rendered in three colours"));
   for (const std::string_view name : {"lambdamin", "lambdamax"})
-    spectral.parameters.push_back(ignored(name, {Type::kFloat}, "there are three colours"));
+    spectral.parameters.push_back(ignored(name, {Type::kFloat}, "light is rendered in three colours"));
   return {std::move(rgb), std::move(gbuffer), std::move(spectral)};
 }
 
 std::vector<TypeSpec> make_sampler_types() {
-  const ParameterSpec seed = ignored("seed", {Type::kInteger}, "use `--seed`");
+  const ParameterSpec seed = ignored("seed", {Type::kInteger}, "the seed is chosen on the command line");
   const ParameterSpec scrambling =
-      ignored("randomization", {Type::kString}, "always Owen-scrambled Sobol points");
+      ignored("randomization", {Type::kString}, "the points are always Owen-scrambled Sobol points");
   const ParameterSpec samples = integer("pixelsamples", 16, "", {1, 1 << 30}, "samples per pixel");
   std::vector<TypeSpec> types;
   for (const std::string_view name : {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "zsobol"}) {
@@ -119,35 +124,36 @@ std::vector<TypeSpec> make_sampler_types() {
                    "Gives xsamples times ysamples samples per pixel.",
                    {integer("xsamples", 4, "", {1, 1 << 15}, "columns of strata"),
                     integer("ysamples", 4, "", {1, 1 << 15}, "rows of strata"), seed,
-                    ignored("jitter", {Type::kBool}, "always jittered")}});
+                    ignored("jitter", {Type::kBool}, "samples are always jittered")}});
   return types;
 }
 
 std::vector<TypeSpec> make_accelerator_types() {
   return {{"bvh",
-           "Accepted; Embree builds its own.",
-           {ignored("maxnodeprims", {Type::kInteger}, "of pbrt's own tree"),
-            ignored("splitmethod", {Type::kString}, "of pbrt's own tree")}},
+           "Accepted; Embree builds its own BVH.",
+           {ignored("maxnodeprims", {Type::kInteger}, "a parameter of pbrt's own accelerator"),
+            ignored("splitmethod", {Type::kString}, "a parameter of pbrt's own accelerator")}},
           {"kdtree",
-           "Accepted; Embree builds its own.",
-           {ignored("intersectcost", {Type::kInteger}, "of pbrt's own tree"),
-            ignored("traversalcost", {Type::kInteger}, "of pbrt's own tree"),
-            ignored("emptybonus", {Type::kFloat}, "of pbrt's own tree"),
-            ignored("maxprims", {Type::kInteger}, "of pbrt's own tree"),
-            ignored("maxdepth", {Type::kInteger}, "of pbrt's own tree")}}};
+           "Accepted; Embree builds its own BVH.",
+           {ignored("intersectcost", {Type::kInteger}, "a parameter of pbrt's own accelerator"),
+            ignored("traversalcost", {Type::kInteger}, "a parameter of pbrt's own accelerator"),
+            ignored("emptybonus", {Type::kFloat}, "a parameter of pbrt's own accelerator"),
+            ignored("maxprims", {Type::kInteger}, "a parameter of pbrt's own accelerator"),
+            ignored("maxdepth", {Type::kInteger}, "a parameter of pbrt's own accelerator")}}};
 }
 
 TypeSpec make_option_type() {
   TypeSpec type{"", "Settings of the program pbrt.", {}};
   for (const std::string_view name : {"disablepixeljitter", "disabletexturefiltering",
                                       "disablewavelengthjitter", "forcediffuse", "pixelstats", "wavefront"}) {
-    type.parameters.push_back(ignored(name, {Type::kBool}, "of the program pbrt", 0));
+    type.parameters.push_back(ignored(name, {Type::kBool}, "a setting of the program pbrt", 0));
   }
-  type.parameters.push_back(ignored("displacementedgescale", {Type::kFloat}, "of the program pbrt", 1));
+  type.parameters.push_back(
+      ignored("displacementedgescale", {Type::kFloat}, "a setting of the program pbrt", 1));
   for (const std::string_view name : {"msereferenceimage", "msereferenceout", "rendercoordsys"}) {
-    type.parameters.push_back(ignored(name, {Type::kString}, "of the program pbrt"));
+    type.parameters.push_back(ignored(name, {Type::kString}, "a setting of the program pbrt"));
   }
-  type.parameters.push_back(ignored("seed", {Type::kInteger}, "use `--seed`"));
+  type.parameters.push_back(ignored("seed", {Type::kInteger}, "the seed is chosen on the command line"));
   return type;
 }
 

@@ -40,7 +40,7 @@ std::optional<Topology> topology_of(const Mesh& mesh, std::string* error) {
   for (uint32_t h = 0; h < halves; ++h) {
     const auto [low, high] = std::minmax({mesh.from(h), mesh.to(h)});
     if (low == high) {
-      *error = fmt::format("triangle {} has a vertex twice", h / 3);
+      *error = fmt::format("triangle {} has the same vertex twice", h / 3);
       return std::nullopt;
     }
     edges.push_back({uint64_t{low} << 32 | high, h});
@@ -101,7 +101,7 @@ bool is_manifold(const Mesh& mesh, const Topology& top, std::string* error) {
   for (uint32_t v = 0; v < mesh.P.size(); ++v) {
     find_ring(mesh, top, v, &ring);
     if (ring.vertices.size() - (ring.boundary ? 1 : 0) == corners[v]) continue;
-    *error = fmt::format("several fans of triangles meet in vertex {}", v);
+    *error = fmt::format("several fans of triangles meet at vertex {}", v);
     return false;
   }
   return true;
@@ -219,8 +219,8 @@ TriangleMesh at_limit(const Mesh& mesh, const Topology& top) {
 
 std::optional<TriangleMesh> subdivide_loop(const TriangleMesh& cage, int levels, std::string* error) {
   if (std::ldexp(static_cast<double>(cage.indices.size()), 2 * levels) > double(kMostSubdivided)) {
-    *error = fmt::format("{} triangles at {} levels are more than the {} that are accepted",
-                         cage.indices.size(), levels, kMostSubdivided);
+    *error = fmt::format("{} triangles at {} levels exceed the limit of {} triangles", cage.indices.size(),
+                         levels, kMostSubdivided);
     return std::nullopt;
   }
   Mesh mesh;

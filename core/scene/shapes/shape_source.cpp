@@ -59,7 +59,7 @@ std::optional<std::vector<std::array<uint32_t, kSize>>> faces(const Context& c, 
     return std::nullopt;
   }
   if (p->numbers.size() % kSize != 0) {
-    c.error(p->location, fmt::format("`indices` of shape \"{}\" come in groups of {}, not {} in all",
+    c.error(p->location, fmt::format("`indices` of shape \"{}\" come in groups of {}, but there are {}",
                                      c.shape.type, kSize, p->numbers.size()));
     return std::nullopt;
   }
@@ -150,7 +150,7 @@ bool check_extent(const Context& c, double z_min, double z_max) {
   if (z_min < z_max) return true;
   c.error(
       c.reader.location(c.shape.find("zmin") ? "zmin" : "zmax"),
-      fmt::format("nothing of the {} lies between `zmin` = {} and `zmax` = {}", c.shape.type, z_min, z_max));
+      fmt::format("no part of the {} lies between `zmin` = {} and `zmax` = {}", c.shape.type, z_min, z_max));
   return false;
 }
 

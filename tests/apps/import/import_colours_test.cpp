@@ -143,7 +143,7 @@ TEST_F(ImportColours, WhiteBalance) {
 
 TEST_F(ImportColours, Sensors) {
   EXPECT_THAT(messages("Film \"rgb\" \"string sensor\" \"canon_eos_5d\"\nWorldBegin"),
-              testing::HasSubstr("warning: sensor \"canon_eos_5d\" is taken for \"cie1931\""));
+              testing::HasSubstr("warning: sensor \"canon_eos_5d\" is replaced by \"cie1931\""));
   EXPECT_THAT(messages("Film \"rgb\" \"string sensor\" \"canon_eos_6d\"\nWorldBegin"),
               testing::HasSubstr("error: unknown sensor \"canon_eos_6d\"; did you mean"));
   EXPECT_THAT(messages("Camera \"perspective\" \"float shutterclose\" 0\nWorldBegin"),

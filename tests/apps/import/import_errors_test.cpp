@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(LightSource "point" "spectrum I" [ 300 1 350 1 ])",
              R"(2:36: error: the light of `I` is invisible: its spectrum is zero from 360 nm to 830 nm)"},
         Case{R"(LightSource "point" "blackbody scale" 5500)",
-             R"(2:21: error: "blackbody scale" is not rendered: light "point" takes "float scale" only)"},
+             R"(2:21: error: "blackbody scale" is not supported: light "point" takes only "float scale")"},
         Case{
             R"(Material "diffuse" "float reflectance" .5)",
             R"(2:20: error: "float reflectance" has the wrong type: material "diffuse" takes "rgb reflectance" or )"
@@ -101,18 +101,17 @@ INSTANTIATE_TEST_SUITE_P(
              R"(2:42: error: `reflectance` of material "diffuse" must be >= 0 and <= 1, not 1.5)"},
         Case{R"(Material "orennayar" "float sigma" 91)",
              R"(2:36: error: `sigma` of material "orennayar" must be >= 0 and <= 90, not 91)"},
-        Case{
-            R"(Material "coateddiffuse" "float albedo" .5)",
-            R"(2:26: warning: `albedo` of material "coateddiffuse" is ignored: there is no medium in the coat)"},
+        Case{R"(Material "coateddiffuse" "float albedo" .5)",
+             R"(2:26: warning: `albedo` of material "coateddiffuse" is ignored: the coat holds no medium)"},
         Case{
             R"(Material "hair")",
-            R"(2:10: error: pbrt's material "hair" is not rendered; there are: diffuse, orennayar, )"
+            R"(2:10: error: pbrt's material "hair" is not supported; known: diffuse, orennayar, )"
             R"(dielectric, conductor, mirror, thindielectric, diffusetransmission, coateddiffuse, mix, interface, )"
             R"(subsurface, coatedconductor, measured)"},
         Case{
             R"(Material "measured" "string filename" "x.bsdf" Material "measured")",
-            R"(2:10: warning: material "measured" is approximated: as "diffuse" of reflectance 0.5: its file is not )"
-            R"(read)"},
+            R"(2:10: warning: material "measured" is approximated: as "diffuse" with reflectance 0.5: the file is )"
+            R"(not read)"},
         Case{R"(Material "mix" "float amount" 1.5)",
              R"(2:31: error: `amount` of material "mix" must be >= 0 and <= 1, not 1.5)"},
         Case{R"(Material "diffuse" "string normalmap" "n.png")",
@@ -120,10 +119,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(Shape "sphere" "float radius" 1 "float radius" 2)",
              R"(2:33: warning: this `radius` replaces an earlier one)"},
         Case{R"(Shape "curve")",
-             R"(2:7: error: pbrt's shape "curve" is not rendered; there are: trianglemesh, plymesh, )"
+             R"(2:7: error: pbrt's shape "curve" is not supported; known: trianglemesh, plymesh, )"
              R"(sphere, cylinder, disk, bilinearmesh, loopsubdiv)"},
         Case{R"(Shape "sphere" "float zmin" .5 "float zmax" .5)",
-             R"(2:29: error: nothing of the sphere lies between `zmin` = 0.5 and `zmax` = 0.5)"},
+             R"(2:29: error: no part of the sphere lies between `zmin` = 0.5 and `zmax` = 0.5)"},
         Case{R"(Shape "disk" "float phimax" 361)",
              R"(2:29: error: `phimax` of shape "disk" must be > 0 and <= 360, not 361)"},
         Case{R"(Shape "disk" "float innerradius" 1)",
@@ -133,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 3])",
              R"(2:76: error: index 3 is out of range: there are 3 vertices)"},
         Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 2 0])",
-             R"(2:53: error: `indices` of shape "trianglemesh" come in groups of 3, not 4 in all)"},
+             R"(2:53: error: `indices` of shape "trianglemesh" come in groups of 3, but there are 4)"},
         Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "normal N" [0 0 1])",
              R"(2:53: error: `N` has 1 entries for 3 vertices)"},
         Case{R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1])",
@@ -145,18 +144,19 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(Scale 1e30 1 1 Scale 1e30 1 1 Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0])",
              R"(2:31: error: the transform of this shape cannot be inverted)"},
         Case{R"(Scale 1 2 1 AreaLightSource "diffuse" Shape "sphere")",
-             R"(2:39: error: a sphere or cylinder that is scaled unevenly cannot be a light)"},
+             R"(2:39: error: a sphere or cylinder that is scaled non-uniformly cannot be a light)"},
         Case{R"(Material "interface" AreaLightSource "diffuse" Shape "sphere")",
-             R"(2:48: warning: the area light is ignored: material "interface" is no surface)"},
+             R"(2:48: warning: the area light is ignored: material "interface" is not a surface)"},
         Case{R"(LightSource "point" "rgb I" [0 0 0] "float power" 3)",
-             R"(2:51: error: `power` of a light that emits nothing)"},
+             R"(2:51: error: `power` is given for a light that emits nothing)"},
         Case{R"(AreaLightSource "diffuse" "string filename" "tv.exr" Shape "sphere")",
              R"(2:45: error: cannot open "tv.exr": no such file)"},
         Case{R"(LightSource "projection")",
              R"(2:1: error: light "projection" needs an image: "string filename")"},
         Case{
             R"(Scale 1 2 1 LightSource "goniometric" "string filename" "light.exr")",
-            R"(2:13: error: the transform of this light scales unevenly or shears: expected a rotation, with mirroring or even scaling)"},
+            R"(2:13: error: the transform of this light scales non-uniformly or shears: expected a rotation, )"
+            R"(mirroring or uniform scaling)"},
         Case{R"(LightSource "infinite" "string filename" "sky.exr" "rgb L" [1 1 1])",
              R"(2:61: error: an infinite light has `L` or `filename`, not both)"},
         Case{R"(LightSource "infinite" "point3 portal" [0 0 0 1 0 0 1 1 0])",

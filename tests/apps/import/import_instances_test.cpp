@@ -70,7 +70,7 @@ TEST_F(ImportInstances, EitherEndOfQuadricsMayComeFirst) {
 
 TEST_F(ImportInstances, NothingIsLeftOfShapesIsAnError) {
   EXPECT_EQ(first_lines("Shape \"cylinder\" \"float zmin\" 2 \"float zmax\" 2"),
-            "2:31: error: nothing of the cylinder lies between `zmin` = 2 and `zmax` = 2\n");
+            "2:31: error: no part of the cylinder lies between `zmin` = 2 and `zmax` = 2\n");
   EXPECT_EQ(first_lines("Shape \"sphere\" \"float phimax\" 0"),
             "2:31: error: `phimax` of shape \"sphere\" must be > 0 and <= 360, not 0\n");
   EXPECT_EQ(first_lines("AreaLightSource \"diffuse\" Scale 1 2 1 Shape \"cylinder\"")

@@ -101,7 +101,7 @@ TEST_F(ImportLightImages, BadImagesAreRefusedWithTheirPlace) {
 TEST_F(ImportLightImages, PixelsBelowZeroCountAsZero) {
   write_exr("negative.exr", 4, 4, Rgb(1), {-1, 2, 3});
   EXPECT_EQ(first_lines("LightSource \"infinite\" \"string filename\" \"negative.exr\" Shape \"sphere\""),
-            "2:42: warning: \"negative.exr\": 1 pixel below zero: taken as zero, the first is pixel (3, 3), "
+            "2:42: warning: \"negative.exr\": 1 negative pixel taken as zero; the first is pixel (3, 3), "
             "-1 2 3\n");
   EXPECT_TRUE(loaded_);
 }

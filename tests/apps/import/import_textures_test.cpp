@@ -133,14 +133,14 @@ TEST_F(ImportTextures, SaysWhatIsWrongWithTextures) {
             "2:13: error: a texture is \"float\" or \"spectrum\", not \"colour\"; known: float, spectrum\n");
   EXPECT_EQ(
       first_lines(R"(Texture "t" "float" "ptex")"),
-      "2:21: error: pbrt's texture \"ptex\" is not rendered; there are: constant, scale, mix, directionmix, "
+      "2:21: error: pbrt's texture \"ptex\" is not supported; known: constant, scale, mix, directionmix, "
       "checkerboard, dots, bilerp, imagemap, fbm, wrinkled, windy, marble\n");
   EXPECT_EQ(
       first_lines("Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"mix\""),
       "3:9: warning: texture `t` is defined again, as pbrt-v3 allows: this definition holds up to the end "
       "of the block\n");
   EXPECT_EQ(first_lines(R"(Texture "t" "float" "constant" "rgb value" [1 1 1])"),
-            "2:32: error: `value` is a number here: \"float value\"\n");
+            "2:32: error: `value` must be a number in a float texture: \"float value\"\n");
   EXPECT_EQ(first_lines(R"(Texture "t" "float" "imagemap")"),
             "2:21: error: texture \"imagemap\" needs `filename`\n");
   EXPECT_EQ(
@@ -188,7 +188,7 @@ TEST_F(ImportTextures, SaysWhatIsWrongWithNames) {
             "3:42: error: no spectrum texture is named `wod`; did you mean `wood`?\n");
   EXPECT_EQ(first_lines("Texture \"wood\" \"float\" \"constant\"\n"
                         "Material \"diffuse\" \"texture reflectance\" \"wood\""),
-            "3:42: error: `reflectance` takes a spectrum texture: `wood` is none\n");
+            "3:42: error: `reflectance` takes a spectrum texture, which `wood` is not\n");
   EXPECT_EQ(first_lines(R"(Texture "t" "float" "scale" "texture tex" "t")"),
             "2:43: error: texture `t` is used before it is defined\n");
 }
@@ -201,7 +201,7 @@ TEST_F(ImportTextures, RefusesTexturesOfTooManyTextures) {
     text += "Texture \"t" + std::to_string(i) + "\" \"float\" \"mix\" \"texture tex1\" \"t" + before +
             "\" \"texture tex2\" \"t" + before + "\"\n";
   }
-  EXPECT_NE(first_lines(text).find("at most 256 are rendered"), std::string::npos);
+  EXPECT_NE(first_lines(text).find("at most 256 are supported"), std::string::npos);
 }
 
 TEST_F(ImportTextures, SaysWhatIsWrongWithImages) {
@@ -277,7 +277,7 @@ TEST_F(ImportTextures, AmountsOfMixturesAreFloatTextures) {
     Texture "grey" "spectrum" "constant" Texture "half" "float" "constant" "float value" 0.5
     Material "mix" "string materials" ["a" "a"] "texture amount" )";
   EXPECT_EQ(first_lines(mix + "\"grey\" Shape \"sphere\""),
-            "4:66: error: `amount` takes a float texture: `grey` is none\n");
+            "4:66: error: `amount` takes a float texture, which `grey` is not\n");
   const Scene s = world(mix + "\"half\" Shape \"sphere\"");
   EXPECT_EQ(s.materials[s.shapes[0].material].mixed()->amount_texture, 1u);
 }

@@ -91,9 +91,9 @@ TEST(LoopSubdivision, RefusesWhatHasNoLimit) {
   EXPECT_NE(error_of(mesh).find("two triangles of different winding"), std::string::npos);
   mesh = octahedron();
   mesh.indices = {{0, 2, 4}, {0, 3, 5}};
-  EXPECT_EQ(error_of(mesh), "several fans of triangles meet in vertex 0");
+  EXPECT_EQ(error_of(mesh), "several fans of triangles meet at vertex 0");
   mesh.indices = {{0, 0, 1}};
-  EXPECT_EQ(error_of(mesh), "triangle 0 has a vertex twice");
+  EXPECT_EQ(error_of(mesh), "triangle 0 has the same vertex twice");
   EXPECT_NE(error_of(octahedron(), 14).find("are more than the"), std::string::npos);
 }
 
