@@ -3,17 +3,12 @@
 
 #include <iosfwd>
 
+#include "apps/console/exit_code.h"
+
 namespace kaustik::app {
 
-enum ExitCode {
-  kDone = 0,
-  kFailed = 1,          // failure while rendering or writing; `compare` above its limit
-  kBadCommandLine = 2,  // found before any work was done
-  kBadScene = 3,        // reported with file:line:column
-  kInterrupted = 130    // by SIGINT or SIGTERM
-};
-
-// Runs one command line. Results go to `out`; progress, log and errors go to `err`. Throws nothing.
+// Runs one command line and returns an ExitCode. Results go to `out`; progress, log and errors go to `err`.
+// Throws nothing.
 int run(int argc, const char* const* argv, std::ostream& out, std::ostream& err);
 
 }  // namespace kaustik::app

@@ -9,12 +9,12 @@
 
 #include "apps/bench/bench_json.h"
 #include "apps/bench/bench_table.h"
+#include "apps/bench/machine.h"
 #include "apps/bench/measure.h"
 #include "apps/bench/scaling_figures.h"
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
-#include "apps/machine/machine.h"
 #include "apps/machine/peak_memory.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/machine/usable_cores.h"

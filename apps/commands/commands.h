@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "apps/console/console.h"
-#include "apps/run.h"
+#include "apps/console/exit_code.h"
 
 namespace CLI {
 class App;

@@ -10,7 +10,7 @@
 #include "apps/convert/ply_bytes.h"
 #include "apps/convert/scene_folder.h"
 #include "apps/convert/scene_text.h"
-#include "apps/import/scene_files.h"
+#include "apps/import/common/scene_files.h"
 #include "apps/session/output_files.h"
 #include "apps/session/scene_loading.h"
 

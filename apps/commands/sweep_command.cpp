@@ -8,12 +8,12 @@
 #include <filesystem>
 
 #include "apps/bench/bench_json.h"
+#include "apps/bench/machine.h"
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
-#include "apps/import/scene_files.h"
+#include "apps/import/common/scene_files.h"
 #include "apps/machine/instruction_set.h"
-#include "apps/machine/machine.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/machine/usable_cores.h"
 #include "apps/report/sweep_report.h"

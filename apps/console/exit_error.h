@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/run.h"
+#include "apps/console/exit_code.h"
 
 namespace kaustik::app {
 

@@ -3,8 +3,8 @@
 #include <mutex>
 #include <set>
 
+#include "apps/import/common/image_files.h"
 #include "apps/import/gltf/importer.h"
-#include "apps/import/image_files.h"
 #include "apps/import/obj/obj_importer.h"
 #include "apps/import/pbrt/scene_parser.h"
 #include "apps/import/ply/ply.h"

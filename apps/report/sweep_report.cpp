@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "apps/import/scene_files.h"
+#include "apps/import/common/scene_files.h"
 #include "apps/report/html.h"
 #include "apps/session/stop_rules.h"
 #include "apps/sweep/sweep_files.h"

@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/console/exit_code.h"
 #include "apps/console/progress_bar.h"
 #include "apps/machine/thread_limit.h"
-#include "apps/run.h"
 #include "apps/session/render_job.h"
 #include "apps/session/stop_rules.h"
 #include "apps/session/time_plan.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "apps/import/scene_files.h"
+#include "apps/import/common/scene_files.h"
 
 namespace kaustik::gltf {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/import/default_view.h"
+#include "apps/import/common/default_view.h"
 #include "apps/import/gltf/deformation.h"
 #include "apps/import/gltf/lights_and_cameras.h"
 #include "apps/import/gltf/materials.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "apps/import/make_parameter.h"
+#include "apps/import/common/make_parameter.h"
 #include "core/scene/schema/schema.h"
 
 namespace kaustik::gltf {

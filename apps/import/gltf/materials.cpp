@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/import/make_parameter.h"
+#include "apps/import/common/make_parameter.h"
 
 namespace kaustik::gltf {
 namespace {

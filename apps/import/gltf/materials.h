@@ -5,9 +5,9 @@
 #include <functional>
 #include <map>
 
+#include "apps/import/common/warnings.h"
 #include "apps/import/gltf/document.h"
 #include "apps/import/gltf/textures.h"
-#include "apps/import/warnings.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {

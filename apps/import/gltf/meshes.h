@@ -1,8 +1,8 @@
 #pragma once
 // Converts the meshes of a glTF file to pbrt triangle meshes.
 
+#include "apps/import/common/warnings.h"
 #include "apps/import/gltf/document.h"
-#include "apps/import/warnings.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {

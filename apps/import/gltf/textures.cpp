@@ -4,9 +4,9 @@
 
 #include <fstream>
 
-#include "apps/import/derived_image.h"
-#include "apps/import/make_parameter.h"
-#include "apps/import/scene_files.h"
+#include "apps/import/common/derived_image.h"
+#include "apps/import/common/make_parameter.h"
+#include "apps/import/common/scene_files.h"
 
 namespace kaustik::gltf {
 namespace {

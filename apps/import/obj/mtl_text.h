@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/import/warnings.h"
+#include "apps/import/common/warnings.h"
 
 namespace kaustik {
 

@@ -11,10 +11,10 @@
 #include <iterator>
 #include <sstream>
 
-#include "apps/import/default_view.h"
-#include "apps/import/make_parameter.h"
+#include "apps/import/common/default_view.h"
+#include "apps/import/common/make_parameter.h"
+#include "apps/import/common/scene_files.h"
 #include "apps/import/obj/obj_materials.h"
-#include "apps/import/scene_files.h"
 
 namespace kaustik {
 namespace {

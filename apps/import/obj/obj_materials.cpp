@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/import/derived_image.h"
-#include "apps/import/make_parameter.h"
+#include "apps/import/common/derived_image.h"
+#include "apps/import/common/make_parameter.h"
 
 namespace kaustik {
 namespace {

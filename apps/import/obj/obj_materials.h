@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "apps/import/common/warnings.h"
 #include "apps/import/obj/mtl_text.h"
-#include "apps/import/warnings.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik {

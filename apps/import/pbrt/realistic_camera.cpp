@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-#include "apps/import/make_parameter.h"
+#include "apps/import/common/make_parameter.h"
 #include "apps/import/pbrt/parameter_parser.h"
 
 namespace kaustik::pbrt {

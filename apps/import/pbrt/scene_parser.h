@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/import/common/scene_files.h"
 #include "apps/import/pbrt/colours.h"
 #include "apps/import/pbrt/graphics_state.h"
 #include "apps/import/pbrt/pbrt_v3.h"
 #include "apps/import/pbrt/tokenizer.h"
-#include "apps/import/scene_files.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::pbrt {

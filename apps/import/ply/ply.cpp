@@ -7,10 +7,10 @@
 #include <atomic>
 #include <span>
 
-#include "apps/import/gzip.h"
+#include "apps/import/common/gzip.h"
+#include "apps/import/common/scene_files.h"
 #include "apps/import/ply/ply_body.h"
 #include "apps/import/ply/polygon.h"
-#include "apps/import/scene_files.h"
 #include "core/files/content_hash.h"
 
 namespace kaustik::pbrt {

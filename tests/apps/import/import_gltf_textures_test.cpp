@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "apps/import/derived_image.h"
-#include "apps/import/scene_files.h"
+#include "apps/import/common/derived_image.h"
+#include "apps/import/common/scene_files.h"
 #include "gltf_support.h"
 
 namespace kaustik::pbrt {

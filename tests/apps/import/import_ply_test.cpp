@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/import/gzip.h"
+#include "apps/import/common/gzip.h"
 #include "apps/import/ply/ply.h"
 #include "tests/apps/import/gzipped.h"
 #include "tests/apps/import/import_support.h"

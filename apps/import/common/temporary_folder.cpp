@@ -1,4 +1,4 @@
-#include "apps/import/temporary_folder.h"
+#include "apps/import/common/temporary_folder.h"
 
 #include <cerrno>
 #include <cstdlib>

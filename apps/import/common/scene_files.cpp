@@ -1,4 +1,4 @@
-#include "apps/import/scene_files.h"
+#include "apps/import/common/scene_files.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "apps/import/gzip.h"
+#include "apps/import/common/gzip.h"
 
 namespace kaustik::pbrt {
 

@@ -1,10 +1,10 @@
-#include "apps/import/default_view.h"
+#include "apps/import/common/default_view.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "apps/import/make_parameter.h"
+#include "apps/import/common/make_parameter.h"
 
 namespace kaustik {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/machine/machine.h"
+#include "apps/bench/machine.h"
 
 #include <fmt/format.h>
 #include <hwy/highway.h>

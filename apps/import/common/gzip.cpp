@@ -1,4 +1,4 @@
-#include "apps/import/gzip.h"
+#include "apps/import/common/gzip.h"
 
 #include <fmt/format.h>
 #include <zlib.h>

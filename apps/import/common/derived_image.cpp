@@ -1,4 +1,4 @@
-#include "apps/import/derived_image.h"
+#include "apps/import/common/derived_image.h"
 
 #include <fmt/format.h>
 

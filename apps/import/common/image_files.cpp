@@ -1,8 +1,8 @@
-#include "apps/import/image_files.h"
+#include "apps/import/common/image_files.h"
 
 #include <fmt/format.h>
 
-#include "apps/import/scene_files.h"
+#include "apps/import/common/scene_files.h"
 #include "core/files/content_hash.h"
 #include "render/picture/image_io.h"
 
