@@ -5,7 +5,7 @@
 
 namespace kaustik::app {
 
-// A path need not be UTF-8; JSON, SVG and HTML are: what is not is replaced.
+// Replaces bytes that are not UTF-8: paths may hold such bytes, but JSON, SVG and HTML may not.
 std::string utf8(const std::string& text);
 
 // Converts a spread to JSON, and reads the member `key` of an object back. Throws std::runtime_error when it

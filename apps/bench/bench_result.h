@@ -48,10 +48,10 @@ inline constexpr size_t kRates = kRateNames.size();
 struct BenchPoint {
   uint64_t photons = 1;
   int threads = 1;
-  std::array<Spread, kPhases> seconds;    // by Phase; total is the sum of the others, run by run
+  std::array<Spread, kPhases> seconds;    // by Phase; the total of each run is the sum of its other phases
   std::array<Spread, kRates> per_second;  // by Rate; 0 if the phase took no time
   Spread busy_cores;                      // CPU time of the process divided by the time of the run
-  Spread peak_memory_bytes;               // resident, of the process
+  Spread peak_memory_bytes;               // peak resident memory of the process
   Json counters = Json::object();         // exact counts, equal in all runs with this photon count
 
   const Spread& operator[](Phase phase) const { return seconds[static_cast<size_t>(phase)]; }

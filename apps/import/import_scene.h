@@ -22,7 +22,7 @@ struct LoadedScene {
   // types and parameters are checked against the schema, except those of the integrator.
   SceneDescription description;
   // ContentHash, 32 hexadecimal digits, of the file, the files that it includes, and the meshes and images
-  // that it names. Their contents count, not their paths.
+  // that it names. It does not depend on the folders that they lie in.
   std::string content_hash;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// How much memory the process can take before the machine swaps or ends it.
+// How much memory the process can take before the system swaps or kills it.
 
 #include <cstdint>
 #include <string>

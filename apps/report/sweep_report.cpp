@@ -61,7 +61,7 @@ std::string facts_html(const SweepResult& result) {
   add("Seeds", fmt::format("{} for each point", result.seeds));
   if (result.mask_bright)
     add("Not compared",
-        fmt::format("pixels with radiance above {} and 2 pixels around them", *result.mask_bright));
+        fmt::format("reference pixels brighter than {} and 2 pixels around them", *result.mask_bright));
   const Json& cpu = result.machine.contains("cpu") ? result.machine["cpu"] : Json(nullptr);
   add("Machine",
       fmt::format("{}, {} thread{}", cpu.is_string() ? cpu.get<std::string>() : "unknown processor",

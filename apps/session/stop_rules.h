@@ -19,7 +19,7 @@ inline constexpr uint64_t kErrorPasses = 8;
 // Whether `aov` names the layer error or bias.
 bool names_error_layer(const std::vector<std::string>& aov);
 
-// Throws ExitError (bad command line) for rules that contradict each other.
+// Throws ExitError (bad command line) for a target quantile without a target error.
 void check_stop_settings(const StopSettings& stop);
 
 // Chooses settings that a new render needs for its error estimate: several passes, a bias estimate, and, with

@@ -181,7 +181,7 @@ constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
 constexpr uint64_t kMaxUint64 = std::numeric_limits<uint64_t>::max();
 constexpr std::string_view kByMethod = "set by --method";
 
-// Which estimator computes which paths.
+// The rows that choose the estimators.
 void add_methods(std::vector<Setting>& table) {
   table.push_back(
       choice("method", &RenderSettings::method, render::kMethodNames,

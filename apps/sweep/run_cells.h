@@ -11,7 +11,7 @@
 
 namespace kaustik::app {
 
-// What all cells share.
+// What all cells of a sweep share.
 struct SweepJob {
   const Job& job;
   const SweepGrid& grid;

@@ -38,7 +38,7 @@ fs::path made(const fs::path& folder) {
   return folder;
 }
 
-// Describes the first value that differs, such as "scene hash: there 1f.., here 2a..".
+// Describes the first value that differs, such as "seed: in the folder 1, now 2".
 std::string difference(const Json& there, const Json& here, const std::string& name = {}) {
   if (there.is_object() && here.is_object()) {
     for (const auto& [key, value] : here.items()) {

@@ -21,7 +21,7 @@ namespace kaustik::app {
 // systems without locks it has no effect.
 class FolderLock {
  public:
-  // Throws ExitError (bad command line) when another sweep holds it.
+  // Throws ExitError (bad command line) when another process holds the lock.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -54,7 +54,7 @@ struct Advice {
   double target = 0;           // relative error, sqrt(relMSE)
   std::optional<size_t> cell;  // the fastest cell that reaches it; nothing if no cell does
   size_t named = 0;            // the cell whose flags the text contains: `cell`, or else the best one
-  std::string text;            // "For 5 % on this scene: --photons 1M --radius 0.5x, 0.85 s."
+  std::string text;            // such as "For 5 % on this scene: --photons 1M --radius 0.5x, 0.85 s."
 };
 
 // Advice for relative errors of 20, 10, 5, 2 and 1 %, up to and including the first that no cell reaches. Of

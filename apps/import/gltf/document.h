@@ -25,7 +25,7 @@ class Document {
   Document(const std::filesystem::path& path, SourceFiles& files);
 
   View root() const { return {json_, ""}; }
-  // An item of a top-level list: list("nodes", 3).
+  // An item of a top-level list, such as item("nodes", 3).
   View item(const char* list, uint64_t i) const { return root()[list].at(i); }
   uint64_t size(const char* list) const { return root()[list].size(); }
   uint32_t file() const { return file_; }

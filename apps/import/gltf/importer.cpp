@@ -154,7 +154,7 @@ class Importer {
   }
 
   struct SharedMesh {
-    std::string object;  // empty when there is none
+    std::string object;  // name of the object; empty when all its shapes emit
     std::vector<ShapeDescription> lights;
   };
 

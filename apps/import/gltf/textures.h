@@ -60,7 +60,6 @@ class Textures {
   uint32_t folder_file_ =
       0;  // id of a placeholder in the folder, to which the names of its files are relative
   std::map<uint64_t, std::optional<ImageFile>> images_;
-  std::map<std::string, std::string> made_;  // textures by what they were made from
   uint64_t derived_ = 0;
 };
 

@@ -49,7 +49,7 @@ class SceneParser {
   void report_unknown(const Token& word);
   void finish(const SourceLocation& end);
 
-  // Arguments.
+  // Helpers that read the arguments of directives.
   std::optional<Token> quoted(std::string_view what, const Token& word);
   bool read_directive(const Token& word, std::string_view target, Directive& out);
   void add_defaults(std::string_view target, std::vector<Parameter>& parameters);
@@ -60,12 +60,12 @@ class SceneParser {
   }
   void warn_once(const Token& word, std::string message);
 
-  // Names (scene_names.cpp).
+  // Names that are defined more than once (scene_names.cpp).
   std::string define(std::string_view what, const std::string& name, const SourceLocation& where,
                      std::set<std::string>& known, LaterNames& later);
   void resolve_names(std::string_view word, Directive& directive, bool of_float_texture = false) const;
 
-  // Transforms (scene_parser_transforms.cpp).
+  // Handlers of transforms (scene_parser_transforms.cpp).
   void on_identity(const Token& word);
   void on_translate(const Token& word);
   void on_scale(const Token& word);
@@ -78,7 +78,7 @@ class SceneParser {
   void on_active_transform(const Token& word);
   void on_transform_times(const Token& word);
 
-  // Settings of the whole scene.
+  // Handlers of settings of the whole scene (scene_parser_transforms.cpp).
   void on_camera(const Token& word);
   void on_setting(const Token& word);
   void on_option(const Token& word);
@@ -86,7 +86,7 @@ class SceneParser {
   void on_world_begin(const Token& word);
   void on_world_end(const Token& word);
 
-  // Blocks and state.
+  // Handlers of blocks and of the graphics state.
   void on_attribute_begin(const Token& word);
   void on_attribute_end(const Token& word);
   void on_attribute(const Token& word);
@@ -97,7 +97,7 @@ class SceneParser {
   void push(bool object, const SourceLocation& where);
   void pop(bool object, const Token& word);
 
-  // The world (scene_parser_world.cpp).
+  // Handlers of the world's contents (scene_parser_world.cpp).
   void on_texture(const Token& word);
   void on_material(const Token& word);
   void on_make_named_material(const Token& word);

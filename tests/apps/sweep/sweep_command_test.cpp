@@ -247,7 +247,7 @@ TEST_F(SweepCommand, RefusesTheFolderOfAnotherSweep) {
   expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}),
                  "holds the results of another sweep");
   expect_refused(sweep(against_file() + Arguments{"--max-bounces", "3"}),
-                 "settings max-bounces: there \"16\", here \"3\"");
+                 "settings max-bounces: in the folder \"16\", now \"3\"");
   expect_refused(sweep({"--reference-time", "1s"}), "reference");
   small_scene(film(24, 16) + "\n# another");
   expect_refused(sweep(against_file()), "scene: there");
