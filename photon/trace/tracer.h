@@ -46,7 +46,7 @@ struct TraceSettings {
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
   bool shadow_behind_specular = false;
-  // Index of the only light that emits; unset: each emits in proportion to its power.
+  // Index of the only light that emits, with all photons; unset: each emits in proportion to its power.
   std::optional<uint32_t> light{};
   // Draws the starts of all lights; must not be empty. Null: starts are uniform.
   const EmissionGuide* guide = nullptr;

@@ -56,8 +56,8 @@ class CameraRays {
 
  private:
   size_t lane(int x, int y, uint64_t sample) const {
-    // Of two neighbours in a row one is even and one odd, so that halving the index numbers each half in a
-    // row.
+    // Any two neighbours in a row belong to different halves, so halving the index numbers the pixels of a
+    // half consecutively.
     const uint32_t place = pixel_of_block(x, y) >> (part_ != BlockPart::kWhole);
     return size_t((sample - first_) * uint64_t(pixels_in(part_)) + place);
   }

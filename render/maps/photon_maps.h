@@ -25,7 +25,7 @@ struct GatherMap {
 
 struct PhotonMaps {
   GatherMap direct, caustic, indirect;
-  photon::PhotonMap shadow;  // for `lecture`; for `signed`, which gathers it with direct.estimate
+  photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which gathers it with direct.estimate
   photon::LectureSettings lecture;
   RadiusShrink shrink;
   std::unique_ptr<const accel::EdgeIndex> edges;             // edges of surfaces; the estimates point to it
