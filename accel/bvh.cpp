@@ -41,7 +41,7 @@ bool count_memory(void* user, ssize_t bytes, bool /*post*/) {
 }
 
 // Up to this many primitives, packets of rays from all over the scene are fastest when traversed coherently;
-// in larger scenes their rays soon diverge (measured: docs/performance.md).
+// in larger scenes their rays soon diverge (measured: docs/decisions/007-photons-walk-in-packets.md).
 constexpr uint64_t kFewPrimitives = 64;
 
 uint64_t primitive_count(const std::vector<Shape>& shapes) {

@@ -15,8 +15,8 @@ namespace kaustik::app {
 
 namespace {
 
-// Shares of the time: what photons get (measured, docs/performance.md), and a reserve, because a pass is
-// never cut short.
+// Shares of the time: what photons get (measured, docs/decisions/005-time-is-filled-by-one-pass.md), and a
+// reserve, because a pass is never cut short.
 constexpr double kPhotons = 0.28, kMargin = 0.03;
 constexpr double kTrial = 0.2;  // share of the time after which no larger trial follows
 // For films, their mean and writing the files.

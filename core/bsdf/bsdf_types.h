@@ -4,8 +4,8 @@
 // A BSDF has up to two parts. The diffuse part (`broad`) consists of all lobes that are wide enough to gather
 // photons under, such as Lambertian ones and those of rough metal. The specular part is followed by photons
 // and camera paths: delta lobes, and glossy lobes, whose width is finite but too small to gather under
-// (Ggx::is_narrow). The part that scatters a path decides its class: docs/architecture.md, "One owner per
-// path".
+// (Ggx::is_narrow). The part that scatters a path decides its class
+// (docs/decisions/020-one-owner-per-path.md).
 //
 // A BSDF is a value type with these members. Directions are in the local shading frame (z = ns); wo and wi
 // have unit length and point away from the surface, and wo.z < 0 means the back side:

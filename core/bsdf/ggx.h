@@ -19,7 +19,7 @@ struct Ggx {
 
   bool smooth() const { return alpha_x == 0; }
   // Whether the lobe is glossy: so narrow that following it beats gathering photons under it
-  // (docs/accuracy.md, "Rough surfaces").
+  // (docs/decisions/021-narrow-lobes-are-followed.md).
   bool is_narrow() const { return alpha_x * alpha_y < kNarrowAlpha * kNarrowAlpha; }
   static constexpr float kNarrowAlpha = 0.3f;
 

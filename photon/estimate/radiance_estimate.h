@@ -45,7 +45,7 @@ struct BiasEstimate {
 // bias: if not null, this estimate's bias is added to it. An O(r^2) bias is a quarter at half the radius, so
 // it is 4/3 of the difference between the estimate of this disc and that of its inner half, which shares some
 // of the photons. It is noisy; it is itself unbiased where light is smooth, and some 30 % too small at edges
-// (docs/accuracy.md).
+// (docs/decisions/004-error-is-measured-by-passes.md).
 Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
                       const EstimateSettings& settings, GatherCounters& counters,
                       BiasEstimate* bias = nullptr);

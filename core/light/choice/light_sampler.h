@@ -13,7 +13,7 @@ namespace kaustik {
 // thread-safe.
 class LightSampler {
  public:
-  // The limit is measured: docs/accuracy.md.
+  // The limit is measured: docs/decisions/016-one-light-sampler.md.
   static constexpr size_t kMostByPower = 4;
 
   LightSampler() = default;
