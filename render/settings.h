@@ -49,7 +49,7 @@ struct RenderSettings {
   int max_bounces = 16;
   int spp = 16;  // samples per pixel, before adaptive ones
   // Work that adaptive samples may add, as a fraction of that of the first spp; 0: none. The default was
-  // measured (docs/decisions/009-further-samples.md).
+  // measured (docs/decisions/009-adaptive-samples.md).
   float adaptive = 0.75f;
   uint64_t seed = 0;
   int threads = 0;            // 0: all that the process may use
