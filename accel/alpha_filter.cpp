@@ -1,3 +1,5 @@
+// Embree's filter callback for triangles with alpha, and the hash of Embree's rays.
+
 #include "accel/alpha_filter.h"
 
 #include "core/scene/alpha.h"

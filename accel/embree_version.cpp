@@ -1,3 +1,5 @@
+// Queries Embree for its version.
+
 #include "accel/embree_version.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,6 @@
+// Embree's callbacks for user geometry: bounds, intersection and occlusion of spheres, disks and other
+// quadrics.
+
 #include "accel/quadric_group.h"
 
 #include <bit>

@@ -1,3 +1,5 @@
+// Reads an image file and decodes its integers; refuses what its header shows to be too large or truncated.
+
 #include "images/decoded_image.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Reads and writes images by means of OpenImageIO.
+
 #include "images/openimageio.h"
 
 #include <OpenImageIO/imageio.h>

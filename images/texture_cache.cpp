@@ -1,3 +1,5 @@
+// Passes decoded images to OpenImageIO's cache, and looks them up there.
+
 #include "images/texture_cache.h"
 
 #include <OpenImageIO/imagecache.h>

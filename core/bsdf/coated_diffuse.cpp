@@ -1,3 +1,5 @@
+// Evaluation and sampling of a coated diffuse surface; the tables of rough coats are in rough_coat.cpp.
+
 #include "core/bsdf/coated_diffuse.h"
 
 #include "core/bsdf/lambertian.h"

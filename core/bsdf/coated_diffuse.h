@@ -1,4 +1,6 @@
 #pragma once
+// A diffuse surface under a smooth or rough dielectric coat, with all reflections between both.
+
 #include "core/bsdf/fresnel.h"
 #include "core/bsdf/ggx.h"
 #include "core/bsdf/rough_coat.h"

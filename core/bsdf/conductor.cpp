@@ -1,3 +1,5 @@
+// Evaluation and sampling of metal.
+
 #include "core/bsdf/conductor.h"
 
 #include "core/bsdf/fresnel.h"

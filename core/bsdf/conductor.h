@@ -1,4 +1,6 @@
 #pragma once
+// Smooth and rough metal.
+
 #include "core/bsdf/ggx.h"
 
 namespace kaustik {

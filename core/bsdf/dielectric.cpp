@@ -1,3 +1,5 @@
+// Rough dielectric boundaries: reflection and refraction at GGX microfacets (Walter et al. 2007).
+
 #include "core/bsdf/dielectric.h"
 
 namespace kaustik {

@@ -1,4 +1,7 @@
 #pragma once
+// Smooth and rough boundaries between dielectrics, such as glass and water. Not modelled: absorption and
+// dispersion.
+
 #include "core/bsdf/fresnel.h"
 #include "core/bsdf/ggx.h"
 

@@ -1,4 +1,6 @@
 #pragma once
+// Diffuse reflection and transmission by a thin sheet.
+
 #include "core/bsdf/lambertian.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Fresnel reflectance for uniform light, and of conductors.
+
 #include "core/bsdf/fresnel.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Roughness parameters of GGX microfacets, and sampling of their visible normals.
+
 #include "core/bsdf/ggx.h"
 
 #include "core/sampling/warp.h"

@@ -1,4 +1,6 @@
 #pragma once
+// Ideal diffuse reflection.
+
 #include "core/bsdf/bsdf_types.h"
 #include "core/sampling/warp.h"
 

@@ -1,4 +1,6 @@
 #pragma once
+// An ideal mirror.
+
 #include "core/bsdf/bsdf_types.h"
 
 namespace kaustik {

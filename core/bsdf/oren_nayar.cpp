@@ -1,3 +1,5 @@
+// Coefficients and albedo of the Oren-Nayar model.
+
 #include "core/bsdf/oren_nayar.h"
 
 namespace kaustik {

@@ -1,4 +1,6 @@
 #pragma once
+// Rough diffuse reflection by the Oren-Nayar model.
+
 #include "core/bsdf/lambertian.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// The table of transmittances of rough coats: how it is integrated and interpolated.
+
 #include "core/bsdf/rough_coat.h"
 
 #include <array>

@@ -1,4 +1,6 @@
 #pragma once
+// A thin pane of glass.
+
 #include "core/bsdf/bsdf_types.h"
 #include "core/bsdf/fresnel.h"
 

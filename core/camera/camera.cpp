@@ -1,3 +1,5 @@
+// Rays of the cameras, and the projection of points onto the image.
+
 #include "core/camera/camera.h"
 
 #include "core/math/equal_area.h"

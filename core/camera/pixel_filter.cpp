@@ -1,3 +1,5 @@
+// The functions of the pixel filters, and their sampling.
+
 #include "core/camera/pixel_filter.h"
 
 #include <algorithm>

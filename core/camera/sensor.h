@@ -1,4 +1,6 @@
 #pragma once
+// The response of the camera's sensor.
+
 #include "core/math/vec.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Collects diagnostics and formats them with an excerpt of the source.
+
 #include "core/diagnostics/diagnostics.h"
 
 #include <fmt/format.h>

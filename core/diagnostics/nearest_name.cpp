@@ -1,3 +1,5 @@
+// Edit distance, and suggestions made with it.
+
 #include "core/diagnostics/nearest_name.h"
 
 #include <fmt/format.h>

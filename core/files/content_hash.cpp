@@ -1,3 +1,5 @@
+// Hashes bytes in words of eight, whatever their split into calls.
+
 #include "core/files/content_hash.h"
 
 #include <fmt/format.h>

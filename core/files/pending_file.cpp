@@ -1,3 +1,5 @@
+// Renames or removes a temporary file, and chooses its name.
+
 #include "core/files/pending_file.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Rebuilds surface points from hits, for each kind of shape.
+
 #include "core/geometry/interaction.h"
 
 #include "core/geometry/surface_bounds.h"

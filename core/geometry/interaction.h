@@ -1,4 +1,6 @@
 #pragma once
+// Hits and surface points, with bounded errors.
+
 #include "core/geometry/shape.h"
 #include "core/math/error_bounds.h"
 #include "core/math/frame.h"

@@ -1,3 +1,5 @@
+// Intersection, sampling, bounds and area of quadrics.
+
 #include "core/geometry/quadric.h"
 
 #include <cmath>

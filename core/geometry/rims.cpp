@@ -1,3 +1,5 @@
+// Rims of disks and other quadrics as polygons.
+
 #include "core/geometry/rims.h"
 
 #include <cmath>

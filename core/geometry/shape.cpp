@@ -1,3 +1,5 @@
+// Bounds and areas of shapes.
+
 #include "core/geometry/shape.h"
 
 #include "core/geometry/surface_bounds.h"

@@ -1,3 +1,5 @@
+// Texture coordinates and their derivatives on triangles and quadrics, as in pbrt-v4.
+
 #include "core/geometry/surface_parameters.h"
 
 namespace kaustik {

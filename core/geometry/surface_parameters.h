@@ -1,4 +1,6 @@
 #pragma once
+// Texture coordinates of a surface point, and the derivatives by them.
+
 #include "core/geometry/interaction.h"
 
 namespace kaustik {

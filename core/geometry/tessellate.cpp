@@ -1,3 +1,5 @@
+// Divides quadrics into triangles.
+
 #include "core/geometry/tessellate.h"
 
 #include <cmath>

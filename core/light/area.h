@@ -1,4 +1,6 @@
 #pragma once
+// Area lights: surfaces that emit diffusely.
+
 #include <variant>
 #include <vector>
 

@@ -1,3 +1,5 @@
+// Sampling of distant lights.
+
 #include "core/light/distant.h"
 
 #include "core/math/frame.h"

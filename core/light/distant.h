@@ -1,4 +1,6 @@
 #pragma once
+// Distant lights: parallel light from one direction.
+
 #include "core/light/light_types.h"
 #include "core/math/bounds.h"
 

@@ -1,3 +1,5 @@
+// Sampling of directions for light of uniform radiance.
+
 #include "core/light/even_light.h"
 
 #include "core/math/frame.h"

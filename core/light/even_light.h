@@ -1,4 +1,6 @@
 #pragma once
+// Sampling of directions for light that arrives with the same radiance from everywhere.
+
 #include "core/light/light_types.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Sampling of goniometric lights.
+
 #include "core/light/goniometric.h"
 
 namespace kaustik {

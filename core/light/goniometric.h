@@ -1,4 +1,6 @@
 #pragma once
+// Point lights whose intensity is given by an image.
+
 #include <memory>
 
 #include "core/light/image/direction_map.h"

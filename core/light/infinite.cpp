@@ -1,3 +1,5 @@
+// Sampling of environment light.
+
 #include "core/light/infinite.h"
 
 #include "core/light/even_light.h"

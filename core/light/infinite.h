@@ -1,4 +1,6 @@
 #pragma once
+// Environment light: constant, or given by an image.
+
 #include <memory>
 
 #include "core/light/image/direction_map.h"

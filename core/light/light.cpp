@@ -1,3 +1,5 @@
+// The distribution of lights by power.
+
 #include "core/light/light.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Sampling of point lights.
+
 #include "core/light/point.h"
 
 #include "core/sampling/warp.h"

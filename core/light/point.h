@@ -1,4 +1,6 @@
 #pragma once
+// Isotropic point lights.
+
 #include "core/light/light_types.h"
 
 namespace kaustik {

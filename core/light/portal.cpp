@@ -1,3 +1,5 @@
+// Resampling of a sky over the directions through a portal, and its sampling.
+
 #include "core/light/portal.h"
 
 namespace kaustik {

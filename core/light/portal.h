@@ -1,4 +1,7 @@
 #pragma once
+// Environment light through a rectangular opening (Bitterli et al. 2015, "Portal-Masked Environment Map
+// Sampling").
+
 #include <memory>
 
 #include "core/light/image/direction_map.h"

@@ -1,3 +1,5 @@
+// Projected images: solid angles of their pixels, and sampling.
+
 #include "core/light/projection.h"
 
 #include <glm/gtc/constants.hpp>

@@ -1,4 +1,6 @@
 #pragma once
+// Projectors: point lights that emit through an image.
+
 #include <memory>
 
 #include "core/light/image/light_image.h"

@@ -1,3 +1,5 @@
+// Sampling of spot lights.
+
 #include "core/light/spot.h"
 
 #include "core/sampling/warp.h"

@@ -1,4 +1,6 @@
 #pragma once
+// Spot lights, as in pbrt-v4.
+
 #include "core/light/light_types.h"
 #include "core/math/frame.h"
 

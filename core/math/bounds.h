@@ -1,4 +1,6 @@
 #pragma once
+// Axis-aligned bounding boxes.
+
 #include "core/math/vec.h"
 
 namespace kaustik {

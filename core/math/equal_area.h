@@ -1,4 +1,6 @@
 #pragma once
+// The equal-area map between the sphere and the unit square.
+
 #include "core/math/vec.h"
 
 namespace kaustik {

@@ -1,4 +1,6 @@
 #pragma once
+// Rays.
+
 #include "core/math/vec.h"
 
 namespace kaustik {

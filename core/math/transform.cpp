@@ -1,3 +1,5 @@
+// Affine maps from matrices, and the test whether they can be inverted.
+
 #include "core/math/transform.h"
 
 namespace kaustik {

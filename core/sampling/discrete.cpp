@@ -1,3 +1,5 @@
+// Builds and inverts the cumulative sum of weights.
+
 #include "core/sampling/discrete.h"
 
 namespace kaustik {

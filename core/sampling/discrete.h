@@ -1,4 +1,6 @@
 #pragma once
+// Discrete distributions.
+
 #include <cstdint>
 #include <vector>
 

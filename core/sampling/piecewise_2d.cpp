@@ -1,3 +1,5 @@
+// Builds and inverts the cumulative sums of rows and columns.
+
 #include "core/sampling/piecewise_2d.h"
 
 namespace kaustik {

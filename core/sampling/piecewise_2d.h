@@ -1,4 +1,6 @@
 #pragma once
+// Distributions over the cells of a grid.
+
 #include <cstdint>
 #include <functional>
 #include <vector>

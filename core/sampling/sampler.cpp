@@ -1,3 +1,5 @@
+// Single values of the sampler, for tests.
+
 #include "core/sampling/sampler.h"
 
 namespace kaustik {

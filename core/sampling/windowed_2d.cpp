@@ -1,3 +1,5 @@
+// The summed-area table, and its inversion within a window.
+
 #include "core/sampling/windowed_2d.h"
 
 namespace kaustik {

@@ -1,4 +1,6 @@
 #pragma once
+// Distributions over the unit square that can be sampled within a window.
+
 #include <functional>
 #include <optional>
 #include <vector>

@@ -1,3 +1,5 @@
+// Decides by a hash whether a ray stops at a partly transparent surface.
+
 #include "core/scene/alpha.h"
 
 #include <bit>

@@ -1,4 +1,6 @@
 #pragma once
+// Partly transparent (alpha-masked) surfaces.
+
 #include "core/scene/scene.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Resolves mixtures, textures, bump and normal maps at a surface point.
+
 #include "core/scene/bsdf_at.h"
 
 #include "core/scene/shading_normal.h"

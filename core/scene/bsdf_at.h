@@ -1,4 +1,6 @@
 #pragma once
+// The BSDF at a surface point.
+
 #include "core/scene/scene.h"
 
 namespace kaustik {

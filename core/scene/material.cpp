@@ -1,3 +1,5 @@
+// Constructs textured materials.
+
 #include "core/scene/material.h"
 
 #include <algorithm>

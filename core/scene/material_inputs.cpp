@@ -1,3 +1,5 @@
+// Values of material parameters: from a directive, the schema's default, or a texture.
+
 #include "core/scene/material_inputs.h"
 
 #include <algorithm>

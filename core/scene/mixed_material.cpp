@@ -1,3 +1,5 @@
+// The choice between the two materials of a mixture.
+
 #include "core/scene/mixed_material.h"
 
 #include <bit>

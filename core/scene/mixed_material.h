@@ -14,8 +14,8 @@ namespace kaustik {
 struct MixedMaterial {
   uint32_t first = 0, second = 0;  // indices of materials
   float amount = 0.5f;             // in [0, 1]
-  // The lobes of both materials together. Photons are kept if either has a diffuse part; whoever gathers them
-  // makes a choice of its own.
+  // The lobes of both materials together. Photons are kept if either has a diffuse part; at a gather
+  // point the choice is made anew.
   Lobes lobes;
   uint32_t amount_texture = kNoIndex;  // float texture that replaces `amount`, clamped to [0, 1]
 

@@ -1,3 +1,5 @@
+// Describes the effects that a scene does not need.
+
 #include "core/scene/needs.h"
 
 namespace kaustik {

@@ -1,4 +1,6 @@
 #pragma once
+// The effects that a scene needs to be rendered.
+
 #include <string>
 #include <vector>
 

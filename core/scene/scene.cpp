@@ -1,3 +1,5 @@
+// Computes the derived members of a scene.
+
 #include "core/scene/scene.h"
 
 namespace kaustik {

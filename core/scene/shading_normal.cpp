@@ -1,3 +1,5 @@
+// Bump maps and normal maps (Pharr 2023, section 10.5.3).
+
 #include "core/scene/shading_normal.h"
 
 namespace kaustik {

@@ -1,4 +1,6 @@
 #pragma once
+// Shading normals from bump maps and normal maps.
+
 #include "core/geometry/surface_parameters.h"
 #include "core/scene/material.h"
 

@@ -1,3 +1,5 @@
+// Matrices of RGB colour spaces from their primaries and whites.
+
 #include "core/spectrum/colour_space.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// The table of named spectra: illuminants, metals and glasses.
+
 #include "core/spectrum/named_spectra.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Spectra of light sources, and the conversion of spectra to colours.
+
 #include "core/spectrum/spectrum.h"
 
 #include "core/spectrum/cie_tables.h"

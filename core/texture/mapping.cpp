@@ -1,3 +1,5 @@
+// The four texture mappings and their derivatives.
+
 #include "core/texture/mapping.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Perlin's improved noise, and its sums over octaves.
+
 #include "core/texture/noise.h"
 
 #include <algorithm>

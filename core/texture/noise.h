@@ -1,4 +1,6 @@
 #pragma once
+// Noise for procedural textures.
+
 #include "core/math/vec.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Evaluation of textures.
+
 #include "core/texture/texture.h"
 
 #include <cmath>

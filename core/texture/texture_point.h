@@ -1,4 +1,6 @@
 #pragma once
+// The arguments of a texture lookup.
+
 #include "core/math/vec.h"
 
 namespace kaustik {

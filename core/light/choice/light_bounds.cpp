@@ -1,3 +1,5 @@
+// Bounds of each type of light, their union, and the importance at a receiver.
+
 #include "core/light/choice/light_bounds.h"
 
 #include "core/geometry/surface_bounds.h"

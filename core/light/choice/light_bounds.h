@@ -1,4 +1,6 @@
 #pragma once
+// Bounds of sets of lights, from which their importance at a point is estimated.
+
 #include "core/light/light.h"
 #include "core/math/bounds.h"
 

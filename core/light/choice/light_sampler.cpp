@@ -1,3 +1,5 @@
+// The choice of a light by power, by the tree, or among the lights without a position.
+
 #include "core/light/choice/light_sampler.h"
 
 namespace kaustik {

@@ -1,4 +1,6 @@
 #pragma once
+// The choice of one light for a shadow ray.
+
 #include "core/light/choice/light_tree.h"
 
 namespace kaustik {

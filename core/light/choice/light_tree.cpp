@@ -1,3 +1,5 @@
+// Builds the light tree by a cost of bounds, and descends it at random.
+
 #include "core/light/choice/light_tree.h"
 
 #include <array>

@@ -1,4 +1,6 @@
 #pragma once
+// A tree of lights for importance sampling.
+
 #include <cstdint>
 #include <optional>
 #include <vector>

@@ -1,3 +1,5 @@
+// Pixel layouts of direction maps, and their sampling.
+
 #include "core/light/image/direction_map.h"
 
 #include "core/math/equal_area.h"

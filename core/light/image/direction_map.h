@@ -1,4 +1,6 @@
 #pragma once
+// Images over all directions, for environment maps and goniometric lights.
+
 #include <memory>
 #include <vector>
 

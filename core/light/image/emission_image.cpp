@@ -1,3 +1,5 @@
+// Tables for the sampling of textured area lights.
+
 #include "core/light/image/emission_image.h"
 
 #include "core/sampling/warp.h"

@@ -1,4 +1,6 @@
 #pragma once
+// Images on area lights, and the sampling of points by what they emit.
+
 #include <array>
 #include <memory>
 #include <vector>

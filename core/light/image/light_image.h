@@ -1,4 +1,6 @@
 #pragma once
+// The pixels of an image that a light emits.
+
 #include <vector>
 
 #include "core/math/vec.h"

@@ -1,3 +1,6 @@
+// Builds the scene: collects shapes and instances, loads meshes, chooses the origin, and places shapes and
+// lights.
+
 #include "core/scene/build/builder.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Builds the camera and its pixel filter from their checked directives.
+
 #include "core/scene/build/camera_builder.h"
 
 #include <fmt/format.h>

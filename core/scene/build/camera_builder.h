@@ -1,4 +1,6 @@
 #pragma once
+// Builds the camera from a scene description.
+
 #include "core/camera/camera.h"
 #include "core/scene/schema/schema.h"
 

@@ -1,3 +1,5 @@
+// Loads the images of lights, once each, and checks their pixels.
+
 #include "core/scene/build/light_images.h"
 
 #include <fmt/format.h>

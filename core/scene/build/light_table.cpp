@@ -1,3 +1,5 @@
+// Checks area lights and makes them of placed shapes.
+
 #include "core/scene/build/light_table.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Exact bounds of shapes, and the origin chosen from them.
+
 #include "core/scene/build/local_origin.h"
 
 namespace kaustik {

@@ -1,3 +1,5 @@
+// Makes materials from their directives, and finds them by name.
+
 #include "core/scene/build/material_table.h"
 
 #include <fmt/format.h>

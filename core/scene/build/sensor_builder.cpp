@@ -1,3 +1,5 @@
+// Exposure and white balance from the Film and Camera lines.
+
 #include "core/scene/build/sensor_builder.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Joins shapes to surface groups by name or by shared boundary edges.
+
 #include "core/scene/build/surface_groups.h"
 
 #include <tbb/parallel_for.h>

@@ -1,3 +1,5 @@
+// Makes textures from their directives, loads their images, and finds them by name.
+
 #include "core/scene/build/texture_table.h"
 
 #include <fmt/format.h>

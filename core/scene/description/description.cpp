@@ -1,3 +1,5 @@
+// Names of parameter types, and look-up of parameters.
+
 #include "core/scene/description/description.h"
 
 namespace kaustik {

@@ -35,8 +35,8 @@ bool is_dark(float scale) {
 }
 
 // Applies two parameters to `emission`, as pbrt does: if `name` is given, scales by its value over
-// `of_white`, the luminance that results from an emission of one (for colours, too, pbrt divides by the
-// luminance of white); then scales by `scale`. Returns false, with an error, if there is nothing to scale.
+// `of_white`, the luminance that an emission of one causes (so coloured lights are scaled like white ones);
+// then scales by `scale`. Returns false, with an error, if there is nothing to scale.
 template <class Emission>
 bool scale_to(const LightInputs& in, std::string_view name, double of_white, Emission& emission) {
   const ParameterReader& p = in.parameters;

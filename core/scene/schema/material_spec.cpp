@@ -1,3 +1,5 @@
+// Parameter entries that rows of materials share, and how facets and metals are made from them.
+
 #include "core/scene/schema/material_spec.h"
 
 #include "core/spectrum/named_spectra.h"

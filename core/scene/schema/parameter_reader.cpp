@@ -1,3 +1,5 @@
+// Reads the values of checked parameters.
+
 #include <algorithm>
 
 #include "core/scene/schema/schema.h"

@@ -1,3 +1,5 @@
+// Divides bilinear patches into triangles, as finely as their twist requires.
+
 #include "core/scene/shapes/bilinear.h"
 
 #include "core/math/error_bounds.h"

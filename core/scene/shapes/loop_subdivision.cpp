@@ -1,3 +1,5 @@
+// Loop subdivision on half-edges, and positions and normals of the limit surface.
+
 #include "core/scene/shapes/loop_subdivision.h"
 
 #include <fmt/format.h>

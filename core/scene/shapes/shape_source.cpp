@@ -1,3 +1,5 @@
+// Makes the geometry of each shape type from its parameters.
+
 #include "core/scene/shapes/shape_source.h"
 
 #include <fmt/format.h>
