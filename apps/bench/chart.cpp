@@ -15,15 +15,15 @@ namespace kaustik::app {
 namespace {
 
 constexpr double kWidth = 760, kHeight = 500;
-constexpr double kLeft = 78, kRight = 560, kBottom = 430;  // the plot's frame; right of it the legend
+constexpr double kLeft = 78, kRight = 560, kBottom = 430;  // the plot's frame; the legend is to its right
 constexpr double kTitleY = 30, kSubtitleStep = 17, kTickGap = 24;
-constexpr double kBarShift = 7;  // bars of several curves stand side by side, or they would hide each other
+constexpr double kBarShift = 7;  // offset between the error bars of different curves, so that all are visible
 
-// Okabe and Ito 2008: told apart by colour-blind readers too.
+// Colours that colour-blind readers can tell apart (Okabe and Ito 2008).
 constexpr std::array<std::string_view, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
                                                       "#cc79a7", "#56b4e9", "#e69f00"};
 
-// Only what XML 1.0 allows: the texts are UTF-8 already.
+// Escapes a UTF-8 text for XML 1.0 and drops control characters, which XML does not allow.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -49,7 +49,7 @@ std::string line_at(double x0, double y0, double x1, double y1, std::string_view
                      attributes);
 }
 
-// A disc, square, triangle or diamond of the curve's colour.
+// The curve's mark (disc, square, triangle or diamond) in its colour.
 std::string mark_at(double x, double y, size_t curve) {
   const std::string_view colour = kColours[curve % kColours.size()];
   constexpr double r = 4.5;
@@ -67,7 +67,7 @@ std::string mark_at(double x, double y, size_t curve) {
   }
 }
 
-// Beyond these no axis has a use, and its arithmetic would overflow.
+// Values outside this range would overflow the axis arithmetic.
 bool drawable(double value) {
   return value > 1e-30 && value < 1e30;
 }
@@ -106,7 +106,7 @@ Frame make_frame(const Chart& chart) {
 
 std::string axes_svg(const Chart& chart, const Frame& frame) {
   std::string svg;
-  double last = -kTickGap;  // labels that would touch the one before are left out
+  double last = -kTickGap;  // position of the last label; closer ones are omitted
   for (const double tick : frame.x.ticks()) {
     const double x = frame.x.pixel(tick);
     svg += line_at(x, frame.top, x, kBottom, "class=\"grid\"");

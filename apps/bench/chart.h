@@ -1,6 +1,6 @@
 #pragma once
-// Curves on two logarithmic axes, as SVG. Values outside 1e-30 to 1e30, zero among
-// them, are left out. Not handled: other scales.
+// Draws curves on two logarithmic axes as SVG. Values outside 1e-30 to 1e30, including zero, are omitted. Not
+// handled: other scales.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@ namespace kaustik::app {
 
 struct Sample {
   double x = 0, y = 0;
-  double low = 0, high = 0;  // of y: a bar when they differ
+  double low = 0, high = 0;  // range of y, drawn as a bar if they differ
 };
 
 struct Curve {
@@ -17,14 +17,14 @@ struct Curve {
   std::vector<Sample> samples;
 };
 
-// A dashed line from (x0, y0) to (x1, y1): straight on these axes for any power law.
+// A dashed line from (x0, y0) to (x1, y1). On logarithmic axes it shows a power law.
 struct Guide {
   double x0 = 1, y0 = 1, x1 = 1, y1 = 1;
 };
 
 struct Axis {
   std::string label;
-  std::vector<double> ticks;  // empty: round numbers over what is drawn
+  std::vector<double> ticks;  // empty = round numbers in the range of the values
 };
 
 struct Chart {
@@ -33,10 +33,10 @@ struct Chart {
   Axis x, y;
   std::vector<Curve> curves;  // colours and marks repeat after six
   std::vector<Guide> guides;
-  std::string guide_name;  // in the legend, for all guides
+  std::string guide_name;  // name of all guides in the legend
 };
 
-// Texts are UTF-8; what XML cannot hold is left out. Ends in a newline.
+// The chart as SVG. Texts are UTF-8; characters that XML does not allow are dropped.
 std::string draw_svg(const Chart& chart);
 
 }  // namespace kaustik::app

@@ -9,10 +9,10 @@ namespace kaustik::app {
 
 namespace {
 
-constexpr double kRoom = 0.06;  // of the axis's length, at either end
+constexpr double kRoom = 0.06;  // margin at each end, as a share of the axis's length
 constexpr size_t kMostTicks = 8;
 
-// Every mantissa times 10^k within the range.
+// All mantissas times 10^k within the range, for every `every_decade`-th k.
 std::vector<double> decade_ticks(double low, double high, const std::vector<double>& mantissas,
                                  int every_decade) {
   std::vector<double> ticks;
@@ -20,15 +20,15 @@ std::vector<double> decade_ticks(double low, double high, const std::vector<doub
   for (int k = first - (first % every_decade + every_decade) % every_decade; std::pow(10, k) <= high;
        k += every_decade)
     for (const double m : mantissas) {
-      // Dividing keeps 0.02 what is written "0.02".
+      // Dividing gives the double nearest to 0.02; multiplying by pow(10, -2) may not.
       const double tick = k >= 0 ? m * std::pow(10, k) : m / std::pow(10, -k);
       if (tick >= low && tick <= high) ticks.push_back(tick);
     }
   return ticks;
 }
 
-// The densest set that is not crowded. Neighbours of the first set are less than a factor 1.34 apart, so a
-// range of a factor two holds two of them.
+// The densest set with at most kMostTicks ticks. Neighbours in the first set are less than a factor of 1.34
+// apart, so a range of a factor of two contains at least two ticks.
 std::vector<double> round_ticks(double low, double high) {
   const std::vector<double> sets[] = {{1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8}, {1, 1.5, 2, 3, 5, 7}, {1, 2, 5}};
   for (const std::vector<double>& set : sets) {

@@ -1,5 +1,5 @@
 #pragma once
-// A logarithmic axis: the range that it shows, its ticks, and where a value lies on it.
+// A logarithmic axis: its range, its ticks and the positions of values on it.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,9 @@ namespace kaustik::app {
 
 class LogAxis {
  public:
-  // Shows least to most (both above zero) with some room, and at least a factor of two. pixels: positions of
-  // the ends, in either order. No ticks given: round numbers, at least two and at most eight.
+  // Shows the range from `least` to `most` (both above zero) with a margin, and at least a factor of two. The
+  // pixels are the positions of the two ends, in either order. If `ticks` is empty, the ticks are two to
+  // eight round numbers.
   LogAxis(double least, double most, double first_pixel, double last_pixel, std::vector<double> ticks);
 
   double pixel(double value) const;
@@ -21,7 +22,7 @@ class LogAxis {
   std::vector<double> ticks_;
 };
 
-// 1500000 as "1.5M", 0.02 as "0.02".
+// Formats the label of a tick: 1500000 as "1.5M", 0.02 as "0.02".
 std::string tick_text(double value);
 
 }  // namespace kaustik::app

@@ -13,7 +13,7 @@ namespace {
 
 using Points = std::vector<const BenchPoint*>;
 
-constexpr double kWorthDrawing = 0.01;  // of the total time
+constexpr double kWorthDrawing = 0.01;  // least share of the total time for a phase to be drawn
 
 constexpr std::pair<Phase, std::string_view> kCurves[] = {{Phase::kTotal, "total"},
                                                           {Phase::kPhotonTrace, "photon trace"},
@@ -41,14 +41,14 @@ Points points_with(const BenchResult& result, uint64_t photons) {
   return points;
 }
 
-// Curves run from left to right, whatever the order of the runs.
+// Sorts samples by x: runs may come in any order, but curves run from left to right.
 void sort_samples(Chart& chart) {
   for (Curve& curve : chart.curves)
     std::sort(curve.samples.begin(), curve.samples.end(),
               [](const Sample& a, const Sample& b) { return a.x < b.x; });
 }
 
-// The end of a long path: its beginning says least. Cut between characters of UTF-8.
+// Shortens a long path to its end, which says most. Cuts between UTF-8 characters.
 std::string shortened(const std::string& path) {
   constexpr size_t kLongest = 100;
   if (path.size() <= kLongest) return path;
@@ -79,7 +79,7 @@ std::pair<int, int> thread_range(const Points& points) {
   return {(*least)->threads, (*most)->threads};
 }
 
-// Powers of two, and one step between them while they are few: all that could lie on the axis.
+// All powers of two that can lie on the axis; if there are few of them, also 1.5 times each.
 std::vector<double> doubling_ticks(const Points& points) {
   const auto [least, most] = thread_range(points);
   std::vector<double> ticks;

@@ -1,5 +1,5 @@
 #pragma once
-// The curves of `kaustik bench --plot`.
+// Makes the figures of `kaustik bench --plot`.
 
 #include <utility>
 
@@ -13,10 +13,10 @@ struct Figure {
   Chart chart;
 };
 
-// speed-up-<photons>.svg for each photon count: speed-up over threads, by phase. photons-per-second.svg:
-// photons traced per second over threads, by photon count; without photons there is none.
-// seconds-over-photons.svg, for two photon counts and more: time by phase on the most threads. Phases of less
-// than 1 % of the total are left out.
+// The figures of a result. speed-up-<photons>.svg, one per photon count, shows speed-ups over threads by
+// phase. photons-per-second.svg shows photons traced per second over threads by photon count, if there are
+// photons. seconds-over-photons.svg shows times over photon counts by phase for the largest number of
+// threads, if there are several photon counts. Phases that take less than 1 % of the total are omitted.
 std::vector<Figure> scaling_figures(const BenchResult& result);
 
 }  // namespace kaustik::app

@@ -40,7 +40,8 @@ struct Options {
 
 constexpr int kMostThreads = 65535;  // as for `render --threads`
 
-// All but photons and threads, which are lists here, and those of files that are not written.
+// The render settings that bench takes: all but photons and threads, which are lists here, and those that
+// only affect output files, which bench does not write.
 constexpr std::string_view kSettings[] = {"method",      "passes",       "direct",  "caustics", "indirect",
                                           "radius",      "alpha",        "nearest", "kernel",   "cone-k",
                                           "min-photons", "node-photons", "lookup",  "emission", "max-bounces",

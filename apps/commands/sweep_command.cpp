@@ -44,18 +44,19 @@ struct Options {
   SettingOverrides overrides;
 };
 
-// All but those that are lists here, and those of files that are not written.
+// The render settings that sweep takes: all but those that are lists here, and those that only affect files
+// which sweep does not write.
 constexpr std::string_view kSettings[] = {"direct",  "caustics", "indirect",    "passes",      "alpha",
                                           "nearest", "kernel",   "cone-k",      "min-photons", "node-photons",
                                           "lookup",  "emission", "max-bounces", "seed",        "threads",
                                           "width",   "height",   "crop",        "exposure",    "tonemap"};
 
-// Those that differ from cell to cell.
+// Settings that differ from cell to cell.
 constexpr std::string_view kVaried[] = {"method",  "direct", "caustics", "indirect",
                                         "photons", "radius", "spp"};
 
-// Those that do nothing here: threads are told apart, layers are not written, and every point and the
-// reference have their own rule for when they are done.
+// Settings that are not common to the cells: threads are stored separately, and layers and stop rules have no
+// effect on a sweep.
 constexpr std::string_view kIdle[] = {"threads", "aov", "target-error", "target-quantile", "time"};
 
 template <size_t Size>
