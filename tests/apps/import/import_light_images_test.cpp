@@ -93,7 +93,7 @@ TEST_F(ImportLightImages, BadImagesAreRefusedWithTheirPlace) {
   EXPECT_NE(said("infinite.exr").find("pixel (3, 3), 1 inf 1, is not finite"), std::string::npos);
   EXPECT_NE(said("nan.exr").find("is not finite"), std::string::npos);
   EXPECT_NE(said("missing.exr").find("no such file"), std::string::npos);
-  EXPECT_NE(said("huge.hdr").find("60000 x 60000 pixels are more than"), std::string::npos);
+  EXPECT_NE(said("huge.hdr").find("60000 x 60000 pixels are too large"), std::string::npos);
   said("broken.exr");
   said("cut.hdr");
 }
