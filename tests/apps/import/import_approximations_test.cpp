@@ -28,8 +28,7 @@ TEST_F(ImportApproximations, CoatedConductorsAreMetalInTheCoat) {
   EXPECT_FLOAT_EQ(metal.eta.x, 0.2f);
   EXPECT_FLOAT_EQ(metal.k.z, 4.0f);
   EXPECT_FLOAT_EQ(metal.facets.alpha_x, 0.5f);  // the root
-  EXPECT_THAT(diagnostics_.format_all(),
-              HasSubstr("material \"coatedconductor\" is approximated: as metal"));
+  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("material \"coatedconductor\" is approximated: as metal"));
 }
 
 // What enters comes back by the given share: of even light (1 - F) Rd leaves, and F is reflected.
