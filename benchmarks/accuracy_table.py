@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures the lecture's trade: direct light from photons against shadow rays alone, for several N and r0.
+"""Compares direct light by the lecture's photon estimator with shadow rays alone, for several N and r0.
 
 accuracy_table.py KAUSTIK SCENE OUT_DIR [--photons 1M,3M,10M] [--radii 0.1,0.2,0.4,0.8] [--spp 4] [--reference-spp 1024]
 
 Renders direct light only (caustics and indirect off): a reference by pure Monte Carlo, then the lecture's estimator for
-each N and r0, then pure Monte Carlo at 1, 4, 16 and 64 samples. Writes OUT_DIR/table.md, OUT_DIR/table.json and
-the pictures. Needs Python 3 alone. Times are wall seconds of photons, build and
-render together, from the program's own statistics; runs are in sequence, one each, so compare ratios, not seconds."""
+each N and r0, then pure Monte Carlo with 1, 4, 16 and 64 samples. Writes OUT_DIR/table.md, OUT_DIR/table.json and the
+pictures. Times are wall seconds of photons, build and render together, from the program's own statistics. Every
+configuration runs once, one after the other, so compare ratios, not seconds. Needs only Python 3."""
 import argparse
 import json
 import pathlib

@@ -1,6 +1,6 @@
 #pragma once
-// The shapes of a scene alone in a plain Embree scene, robust as the renderer's: the roof of everything that
-// traces rays.
+// The shapes of a scene in a plain Embree scene, robust like the renderer's: the upper limit of speed for
+// everything that traces rays.
 
 #include <cstddef>
 #include <cstring>
@@ -16,7 +16,7 @@ inline void bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {b.min.x, b.min.y, b.min.z, 0, b.max.x, b.max.y, b.max.z, 0};
 }
 
-// Distance at which ray i of N meets the sphere or disk; infinity when it does not.
+// The distance at which ray i of N meets the sphere or disk; infinity when it misses.
 inline float distance(const void* shape, RTCRayN* rays, unsigned N, unsigned i) {
   const Ray ray{{RTCRayN_org_x(rays, N, i), RTCRayN_org_y(rays, N, i), RTCRayN_org_z(rays, N, i)},
                 {RTCRayN_dir_x(rays, N, i), RTCRayN_dir_y(rays, N, i), RTCRayN_dir_z(rays, N, i)},
@@ -29,7 +29,7 @@ inline float distance(const void* shape, RTCRayN* rays, unsigned N, unsigned i) 
   return t >= RTCRayN_tnear(rays, N, i) ? t : kInfinity;
 }
 
-// N is args->N; one ray alone is compiled by itself.
+// N is args->N; the case of a single ray is compiled separately.
 inline void intersect_lanes(const RTCIntersectFunctionNArguments* args, unsigned N) {
   RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, N);
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, N);
@@ -73,9 +73,9 @@ class BareScene {
 
   RTCScene scene() const { return embree_.scene; }
 
-  // Distance to the nearest hit beyond `near`, zero when there is none.
+  // The distance to the nearest hit beyond `near`; zero when there is none.
   float distance(const Ray& ray, float near) const {
-    // Stored as the vectors that Embree loads: it would wait for single floats to reach the cache.
+    // Stores the vectors that Embree loads: loading what was stored as single floats would stall.
     using Float4 [[gnu::vector_size(16)]] = float;
     const Float4 from_to[] = {{ray.o.x, ray.o.y, ray.o.z, near}, {ray.d.x, ray.d.y, ray.d.z, 0}};
     static_assert(offsetof(RTCRay, tnear) == 12 && offsetof(RTCRay, dir_x) == 16);

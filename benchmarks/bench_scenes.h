@@ -1,5 +1,5 @@
 #pragma once
-// Scenes to trace rays in: some of the repository's, and procedural ones of any size.
+// Scenes to trace rays in: some from the repository, and procedural ones of any size.
 
 #include <filesystem>
 #include <stdexcept>
@@ -51,15 +51,15 @@ inline void add_sheet(Scene& scene, uint32_t material, float height, float wave,
   add_shape(scene, material, std::move(mesh));
 }
 
-// eye, point looked at, up: nine numbers.
+// look_at: eye, target and up vector, nine numbers.
 inline void set_camera(Scene& scene, const std::vector<double>& look_at, float fov_degrees) {
   scene.camera.to_world = Transform::from_matrix(glm::inverse(*pbrt::look_at(look_at)));
   scene.camera.projection = PerspectiveProjection{fov_degrees, {}};
   scene.camera.set_default_screen_window();
 }
 
-// A closed box with an area light; with sheet > 0 also two wavy sheets, one of them of glass: 14 + 4 sheet^2
-// triangles. The camera is inside.
+// A closed box with an area light: 14 + 4 sheet^2 triangles. With sheet > 0 it has two wavy sheets, one of
+// them of glass. The camera is inside.
 inline Scene room(uint32_t sheet) {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0.75f)}, Lambertian{{0.75f, 0.25f, 0.25f}}, Dielectric{1.33f}};
@@ -79,7 +79,7 @@ inline Scene room(uint32_t sheet) {
   return scene;
 }
 
-// Water with waves over the floor of a box whose front is open, under a light of 5 x 4 mm: 103,070 triangles.
+// Water with waves over the floor of a box with an open front, under a light of 5 x 4 mm: 103,070 triangles.
 inline Scene water_box() {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0.72f)}, Lambertian{{0.63f, 0.07f, 0.05f}},
@@ -96,7 +96,7 @@ inline Scene water_box() {
   return scene;
 }
 
-// name: of a file below scenes/. Throws std::runtime_error when it is not a scene.
+// name: a file below scenes/. Throws std::runtime_error when it is not a scene.
 inline Scene scene_file(const std::string& name) {
   Diagnostics diagnostics;
   auto loaded = pbrt::load_scene(std::filesystem::path(KAUSTIK_SCENES_DIR) / name, diagnostics);

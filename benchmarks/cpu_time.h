@@ -1,5 +1,5 @@
 #pragma once
-// CPU time of work, and medians: for rivals that take turns in one run.
+// CPU time of work, and medians, for rivals that take turns in one run.
 
 #include <algorithm>
 #include <ctime>
@@ -7,7 +7,7 @@
 
 namespace kaustik::benchmarks {
 
-// CPU time of the whole process: what the work costs, whatever else the machine runs.
+// CPU time of the whole process for this work, which other load of the machine hardly changes.
 template <class Work>
 double cpu_seconds(const Work& work) {
   const std::clock_t start = std::clock();
@@ -15,7 +15,7 @@ double cpu_seconds(const Work& work) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-// The upper one of two; v is not empty.
+// The median; for an even number of values the upper of the two in the middle. v is not empty.
 inline double median(std::vector<double> v) {
   std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
   return v[v.size() / 2];

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures the estimators of direct light against each other: error, shadow rays and time, for several N and r0.
+"""Compares the estimators of direct light: error, shadow rays and time, for several N and r0.
 
 direct_estimators.py KAUSTIK SCENE OUT_DIR [--photons 1M,4M] [--radii auto,0.1,0.4] [--spp 16] [--rounds 5] [--reference-spp 512]
 
-Renders direct light only (--method raytrace): a reference by shadow rays, then shadow-rays, predicted, photons, lecture and
-signed in turn, so many rounds. Writes OUT_DIR/table.md and the pictures. Needs Python 3 alone. relMSE is the
-mean over the rounds, each with a seed of its own, of `kaustik compare --mask-bright 4`; seconds are the median over the rounds of the CPU
-time of the whole program on one thread."""
+Renders direct light only (--method raytrace): a reference by shadow rays, then in each round shadow-rays, predicted,
+photons, lecture and signed in turn. Writes OUT_DIR/table.md and the pictures. relMSE is the mean over the rounds, each
+with a seed of its own, of `kaustik compare --mask-bright 4`; seconds are the median over the rounds of the CPU time of the
+whole program on one thread. Needs only Python 3."""
 import argparse
 import json
 import os
@@ -14,7 +14,7 @@ import pathlib
 import statistics
 import subprocess
 
-REFERENCE_SEED = "77"  # not one of the measured runs': errors must not correlate
+REFERENCE_SEED = "77"  # not a seed of the measured runs: errors must not correlate
 
 
 def render(args, name, options):
@@ -35,7 +35,7 @@ def relmse(args, reference, image):
 
 def configurations(args):
     yield {"direct": "shadow-rays"}
-    yield {"direct": "predicted"}  # its photons follow the samples
+    yield {"direct": "predicted"}  # chooses its photons by the number of samples
     for direct in ("photons", "lecture", "signed"):
         for photons in args.photons.split(","):
             for radius in args.radii.split(","):

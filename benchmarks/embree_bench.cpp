@@ -1,16 +1,17 @@
-// Bare Embree as the roof of every ray, and the renderer's own calls against it.
+// Measures bare Embree, the upper limit of speed for every ray ("roof"), and the renderer's own calls against
+// it.
 //
 //   roof/<call>/<rays>/<scene>        rtcIntersect1, 8, 16 (by default and with the coherent flag) and
-//                                     rtcOccluded1 on rays that lie ready in Embree's own layout: s per ray
-//   end_to_end/<call>/<rays>/<scene>  accel::Bvh on the same rays as plain Rays or RayLanes, in turn with its
-//                                     roof; counters roof_ns and ours_ns per ray, ratio = roof / ours, each
-//                                     the median of eleven rounds, in CPU time of one thread. Packets have
-//                                     two roofs, of which the faster counts.
+//                                     rtcOccluded1 on rays already in Embree's own layout: s per ray
+//   end_to_end/<call>/<rays>/<scene>  accel::Bvh on the same rays as plain Rays or RayLanes, alternating with
+//                                     its roof; counters roof_ns and ours_ns per ray, ratio = roof / ours,
+//                                     each the median of eleven rounds, in CPU time of one thread. Packets
+//                                     have two roofs, of which the faster counts.
 //
 // Rays: camera (tile by tile), photon (path by path, recorded from the tracer), packet (the packets that the
 // tracer makes of photons), shadow (camera hits to lights). Scenes: a box of 14 triangles, cornell-spheres,
-// tncg15-room, water over a floor (103 k triangles), two wavy sheets in the box (1 M); with --large also
-// sheets of 10 M (2 GB, half a minute to build). Every round checks that both sides meet as many surfaces.
+// tncg15-room, water over a floor (103 k triangles), two wavy sheets in the box (1 M); --large adds sheets of
+// 10 M (2 GB, half a minute to build). Every round checks that both sides hit as many surfaces.
 //
 //   embree_bench --benchmark_filter=end_to_end
 //   embree_bench --benchmark_filter=roof --benchmark_enable_random_interleaving=true
@@ -88,7 +89,7 @@ std::vector<accel::RayLanes> lanes(const std::vector<Ray>& rays) {
   return made;
 }
 
-// Rays in every layout. The number is a multiple of the widest.
+// Rays in every layout. Their number is a multiple of the widest packet.
 struct RaySet {
   std::vector<Ray> plain;
   std::vector<RTCRay> ready1;
@@ -136,7 +137,7 @@ std::vector<SceneRow> scene_rows(bool large) {
   return rows;
 }
 
-// Made when first asked for, and kept: repetitions are interleaved.
+// Built at the first call and kept, since repetitions are interleaved.
 const Workbench& workbench(const SceneRow& row) {
   static std::map<std::string, std::unique_ptr<Workbench>> made;
   auto& at = made[row.name];
@@ -144,7 +145,7 @@ const Workbench& workbench(const SceneRow& row) {
   return *at;
 }
 
-// Each returns how many rays meet something.
+// Each function returns how many rays hit something.
 
 template <int kWidth>
 uint64_t bare_intersect(const BareScene& bare, const std::vector<typename Packet<kWidth>::Rays>& rays,
@@ -236,7 +237,7 @@ void time_against_roof(benchmark::State& state, const SceneRow& row, const std::
     ratios.push_back(roofs.back() / own.back());
     state.SetIterationTime(own.back() / to_ns);
   }
-  // Rays along an edge may fall on either side: the trees differ by a scale.
+  // Rays along an edge may fall on either side, since the two BVHs are scaled differently.
   const double difference = std::abs(double(roof_hits) - double(our_hits));
   if (difference > 1e-4 * double(set.plain.size())) state.SkipWithError("the roof meets other surfaces");
   state.counters["roof_ns"] = median(roofs);

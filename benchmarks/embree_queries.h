@@ -1,11 +1,11 @@
 #pragma once
-// Embree's queries for one ray and for packets, with their flags: what differs between 3.13 and 4.
+// Embree's queries for single rays and packets, with their flags, which differ between 3.13 and 4.
 
 #include "accel/embree_api.h"
 
 namespace kaustik::benchmarks {
 
-// Lives as long as its queries; filled once, not per call.
+// Outlives its queries; filled once, not per call.
 class EmbreeQueries {
  public:
 #if RTC_VERSION_MAJOR >= 4

@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
-"""Time to equal error: renderers take turns on one scene; wall seconds from process start to written file, and relMSE.
+"""Measures the time to equal error: renderers take turns on one scene; wall seconds from the start of the process to the
+written file, and relMSE.
 
 equal_error.py KAUSTIK SPPM_RIVAL SCENE OUT_DIR --reference FILE [--rounds 5] [--threads 2]
                [--auto "--time 1s;--time 3s"] [--mc 16,64] [--sppm 4,16,40] [--povray FILE.pov] [--only REGEX]
 equal_error.py KAUSTIK SPPM_RIVAL SCENE OUT_DIR --reference FILE --make-reference SPP
 
-Each round renders every row once, with a seed of its own. Rounds are kept in OUT_DIR/rounds.json: a further call adds to
-them, so that a long list can be measured in pieces (--only), which then count together. Prints the table of medians,
+Each round renders every row once, with a seed of its own. Rounds are kept in OUT_DIR/rounds.json, and a further call adds
+to them, so that a long list can be measured in pieces (--only). Prints the table of medians,
 writes it to OUT_DIR/table.md and table.json. relMSE is that of `kaustik compare --mask-bright 4`.
-Needs Python 3 alone, and povray for --povray.
+Needs only Python 3, and povray for --povray.
 
---make-reference renders the reference by photons, 125,000 a sample, in 64 passes whose radius shrinks, and compares
-it, at an eighth of the size so that noise is small, with `mc` and with the rival. A lamp without extent is missing
-from mc's caustics: there the rival alone says whether the reference is right."""
+--make-reference renders the reference by photons, 125,000 per sample, in 64 passes with a shrinking radius, and compares
+it with `mc` and with the rival at an eighth of the size, where noise is small. Caustics of point lights are missing from
+`mc`: there only the rival can check the reference."""
 import argparse
 import json
 import os
@@ -22,7 +23,7 @@ import statistics
 import subprocess
 import time
 
-REFERENCE_SEED = "777"  # not one of a round: errors must not correlate
+REFERENCE_SEED = "777"  # not a seed of the rounds: errors must not correlate
 
 
 def size_options(args):
@@ -46,7 +47,7 @@ def sppm_row(args, iterations):
 def povray_row(args, name, options):
     size = [f"+W{args.width or 512}", f"+H{args.height or 512}"]
 
-    def command(image, _):  # it has no seed
+    def command(image, _):  # POV-Ray has no seed
         return ["povray", args.povray, *size, "+FE", f"+O{image}", "-D", "-GA", f"+WT{args.threads}", *options]
     return f"POV-Ray, {name}", command
 
@@ -124,7 +125,7 @@ def make_reference(args, spp):
         timed([args.kaustik, "render", args.scene, "-o", image, "--quiet", "--threads", args.threads, *more])
 
     render(args.reference, [*size_options(args), *options, "--spp", str(spp), "--photons", str(125000 * spp)])
-    small = ["--width", str((args.width or 512) // 8)]  # an eighth: each pixel has 64 times the samples
+    small = ["--width", str((args.width or 512) // 8)]  # an eighth of the size: 64 times the samples per pixel
     by_photons, other = str(args.out / "small-photons.exr"), str(args.out / "small-other.exr")
     render(by_photons, [*small, *options, "--spp", str(16 * spp), "--photons", str(125000 * spp)])
     render(other, [*small, "--method", "mc", "--spp", str(16 * spp)])

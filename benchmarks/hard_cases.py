@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Scenes that nobody tuned `--method auto` for: its error against that of `--method mc` for the same work.
+"""Compares the error of `--method auto` with that of `--method mc` for equal work, on scenes that auto was not tuned for.
 
 hard_cases.py KAUSTIK OUT_DIR [--only REGEX] [--rounds 3] [--cpu 20] [--threads 2] [--size 256]
 hard_cases.py KAUSTIK OUT_DIR --make-references [--cpu 300] [--check 60]
 
 Writes the scenes as OUT_DIR/NAME.pbrt. The first form renders each by both methods in turn, ROUNDS times with a seed of
 its own, and prints the median relMSE (`kaustik compare --mask-bright 4`) and the range; --options is added to the calls of
-auto. A render gets as many passes as fit into the CPU seconds of --cpu: 20 are 10 s on two threads that nobody else
-uses, and stay the same work where somebody does. OUT_DIR keeps the pictures of the last round.
-The second form makes what the first compares with, OUT_DIR/NAME-reference.exr: `mc`, or, where paths hardly meet the lamp,
-photons in many passes whose radius shrinks. An eighth of the size, where noise is small, it renders both ways in the time of --check,
-and prints how far they are from each other. Needs Python 3 alone."""
+auto. A render gets as many passes as fit into the CPU seconds of --cpu: 20 are 10 s on two idle cores, and the same work
+on a busy machine. OUT_DIR keeps the pictures of the last round.
+The second form makes the references OUT_DIR/NAME-reference.exr: by `mc`, or, where paths hardly meet the light, by photons
+in many passes with a shrinking radius. At an eighth of the size, where noise is small, it renders both ways in the time of
+--check and prints their difference. Needs only Python 3."""
 import argparse
 import array
 import json
@@ -23,7 +23,7 @@ import statistics
 import subprocess
 import sys
 
-REFERENCE_SEED = "777"  # not one of a round: errors must not correlate
+REFERENCE_SEED = "777"  # not a seed of the rounds: errors must not correlate
 
 
 def shape(*corners):
@@ -52,13 +52,13 @@ def block(low, high, material):
             shape((a, b, c), (a, b, f), (a, e, f), (a, e, c)) + shape((d, b, c), (d, e, c), (d, e, f), (d, b, f)))
 
 
-def lamp(radiance, *corners):
-    light = " ".join(f"{c:.5g}" for c in radiance)
-    return f'AttributeBegin\nAreaLightSource "diffuse" "rgb L" [ {light} ]\n{diffuse(0, 0, 0)}{shape(*corners)}AttributeEnd\n'
+def light(radiance, *corners):
+    L = " ".join(f"{c:.5g}" for c in radiance)
+    return f'AttributeBegin\nAreaLightSource "diffuse" "rgb L" [ {L} ]\n{diffuse(0, 0, 0)}{shape(*corners)}AttributeEnd\n'
 
 
-def lamp_below(radiance, x, y, z, half):
-    return lamp(radiance, (x - half, y, z - half), (x + half, y, z - half), (x + half, y, z + half), (x - half, y, z + half))
+def light_below(radiance, x, y, z, half):
+    return light(radiance, (x - half, y, z - half), (x + half, y, z - half), (x + half, y, z + half), (x - half, y, z + half))
 
 
 def head(eye, target, fov):
@@ -79,23 +79,23 @@ def room(floor=WHITE, left=RED, right=GREEN, others=WHITE):
 INSIDE = head((0, 1.5, 2.9), (0, 1.25, -3), 60)
 
 
-def many_lamps(_):
-    """A thousand lamps of different colours and powers below a ceiling, screens between them, a glass and a mirror sphere."""
+def many_lights(_):
+    """A thousand lights of different colours and powers below a ceiling, screens between them, a glass and a mirror sphere."""
     numbers = random.Random(1)
     text = INSIDE + room()
     for i in range(1000):
         x, z, y = numbers.uniform(-1.95, 1.95), numbers.uniform(-2.95, 2.95), numbers.uniform(2.7, 2.98)
         hue, power = numbers.uniform(0, 2 * math.pi), numbers.uniform(0.1, 1) ** 3
         colour = [300 * power * (0.55 + 0.45 * math.cos(hue - 2 * math.pi * c / 3)) for c in range(3)]
-        text += lamp_below(colour, x, y, z, 0.006)
-    for x in (-1.2, -0.4, 0.4, 1.2):  # screens that hide most lamps from most of the room
+        text += light_below(colour, x, y, z, 0.006)
+    for x in (-1.2, -0.4, 0.4, 1.2):  # screens that hide most lights from most of the room
         text += WHITE + shape((x, 1.8, -2.8), (x, 1.8, 1), (x, 2.69, 1), (x, 2.69, -2.8))
     return text + sphere(0.8, 0.5, -0.6, 0.5, GLASS) + sphere(-0.8, 0.6, -1.4, 0.6, MIRROR) + block(
         (-0.3, 0, 0.2), (0.2, 0.4, 0.7), WHITE)
 
 
-def lamp_in_glass(_):
-    """A bulb: the only lamp is inside a shell of smooth glass, so all light comes through glass."""
+def light_in_glass(_):
+    """A bulb: the only light is inside a shell of smooth glass, so all light comes through glass."""
     return (INSIDE + room() +
             'AttributeBegin\nTranslate 0.3 2.2 -0.8\nAttributeBegin\nAreaLightSource "diffuse" "rgb L" [ 60 52 40 ]\n' +
             diffuse(0, 0, 0) + 'Shape "sphere" "float radius" 0.08\nAttributeEnd\n' + GLASS +
@@ -104,21 +104,21 @@ def lamp_in_glass(_):
 
 
 def mirror_box(_):
-    """Six walls of mirror, a lamp below the ceiling, a diffuse block and sphere. Paths of 64 bounces: at 16 a fifth of the light
-    is left, which methods cut off differently."""
-    return (INSIDE.replace("WorldBegin", 'Integrator "photonmap" "integer maxbounces" 64\nWorldBegin') + room(MIRROR, MIRROR, MIRROR, MIRROR) + lamp_below((6, 5.5, 4.5), 0, 2.98, -0.5, 0.4) +
+    """Six mirror walls, a light below the ceiling, a diffuse block and sphere. Paths have 64 bounces: after 16 a fifth of the
+    light is left, which the methods cut off differently."""
+    return (INSIDE.replace("WorldBegin", 'Integrator "photonmap" "integer maxbounces" 64\nWorldBegin') + room(MIRROR, MIRROR, MIRROR, MIRROR) + light_below((6, 5.5, 4.5), 0, 2.98, -0.5, 0.4) +
             block((-1.1, 0.01, -1.6), (-0.3, 1.2, -0.8), RED) + sphere(0.7, 0.6, -0.4, 0.5, WHITE))
 
 
 def diffuse_only(_):
-    """No specular surface: two blocks, a sphere, a lamp that lights the ceiling and so the rest."""
-    up = lamp((40, 34, 25), (0.9, 1.6, -1.8), (0.9, 1.6, -1.4), (1.3, 1.6, -1.4), (1.3, 1.6, -1.8))
+    """No specular surface: two blocks, a sphere, and a light that illuminates the ceiling and so the room."""
+    up = light((40, 34, 25), (0.9, 1.6, -1.8), (0.9, 1.6, -1.4), (1.3, 1.6, -1.4), (1.3, 1.6, -1.8))
     return (INSIDE + room() + up + block((-1.3, 0, -2), (-0.5, 1.4, -1.2), WHITE) + block((0.1, 0, -0.6), (0.7, 0.6, 0), WHITE) +
             sphere(-0.6, 0.4, 0.1, 0.4, diffuse(0.3, 0.4, 0.7)))
 
 
 def room_with_window(glazing):
-    """The right wall has a hole of 1.4 m x 1.2 m; around the house lies a plain."""
+    """A room whose right wall has a hole of 1.4 m x 1.2 m, on a wide plain."""
     y0, y1, z0, z1 = 1.0, 2.2, -1.9, -0.5
     wall = [((0, -3), (3, z0)), ((0, z1), (3, 3)), ((0, z0), (y0, z1)), ((y1, z0), (3, z1))]
     text = INSIDE + WHITE + shape((-2, 0, -3), (-2, 0, 3), (2, 0, 3), (2, 0, -3)) + shape((-2, 3, -3), (2, 3, -3), (2, 3, 3), (-2, 3, 3))
@@ -141,7 +141,7 @@ def slab(low, high):
 
 
 def write_sky(path):
-    """Latitude and longitude about +z of the image's own frame, 2:1: a gradient and a sun 16 degrees wide, hazy."""
+    """Writes a sky by latitude and longitude about +z of the image's own frame, 2:1: a gradient and a hazy sun 16 degrees wide."""
     width, height = 256, 128
     rows = []
     for y in range(height):
@@ -160,33 +160,33 @@ def write_sky(path):
 
 
 def sky_window(out):
-    """A sky with a sun, by an image, through a window of glass 2 cm thick."""
+    """A sky with a sun, from an image, shines through a window of glass 2 cm thick."""
     write_sky(out / "sky.pfm")
     sky = 'AttributeBegin\nRotate -90 1 0 0\nLightSource "infinite" "string filename" "sky.pfm" "float scale" 2\nAttributeEnd\n'
     return room_with_window(slab).replace("WorldBegin\n", "WorldBegin\n" + sky)
 
 
 def sky_pane(_):
-    """The same room under an even sky, its window a pane without thickness."""
+    """The room of sky-window under a uniform sky; the window is a pane without thickness."""
     return room_with_window(pane).replace("WorldBegin\n", 'WorldBegin\nLightSource "infinite" "rgb L" [ 3 3.4 4 ]\n')
 
 
 def small_glass(_):
-    """A ball of glass that fills 1 % of the lamp's view, over a floor."""
+    """A glass ball over a floor, which fills 1 % of the light's view."""
     return (head((0, 1.6, 3), (0, 0, 0), 40) + diffuse(0.6, 0.6, 0.6) + shape((-4, 0, -4), (-4, 0, 4), (4, 0, 4), (4, 0, -4)) +
-            lamp_below((60, 60, 60), 0, 2, 0, 0.1) + sphere(0.3, 0.25, 0, 0.175, GLASS))
+            light_below((60, 60, 60), 0, 2, 0, 0.1) + sphere(0.3, 0.25, 0, 0.175, GLASS))
 
 
-SCENES = {"many-lamps": many_lamps, "lamp-in-glass": lamp_in_glass, "mirror-box": mirror_box, "diffuse-only": diffuse_only,
+SCENES = {"many-lights": many_lights, "light-in-glass": light_in_glass, "mirror-box": mirror_box, "diffuse-only": diffuse_only,
           "sky-window": sky_window, "sky-pane": sky_pane, "small-glass": small_glass}
-BY_PHOTONS = {"lamp-in-glass", "mirror-box", "sky-window", "sky-pane", "small-glass"}  # paths meet these lamps too seldom
-# An eighth of the photons and samples is a pass.
+BY_PHOTONS = {"light-in-glass", "mirror-box", "sky-window", "sky-pane", "small-glass"}  # paths meet these lights too seldom
+# A pass has an eighth of the photons and samples.
 PASSES = ["--passes", "8", "--alpha", "0.667"]
 PATHS, PHOTONS = ["--method", "mc", "--spp", "128"], ["--method", "auto", "--photons", "8M", "--spp", "128"]
 
 
 def render(args, scene, image, options, seed):
-    """CPU seconds."""
+    """Renders and returns the CPU seconds."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run([args.kaustik, "render", scene, "-o", image, "-o", image.with_suffix(".png"), "--stats",
                     image.with_suffix(".json"), "--quiet", "--threads", args.threads, "--width", args.size, "--height", args.size,
@@ -196,7 +196,7 @@ def render(args, scene, image, options, seed):
 
 
 def render_for(args, seconds, scene, image, options, seed):
-    """As many passes as fit into so many CPU seconds; seconds that they took."""
+    """Renders as many passes as fit into the CPU seconds and returns the seconds that they took."""
     one, three = (render(args, scene, image, [*options, "--pass-range", f"0:{n}"], seed) for n in (1, 3))
     passes = max(1, round(1 + (seconds - one) / max(1e-3, (three - one) / 2)))
     return render(args, scene, image, [*options, "--pass-range", f"0:{passes}"], seed)
@@ -249,12 +249,12 @@ def main():
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--only", default="")
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--cpu", type=float, help="seconds of each render: 20, of a reference 300")
+    parser.add_argument("--cpu", type=float, help="CPU seconds of each render (default 20) or reference (default 300)")
     parser.add_argument("--threads", default="2")
     parser.add_argument("--size", default="256")
-    parser.add_argument("--options", default="", help="of auto")
+    parser.add_argument("--options", default="", help="further options of auto")
     parser.add_argument("--make-references", action="store_true")
-    parser.add_argument("--check", type=float, default=60, help="CPU seconds of a small picture")
+    parser.add_argument("--check", type=float, default=60, help="CPU seconds of each small picture")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     names = [name for name in SCENES if re.search(args.only, name)]

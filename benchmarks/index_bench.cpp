@@ -1,14 +1,15 @@
-// Structures that find photons within a radius, by one benchmark: the photon map, nanoflann's kd-tree, a
-// spatial hash, the lecture's pointer octree, and as the roof a dense grid made for the radius. Same photons,
-// same queries in the order of a picture's tiles, same rule of what counts, same sum; the equality is tested
-// in tests/photon/map/photon_index_test.cpp. Arguments: photons, photons in reach. nearest: the radius that
-// reaches the k-th photon that counts, of the photon map and of nanoflann.
+// Compares structures that find photons within a radius: the photon map, nanoflann's kd-tree, a spatial hash,
+// the lecture's pointer octree, and as an upper limit of speed a dense grid made for the radius. All have the
+// same photons, the same queries in the order of a picture's tiles, the same rule of which photons count and
+// the same sum; tests/photon/map/photon_index_test.cpp tests that they agree. Arguments: photons, photons in
+// reach. The benchmark "nearest" finds the radius of the k-th photon that counts, by the photon map and by
+// nanoflann.
 //
 //   index_bench --benchmark_enable_random_interleaving=true --benchmark_repetitions=7
 //     --benchmark_report_aggregates_only=true --benchmark_min_time=0.05
 //
-// With --large also ten million photons (5 GB, minutes). The column CPU of a build is that of all its
-// threads; the photon map alone has several.
+// --large adds ten million photons (5 GB, minutes). The column CPU of a build is that of all its threads;
+// only the photon map has several.
 
 #include <benchmark/benchmark.h>
 
@@ -53,7 +54,7 @@ void BM_Build(benchmark::State& state) {
   state.counters["bytes_per_photon"] = double(bytes) / double(size.photons);
 }
 
-// Built once for each size, and kept: repetitions are interleaved.
+// Built once for each size and kept, since repetitions are interleaved.
 template <PhotonIndex Index>
 const Index& shared_index(const Size& size) {
   static std::map<std::pair<size_t, float>, Index> indices;
@@ -65,7 +66,7 @@ const Index& shared_index(const Size& size) {
   return at->second;
 }
 
-// search(index, query, counters) for each query of radius `radius`.
+// Calls search(index, query, counters) for each query of radius `radius`.
 template <PhotonIndex Index, class Fn>
 void run_queries(benchmark::State& state, const Index& index, float radius, const Fn& search) {
   static const std::vector<photon::Photon> points = tile_points(12);
@@ -91,7 +92,7 @@ void BM_Gather(benchmark::State& state) {
               });
 }
 
-// All queries of a tile at once, as the renderer asks them.
+// All queries of a tile at once, as the renderer issues them.
 void BM_GatherTiles(benchmark::State& state) {
   const Size size(state);
   const PhotonMapIndex& index = shared_index<PhotonMapIndex>(size);
@@ -111,7 +112,7 @@ void BM_GatherTiles(benchmark::State& state) {
   state.counters["candidates"] = double(counters.candidates) / count;
 }
 
-// The search may look four times as far as the photon is expected.
+// The search may reach four times as far as the k-th photon is expected.
 template <NearestIndex Index>
 void BM_Nearest(benchmark::State& state) {
   const Size size(state);

@@ -1,5 +1,5 @@
-// A list of free blocks in front of malloc. glibc's own settings do not do: a few bytes that land in a freed
-// block keep the next one of its size out, and the heap grows with each repetition.
+// Keeps a list of free blocks in front of malloc. glibc's own settings do not suffice: a small allocation in
+// a freed block makes it too small for the next of its size, and the heap grows with each repetition.
 
 #include "benchmarks/kept_memory.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kLarge = size_t(1) << 20, kAlign = 64;
 
-// Before each block, which begins at a multiple of kAlign.
+// Precedes each block, which begins at a multiple of kAlign.
 struct Header {
   size_t size = 0;
   void* next = nullptr;

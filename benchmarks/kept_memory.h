@@ -1,10 +1,10 @@
 #pragma once
-// Large blocks of memory that stay with the program when they are freed, for timings without the system's
-// work for fresh pages. Linking kept_memory.cpp replaces operator new and delete.
+// Keeps large freed blocks of memory in the program, for timings without the system's cost of fresh pages.
+// Linking kept_memory.cpp replaces operator new and delete.
 
 namespace kaustik::benchmarks {
 
-// From now on, blocks of a megabyte and more are kept, and given to who asks for the same size again.
+// After this call freed blocks of a megabyte and more are kept and reused for requests of the same size.
 void keep_large_blocks();
 
 }  // namespace kaustik::benchmarks

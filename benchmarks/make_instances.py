@@ -3,8 +3,8 @@
 
   make_instances.py [--instances 1000] [--triangles 1000000] FOLDER
 
-FOLDER/instances.pbrt stands on FOLDER/mesh.ply: a sphere with waves, vertices shared, binary. The instances lie on a square
-grid, each turned its own way. Render it with `/usr/bin/time -v` or `--stats`.
+FOLDER/instances.pbrt uses FOLDER/mesh.ply: a binary mesh of a sphere with waves and shared vertices. The instances lie on a
+square grid, each with a rotation of its own. Render it with `/usr/bin/time -v` or `--stats`.
 """
 import argparse
 import array
@@ -19,7 +19,7 @@ Integrator "photonmap" "integer photons" 1000000
 WorldBegin
 AttributeBegin
   AreaLightSource "diffuse" "rgb L" [ 40 38 34 ]
-  Translate 0 {lamp} 0
+  Translate 0 {light} 0
   Rotate 90 1 0 0
   Shape "disk" "float radius" {radius}
 AttributeEnd
@@ -34,7 +34,7 @@ ObjectEnd
 
 
 def write_mesh(path, triangles):
-    """Rows of latitude, columns of longitude; 2 rows columns triangles."""
+    """Writes a mesh with rows of latitude and columns of longitude: 2 rows columns triangles."""
     rows = max(2, round(math.sqrt(triangles / 4)))
     columns = max(3, round(triangles / (2 * rows)))
     vertices, faces = array.array("f"), bytearray()
@@ -65,7 +65,7 @@ def main():
     arguments.folder.mkdir(parents=True, exist_ok=True)
     write_mesh(arguments.folder / "mesh.ply", arguments.triangles)
     side = math.ceil(math.sqrt(arguments.instances))
-    text = kScene.format(height=0.7 * side, back=0.9 * side, lamp=side, radius=0.2 * side, floor=2 * side)
+    text = kScene.format(height=0.7 * side, back=0.9 * side, light=side, radius=0.2 * side, floor=2 * side)
     for i in range(arguments.instances):
         x, z = i % side - side / 2, i // side - side / 2
         text += (f"AttributeBegin Translate {x} 0.45 {z} Rotate {i * 137.5 % 360:.1f} 0 1 0 "

@@ -1,13 +1,13 @@
-// Building the photon map from unsorted records against its roof, a radix sort of the same keys alone, and
-// against what it replaces: nanoflann's kd-tree and the lecture's octree, to which photons are added one by
-// one. Arguments: photons, threads. Compare within one run, e.g.
+// Measures the build of the photon map from unsorted records against the upper limit of its speed, a radix
+// sort of the same keys alone, and against alternatives: nanoflann's kd-tree and the lecture's octree, to
+// which photons are added one by one. Arguments: photons, threads. Compare within one run, e.g.
 //   octree_bench --benchmark_filter=/photons:10000000/ --benchmark_enable_random_interleaving=true
 //     --benchmark_repetitions=7 --benchmark_min_time=0.01 --benchmark_report_aggregates_only=true
-// The map's time holds everything: bounds, keys, sort, octree, the records' way into columns, and the
-// system's work for fresh memory, which the sort does not need. The column CPU is that of all threads.
-//   --reuse-memory  memory stays with the program from one repetition to the next: the system's work is left
-//                   out, and no peak is measured
-//   --100M          maps and sorts of 100 M photons, nothing else, in 6 GB
+// The map's time includes everything: bounds, keys, sort, octree, the move of the records into columns, and
+// the system's work for fresh memory, which the sort does not need. The column CPU is that of all threads.
+//   --reuse-memory  keeps memory in the program from one repetition to the next: the system's work is not
+//                   measured, nor is the peak
+//   --100M          maps and sorts of 100 M photons only, in 6 GB
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -32,7 +32,7 @@ using photon::MortonCube;
 using photon::PhotonBuffer;
 using photon::PhotonMap;
 
-// The threads of a benchmark, from its last argument.
+// Limits the threads of a benchmark to its last argument.
 class ThreadLimit {
  public:
   explicit ThreadLimit(const benchmark::State& state)
@@ -42,7 +42,7 @@ class ThreadLimit {
   tbb::global_control limit_;
 };
 
-// peak_per_photon: bytes at the highest point of the build, the records included.
+// peak_per_photon: bytes at the peak of the build, including the records.
 void BM_BuildPhotonMap(benchmark::State& state, bool with_peak) {
   const ThreadLimit limit(state);
   const double photons = double(state.range(0));
@@ -83,7 +83,7 @@ void BM_LsdRadixSort(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-// nanoflann as it comes: the records as they were shot, the leaf size of its defaults. Serial.
+// nanoflann with its defaults: the records in the order of the shoot, the default leaf size. Serial.
 struct RecordCloud {
   const photon::PhotonRecords& records;
   size_t kdtree_get_point_count() const { return records.size(); }
@@ -109,8 +109,8 @@ void BM_BuildNanoflann(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-// An index of index_bench, as it is built there. nanoflann's gets the photons in Morton order, by a radix
-// sort, and larger leaves. The time of freeing does not count.
+// Builds an index as index_bench does: nanoflann gets the photons in Morton order, by a radix sort, and
+// larger leaves. The time to free it does not count.
 template <PhotonIndex Index>
 void BM_BuildRival(benchmark::State& state) {
   const PhotonBuffer photons = wall_photons(size_t(state.range(0)));

@@ -1,5 +1,6 @@
 #pragma once
-// What a structure that finds the photons near a point must offer to be measured and tested with the others.
+// The interface of a structure that finds the photons near a point, so that it can be measured and tested
+// with the others.
 
 #include <concepts>
 #include <string_view>
@@ -9,8 +10,8 @@
 
 namespace kaustik::benchmarks {
 
-// Which photons count is the same for all: distance, surface group and normal as photon::GatherQuery says it.
-// `within` is not read. const members may be called from any thread.
+// Which photons count is the same for all: by distance, surface group and normal, as photon::GatherQuery
+// says. `within` is ignored. const members may be called from any thread.
 //   kName                 for tables
 //   build(photons, r)     photons in the order of the shoot; r: the largest radius of the queries, metres. A
 //                         grid is made for it, a tree need not read it. Not for radii below 1e-19, whose
@@ -19,7 +20,7 @@ namespace kaustik::benchmarks {
 //                         radius is positive and finite. At most 1024 terms are added in float, then in
 //                         double. Counters are added to.
 //   for_each(q, c, fn)    fn(flux) for each photon that counts, watts, in any order
-//   memory_bytes()        all that lives while queries are answered
+//   memory_bytes()        all memory that is in use while queries are answered
 template <class T>
 concept PhotonIndex = std::move_constructible<T> &&
     requires(const T& index, photon::PhotonBuffer photons, float radius, const photon::GatherQuery& query,
@@ -31,7 +32,7 @@ concept PhotonIndex = std::move_constructible<T> &&
   { index.memory_bytes() } -> std::same_as<uint64_t>;
 };
 
-// One that also finds the k-th nearest photon.
+// An index that also finds the k-th nearest photon.
 //   nearest_radius(q, k, c)  PhotonMap::nearest_radius(): metres
 template <class T>
 concept NearestIndex = PhotonIndex<T> &&

@@ -1,5 +1,5 @@
 #pragma once
-// The rays of photons, recorded to be walked or replayed by others.
+// Records the rays of photons, so that others can walk or replay them.
 
 #include <vector>
 
@@ -15,10 +15,10 @@ struct PhotonPaths {
   size_t size() const { return first.size() - 1; }
 };
 
-// Those of photons 0 ... settings.photons - 1, one after the other.
+// The rays of photons 0 ... settings.photons - 1, traced one after the other.
 inline PhotonPaths record_photon_paths(const Scene& scene, const accel::Bvh& bvh,
                                        const photon::TraceSettings& settings) {
-  // Passes rays on to the tree and keeps them.
+  // Passes rays on to the BVH and records them.
   struct Recorder {
     const accel::Bvh& bvh;
     PhotonPaths& paths;

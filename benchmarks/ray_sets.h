@@ -1,5 +1,5 @@
 #pragma once
-// Rays as a render traces them: from the camera, from photons, to the lights.
+// Rays as a render traces them: camera rays, photons' rays, shadow rays.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace kaustik::benchmarks {
 
-// One ray in each of 512 x 256 parts of the picture, in tiles of 16 x 16: neighbours are alike.
+// One ray in each of 512 x 256 parts of the picture, in tiles of 16 x 16: neighbouring rays are similar.
 inline std::vector<Ray> camera_rays(const Scene& scene) {
   constexpr int kColumns = 512, kRows = 256, kTile = 16;
   const Camera& camera = scene.camera;
@@ -25,7 +25,7 @@ inline std::vector<Ray> camera_rays(const Scene& scene) {
   return rays;
 }
 
-// From what the camera rays meet to a point of a light, in the same order.
+// Rays from the hits of the camera rays to a point of a light, in the same order.
 inline std::vector<Ray> shadow_rays(const Scene& scene, const accel::Bvh& bvh,
                                     const std::vector<Ray>& camera_rays) {
   std::vector<Ray> rays;
@@ -51,14 +51,15 @@ inline photon::TraceSettings photon_settings(size_t photons) {
   return settings;
 }
 
-// The first `count` rays of photons of all kinds but shadow, path by path: neighbours go anywhere.
+// The first `count` rays of photons of all kinds except shadow, path by path: neighbouring rays have
+// unrelated directions.
 inline std::vector<Ray> photon_rays(const Scene& scene, const accel::Bvh& bvh, size_t count) {
   std::vector<Ray> rays = record_photon_paths(scene, bvh, photon_settings(count)).rays;
   rays.resize(std::min(rays.size(), count));
   return rays;
 }
 
-// Such rays in the packets of the tracer.
+// The same kind of rays in the packets of the tracer.
 inline std::vector<Ray> packet_rays(const Scene& scene, const accel::Bvh& bvh, size_t count) {
   return record_photon_packets(scene, bvh, photon_settings(count), count);
 }

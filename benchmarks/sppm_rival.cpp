@@ -1,10 +1,10 @@
-// Stochastic progressive photon mapping of pbrt's design on our scenes, as a program
+// A program that renders our scenes by stochastic progressive photon mapping of pbrt's design
 // (benchmarks/sppm_rival/sppm.h).
 //
 //   sppm_rival SCENE.pbrt --iterations N --photons-per-iteration M --radius R -o f.exr [--width W --height H]
 //     [--threads N] [--max-bounces N] [--seed N]
 //
-// Size and longest path are the scene file's unless given. Prints wall seconds of its parts.
+// Size and longest path default to the scene file's. Prints the wall seconds of its parts.
 
 #include <tbb/global_control.h>
 
@@ -44,7 +44,7 @@ Options parse(CLI::App& parser, int argc, char** argv) {
   return o;
 }
 
-// One side given: the other in proportion.
+// If only one side is given the other keeps the aspect ratio.
 void resize(const app::SceneSettings& file, const Options& o, Camera* camera) {
   const auto proportional = [](int side, int of, int to) {
     return std::max(1, int(std::lround(double(side) * to / of)));
@@ -56,7 +56,7 @@ void resize(const app::SceneSettings& file, const Options& o, Camera* camera) {
   if (!file.fixed_screen_window) camera->set_default_screen_window();
 }
 
-// The scene with its size, and max_bounces settled.
+// Loads the scene, sets its size, and settles max_bounces.
 Scene load(Options& o) {
   Diagnostics diagnostics;
   auto loaded = pbrt::load_scene(o.scene, diagnostics);

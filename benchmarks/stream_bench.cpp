@@ -1,11 +1,11 @@
-// The memory roof: copy, scale, add and triad of STREAM (McCalpin 1995) with TBB threads. Bytes per second
-// are those that the loops name; what the machine moves for a write besides (it reads the line first) is not
-// counted. Time is CPU time over the number of threads: on a machine to itself, the wall time.
+// Measures memory bandwidth by copy, scale, add and triad of STREAM (McCalpin 1995) with TBB threads. Bytes
+// per second count only what the loops name, not the additional read of a line before it is written. The time
+// is CPU time over the number of threads: on an otherwise idle machine, the wall time.
 //
 //   stream_bench --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true
 //     --benchmark_report_aggregates_only=true
 //
-// Argument: threads, 1 and all. Three arrays of 128 MB, four times the largest cache of the machines in mind.
+// Argument: threads, 1 and all. Three arrays of 128 MB, four times the largest cache that is expected.
 
 #include <benchmark/benchmark.h>
 #include <tbb/blocked_range.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t kSize = 1 << 24;
 
-// Fixed parts, one per thread: each meets the memory that it touched first.
+// Runs over fixed parts, one per thread, so that each thread accesses the memory that it touched first.
 template <class Body>
 void over_parts(int threads, const Body& body) {
   tbb::parallel_for(
@@ -37,7 +37,7 @@ struct Arrays {
   photon::UninitialisedArray<double> a{kSize}, b{kSize}, c{kSize};
 };
 
-// doubles: read and written per element. loop(arrays) gives the body.
+// doubles: number of doubles read and written per element. loop(arrays) returns the body.
 template <class Loop>
 void time_loop(benchmark::State& state, int doubles, const Loop& loop) {
   const int threads = int(state.range(0));

@@ -1,13 +1,13 @@
-// Photon tracing against a bare Embree walk that shades nothing.
+// Compares photon tracing with a bare Embree walk that shades nothing.
 //
-// Both sides walk the same paths. The bare walk starts with the recorded first ray of each photon and goes on
-// from each hit, o + t d, in the recorded next direction, with rtcIntersect1 alone, on its own Embree scene
-// of the same flags, and keeps only a sum of distances. It neither samples, nor shades, nor stores. The shoot
-// does all of its work: random numbers, emission, surface points, BSDFs, roulette, packing, storage, joining.
-// As a second reference the recorded rays are also replayed with their recorded origins, where no ray waits
-// for the one before. Rounds are interleaved; times are CPU time; each ratio, reference / shoot, is the
-// median over the rounds. A scene of a few triangles, where Embree has next to nothing to do, is the worst
-// case.
+// Both sides walk the same paths. The bare walk starts with the recorded first ray of each photon and
+// continues from each hit, o + t d, in the recorded next direction, with rtcIntersect1 only, on its own
+// Embree scene with the same flags; it keeps only a sum of distances and neither samples, shades nor stores.
+// The shoot does all of its work: random numbers, emission, surface points, BSDFs, roulette, packing,
+// storage, joining. As a second reference the recorded rays are also replayed with their recorded origins,
+// where no ray waits for the one before. Rounds are interleaved; times are CPU time; each ratio, reference /
+// shoot, is the median over the rounds. A scene of a few triangles, where Embree has little to do, is the
+// worst case.
 //
 // Usage: trace_bench [photons = 500000] [rounds = 9] [threads = 1]
 

@@ -1,6 +1,6 @@
 #pragma once
-// Photons on the walls, floor and ceiling of a room, and queries as a rendered tile asks them: the input of
-// the map's benchmarks.
+// Photons on the walls, floor and ceiling of a room, and queries in the order of a rendered tile: the input
+// of the map's benchmarks.
 
 #include <tbb/parallel_for.h>
 
@@ -18,7 +18,7 @@ inline float canonical(uint64_t index, uint64_t dimension) {
   return float(mix64(hash_combine(index, dimension)) >> 40) * 0x1p-24f;
 }
 
-// Wall w of the six, at (u, v) in the unit square, with its inward normal.
+// A photon on wall w of six, at (u, v) in the unit square, with the inward normal.
 inline photon::Photon wall_point(uint32_t wall, float u, float v) {
   const int axis = int(wall >> 1), a = (axis + 1) % 3, b = (axis + 2) % 3;
   photon::Photon photon;
@@ -40,8 +40,8 @@ inline float room_area() {
   return 2 * (wall_area(0) + wall_area(2) + wall_area(4));
 }
 
-// Evenly spread over the area, in the order of shooting: no two neighbours in the buffer are near. In large
-// pages, as the shoot's are.
+// Photons evenly spread over the area, in the order of a shoot: neighbours in the buffer are far apart. They
+// are in large pages, as those of a shoot.
 inline photon::PhotonBuffer wall_photons(size_t count) {
   photon::PhotonBuffer buffer;
   buffer.records.reserve(count);
@@ -56,13 +56,13 @@ inline photon::PhotonBuffer wall_photons(size_t count) {
   return buffer;
 }
 
-// Radius of the disc on a wall that holds so many photons on average.
+// The radius of the disc on a wall that holds this many photons on average.
 inline float radius_for(double photons_in_reach, size_t count) {
   return float(std::sqrt(photons_in_reach / double(count) * double(room_area()) / std::numbers::pi));
 }
 
-// Points of 16 x 16 pixel tiles of a picture of one wall, tile by tile, with a jitter of a pixel; within a
-// tile row by row, or along a Morton curve.
+// The points of 16 x 16 pixel tiles of a picture of one wall, tile by tile, with a jitter of a pixel; within
+// a tile row by row, or along a Morton curve.
 inline std::vector<photon::Photon> tile_points(size_t tiles_per_axis, bool along_curve = false) {
   std::vector<photon::Photon> points;
   const float pixels = float(16 * tiles_per_axis);

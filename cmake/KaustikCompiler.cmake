@@ -7,12 +7,12 @@ target_compile_options(kaustik_options INTERFACE
   # Not setting errno changes no result and lets sqrt be one instruction.
   -ffp-contract=off -fno-fast-math -fno-math-errno)
 if(KAUSTIK_WARNINGS_AS_ERRORS)
-  # GCC 12 reports overlapping copies inside std::string's operator+ that do not happen (its bug 105329).
+  # GCC 12 wrongly reports overlapping copies inside std::string's operator+ (its bug 105329).
   target_compile_options(kaustik_options INTERFACE -Werror $<$<CXX_COMPILER_ID:GNU>:-Wno-error=restrict>)
 endif()
 
-# Comma-separated sanitizers, e.g. "address,undefined". The first undefined behaviour ends the program, so that
-# a test fails on it.
+# KAUSTIK_SANITIZE: comma-separated sanitizers, e.g. "address,undefined". The first undefined behaviour ends the program, so
+# that a test fails on it.
 if(KAUSTIK_SANITIZE)
   target_compile_options(kaustik_options INTERFACE
     -fsanitize=${KAUSTIK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -1,4 +1,4 @@
-# Every library comes from the distribution; both ends of the supported range are accepted.
+# Every library comes from the distribution. Both Embree 3 and 4 are accepted.
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
@@ -6,7 +6,7 @@ endif()
 find_package(TBB REQUIRED)
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(OpenImageIO REQUIRED)
-# Debian's OpenImageIO names OpenCV's headers, which its package neither needs nor brings; CMake refuses folders that
+# Debian's OpenImageIO names OpenCV's header folder, which its package neither needs nor installs; CMake refuses folders that
 # do not exist.
 foreach(property INTERFACE_INCLUDE_DIRECTORIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
   get_target_property(folders OpenImageIO::OpenImageIO ${property})
@@ -22,7 +22,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(assimp REQUIRED)
 find_package(ZLIB REQUIRED)
-# Draws the charts of `kaustik sweep`'s report, which carries it with its licence.
+# The report of `kaustik sweep` draws its charts with Chart.js, and contains it with its licence.
 find_file(KAUSTIK_CHART_JS NAMES chart.min.js Chart.min.js PATH_SUFFIXES share/javascript/chart.js
   DOC "Chart.js 3, minified")
 find_file(KAUSTIK_CHART_LICENCE NAMES copyright PATH_SUFFIXES share/doc/libjs-chart.js DOC "Licence of Chart.js")
@@ -32,7 +32,7 @@ if(NOT EXISTS "${KAUSTIK_CHART_JS}" OR NOT EXISTS "${KAUSTIK_CHART_LICENCE}")
 endif()
 file(STRINGS ${KAUSTIK_CHART_JS} chart_banner LIMIT_COUNT 4 REGEX "Chart.js v3\\.")
 if(NOT chart_banner)
-  message(FATAL_ERROR "${KAUSTIK_CHART_JS} is not Chart.js 3, whose interface the report is written for")
+  message(FATAL_ERROR "${KAUSTIK_CHART_JS} is not Chart.js 3, which the report needs")
 endif()
 if(KAUSTIK_BUILD_TESTS)
   find_package(GTest REQUIRED)
@@ -42,5 +42,5 @@ if(KAUSTIK_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)
 endif()
 if(KAUSTIK_BUILD_TESTS OR KAUSTIK_BUILD_BENCHMARKS)
-  find_package(nanoflann REQUIRED) # a rival, in benchmarks and in the test that all find the same photons
+  find_package(nanoflann REQUIRED) # a rival in benchmarks, and in the test that all of them find the same photons
 endif()

@@ -1,5 +1,5 @@
-# kaustik_embed(<target> <header> <namespace> NAME FILE [NAME FILE ...]): each file as a std::string_view of that name, in
-# a source that the build writes and a header (found as <header>) beside it. A changed file is embedded anew.
+# kaustik_embed(<target> <header> <namespace> NAME FILE [NAME FILE ...]): embeds each file as a std::string_view of that name,
+# in a source that the build writes and a header (included as <header>) beside it. A changed file is embedded again.
 function(kaustik_embed target header namespace)
   set(folder ${PROJECT_BINARY_DIR}/generated)
   cmake_path(REPLACE_EXTENSION header LAST_ONLY .cpp OUTPUT_VARIABLE source)

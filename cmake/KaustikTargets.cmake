@@ -1,11 +1,11 @@
-# kaustik_library(<name> [libraries...]): a static library of every source below the calling folder.
+# kaustik_library(<name> [libraries...]): makes a static library of every source below the calling folder.
 function(kaustik_library name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(kaustik_${name} STATIC ${sources})
   target_link_libraries(kaustik_${name} PUBLIC kaustik_options ${ARGN})
 endfunction()
 
-# kaustik_test(<folder> [libraries...]): one GoogleTest program per folder, one ctest entry per case.
+# kaustik_test(<folder> [libraries...]): makes one GoogleTest program per folder, with one ctest entry per case.
 function(kaustik_test folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
   if(NOT sources)

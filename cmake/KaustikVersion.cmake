@@ -1,5 +1,5 @@
-# kaustik_version: the release and the build id (git describe) as one tiny library behind core/version.h. Only its
-# one generated source is compiled again when the id changes, so a commit costs one file and a link.
+# kaustik_version: a small library for core/version.h with the release and the build id (git describe). Only its one generated
+# source is compiled again when the id changes, so a commit costs one file and a link.
 set(version_source ${PROJECT_BINARY_DIR}/generated/version.cpp)
 set(version_arguments
   -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION} -DTEMPLATE=${PROJECT_SOURCE_DIR}/cmake/version.cpp.in

@@ -1,4 +1,4 @@
-# Writes OUTPUT from TEMPLATE with VERSION and BUILD_ID; leaves it untouched when nothing changed.
+# Writes OUTPUT from TEMPLATE with VERSION and BUILD_ID; leaves it untouched if nothing changed.
 set(BUILD_ID "")
 find_program(GIT_PROGRAM git)
 if(GIT_PROGRAM)

@@ -1,4 +1,4 @@
-"""Exact counts of whole renders against counters.json.
+"""Compares exact counts of whole renders with counters.json.
 
 The renders run on valgrind's processor, which has AVX2 and nothing newer: counts depend on how Embree and the SIMD
 loops round, so they belong to an instruction set."""
@@ -20,7 +20,7 @@ MACHINE = ("isa", "cpu", "compiler", "libraries")  # what counts may depend on
 
 
 def flat(counters, prefix=""):
-    """{"rays": {"camera": 1}} as {"rays.camera": 1}."""
+    """Flattens {"rays": {"camera": 1}} to {"rays.camera": 1}."""
     out = {}
     for name, value in counters.items():
         if isinstance(value, dict):
@@ -31,13 +31,13 @@ def flat(counters, prefix=""):
 
 
 def differences(stored, counted):
-    """Rows of (name, stored, counted), None where one of them has no such count."""
+    """Returns rows of (name, stored, counted), with None where one of them has no such count."""
     a, b = flat(stored), flat(counted)
     return [(name, a.get(name), b.get(name)) for name in dict.fromkeys([*a, *b]) if a.get(name) != b.get(name)]
 
 
 def run(side, command):
-    """The result of `command`, `kaustik bench ...`, on one side; None when it fails."""
+    """Returns the result of `command`, `kaustik bench ...`, on one side; None when it fails."""
     program = side.build("kaustik")
     if not program:
         return None
@@ -65,14 +65,14 @@ def runs_by_name(text):
 
 
 def file_at(root, commit):
-    """Text of the baseline, None where the commit has none."""
+    """Returns the text of the baseline, None if the commit has none."""
     if not git(root, "ls-tree", "--name-only", commit, BASELINE):
         return None
     return git(root, "show", f"{commit}:{BASELINE}")
 
 
 def unexplained_commits(root, base):
-    """Commits since base that change the baseline and do not say why. The first baseline needs no reason."""
+    """Returns the commits since base that change the baseline without a reason. The first baseline needs no reason."""
     if file_at(root, base) is None:
         return []
     commits = git(root, "log", "--format=%H", f"{base}..HEAD", "--", BASELINE).split()
@@ -80,8 +80,8 @@ def unexplained_commits(root, base):
 
 
 def judge_difference(base_here, base_stored, head_here, head_stored, same_machine):
-    """Counts of one run that are not the stored ones. *_here: counted on this machine, None when that failed;
-    base_stored: None where the run is new; same_machine: the baseline was made on one like this."""
+    """Judges counts of one run that differ from the stored ones. *_here: counted on this machine, None when that failed;
+    base_stored: None when the run is new; same_machine: the baseline was made on the same kind of machine."""
     if base_stored is None:
         return FAIL if same_machine else NOT_COMPARABLE
     machine_differs = base_here is not None and base_here != base_stored
@@ -101,7 +101,7 @@ def explanation_rows(root, base, head):
 
 
 def rows_of(stored, machine, base_stored, base, head):
-    """stored, base_stored: entry of the head's and of the base's baseline; the latter None where the run is new."""
+    """stored, base_stored: entry of the head's and of the base's baseline; the latter is None when the run is new."""
     result = run(head, stored["command"])
     if result is None:
         return [Row(CHECK, stored["name"], "", "no result", "", FAIL)]
@@ -128,7 +128,7 @@ def check(root, base, head):
 
 
 def update(root, head):
-    """Writes what head counts into the baseline of the working tree."""
+    """Writes the counts of head into the baseline of the working tree."""
     path = root / BASELINE
     runs = []
     for entry in json.loads(path.read_text())["runs"]:

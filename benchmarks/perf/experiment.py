@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Can the gate be believed? Ten changes that change nothing must pass, a slow-down of 2 % in the gather must not.
+"""Tests the gate itself: ten changes without effect must pass, and a slow-down of the gather by 2 % must fail.
 
     python3 benchmarks/perf/experiment.py [--only counters,instructions,time]
 
 Judges a clone of HEAD in build/perf-gate/experiment by scripts/perf-gate; takes about half an hour on two cores. Prints a
-table. Exit code: 0 as it should be, 1 not. Python 3 alone."""
+table. Exit code: 0 if all verdicts are right, 1 if not. Needs only Python 3."""
 import pathlib
 import re
 import subprocess
@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLONE = ROOT / "build" / "perf-gate" / "experiment"
 
 UNUSED = """
-// Nobody calls it.
+// This function is never called.
 uint64_t unused_{index}(uint64_t key) {{
   return key * 3 + {index};
 }}
@@ -43,7 +43,7 @@ def change_nothing(_):
 
 
 def add_unused_code(index):
-    """Code that moves other code, and comments that move lines."""
+    """Adds code that moves other code, and comments that move lines."""
     edit("photon/map/morton.cpp", lambda text: text.replace("namespace kaustik::photon {",
                                                         "namespace kaustik::photon {\n" + UNUSED.format(index=index), 1))
     edit("photon/map/octree.cpp", lambda text: f"// Comment {index}.\n" + text)
@@ -66,7 +66,7 @@ def judge(change, index, arguments):
 
 
 def alarms(table):
-    """What failed, and by how much, of a table that the gate printed."""
+    """Returns what failed, and by how much, in a table that the gate printed."""
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line.startswith("| ")]
     return "; ".join(f"{row[0]} {row[1]} {row[4]}" for row in rows[1:] if row[-1] == "FAIL")
 

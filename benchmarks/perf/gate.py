@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Did performance get worse between two revisions? Exact counts, instructions, time: see docs/performance.md.
+"""Checks whether performance got worse between two revisions, by exact counts, instructions and time: see
+docs/performance.md.
 
 scripts/perf-gate BASE_REV [--only counters,instructions,time] [--rounds 15] [--time-limit 10]
 scripts/perf-gate --update-baseline
 
-The head is the working tree as it is, local changes included. Prints a table, also into build/perf-gate/results/table.md.
-Exit code: 0 nothing got worse, 1 something did, 2 it could not be found out. Python 3 alone."""
+The head is the working tree, including local changes. Prints a table and writes it to build/perf-gate/results/table.md.
+Exit code: 0 if nothing got worse, 1 if something did, 2 if a measurement failed. Needs only Python 3."""
 import argparse
 import pathlib
 import subprocess
@@ -29,11 +30,11 @@ def parse_arguments(arguments):
     parser = argparse.ArgumentParser(prog="perf-gate", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("base", nargs="?", metavar="BASE_REV", help="revision to compare with")
-    parser.add_argument("--only", default=",".join(CHECKS), help="checks to make, separated by commas")
+    parser.add_argument("--only", default=",".join(CHECKS), help="the checks to run, separated by commas")
     parser.add_argument("--rounds", type=int, default=15, help="runs of each side for the time (default: 15)")
     parser.add_argument("--time-limit", type=float, default=10, metavar="PERCENT",
-                        help="slow-down that fails, where the U test finds one at all (default: 10)")
-    parser.add_argument("--update-baseline", action="store_true", help=f"count anew, into {counters.BASELINE}")
+                        help="slow-down that fails if the U test confirms it (default: 10)")
+    parser.add_argument("--update-baseline", action="store_true", help=f"count again and write {counters.BASELINE}")
     options = parser.parse_args(arguments)
     options.only = options.only.split(",")
     if bool(options.base) == options.update_baseline:

@@ -1,4 +1,4 @@
-"""What the guard says of given counts and times. Builds and measures nothing."""
+"""Tests the verdicts of the gate on given counts and times. Builds and measures nothing."""
 import json
 import pathlib
 import tempfile
@@ -19,16 +19,16 @@ class Counters(unittest.TestCase):
                          [("rays.shadow", 2, 3), ("dropped", 0, None), ("bytes", None, 8)])
         self.assertEqual(counters.differences(stored, stored), [])
 
-    def test_judges_counts_that_are_not_the_stored_ones(self):
+    def test_judges_counts_that_differ_from_the_stored_ones(self):
         a, b, c, d = ({"n": n} for n in range(4))
         cases = [
             # base here, base stored, head here, head stored, same machine
-            ("base counts as stored, head does not", a, a, b, a, True, FAIL),
-            ("base counts as stored, head not as its new baseline", a, a, b, c, True, FAIL),
+            ("base matches the stored counts, head does not", a, a, b, a, True, FAIL),
+            ("base matches the stored counts, head does not match its new baseline", a, a, b, c, True, FAIL),
             ("base cannot be counted", None, a, b, a, True, FAIL),
-            ("the machine counts otherwise, base and head alike", b, a, b, a, False, NOT_COMPARABLE),
-            ("the machine counts otherwise, head unlike base", b, a, c, a, False, FAIL),
-            ("the machine counts otherwise, head has a new baseline", b, a, c, d, False, NOT_COMPARABLE),
+            ("another machine: base and head are equal", b, a, b, a, False, NOT_COMPARABLE),
+            ("another machine: head differs from base", b, a, c, a, False, FAIL),
+            ("another machine: head has a new baseline", b, a, c, d, False, NOT_COMPARABLE),
             ("a new run, on the machine of the baseline", None, None, a, b, True, FAIL),
             ("a new run, on another machine", None, None, a, b, False, NOT_COMPARABLE)]
         for name, *given, verdict in cases:
@@ -66,7 +66,7 @@ class WallTime(unittest.TestCase):
 
 
 class Table(unittest.TestCase):
-    def test_lines_up_and_fails_with_any_row(self):
+    def test_aligns_columns_and_fails_with_any_row(self):
         rows = [Row("a", "b", "1", "2", "", OK), Row("a", "long|er", "1", "2", "", FAIL)]
         lines = markdown(rows).splitlines()
         self.assertEqual(len(lines), 4)
@@ -114,7 +114,7 @@ class Repository(unittest.TestCase):
         self.commit("Other")
         self.assertEqual(counters.unexplained_commits(self.root, base), [unexplained])
 
-    def test_snapshot_holds_local_changes_and_leaves_them_alone(self):
+    def test_snapshot_includes_local_changes_and_keeps_them(self):
         self.assertEqual(snapshot(self.root), self.first)
         self.write("new", "1")
         self.write("build/ignored", "1")
@@ -133,7 +133,7 @@ class Repository(unittest.TestCase):
         (self.root / "benchmarks/old").unlink()
         head_commit = self.commit("Head")
         base = Side(self.root, "base")
-        for _ in range(2):  # the second time the folder is there
+        for _ in range(2):  # the second time the folder exists
             base.check_out(base_commit)
             base.take_driver(head_commit)
             self.assertEqual((base.folder / "photon/a").read_text(), "old")

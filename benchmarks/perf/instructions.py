@@ -1,4 +1,5 @@
-"""Instructions of the kernels under callgrind: the same in every run of a program, whatever else the machine does.
+"""Counts the instructions of the kernels by callgrind: every run of a program gives the same number, whatever else the
+machine does.
 
 valgrind's processor is the same everywhere: AVX2 and nothing newer, for Embree, Highway and the C library alike."""
 import concurrent.futures
@@ -9,7 +10,7 @@ import subprocess
 from table import FAIL, NOT_COMPARABLE, OK, Row, percent
 
 CHECK = "instructions"
-LIMIT = 1.01  # of head over base
+LIMIT = 1.01  # highest ratio of head to base
 
 
 def kernel_names(program):
@@ -18,7 +19,7 @@ def kernel_names(program):
 
 
 def total_of(profile):
-    """Of the text of a callgrind.out file."""
+    """Returns the total in the text of a callgrind.out file."""
     return int(re.search(r"^totals: (\d+)$", profile, re.MULTILINE).group(1))
 
 

@@ -1,6 +1,6 @@
 #pragma once
-// The scene of the tracing kernel, made in code: the work must stay the same whatever becomes of importers
-// and scene files.
+// The scene of the tracing kernel, made in code, so that changes of importers and scene files do not change
+// the work.
 
 #include <cmath>
 
@@ -43,8 +43,8 @@ inline Sphere sphere(Point3 centre, float radius) {
   return {Transform{glm::mat3(radius), glm::mat3(1 / radius), centre}};
 }
 
-// A closed box with a light, a wavy floor of 8192 triangles, a sphere of glass and one that mirrors: every
-// kind of photon, triangles and exact spheres.
+// A closed box with a light, a wavy floor of 8192 triangles, a glass sphere and a mirror sphere: every kind
+// of photon, triangles and exact spheres.
 inline Scene kernel_scene() {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0.75f)}, Lambertian{{0.75f, 0.25f, 0.25f}}, Dielectric{1.5f}, Mirror{}};

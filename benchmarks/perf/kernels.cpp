@@ -1,10 +1,10 @@
-// Fixed work on the photon engine, one thread: what scripts/perf-gate compares between two revisions.
+// Fixed work on the photon engine by one thread, which scripts/perf-gate compares between two revisions.
 //
 //   perf_kernels --once KERNEL       one small run, for callgrind with --toggle-collect=counted_work, which
 //                                    counts the instructions of that function and of what it calls
 //   perf_kernels [--benchmark_...]   all kernels on larger inputs, as Google Benchmarks
 //
-// It is built against the libraries of both revisions: use only calls that last.
+// It is built against the libraries of both revisions: use only calls that rarely change.
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -19,8 +19,8 @@
 #include "photon/map/photon_map.h"
 #include "photon/shoot/shoot.h"
 
-// Named for callgrind. The barrier keeps the call from becoming a jump, after which this function would have
-// no end.
+// callgrind refers to this name. The barrier keeps the call from becoming a jump, after which callgrind would
+// not see this function end.
 extern "C" [[gnu::noinline]] void counted_work(const std::function<void()>& work) {
   work();
   asm volatile("" ::: "memory");
@@ -38,10 +38,10 @@ constexpr Size kCounted{16'384, 200'000, 4}, kTimed{131'072, 1'000'000, 6};
 
 struct Kernel {
   std::function<void()> work;
-  std::function<void()> prepare = [] {};  // before each run; not counted
+  std::function<void()> prepare = [] {};  // called before each run; not counted
 };
 
-// Emission, tracing, records of all kinds.
+// Emission, tracing and records of all kinds.
 Kernel shoot_kernel(const Size& size) {
   struct State {
     Scene scene = kernel_scene();
@@ -76,8 +76,8 @@ std::shared_ptr<const Queries> make_queries(const Size& size, float radius) {
   return made;
 }
 
-// kReach: photons within the radius. With 50 the tree's walk and the loop over photons take about the same,
-// with 500 the loop rules.
+// kReach: photons within the radius. With 50 the walk of the tree and the loop over photons take about the
+// same time; with 500 the loop dominates.
 template <uint32_t kReach>
 Kernel gather_kernel(const Size& size) {
   const auto made = make_queries(size, radius_for(kReach, size.mapped));
@@ -89,7 +89,7 @@ Kernel gather_kernel(const Size& size) {
   }};
 }
 
-// The search begins with four times the radius that it finds.
+// The search begins with four times the final radius.
 template <uint32_t kNearest>
 Kernel nearest_kernel(const Size& size) {
   const auto made = make_queries(size, 4 * radius_for(kNearest, size.mapped));
@@ -123,7 +123,7 @@ int run_once(std::string_view name) {
   return 2;
 }
 
-// Called several times, until the number of iterations is settled.
+// Google Benchmark calls this several times, until it has settled the number of iterations.
 void time_kernel(benchmark::State& state, const Kernel& kernel) {
   for (auto _ : state) {
     state.PauseTiming();

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import tempfile
 
-# Of the same length, so that not even a path differs in size.
+# Names of equal length, so that paths have the same length on both sides.
 BASE, HEAD = "base", "head"
 
 
@@ -16,7 +16,7 @@ def git(root, *arguments, env=None):
 
 
 def snapshot(root):
-    """The commit to judge: HEAD, or with local changes a commit of them on top that no branch knows."""
+    """Returns the commit to judge: HEAD, or with local changes a commit of them on top of it, which is on no branch."""
     if not git(root, "status", "--porcelain"):
         return git(root, "rev-parse", "HEAD")
     with tempfile.TemporaryDirectory() as folder:
@@ -44,14 +44,14 @@ class Side:
         else:
             git(self.root, "worktree", "prune")
             git(self.root, "worktree", "add", "--quiet", "--force", "--detach", str(self.folder), commit)
-        git(self.folder, "clean", "--force", "-d", "--quiet")  # not what is ignored: the build stays
+        git(self.folder, "clean", "--force", "-d", "--quiet")  # keeps ignored files, such as the build
 
     def take_driver(self, commit):
-        """The work to measure must be the same on both sides: benchmarks/ of `commit`, in place of our own."""
+        """Replaces benchmarks/ by that of `commit`, so that both sides measure the same work."""
         git(self.folder, "restore", "--source", commit, "--worktree", "--", "benchmarks")
 
     def build(self, target):
-        """The program, or None where it does not build: then the log says why."""
+        """Builds and returns the program; None if it does not build, and the log says why."""
         if target not in self.targets:
             print(f"perf-gate: building {target} of {self.name}, {self.commit[:10]}", file=sys.stderr)
             self.targets[target] = self._configure_and_build(target)
@@ -62,7 +62,7 @@ class Side:
         return self.folder.parent / "results" / f"build-{self.name}-{target}.log"
 
     def _configure_and_build(self, target):
-        # What did not change between the sides is compiled once.
+        # Files that are equal on both sides are compiled once.
         env = {**os.environ, "CCACHE_BASEDIR": str(self.folder.parent), "CCACHE_NOHASHDIR": "1"}
         commands = [["cmake", "--preset", "release", "-DKAUSTIK_BUILD_TESTS=OFF"],
                     ["cmake", "--build", "--preset", "release", "--target", target]]

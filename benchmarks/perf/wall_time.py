@@ -1,5 +1,5 @@
-"""Time of the kernels: both programs take turns, and Google Benchmark's compare.py says by its U test (Mann and Whitney
-1947) whether they differ at all."""
+"""Measures the time of the kernels: both programs take turns, and Google Benchmark's compare.py tests by the U test (Mann
+and Whitney 1947) whether they differ."""
 import json
 import statistics
 import subprocess
@@ -7,7 +7,7 @@ import subprocess
 from table import FAIL, NOT_COMPARABLE, OK, REPORTED, Row, percent
 
 CHECK = "wall time"
-# Packages libbenchmark-tools and python3-scipy: the latter is for the distribution's own Python.
+# Needs the packages libbenchmark-tools and python3-scipy; the latter is for the distribution's own Python.
 COMPARE = ["/usr/bin/python3", "/usr/share/benchmark/compare.py"]
 SIGNIFICANT = 0.01  # p of the U test below which the sides differ
 
@@ -19,14 +19,14 @@ def run_benchmarks(program):
 
 
 def joined(runs):
-    """Runs of one repetition each as one result of many."""
+    """Joins runs of one repetition each to one result with many repetitions."""
     benchmarks = [{**entry, "repetitions": len(runs), "repetition_index": index}
                   for index, run in enumerate(runs) for entry in run["benchmarks"]]
     return {"context": runs[0]["context"], "benchmarks": benchmarks}
 
 
 def take_turns(programs, rounds):
-    """programs by side; each begins every second round, in case the first of a round has it easier."""
+    """programs: by side. Each starts every second round, in case the first of a round has an advantage."""
     runs = {side: [] for side in programs}
     for index in range(rounds):
         for side in sorted(programs, reverse=index % 2 == 1):
@@ -43,7 +43,7 @@ def compare(base_file, head_file, results):
 
 
 def judge(entry, limit):
-    """entry: a benchmark of compare.py's report. limit: head over base."""
+    """entry: a benchmark of compare.py's report. limit: highest ratio of head to base."""
     base, head = (statistics.median(run[field] for run in entry["measurements"])
                   for field in ("real_time", "real_time_other"))
     p = entry["utest"].get("time_pvalue")

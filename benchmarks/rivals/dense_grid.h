@@ -1,8 +1,8 @@
 #pragma once
-// The roof: a dense grid of cells as wide as the radius that it is made for, photons as columns in the order
-// of the cells, and the photon map's own SIMD loop over them. A query reads three rows of three cells in
-// three layers and searches nothing. Of no use in a renderer: one radius, and memory that grows with the
-// volume.
+// The upper limit of speed: a dense grid of cells as wide as the one radius that it is made for, photons as
+// columns in the order of the cells, and the photon map's own SIMD loop over them. A query reads three rows
+// of three cells in three layers, without any search. A renderer cannot use it: it serves one radius, and its
+// memory grows with the volume.
 
 #include "benchmarks/photon_index.h"
 #include "benchmarks/rivals/plain_photon.h"
@@ -53,7 +53,8 @@ class DenseGrid {
   }
 
  private:
-  // Rows along x are contiguous. Four along an axis when rounding makes the query wider than two cells.
+  // The rows of cells along x that a query meets; their photons are contiguous. Rounding may make the query
+  // wider than two cells: then there are four rows along an axis.
   class Rows {
    public:
     void add(const photon::PhotonRange& row) { rows_[size_++] = row; }
@@ -66,7 +67,7 @@ class DenseGrid {
     size_t size_ = 0;
   };
 
-  // Cells at least as wide as the radius, and so wide that there are few more of them than photons.
+  // Chooses cells at least as wide as the radius, and so wide that there are few more cells than photons.
   void choose_cells(const photon::PhotonBuffer& buffer, float radius) {
     bounds_ = bounds_of(buffer);
     const Vector3 diagonal = bounds_.diagonal();
@@ -118,7 +119,8 @@ class DenseGrid {
   photon::PhotonColumns columns() const {
     return {x_.data(), y_.data(), z_.data(), direction_.data(), surface_.data(), power_.data(), {}};
   }
-  // Clamped to the photons' bounds. Monotone, so that an interval of positions is one of cells.
+  // The cell of p, clamped to the photons' bounds. Monotone, so that an interval of positions is an interval
+  // of cells.
   glm::ivec3 cell(const Point3& p) const {
     return glm::ivec3((glm::clamp(p, bounds_.min, bounds_.max) - bounds_.min) * cells_per_metre_);
   }
@@ -129,7 +131,7 @@ class DenseGrid {
   Bounds3 bounds_;
   float cells_per_metre_ = 1, flux_unit_ = 1;
   glm::ivec3 size_{1};
-  std::vector<uint32_t> first_;  // photon, by cell
+  std::vector<uint32_t> first_;  // index of the first photon of each cell
   std::vector<float> x_, y_, z_;
   std::vector<uint32_t> surface_, power_, direction_;
 };

@@ -1,7 +1,7 @@
 #pragma once
-// Spatial hash (Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable
-// Objects") with photons sorted by bucket. Cells are as wide as the radius, and a query looks into 27: a
-// third faster here than the eight cells of twice that width of SmallVCM (Davidovic and Georgiev 2012).
+// A spatial hash (Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable
+// Objects") with photons sorted by bucket. Cells are as wide as the radius and a query visits 27 of them: a
+// third faster here than the eight cells of twice that width in SmallVCM (Davidovic and Georgiev 2012).
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ class HashGrid {
   }
 
  private:
-  // Buckets that a query looks into, each once: two cells may share one.
+  // The buckets that a query visits, each once: two cells may share one.
   struct Buckets {
     uint32_t bucket[64];  // four cells along an axis when rounding makes the query wider than two
     size_t size = 0;
@@ -71,13 +71,14 @@ class HashGrid {
     }
   };
 
-  // Not so many cells that coordinates overflow.
+  // Limits the number of cells so that coordinates do not overflow.
   static float cells_per_metre(const Bounds3& bounds, float radius) {
     const float size = std::max(max_component(bounds.diagonal()), 0x1p-60f);
     return std::min(1 / box_reach(radius), 0x1p20f / size);
   }
 
-  // Clamped to the photons' bounds. Monotone, so that an interval of positions is one of cells.
+  // The cell of p, clamped to the photons' bounds. Monotone, so that an interval of positions is an interval
+  // of cells.
   glm::ivec3 cell(const Point3& p) const {
     return glm::ivec3((glm::clamp(p, bounds_.min, bounds_.max) - bounds_.min) * cells_per_metre_);
   }
@@ -103,7 +104,7 @@ class HashGrid {
 
   Bounds3 bounds_;
   float cells_per_metre_ = 1;
-  std::vector<uint32_t> first_;  // photon, by bucket
+  std::vector<uint32_t> first_;  // index of the first photon of each bucket
   std::vector<PlainPhoton> photons_;
 };
 static_assert(PhotonIndex<HashGrid>);

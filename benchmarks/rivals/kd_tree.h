@@ -1,7 +1,7 @@
 #pragma once
-// nanoflann's kd-tree. Flux is summed as the search meets the photons: no list of indices is made. Photons
-// are first put into Morton order by a radix sort, which the build of the tree gains back and a search
-// gains by a third.
+// nanoflann's kd-tree. Flux is summed while the search meets the photons, without a list of indices. Photons
+// are first sorted into Morton order by a radix sort, which pays for itself in the build of the tree and
+// makes a search faster by a third.
 
 #include <algorithm>
 #include <limits>
@@ -80,8 +80,8 @@ class KdTree {
   using Index =
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, uint32_t>;
 
-  // nanoflann's result sets. It prunes by bounds that it rounds at each level on the way down, so a photon on
-  // the rim would be lost without some slack; what counts is decided exactly.
+  // A result set for nanoflann, which prunes by bounds that it rounds at each level on the way down: without
+  // some slack a photon on the rim could be lost. Whether a photon counts is decided exactly.
   struct ResultSet {
     using DistanceType = float;
     const PlainPhoton* photons;
@@ -117,8 +117,8 @@ class KdTree {
     size_t size() const { return 0; }
   };
 
-  // The k nearest in a heap, the farthest of them in front: nanoflann's own set, a sorted list, is slow for
-  // many.
+  // The k nearest photons in a heap with the farthest in front: nanoflann's own set, a sorted list, is slow
+  // for large k.
   struct NearestResult : ResultSet {
     size_t k;
     std::vector<float> nearest{};  // squared distances

@@ -1,6 +1,6 @@
 #pragma once
-// The roof of building an index by sorting: a parallel radix sort of (key, index) pairs, least significant
-// digit first, of nothing else.
+// The upper limit of speed for building an index by sorting: a parallel radix sort of (key, index) pairs
+// only, least significant digit first.
 
 #include <tbb/parallel_for.h>
 
@@ -22,14 +22,14 @@ struct KeyIndex {
 };
 using KeyIndices = photon::UninitialisedArray<KeyIndex>;
 
-// In large pages, as the photon map's columns are.
+// Allocates large pages, as the photon map does for its columns.
 inline KeyIndices make_key_indices(size_t size) {
   KeyIndices pairs(size);
   photon::prefer_large_pages(pairs.data(), size * sizeof(KeyIndex));
   return pairs;
 }
 
-// Pairs of the records' Morton keys and 0, 1, 2 ...
+// Fills in the pairs of the records' Morton keys and 0, 1, 2 ...
 inline void fill_key_indices(const photon::PhotonRecords& records, const photon::MortonCube& cube,
                              KeyIndices& pairs) {
   tbb::parallel_for(size_t(0), records.size(), [&](size_t i) {
@@ -38,7 +38,7 @@ inline void fill_key_indices(const photon::PhotonRecords& records, const photon:
   });
 }
 
-// One digit of kBits bits. Sixteen blocks are enough for a few threads, and more would cost time.
+// Sorts by one digit of kBits bits. Sixteen blocks are enough for a few threads, and more would cost time.
 template <int kBits>
 void sort_digit(const KeyIndices& from, KeyIndices& to, int shift) {
   constexpr size_t kBlocks = 16, kDigits = size_t(1) << kBits;
@@ -59,7 +59,7 @@ void sort_digit(const KeyIndices& from, KeyIndices& to, int shift) {
   each_block([&](uint32_t& place, const KeyIndex& pair) { to[place++] = pair; });
 }
 
-// Sorts by key, 63 bits of it; pairs of one key keep their order. spare: as large.
+// Stably sorts by the 63 bits of the key. spare: of the same size.
 template <int kBits>
 void lsd_radix_sort(KeyIndices& pairs, KeyIndices& spare) {
   for (int shift = 0; shift < 3 * photon::kMortonBits; shift += kBits) {

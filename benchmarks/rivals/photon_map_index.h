@@ -1,5 +1,5 @@
 #pragma once
-// The photon map of this program as a PhotonIndex.
+// This program's photon map as a PhotonIndex.
 
 #include "benchmarks/photon_index.h"
 #include "photon/map/photon_map.h"

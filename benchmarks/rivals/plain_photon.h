@@ -1,5 +1,5 @@
 #pragma once
-// The photon of the scalar rivals, with its flux ready to be added, and the test whether it counts.
+// The photon of the scalar rivals, with its flux unpacked, and the test whether it counts.
 
 #include "core/math/bounds.h"
 #include "photon/gather/gather.h"
@@ -29,7 +29,7 @@ inline Bounds3 bounds_of(const photon::PhotonBuffer& buffer) {
   return bounds;
 }
 
-// photon::GatherQuery's rule.
+// Decides by photon::GatherQuery's rule which photons count.
 class Acceptance {
  public:
   explicit Acceptance(const photon::GatherQuery& query)
@@ -43,7 +43,7 @@ class Acceptance {
     const Vector3 d = p - p_;
     return d.x * d.x + d.y * d.y + d.z * d.z <= radius_squared_;
   }
-  // The very same packed surface needs no decoding.
+  // An identical packed surface needs no decoding.
   bool on_surface(uint32_t surface) const {
     if (surface == surface_) return true;
     return surface >> 16 == surface_ >> 16 && photon::normal_counts(surface, n_);
@@ -57,13 +57,13 @@ class Acceptance {
   uint32_t surface_;
 };
 
-// Photons that count have every coordinate within this of the query's: a rounded squared distance at most the
-// rounded squared radius.
+// Every coordinate of a photon that counts is within this of the query's: its rounded squared distance is at
+// most the rounded squared radius.
 inline float box_reach(float radius) {
   return radius * (1 + 0x1p-20f);
 }
 
-// flux_density() by for_each().
+// Implements flux_density() by for_each().
 template <class Index>
 Rgb summed_flux_density(const Index& index, const photon::GatherQuery& query,
                         photon::GatherCounters& counters) {

@@ -1,5 +1,5 @@
 #pragma once
-// The lecture's octree: a Node with pointers to eight children, built by inserting one photon after the
+// The lecture's octree: nodes with pointers to eight children, built by inserting the photons one after the
 // other; a leaf splits when it holds more than N0 photons. Serial.
 
 #include <array>
@@ -43,14 +43,14 @@ class PointerOctree {
 
  private:
   static constexpr size_t kNodePhotons = 32;  // N0: the fastest of 8, 16, 32, 64 for 50 and 500 in reach
-  static constexpr int kMaxDepth = 21;        // of photons in one point
+  static constexpr int kMaxDepth = 21;        // limits the depth for photons in one point
 
   struct Node {
     Point3 centre;
-    float half;  // of the side
+    float half;  // half of the side
     bool leaf = true;
     std::array<std::unique_ptr<Node>, 8> children;
-    std::vector<PlainPhoton> photons;  // of a leaf
+    std::vector<PlainPhoton> photons;  // only in leaves
 
     void insert(const PlainPhoton& photon, int depth) {
       if (!leaf) return child_at(photon.p).insert(photon, depth + 1);
@@ -61,7 +61,7 @@ class PointerOctree {
       for (const PlainPhoton& p : held) child_at(p.p).insert(p, depth + 1);
     }
 
-    // The child on p's side of the centre, made when it is missing.
+    // The child on p's side of the centre; created when missing.
     Node& child_at(const Point3& p) {
       const glm::bvec3 high = glm::greaterThanEqual(p, centre);
       std::unique_ptr<Node>& child = children[(high.x ? 1 : 0) | (high.y ? 2 : 0) | (high.z ? 4 : 0)];
@@ -73,7 +73,7 @@ class PointerOctree {
       return *child;
     }
 
-    // Boxes are compared as insert() compares points, so rounding loses nothing.
+    // Compares boxes in the way insert() compares points, so rounding loses no photon.
     template <class Fn>
     void for_each(const Point3& low, const Point3& high, const Acceptance& counts,
                   photon::GatherCounters& counters, Fn& fn) const {

@@ -1,5 +1,5 @@
 #pragma once
-// What stochastic progressive photon mapping keeps for each pixel.
+// The state of a pixel in stochastic progressive photon mapping.
 
 #include <atomic>
 #include <memory>
@@ -9,13 +9,13 @@
 
 namespace kaustik::benchmarks::sppm {
 
-// The first line of the cache is what photons in reach look at and add to.
+// The first cache line holds what photons in reach read and add to.
 struct alignas(64) Pixel {
   Point3 p{0};       // of the visible point
   float radius = 0;  // metres
   bool visible = false;
   std::atomic<float> flux[3]{};      // BSDF times flux of this iteration's photons, W/sr
-  std::atomic<uint32_t> photons{0};  // how many
+  std::atomic<uint32_t> photons{0};  // their number
   float N = 0;                       // photons kept from all iterations
   Rgb tau{0};                        // their BSDF times flux, W/sr, and times beta
 
@@ -32,8 +32,8 @@ struct alignas(64) Pixel {
 // The share of new photons that is kept.
 inline constexpr float kGamma = 2.0f / 3;
 
-// The end of an iteration (Hachisuka and Jensen 2009, section 3.3): with M new photons
-// N' = N + gamma M, R'^2 = R^2 N' / (N + M), tau' = (tau + flux) R'^2 / R^2.
+// Ends an iteration (Hachisuka and Jensen 2009, section 3.3): with M new photons N' = N + gamma M, R'^2 = R^2
+// N' / (N + M), tau' = (tau + flux) R'^2 / R^2.
 inline void update(Pixel& pixel) {
   const uint32_t M = pixel.photons.exchange(0, std::memory_order_relaxed);
   if (M == 0) return;
@@ -45,7 +45,7 @@ inline void update(Pixel& pixel) {
   pixel.N = N;
 }
 
-// Mean over the iterations.
+// The mean radiance over the iterations.
 inline Rgb radiance(const Pixel& pixel, uint32_t iterations) {
   return (pixel.Ld + pixel.tau / (kPi * pixel.radius * pixel.radius)) / float(iterations);
 }

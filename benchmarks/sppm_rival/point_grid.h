@@ -1,5 +1,5 @@
 #pragma once
-// Visible points in the cells that their discs meet: a hash table (Teschner et al. 2003) of linked lists,
+// The visible points in the cells that their discs meet: a hash table (Teschner et al. 2003) of linked lists,
 // filled by all threads at once.
 
 #include <tbb/blocked_range.h>
@@ -13,7 +13,7 @@ namespace kaustik::benchmarks::sppm {
 
 class PointGrid {
  public:
-  // Cells are as wide as the largest radius. Replaces what was there.
+  // Builds the grid anew, with cells as wide as the largest radius.
   void build(Pixel* pixels, uint32_t count) {
     pixels_ = pixels;
     measure(count);
@@ -40,7 +40,7 @@ class PointGrid {
     const uint32_t key = key_of(cell);
     for (uint32_t n = heads_[bucket_of(cell)].load(std::memory_order_relaxed); n != kNone;
          n = nodes_[n].next) {
-      if (nodes_[n].key != key) continue;  // of another cell in the same bucket
+      if (nodes_[n].key != key) continue;  // a node of another cell in the same bucket
       Pixel& pixel = pixels_[nodes_[n].pixel];
       if (length_squared(p - pixel.p) <= pixel.radius * pixel.radius) fn(pixel);
     }
@@ -57,7 +57,7 @@ class PointGrid {
     float radius = 0;
   };
 
-  // Bounds, cell width, and how many nodes there will be.
+  // Finds the bounds, the cell width and the number of nodes.
   void measure(uint32_t count) {
     const tbb::blocked_range<uint32_t> all(0, count, 4096);
     const Extent extent = tbb::parallel_reduce(
@@ -113,7 +113,7 @@ class PointGrid {
   }
 
   Cell cell_of(const Point3& p) const { return Cell((p - lowest_) * cells_per_metre_); }
-  // Different in different cells of a grid of fewer than 2^32.
+  // Unique to a cell in a grid of fewer than 2^32 cells.
   uint32_t key_of(const Cell& c) const {
     return (uint32_t(c.z) * size_.y + uint32_t(c.y)) * size_.x + uint32_t(c.x);
   }

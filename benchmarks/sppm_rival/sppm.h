@@ -1,16 +1,16 @@
 #pragma once
-// Stochastic progressive photon mapping (Hachisuka and Jensen 2009), plainly: the rival to beat. Ours,
-// written after the design of pbrt-v3's and pbrt-v4's SPPMIntegrator (Pharr et al. 2016, section 16.2); no
-// line is theirs. Each iteration finds a visible point per pixel, with direct light by one light sample; puts
-// the points into a hash grid of linked lists; and traces photons one by one, uniformly from the lights by
-// power, which add to the points in reach by atomics. Radius, N and tau are each pixel's own. Scene, lights,
-// BSDFs, ray tree and random numbers (Owen-scrambled Sobol, where pbrt has Halton) are this renderer's, so
+// Stochastic progressive photon mapping (Hachisuka and Jensen 2009) without refinements: the rival of the
+// benchmarks. The code is our own, after the design of pbrt-v3's and pbrt-v4's SPPMIntegrator (Pharr et al.
+// 2016, section 16.2). Each iteration finds a visible point per pixel, with direct light by one light sample;
+// puts the points into a hash grid of linked lists; and traces photons one by one, uniformly from the lights
+// by power, which add to the points in reach by atomics. Each pixel has its own radius, N and tau. Scene,
+// lights, BSDFs, BVH and random numbers (Owen-scrambled Sobol, where pbrt has Halton) are this renderer's, so
 // that only the design differs.
 //
-// Unlike pbrt: photons of lists that share a bucket count once; none is left on purely specular surfaces;
-// glossy lobes that are followed get light from lights they meet, without a light sample. Not handled:
-// surfaces with both broad and specular lobes (the specular ones are left out), negative pixel filters,
-// textures' footprints. Atomic sums depend on the order of threads.
+// Differences from pbrt: photons of lists that share a bucket count once; no photon is deposited on purely
+// specular surfaces; glossy lobes that are followed get light from lights that they meet, without a light
+// sample. Not handled: surfaces with both diffuse and specular lobes (the specular ones are left out),
+// negative pixel filters, footprints of textures. Atomic sums depend on the order of threads.
 
 #include <chrono>
 
@@ -28,12 +28,12 @@ namespace kaustik::benchmarks::sppm {
 struct Settings {
   uint32_t iterations = 16;
   uint64_t photons = 262144;  // per iteration
-  float radius = 0.025f;      // of the first iteration, metres
+  float radius = 0.025f;      // in the first iteration, metres
   int max_bounces = 16;       // longest chain of reflections and refractions from the light, or from the eye
   uint64_t seed = 0;
 };
 
-// Wall seconds of the parts of all iterations.
+// Wall seconds of the parts, summed over all iterations.
 struct Seconds {
   double camera = 0, grid = 0, photons = 0, update = 0;
 };
@@ -47,7 +47,7 @@ class Renderer {
     direct_.method = render::Method::kMc;
   }
 
-  // Runs all iterations; once.
+  // Runs all iterations. Call it once.
   render::Image render() {
     for (uint32_t i = 0; i < settings_.iterations; ++i) iterate(i);
     render::Image image(scene_.camera.width, scene_.camera.height);
@@ -96,7 +96,7 @@ class Renderer {
     return rays_(raster);
   }
 
-  // Follows the camera path of pixel i to its first broad surface.
+  // Follows the camera path of pixel i to its first diffuse surface.
   void look(uint32_t i, uint32_t iteration) {
     Pixel& pixel = pixels_[i];
     pixel.visible = false;
@@ -122,7 +122,7 @@ class Renderer {
     }
   }
 
-  // The path's end, at pixel.point.
+  // Handles the end of the camera path, at pixel.point.
   void see(Pixel& pixel, const Rgb& beta, Sampler& sampler) {
     const render::RenderContext context{scene_, bvh_, direct_, plan_, maps_, {}};
     render::TileCounters ignored;
@@ -133,7 +133,7 @@ class Renderer {
     pixel.visible = true;
   }
 
-  // Photon `index` of all iterations. It leaves nothing at the first surface: that light is direct.
+  // Traces photon `index` of all iterations. It deposits nothing at its first surface, whose light is direct.
   void shoot(uint64_t index) {
     Sampler sampler(hash_combine(settings_.seed, kPhotonStream), index);
     const auto start = photon::emit_photon(scene_, photon::emission_numbers(scene_, sampler),
@@ -161,7 +161,8 @@ class Renderer {
     });
   }
 
-  // The next direction, and Russian roulette by what is left of the flux; false where the photon is absorbed.
+  // Samples the next direction and applies Russian roulette by the remaining flux; false when the photon is
+  // absorbed.
   static bool bounce(const SurfaceInteraction& si, const Bsdf& bsdf, Sampler& sampler, Ray* ray, Rgb* flux) {
     const float uc = sampler.next_1d();
     const Point2 u = sampler.next_2d();
@@ -190,7 +191,7 @@ class Renderer {
   const accel::Bvh& bvh_;
   const Settings settings_;
   const RayGenerator rays_;
-  // What the light sample asks for: no maps.
+  // The settings of the light sample, without maps.
   render::RenderSettings direct_;
   render::EstimatorPlan plan_;
   render::PhotonMaps maps_;

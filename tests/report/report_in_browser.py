@@ -34,7 +34,7 @@ try:
 except ImportError as error:
     skip(error)
 
-# Markup in the name: it must stay text.
+# The name contains markup, which must stay text.
 SCENE_NAME = "<img src=x onerror=window.hacked=1>&amp;.pbrt"
 SCENE = """LookAt 0 2 6  0 0.5 0  0 1 0
 Camera "perspective" "float fov" 40
@@ -80,14 +80,14 @@ def open_browser():
 
 
 def points_in(browser, chart):
-    """[cell, x, y] of every point that a chart holds."""
+    """Returns [cell, x, y] of every point in a chart."""
     return browser.execute_script("""
         return Chart.getChart(arguments[0]).data.datasets.flatMap(d => d.data.map(p => [p.cell, p.x, p.y, d.label]));""",
                                   chart)
 
 
 def check_points(browser, rows):
-    """Charts hold the very numbers of the CSV, which was written with as many digits as a double has."""
+    """Checks that charts hold exactly the numbers of the CSV, which has all digits of a double."""
     over_time = points_in(browser, "error-time")
     for index, row in enumerate(rows):
         found = [p for p in over_time if p[0] == index and p[3] != "Pareto front"]
@@ -109,7 +109,7 @@ def check_points(browser, rows):
 
 
 def check_zeros(browser, kaustik, out):
-    """Errors of exactly 0, those of a scene without light, have their points inside the chart."""
+    """Checks that errors of exactly 0, from a scene without light, have points inside the chart."""
     scene = out / "dark.pbrt"
     scene.write_text(SCENE.replace("[10 10 10]", "[0 0 0]"))
     subprocess.run([kaustik, "sweep", str(scene), "--photons", "1k,2k", "--radius", "0.01", "--seeds", "1", "--width", "24",
@@ -143,16 +143,16 @@ def colours_in(browser, chart):
 
 
 def wait_until_drawn(browser):
-    """Charts are drawn anew some frames after the size changed; 30 s are for a machine that does other things."""
+    """Waits until the charts are drawn again, some frames after a change of size; up to 30 s on a busy machine."""
     browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
     end = time.monotonic() + 30
     while any(colours_in(browser, chart) <= 8 for chart in CHARTS) and time.monotonic() < end:
         time.sleep(0.1)
-    time.sleep(0.5)  # for the compositor
+    time.sleep(0.5)  # gives the compositor time to draw
 
 
 def check_drawn(browser):
-    """Every chart has pixels of more than a few colours: it was drawn, not only made."""
+    """Checks that every chart has pixels of more than a few colours, so that it was really drawn."""
     for chart in CHARTS:
         assert colours_in(browser, chart) > 8, chart
     broken = browser.execute_script("return [...document.images].filter(i => !i.naturalWidth).length")
@@ -168,7 +168,7 @@ def check_slider(browser):
     dragged = clip()
     assert "50%" not in dragged, dragged
     slider.send_keys(Keys.HOME)
-    # Browsers may shorten the inset of four zeros.
+    # Browsers may shorten the CSS inset of four zeros.
     assert clip() in ("inset(0px)", "inset(0px 0px 0px 0%)", "inset(0% 0% 0% 0%)"), clip()
     box = browser.find_element(By.ID, "compare")
     ActionChains(browser).move_to_element_with_offset(box, 0, 0).click().perform()
@@ -183,7 +183,7 @@ def check_slider(browser):
 
 
 def check_quiet(browser):
-    # Looking at the canvases' pixels, as this test does, is remarked upon.
+    # Chromium warns about reading the canvases' pixels, which only this test does.
     messages = [entry for entry in browser.get_log("browser") if "willReadFrequently" not in entry["message"]]
     assert not messages, messages
     fetched = browser.execute_script("""
@@ -194,7 +194,7 @@ def check_quiet(browser):
 
 
 def screenshot(browser, width, path):
-    """Of the whole page."""
+    """Takes a picture of the whole page."""
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                             {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600})
     wait_until_drawn(browser)
