@@ -1,4 +1,4 @@
-// Surfaces that are there in part: the same answers for single rays, packets and shadow rays.
+// Tests surfaces with alpha: single rays, packets and shadow rays must give the same answers.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace kaustik::accel {
 namespace {
 
-// A triangle, a sphere and a disk behind each other along z, facing rays from below.
+// A triangle, a sphere and a disk one behind another along z; rays meet them from below.
 Scene three_layers(float alpha) {
   Scene scene;
   scene.materials = {Lambertian{}};
@@ -36,7 +36,7 @@ Ray ray_of(uint64_t k) {
   return {{0.8f * u.x - 0.4f, 0.8f * u.y - 0.4f, -1}, {0.1f * v.x - 0.05f, 0.1f * v.y - 0.05f, 1}};
 }
 
-// Two instances of one mesh along z; a third, of a mesh of its own, is there whole.
+// Two instances of one mesh along z, and a third instance, of a mesh of its own, which is opaque.
 Scene three_instances(float alpha) {
   Scene scene;
   scene.materials = {Lambertian{}};
@@ -58,8 +58,9 @@ Scene three_instances(float alpha) {
   return scene;
 }
 
-// Each of the four surfaces stops a ray with probability 1/4: shares 1/4, 3/16, 9/64 (the sphere's second
-// wall) and so on. 4096 rays: standard deviations are below 28, five of them 140.
+// Each of the four surfaces stops a ray with probability 1/4, so their shares are 1/4, 3/16, 9/64 (the
+// sphere's second wall) and so on. With 4096 rays the standard deviations are below 28, and five of them are
+// 140.
 TEST(Alpha, EachLayerStopsItsShare) {
   const Scene scene = three_layers(0.25f);
   const Bvh bvh(scene);
@@ -110,8 +111,8 @@ TEST(Alpha, PacketsAndShadowRaysAgreeWithSingleRays) {
   expect_the_same_answers(three_instances(0.5f));
 }
 
-// The instances of one mesh decide for themselves: shares 1/4, 3/16 and, of the whole one, 9/16. 4096 rays:
-// five standard deviations are below 160.
+// Instances of one mesh decide independently: the shares are 1/4, 3/16 and, for the opaque one, 9/16. With
+// 4096 rays five standard deviations are below 160.
 TEST(Alpha, EachInstanceStopsItsShare) {
   const Scene scene = three_instances(0.25f);
   const Bvh bvh(scene);
@@ -127,7 +128,7 @@ TEST(Alpha, EachInstanceStopsItsShare) {
   EXPECT_NEAR(by[2], kRays * 0.5625, 160);
 }
 
-TEST(Alpha, ZeroIsNothing) {
+TEST(Alpha, AlphaZeroIsInvisible) {
   const Scene scene = three_layers(0);
   const Bvh bvh(scene);
   for (uint64_t k = 0; k < 100; ++k) EXPECT_FALSE(bvh.occluded(ray_of(k)));

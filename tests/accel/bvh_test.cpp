@@ -1,4 +1,4 @@
-// The tree against the brute-force oracle, and its contract: ranges, scale, threads.
+// Tests the BVH against the brute-force oracle, and its contract: ranges, scale, threads.
 
 #include "accel/bvh.h"
 
@@ -6,16 +6,17 @@
 
 #include <cfenv>
 
-#include "accel/brute_force.h"
-#include "tests/accel/random_scenes.h"
+#include "tests/accel/support/brute_force.h"
+#include "tests/accel/support/random_scenes.h"
 
 namespace kaustik::accel {
 namespace {
 
-using testing::Placement;
-using testing::Random;
+using test::BruteForce;
+using test::Placement;
+using test::Random;
 
-// What the oracle says of a ray and of its six neighbours, whose origins are moved by delta along the axes.
+// The oracle's answers for a ray and for its six neighbours, whose origins are moved by delta along the axes.
 struct Neighbourhood {
   BruteForce::Nearest nearest;
   bool ambiguous = false;  // a neighbour meets another primitive: rounding may decide
@@ -38,8 +39,8 @@ Neighbourhood look(const BruteForce& oracle, const Ray& ray, double delta) {
 }
 
 // Float rounding moves a ray or a surface by a few units in the last place of the coordinates; delta is 64 of
-// them. A ray whose neighbours all meet the same primitive must meet it in the tree too, and t must lie
-// within the spread of theirs.
+// them. Where all neighbours of a ray meet the same primitive, the BVH must find it too, with a t within the
+// spread of theirs.
 void expect_matches_oracle(const Scene& scene, const Placement& place, Random& random, int rays) {
   const Bvh bvh(scene);
   const BruteForce oracle(scene);
@@ -71,48 +72,48 @@ void expect_matches_oracle(const Scene& scene, const Placement& place, Random& r
 TEST(Bvh, MatchesBruteForceOnTriangles) {
   Random random(1);
   Scene scene;
-  testing::add_triangles(scene, random, {}, 300, 0.3f);
-  testing::finish(scene);
+  test::add_triangles(scene, random, {}, 300, 0.3f);
+  test::finish(scene);
   expect_matches_oracle(scene, {}, random, 3000);
 }
 
 TEST(Bvh, MatchesBruteForceOnSpheres) {
   Random random(2);
   Scene scene;
-  testing::add_spheres(scene, random, {}, 150, false);
-  testing::add_spheres(scene, random, {}, 150, true);
-  testing::finish(scene);
+  test::add_spheres(scene, random, {}, 150, false);
+  test::add_spheres(scene, random, {}, 150, true);
+  test::finish(scene);
   expect_matches_oracle(scene, {}, random, 3000);
 }
 
 TEST(Bvh, MatchesBruteForceOnDisks) {
   Random random(3);
   Scene scene;
-  testing::add_disks(scene, random, {}, 300);
-  testing::finish(scene);
+  test::add_disks(scene, random, {}, 300);
+  test::finish(scene);
   expect_matches_oracle(scene, {}, random, 3000);
 }
 
 TEST(Bvh, MatchesBruteForceOnQuadrics) {
   Random random(5);
   Scene scene;
-  testing::add_quadrics(scene, random, {}, 300);
-  testing::finish(scene);
+  test::add_quadrics(scene, random, {}, 300);
+  test::finish(scene);
   expect_matches_oracle(scene, {}, random, 3000);
 }
 
-// Meshes of any size of their own, placed by maps of any kind.
+// Meshes of different sizes, placed by all kinds of affine transforms.
 TEST(Bvh, MatchesBruteForceOnInstances) {
   for (const float size : {1.0f, 1e-4f, 3e5f}) {
     for (const Placement& place : {Placement{}, Placement{1e-4f, {0, 0, 0}}, Placement{1, {100, -200, 50}}}) {
       SCOPED_TRACE(::testing::Message() << size << " scale " << place.scale << " offset " << place.offset.x);
       Random random(6);
       Scene scene;
-      testing::add_instances(scene, random, place, 20, 30, size);
-      testing::add_triangles(scene, random, place, 20, 0.3f);
-      testing::add_quadrics(scene, random, place, 20);
-      testing::add_instances(scene, random, place, 10, 15, 2 * size);
-      testing::finish(scene);
+      test::add_instances(scene, random, place, 20, 30, size);
+      test::add_triangles(scene, random, place, 20, 0.3f);
+      test::add_quadrics(scene, random, place, 20);
+      test::add_instances(scene, random, place, 10, 15, 2 * size);
+      test::finish(scene);
       expect_matches_oracle(scene, place, random, 1500);
     }
   }
@@ -124,11 +125,11 @@ TEST(Bvh, MatchesBruteForceOnMixedShapesAnywhere) {
     SCOPED_TRACE(::testing::Message() << "scale " << place.scale << " offset " << place.offset.x);
     Random random(4);
     Scene scene;
-    testing::add_triangles(scene, random, place, 50, 0.3f);
-    testing::add_spheres(scene, random, place, 50, false);
-    testing::add_triangles(scene, random, place, 50, 0.1f);
-    testing::add_disks(scene, random, place, 50);
-    testing::finish(scene);
+    test::add_triangles(scene, random, place, 50, 0.3f);
+    test::add_spheres(scene, random, place, 50, false);
+    test::add_triangles(scene, random, place, 50, 0.1f);
+    test::add_disks(scene, random, place, 50);
+    test::finish(scene);
     expect_matches_oracle(scene, place, random, 1500);
   }
 }
@@ -139,10 +140,10 @@ TEST(Bvh, ScalingByPowersOfTwoScalesHitsExactly) {
     Scene scene, scaled;
     const float s = std::ldexp(1.0f, k);
     const auto fill = [](Scene& out, Random& r, const Placement& place) {
-      testing::add_triangles(out, r, place, 100, 0.3f);
-      testing::add_spheres(out, r, place, 50, true);
-      testing::add_disks(out, r, place, 50);
-      testing::finish(out);
+      test::add_triangles(out, r, place, 100, 0.3f);
+      test::add_spheres(out, r, place, 50, true);
+      test::add_disks(out, r, place, 50);
+      test::finish(out);
     };
     const Placement place{1, {0.3f, 5, -2}};
     fill(scene, random, place);
@@ -169,17 +170,17 @@ TEST(Bvh, ScalingByPowersOfTwoScalesHitsExactly) {
   }
 }
 
-// Coincident triangles and shared edges give hits of equal t: which one wins must not depend on the threads
-// that built the tree.
+// Coincident triangles and shared edges give hits of equal t; which one wins must not depend on the number of
+// threads that built the BVH.
 TEST(Bvh, SameHitsForAnyNumberOfBuildThreads) {
   Random random(6);
   Scene scene;
-  testing::add_triangles(scene, random, {}, 50000, 0.1f);
+  test::add_triangles(scene, random, {}, 50000, 0.1f);
   auto& mesh = std::get<TriangleMesh>(scene.shapes[0].geometry);
   const auto once = mesh.indices;
   for (int copy = 0; copy < 3; ++copy) mesh.indices.insert(mesh.indices.end(), once.begin(), once.end());
   scene.shapes.push_back(scene.shapes[0]);
-  testing::finish(scene);
+  test::finish(scene);
   std::vector<std::vector<Hit>> results;
   for (int threads : {1, 2, 3, 8, 0, 1}) {
     const Bvh bvh(scene, threads);
@@ -206,11 +207,11 @@ Scene unit_wall() {
   Shape shape;
   shape.geometry = mesh;
   scene.shapes.push_back(shape);
-  testing::finish(scene);
+  test::finish(scene);
   return scene;
 }
 
-// Nearer than the hit itself blocks nothing, one float farther does.
+// A t_max up to the hit's distance blocks nothing; one float more does.
 void expect_open_range(const Bvh& bvh, const Ray& ray) {
   const float t = bvh.intersect(ray).t;
   const std::pair<float, bool> cases[] = {
@@ -225,7 +226,7 @@ TEST(Bvh, RangeIsOpenAtBothEndsOnTriangles) {
   const Scene scene = unit_wall();
   const Bvh bvh(scene);
   EXPECT_FLOAT_EQ(bvh.intersect({{0, 0, 2}, {0, 0, -1}}).t, 2.0f);
-  EXPECT_FLOAT_EQ(bvh.intersect({{0, 0, 2}, {0, 0, -4}}).t, 0.5f);  // t in lengths of d
+  EXPECT_FLOAT_EQ(bvh.intersect({{0, 0, 2}, {0, 0, -4}}).t, 0.5f);  // t is in units of |d|
   expect_open_range(bvh, {{0, 0, 2}, {0, 0, -1}});
   EXPECT_FALSE(bvh.intersect({{0, 0, 0}, {0, 0, -1}}).valid());  // t = 0 does not count
   EXPECT_FALSE(bvh.occluded({{0, 0, 0}, {0, 0, -1}}));
@@ -238,7 +239,7 @@ TEST(Bvh, RangeIsOpenAtBothEndsOnSpheresAndDisks) {
   glm::dmat4 behind(1);
   behind[3] = {0, 0, -9, 1};
   scene.shapes[1].geometry = Disk{Transform::from_matrix(behind), 0};
-  testing::finish(scene);
+  test::finish(scene);
   const Bvh bvh(scene);
   EXPECT_FLOAT_EQ(bvh.intersect({{0, 0, 3}, {0, 0, -1}}).t, 2.0f);
   expect_open_range(bvh, {{0, 0, 3}, {0, 0, -1}});
@@ -248,7 +249,7 @@ TEST(Bvh, RangeIsOpenAtBothEndsOnSpheresAndDisks) {
 
 TEST(Bvh, EmptySceneAndEmptyMeshHitNothing) {
   Scene scene;
-  testing::finish(scene);
+  test::finish(scene);
   EXPECT_FALSE(Bvh(scene).intersect({{0, 0, 0}, {0, 0, 1}}).valid());
   Shape shape;
   shape.geometry = TriangleMesh{};
@@ -256,7 +257,7 @@ TEST(Bvh, EmptySceneAndEmptyMeshHitNothing) {
   EXPECT_FALSE(Bvh(scene).occluded({{0, 0, 0}, {0, 0, 1}}));
 }
 
-// Builds of Embree with assertions would end the program.
+// Builds of Embree with assertions would end the program if such rays reached it.
 TEST(Bvh, RaysOutOfReachMeetNothing) {
   const Scene scene = unit_wall();
   const Bvh bvh(scene);

@@ -1,17 +1,18 @@
-// The search for edges against a walk over all of them, and the edges behind which surfaces go on.
+// Tests the search for edges against a walk over all of them, and the removal of edges across which the
+// surface continues.
 
 #include "accel/edge_index.h"
 
 #include <gtest/gtest.h>
 
 #include "accel/bvh.h"
-#include "tests/accel/random_scenes.h"
+#include "tests/accel/support/random_scenes.h"
 
 namespace kaustik::accel {
 namespace {
 
-using testing::Placement;
-using testing::Random;
+using test::Placement;
+using test::Random;
 
 std::vector<BoundaryEdge> random_edges(Random& random, const Placement& place, int count) {
   std::vector<BoundaryEdge> edges;
@@ -27,7 +28,7 @@ std::vector<BoundaryEdge> random_edges(Random& random, const Placement& place, i
   return edges;
 }
 
-// Distance by ternary search: no formula shared with the index.
+// The distance by ternary search, which shares no formula with the index.
 double distance(const BoundaryEdge& edge, const Point3& p) {
   const glm::dvec3 a(edge.a), b(edge.b), q(p);
   double low = 0, high = 1;
@@ -52,7 +53,8 @@ TEST(EdgeIndex, MatchesAWalkOverAllEdges) {
       const uint32_t group = uint32_t(3 * random.uniform());
       std::vector<uint32_t> out(2000), expected;
       out.resize(index.find(p, radius, group, out));
-      // The search minimises in double to about 1e-8 of the edge's length; closer calls are nobody's error.
+      // The search minimises in double, to about 1e-8 of the edge's length; either answer is right for closer
+      // calls.
       for (uint32_t e = 0; e < index.size(); ++e) {
         if (index[e].surface_group != group) continue;
         const double d = distance(index[e], p);
@@ -66,7 +68,7 @@ TEST(EdgeIndex, MatchesAWalkOverAllEdges) {
   }
 }
 
-TEST(EdgeIndex, SaysWhenThereAreMoreThanFit) {
+TEST(EdgeIndex, ReportsMoreEdgesThanFit) {
   Random random(12);
   const EdgeIndex index(random_edges(random, {}, 500));
   std::vector<uint32_t> all(500);
@@ -75,11 +77,11 @@ TEST(EdgeIndex, SaysWhenThereAreMoreThanFit) {
   std::vector<uint32_t> exact(count), few(count - 1);
   EXPECT_EQ(index.find({0, 0, 0}, 10, 1, exact), count);
   EXPECT_TRUE(std::equal(exact.begin(), exact.end(), all.begin()));
-  EXPECT_EQ(index.find({0, 0, 0}, 10, 1, few), count);  // size + 1
+  EXPECT_EQ(index.find({0, 0, 0}, 10, 1, few), count);  // one more than fit
   EXPECT_EQ(index.find({0, 0, 0}, 10, 1, std::span(few).first(3)), 4u);
 }
 
-TEST(EdgeIndex, WithoutEdgesFindsNone) {
+TEST(EdgeIndex, EmptyIndexFindsNothing) {
   std::vector<uint32_t> out(1);
   EXPECT_EQ(EdgeIndex({}).find({0, 0, 0}, 1, 0, out), 0u);
   BoundaryEdge edge{{0, 0, 0}, {1, 0, 0}};
@@ -89,8 +91,8 @@ TEST(EdgeIndex, WithoutEdgesFindsNone) {
   EXPECT_EQ(EdgeIndex({edge}).find({0, 0, 0}, 1, 1, out), 1u);
 }
 
-// Three groups of about eight edges, found without the tree.
-TEST(EdgeIndex, GroupsOfFewEdgesMatchTheTree) {
+// Three groups of about eight edges, which are searched without the tree.
+TEST(EdgeIndex, SmallGroupsMatchAWalkOverAllEdges) {
   Random random(13);
   const std::vector<BoundaryEdge> edges = random_edges(random, {}, 24);
   const EdgeIndex few(edges);
@@ -124,14 +126,14 @@ void add_rectangle(Scene& scene, const Point3& p, const Vector3& a, const Vector
 }
 
 size_t edges_left(Scene& scene) {
-  testing::finish(scene);
+  test::finish(scene);
   const Bvh bvh(scene);
   return without_continued(find_boundary_edges(scene.shapes), bvh).size();
 }
 
 constexpr Placement kPlaces[] = {{}, {1e-5f, {0, 0, 0}}, {1e4f, {3, -2, 5}}, {0.01f, {10000, 0, 3000}}};
 
-TEST(ContinuedEdges, ARectangleKeepsItsFour) {
+TEST(ContinuedEdges, RectangleKeepsItsFourEdges) {
   for (const Placement& at : kPlaces) {
     Scene scene;
     add_rectangle(scene, at.point({0, 0, 0}), {at.scale, 0, 0}, {0, at.scale, 0}, 0);
@@ -139,15 +141,16 @@ TEST(ContinuedEdges, ARectangleKeepsItsFour) {
   }
 }
 
-// One large tile and two small ones along its side.
-TEST(ContinuedEdges, TJunctionsAreNoBorders) {
+// One large tile with two small ones along one of its sides.
+TEST(ContinuedEdges, TJunctionsAreNotBorders) {
   for (const Placement& at : kPlaces) {
     Scene scene;
     const float s = at.scale;
     add_rectangle(scene, at.point({0, 0, 0}), {s, 0, 0}, {0, s, 0}, 0);
     add_rectangle(scene, at.point({1, 0, 0}), {s, 0, 0}, {0, 0.5f * s, 0}, 0);
     add_rectangle(scene, at.point({1, 0.5f, 0}), {0, 0.5f * s, 0}, {s, 0, 0}, 0);  // the other winding
-    // Three of the large tile; two of each small one, which share the side between them.
+    // Three edges of the large tile and two of each small one remain; the small tiles share the side between
+    // them.
     EXPECT_EQ(edges_left(scene), 7u) << at.scale;
   }
 }
@@ -160,12 +163,12 @@ TEST(ContinuedEdges, OtherGroupsAreBorders) {
 }
 
 // A sheet of another group over the seam does not hide the tile behind it.
-TEST(ContinuedEdges, LooksThroughOtherSurfaces) {
+TEST(ContinuedEdges, IgnoresSurfacesOfOtherGroups) {
   Scene scene;
   add_rectangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0);
   add_rectangle(scene, {1, -1, 0}, {1, 0, 0}, {0, 3, 0}, 0);
   add_rectangle(scene, {0.5f, -2, 0x1p-12f}, {1, 0, 0}, {0, 5, 0}, 1);
-  // The long tile's left side is seen to go on from its middle point only, a third of its length: it stays.
+  // The long tile's left side is continued only around its middle, for a third of its length, so it stays.
   EXPECT_EQ(edges_left(scene), 3u + 4 + 4);
 }
 

@@ -1,15 +1,15 @@
-// Packets of rays against single rays.
+// Tests packets of rays against single rays.
 
 #include <gtest/gtest.h>
 
 #include "accel/bvh.h"
-#include "tests/accel/random_scenes.h"
+#include "tests/accel/support/random_scenes.h"
 
 namespace kaustik::accel {
 namespace {
 
-using testing::Placement;
-using testing::Random;
+using test::Placement;
+using test::Random;
 
 void expect_same(const Hit& got, const Hit& expected, size_t ray) {
   ASSERT_EQ(got.shape, expected.shape) << ray;
@@ -19,9 +19,8 @@ void expect_same(const Hit& got, const Hit& expected, size_t ray) {
   ASSERT_EQ(got.uv, expected.uv) << ray;
 }
 
-// Every lane is what a ray alone finds, bit for bit, whatever the count and whichever way the packets go
-// through the tree. Random rays meet no two surfaces at
-// the same distance.
+// Every lane must match a single ray bit for bit, whatever the number of rays and the way in which the
+// packets go through the BVH. Random rays do not meet two surfaces at the same distance.
 void expect_packets_are_single_rays(const Scene& scene, const Placement& place, Random& random) {
   const Bvh bvh(scene);
   RayLanes rays{};
@@ -52,40 +51,40 @@ void expect_packets_are_single_rays(const Scene& scene, const Placement& place, 
   EXPECT_LT(met, traced);
 }
 
-TEST(BvhPackets, AreSingleRaysInScenesOfFewPrimitives) {
+TEST(BvhPackets, MatchSingleRaysInSmallScenes) {
   Random random(11);
   Scene scene;
-  testing::add_triangles(scene, random, {}, 20, 1.0f);
-  testing::add_spheres(scene, random, {}, 8, true);
-  testing::add_disks(scene, random, {}, 8);
-  testing::finish(scene);
+  test::add_triangles(scene, random, {}, 20, 1.0f);
+  test::add_spheres(scene, random, {}, 8, true);
+  test::add_disks(scene, random, {}, 8);
+  test::finish(scene);
   expect_packets_are_single_rays(scene, {}, random);
 }
 
-TEST(BvhPackets, AreSingleRaysInScenesOfManyPrimitives) {
+TEST(BvhPackets, MatchSingleRaysInLargeScenes) {
   Random random(12);
   Scene scene;
   const Placement place{0x1p-15f, {3, -2, 1}};
-  testing::add_triangles(scene, random, place, 2000, 0.2f);
-  testing::add_spheres(scene, random, place, 100, true);
-  testing::add_disks(scene, random, place, 100);
-  testing::finish(scene);
+  test::add_triangles(scene, random, place, 2000, 0.2f);
+  test::add_spheres(scene, random, place, 100, true);
+  test::add_disks(scene, random, place, 100);
+  test::finish(scene);
   expect_packets_are_single_rays(scene, place, random);
 }
 
-TEST(BvhPackets, AreSingleRaysAmongInstancesAndQuadrics) {
+TEST(BvhPackets, MatchSingleRaysAmongInstancesAndQuadrics) {
   Random random(13);
   Scene scene;
-  testing::add_instances(scene, random, {}, 20, 40, 3);
-  testing::add_quadrics(scene, random, {}, 30);
-  testing::add_triangles(scene, random, {}, 20, 0.5f);
-  testing::finish(scene);
+  test::add_instances(scene, random, {}, 20, 40, 3);
+  test::add_quadrics(scene, random, {}, 30);
+  test::add_triangles(scene, random, {}, 20, 0.5f);
+  test::finish(scene);
   expect_packets_are_single_rays(scene, {}, random);
 }
 
 TEST(BvhPackets, EmptySceneLetsAllRaysEscape) {
   Scene scene;
-  testing::finish(scene);
+  test::finish(scene);
   RayLanes rays{};
   HitLanes hits{};
   Bvh(scene).intersect(rays, kRayLanes, &hits);

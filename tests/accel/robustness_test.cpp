@@ -1,32 +1,33 @@
-// What rounding must never do: leak through a closed mesh, or hit the surface that a ray starts on.
+// Tests what rounding must never cause: leaks through a closed mesh, or hits on the surface that a ray starts
+// from.
 
 #include <gtest/gtest.h>
 
 #include "accel/bvh.h"
-#include "tests/accel/random_scenes.h"
+#include "tests/accel/support/random_scenes.h"
 
 namespace kaustik::accel {
 namespace {
 
-using testing::Placement;
-using testing::Random;
+using test::Placement;
+using test::Random;
 
 // Rays from inside a closed, bumpy mesh, where two triangles must share every point of an edge without a gap.
 // Embree's robust mode promises this for edges. Around a vertex its edge functions are rounded one by one,
-// and a ray aimed at the very floats of the vertex slips through once in about ten thousand; a ray that was
-// not aimed has to come within a rounding error of a vertex in two dimensions for that, and none does.
+// and a ray aimed exactly at the floats of a vertex slips through once in about ten thousand. A ray that is
+// not aimed would have to come within a rounding error of a vertex in two dimensions, and none does.
 TEST(Robustness, ClosedMeshIsWatertight) {
   for (const Placement& place : {Placement{}, Placement{1e-5f, {0, 0, 0}}, Placement{1e4f, {0, 0, 0}},
                                  Placement{1, {1000, -500, 2000}}}) {
     SCOPED_TRACE(::testing::Message() << "scale " << place.scale << " offset " << place.offset.x);
     Random random(11);
-    TriangleMesh mesh = testing::icosphere(3);
+    TriangleMesh mesh = test::icosphere(3);
     for (Point3& p : mesh.P) p = place.point(random.uniform(0.9f, 1.1f) * p);
     Scene scene;
     Shape shape;
     shape.geometry = mesh;
     scene.shapes.push_back(shape);
-    testing::finish(scene);
+    test::finish(scene);
     const Bvh bvh(scene);
     const auto leak = [&](const Vector3& d) {
       return !bvh.occluded({place.point(0.4f * random.in_cube()), d});
@@ -50,14 +51,14 @@ TEST(Robustness, ClosedMeshIsWatertight) {
   }
 }
 
-// A direction at angle acos(cosine) from n.
+// A random direction at the angle acos(cosine) from n.
 Vector3 tilted(const Normal3& n, float cosine, Random& random) {
   const Frame frame = Frame::from_z(n);
   const float phi = random.uniform(0, 2 * kPi), sine = std::sqrt(1 - cosine * cosine);
   return frame.to_world({sine * std::cos(phi), sine * std::sin(phi), cosine});
 }
 
-// From near the normal down to directions that float can hardly tell from the plane.
+// From directions near the normal to directions that floats can hardly tell from the plane.
 const float kCosines[] = {0.9f, 0.3f, 1e-1f, 1e-2f, 1e-3f, 1e-4f, 1e-5f, 1e-6f};
 
 const Placement kPlaces[] = {Placement{},
@@ -67,15 +68,15 @@ const Placement kPlaces[] = {Placement{},
                              Placement{1e-2f, {1e4f, -1e4f, 3e3f}},
                              Placement{1, {0.5f, 1e5f, 0}}};
 
-// A scene of one triangle: whatever a ray that left it hits, is itself.
+// In a scene of one triangle, any hit of a ray that left it is a self-hit.
 TEST(Robustness, RaysNeverHitTheTriangleTheyLeave) {
   Random random(12);
   int tried = 0;
   for (const Placement& place : kPlaces) {
     for (int round = 0; round < 300; ++round) {
       Scene scene;
-      testing::add_triangles(scene, random, place, 1, random.uniform(0.01f, 1));
-      testing::finish(scene);
+      test::add_triangles(scene, random, place, 1, random.uniform(0.01f, 1));
+      test::finish(scene);
       const Bvh bvh(scene);
       const auto& P = std::get<TriangleMesh>(scene.shapes[0].geometry).P;
       for (int i = 0; i < 10; ++i) {
@@ -98,15 +99,15 @@ TEST(Robustness, RaysNeverHitTheTriangleTheyLeave) {
   EXPECT_GT(tried, 100000);
 }
 
-// A triangle of an instance, whatever the map: turned, mirrored and scaled unevenly.
+// A triangle of an instance under any transform: turned, mirrored and scaled unevenly.
 TEST(Robustness, RaysNeverHitTheInstanceTheyLeave) {
   Random random(16);
   int tried = 0;
   for (const Placement& place : kPlaces) {
     for (int round = 0; round < 300; ++round) {
       Scene scene;
-      testing::add_instances(scene, random, place, 1, 1, round % 2 ? 1.0f : 1e3f);
-      testing::finish(scene);
+      test::add_instances(scene, random, place, 1, 1, round % 2 ? 1.0f : 1e3f);
+      test::finish(scene);
       const Bvh bvh(scene);
       const auto& instance = std::get<InstancedMesh>(scene.shapes[0].geometry);
       const auto& P = instance.mesh->P;
@@ -116,7 +117,8 @@ TEST(Robustness, RaysNeverHitTheInstanceTheyLeave) {
         const Point3 o = place.point(3.0f * random.in_cube());
         SurfaceInteraction si;
         if (!bvh.intersect({o, glm::normalize(target - o)}, &si)) continue;
-        // A few units in the last place of the coordinates: what is left is a usable offset.
+        // The error bound is a few units in the last place of the coordinates, so that the offset stays
+        // small.
         ASSERT_LT(si.p_error, 1e-4f * place.scale * (2 + glm::length(place.offset)));
         for (float cosine : kCosines) {
           for (float side : {-1.0f, 1.0f}) {
@@ -131,17 +133,17 @@ TEST(Robustness, RaysNeverHitTheInstanceTheyLeave) {
   EXPECT_GT(tried, 50000);
 }
 
-// Outwards: what is round meets its own other side inwards.
+// Rays leave outwards; inwards they would meet the far side of a round shape.
 TEST(Robustness, RaysNeverHitTheQuadricTheyLeave) {
   Random random(17);
   int tried = 0;
   for (const Placement& place : kPlaces) {
     for (int round = 0; round < 300; ++round) {
       Scene scene;
-      testing::add_quadrics(scene, random, place, 3);
+      test::add_quadrics(scene, random, place, 3);
       std::swap(scene.shapes[0], scene.shapes[size_t(round % 3)]);
       scene.shapes.resize(1);
-      testing::finish(scene);
+      test::finish(scene);
       const Bvh bvh(scene);
       const Point3 center = scene.bounds.center();
       for (int i = 0; i < 20; ++i) {
@@ -167,11 +169,11 @@ TEST(Robustness, RaysNeverHitTheSphereOrDiskTheyLeave) {
       Scene scene;
       const bool disk = round % 2 == 0;
       if (disk) {
-        testing::add_disks(scene, random, place, 1);
+        test::add_disks(scene, random, place, 1);
       } else {
-        testing::add_spheres(scene, random, place, 1, round % 4 == 1);
+        test::add_spheres(scene, random, place, 1, round % 4 == 1);
       }
-      testing::finish(scene);
+      test::finish(scene);
       const Bvh bvh(scene);
       const Point3 center = scene.bounds.center();
       for (int i = 0; i < 10; ++i) {
@@ -193,15 +195,14 @@ TEST(Robustness, RaysNeverHitTheSphereOrDiskTheyLeave) {
   EXPECT_GT(tried, 50000);
 }
 
-// From inside a sphere every ray meets the far side, a chord away: the start is not met, the far side not
-// missed.
+// From inside a sphere every ray meets the far side, a chord away, and never its starting point.
 TEST(Robustness, RaysInsideASphereMeetItsFarSide) {
   for (const Placement& place :
        {Placement{}, Placement{1e-6f, {0, 0, 0}}, Placement{1e6f, {0, 0, 0}}, Placement{1, {10, -7, 3}}}) {
     Random random(14);
     Scene scene;
-    testing::add_spheres(scene, random, place, 1, false);
-    testing::finish(scene);
+    test::add_spheres(scene, random, place, 1, false);
+    test::finish(scene);
     const Bvh bvh(scene);
     const Point3 center = scene.bounds.center();
     const float radius = 0.5f * scene.bounds.diagonal().x;
@@ -211,8 +212,9 @@ TEST(Robustness, RaysInsideASphereMeetItsFarSide) {
       for (float cosine : {1.0f, 0.5f, 0.1f, 0.01f}) {
         const Hit far = bvh.intersect(si.spawn(-tilted(si.n, cosine, random)));
         ASSERT_TRUE(far.valid()) << cosine;
-        // The chord is 2 r cosine. Its error: that of the cosine by the float normal and direction, and the
-        // two points' offsets over the cosine, each some units in the last place of the coordinates.
+        // The chord is 2 r cosine. Its error is that of the cosine, from the float normal and direction, and
+        // the offsets of the two points divided by the cosine, each some units in the last place of the
+        // coordinates.
         const float error =
             32 * std::numeric_limits<float>::epsilon() * (radius + glm::length(center)) / cosine;
         ASSERT_NEAR(far.t, 2 * radius * cosine, error) << cosine;
@@ -221,8 +223,8 @@ TEST(Robustness, RaysInsideASphereMeetItsFarSide) {
   }
 }
 
-// Light between two surface points: nothing lies between them but what is put there.
-TEST(Robustness, SegmentsBetweenSurfacePointsSeeOnlyWhatIsBetween) {
+// Between two surface points only an object placed there may block the segment.
+TEST(Robustness, SegmentsBetweenSurfacePointsAreBlockedOnlyByObjectsBetween) {
   for (const Placement& place : kPlaces) {
     Random random(15);
     const auto wall = [&](float z) {
@@ -237,8 +239,8 @@ TEST(Robustness, SegmentsBetweenSurfacePointsSeeOnlyWhatIsBetween) {
     Scene open, blocked;
     open.shapes = {wall(-1), wall(1)};
     blocked.shapes = {wall(-1), wall(1), wall(0)};
-    testing::finish(open);
-    testing::finish(blocked);
+    test::finish(open);
+    test::finish(blocked);
     const Bvh open_bvh(open), blocked_bvh(blocked);
     const Point3 middle = place.point({0, 0, 0.5f});
     for (int i = 0; i < 2000; ++i) {

@@ -1,4 +1,5 @@
-// The same bits: for any number of threads, for a crop, for a scene scaled by a power of two.
+// Tests that pictures keep their bits: for any number of threads, for a crop, for a scene scaled by a power
+// of two.
 
 #include <gtest/gtest.h>
 
@@ -44,12 +45,13 @@ TEST_P(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
-// Neither image nor window is made of whole blocks of rays, and the samples do not fill the last packets.
-TEST_P(Determinism, CropIsAPartOfTheImage) {
+// Neither the image nor the window consists of whole blocks of rays, and the samples do not fill the last
+// packets.
+TEST_P(Determinism, CropEqualsThatPartOfTheImage) {
   const Scene scene = cornell(30);
   RenderSettings settings = settings_of(GetParam());
   settings.spp = 6;
-  settings.adaptive = 0;  // further samples are shared out over the crop alone
+  settings.adaptive = 0;  // adaptive sampling would distribute further samples over the crop alone
   const auto whole = render_with_threads(scene, settings);
   settings.crop = {7, 30, 11, 29};
   const auto part = render_with_threads(scene, settings);
@@ -63,7 +65,7 @@ TEST_P(Determinism, CropIsAPartOfTheImage) {
           << x << y;
 }
 
-TEST_P(Determinism, SeedsGiveOtherNoise) {
+TEST_P(Determinism, SeedsChangeTheNoise) {
   const Scene scene = cornell(16);
   RenderSettings settings = settings_of(GetParam());
   const auto a = render_with_threads(scene, settings);
@@ -71,7 +73,8 @@ TEST_P(Determinism, SeedsGiveOtherNoise) {
   EXPECT_FALSE(same_bytes(a.film, render_with_threads(scene, settings).film));
 }
 
-// Twelve decades: 2^-20 to 2^20. Light radiance stays, so the picture stays; depth and radius scale.
+// Scales from 2^-20 to 2^20, twelve decades. The lights' radiance stays, so the picture stays; depth and
+// radius scale.
 TEST_P(Determinism, ScaledSceneGivesTheSameBits) {
   const auto one = render_with_threads(cornell(24), settings_of(GetParam()));
   for (const int exponent : {-20, -3, 20}) {
@@ -88,8 +91,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, Determinism,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kHybrid, Method::kPhoton,
                                            Method::kAuto));
 
-// The leaf lookup, the nearest-K rule and the kernels are functions of the query alone, too.
-TEST(DeterminismOptions, LookupsAndKernels) {
+// The leaf lookup, the nearest-K rule and the kernels depend on the query only, too.
+TEST(DeterminismOptions, LookupsAndKernelsGiveTheSameBits) {
   const Scene scene = cornell(24);
   for (const Kernel kernel : {Kernel::kCone, Kernel::kEpanechnikov}) {
     RenderSettings settings = settings_of(Method::kPhoton);

@@ -1,4 +1,4 @@
-// What render() promises besides the picture: invalid samples, cancelling, bad settings, statistics.
+// Tests what render() promises besides the picture: invalid samples, cancelling, bad settings, statistics.
 
 #include "render/renderer.h"
 
@@ -61,9 +61,9 @@ TEST(Render, CancelsInEveryPhase) {
   EXPECT_FALSE(render(scene, bvh, settings).cancelled);
 }
 
-// A pass that is cut short leaves no trace in the complete ones; before the first is complete, its tiles
-// show.
-TEST(Render, ACancelledPassDoesNotCount) {
+// A cancelled pass leaves no trace in the complete ones; before the first pass is complete, its tiles are
+// shown.
+TEST(Render, CancelledPassDoesNotCount) {
   const Scene scene = cornell(40);
   const accel::Bvh bvh(scene);
   RenderSettings settings;
@@ -99,7 +99,7 @@ TEST(Render, ReportsEveryTile) {
   settings.spp = 1;
   for (const bool further : {false, true}) {
     settings.adaptive = further ? 0.75f : 0;
-    const uint64_t tiles = further ? 18 : 9;  // 40 pixels are three tiles of 16, gone through once or twice
+    const uint64_t tiles = further ? 18 : 9;  // 40 pixels are three tiles of 16, rendered once or twice
     uint64_t last = 0;
     render(scene, accel::Bvh(scene), settings, [&](const Progress& p) {
       EXPECT_EQ(p.phase, "render");
@@ -112,7 +112,7 @@ TEST(Render, ReportsEveryTile) {
   }
 }
 
-// Whatever is done by then is shown, also while further samples are taken.
+// A render that is cancelled among further samples shows all finished work.
 TEST(Render, CancelledAmongFurtherSamplesKeepsTheFirst) {
   const Scene scene = cornell(40);
   RenderSettings settings;
@@ -147,8 +147,8 @@ TEST(Render, RefusesSenselessSettings) {
   refused([](RenderSettings& s) { s.crop = {-1, 4, 0, 8}; });
 }
 
-// A path of one event is direct light only; a scene without lights is black by every method.
-TEST(Render, BounceLimitAndDarkness) {
+// Paths of one event carry direct light only; a scene without lights is black by every method.
+TEST(Render, OneBounceIsDirectLightAndNoLightsAreBlack) {
   Scene scene = cornell(16);
   RenderSettings settings;
   settings.method = Method::kMc;
@@ -172,7 +172,7 @@ TEST(Render, BounceLimitAndDarkness) {
   }
 }
 
-// The pilot's rule: about 64 photons in reach of a typical visible point, for any number of photons.
+// By the pilot's rule about 64 photons are in reach of a typical visible point, for any number of photons.
 TEST(AutoRadius, GathersAboutSixtyFourPhotons) {
   const Scene scene = cornell(24);
   for (const uint64_t photons : {20'000u, 200'000u}) {
@@ -190,14 +190,14 @@ TEST(AutoRadius, GathersAboutSixtyFourPhotons) {
     for (int y = 0; y < 24; ++y)
       for (int x = 0; x < 24; ++x) counts.push_back(result.film.at(x, y).photons);
     std::nth_element(counts.begin(), counts.begin() + counts.size() / 2, counts.end());
-    // The median over 1024 pilot points of the radius for 64; 576 pixels and the direct light's variation
-    // over the scene leave the median count within a factor of two.
+    // The radius is the median over 1024 pilot points of the radius that holds 64 photons; 576 pixels and the
+    // direct light's variation over the scene leave the median count within a factor of two.
     EXPECT_GT(counts[counts.size() / 2], 32);
     EXPECT_LT(counts[counts.size() / 2], 128);
   }
 }
 
-TEST(Statistics, JsonHoldsWhatWasCounted) {
+TEST(Statistics, JsonContainsTheCounts) {
   const Scene scene = cornell_with_table(16);
   RenderSettings settings;
   settings.method = Method::kHybrid;

@@ -1,5 +1,5 @@
-// kaustik bench from the outside: points, exact counts, files, bad command lines. No test looks at a time but
-// to compare it with others of the same file.
+// Tests kaustik bench from the outside: points, exact counts, files, bad command lines. Times are only
+// compared with other times of the same file.
 
 #include <gmock/gmock.h>
 
@@ -12,16 +12,16 @@
 namespace kaustik::app {
 namespace {
 
-using testing::count_threads;
+using test::count_threads;
+using test::Outcome;
+using test::run_kaustik;
+using test::ThreadCounts;
+using test::wait_until_handled;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::Outcome;
-using testing::run_kaustik;
-using testing::ThreadCounts;
 using ::testing::UnorderedElementsAre;
-using testing::wait_until_handled;
 
-class BenchCommand : public testing::ProgramTest {
+class BenchCommand : public test::ProgramTest {
  protected:
   std::string tiny_scene() const { return small_scene(film(16, 12)); }
   Json result(const std::string& name) const { return Json::parse(read(name)); }
@@ -36,7 +36,7 @@ class BenchCommand : public testing::ProgramTest {
   }
 };
 
-// Every number below value is a whole one.
+// Expects that every number below `value` is a whole number.
 void expect_whole_numbers(const Json& value, const std::string& name) {
   if (value.is_object()) {
     for (const auto& [key, inner] : value.items()) expect_whole_numbers(inner, name + "." + key);
@@ -58,7 +58,8 @@ TEST_F(BenchCommand, MeasuresEveryPointInTheOrderOfTheCommandLine) {
   EXPECT_FALSE(r["settings"].contains("photons"));
 }
 
-// Across threads, repeats and separate runs of the program; the rays per kind hold what is known beforehand.
+// Counters are equal for any number of threads, for repeats and for separate runs of the program. Some of the
+// rays per kind are known beforehand.
 TEST_F(BenchCommand, CountersAreWholeNumbersThatDoNotDependOnThreads) {
   for (const char* method : {"auto", "hybrid", "photon", "mc"}) {
     const Json r =
@@ -68,13 +69,13 @@ TEST_F(BenchCommand, CountersAreWholeNumbersThatDoNotDependOnThreads) {
     for (const Json& p : r["points"]) EXPECT_EQ(p["counters"], counters) << method << " " << p["threads"];
     const Json again = measured({"--photons", "20k", "--threads", "2", "--repeat", "1", "--method", method});
     EXPECT_EQ(again["points"][0]["counters"], counters) << method;
-    // Methods that trace paths from the camera take no further samples.
+    // Only methods that trace paths from the camera take no further samples.
     EXPECT_GE(counters["rays"]["camera"], 16 * 12);
     if (method == std::string("mc") || method == std::string("hybrid")) {
       EXPECT_EQ(counters["rays"]["camera"], 16 * 12);
     }
     EXPECT_LE(counters["gather"]["accepted"], counters["gather"]["candidates"]);
-    // Kinds that are guided have photons of their own, and where all are there are no others.
+    // Guided kinds have photons of their own; where all kinds are guided there are no others.
     const uint64_t emitted = counters["photons"]["emitted"],
                    guided = counters["photons"]["guided"]["emitted"];
     if (method == std::string("mc"))
@@ -85,7 +86,7 @@ TEST_F(BenchCommand, CountersAreWholeNumbersThatDoNotDependOnThreads) {
   }
 }
 
-TEST_F(BenchCommand, CountersAreThoseOfTheRender) {
+TEST_F(BenchCommand, CountersMatchTheRender) {
   const Json bench =
       measured({"--photons", "5k", "--threads", "1", "--repeat", "1"})["points"][0]["counters"];
   ASSERT_EQ(run_kaustik({"render", tiny_scene(), "--spp", "1", "--photons", "5k", "-o", path("a.exr"),
@@ -104,10 +105,9 @@ TEST_F(BenchCommand, SpeedUpAndEfficiencyFollowFromTheMedians) {
   for (const char* phase : {"photon_trace", "photon_build", "render", "total"}) {
     const double gain =
         base["seconds"][phase]["median"].get<double>() / other["seconds"][phase]["median"].get<double>();
-    // One division, of the same doubles once they are read back: exact but for the printing, which is exact
-    // too.
+    // Both sides divide the same doubles; writing and reading them back is exact.
     EXPECT_DOUBLE_EQ(other["speed_up"][phase].get<double>(), gain) << phase;
-    EXPECT_DOUBLE_EQ(other["efficiency"][phase].get<double>(), 2 * gain) << phase;  // one thread for two
+    EXPECT_DOUBLE_EQ(other["efficiency"][phase].get<double>(), 2 * gain) << phase;  // half as many threads
   }
   for (const Json& p : r["points"]) {
     EXPECT_LE(p["seconds"]["total"]["min"], p["seconds"]["total"]["median"]);
@@ -143,7 +143,7 @@ TEST_F(BenchCommand, ThreadsBoundsEveryThreadOfTheProcess) {
   EXPECT_LE(threads.most, threads.before + 1);
 }
 
-TEST_F(BenchCommand, PlotsWhileMeasuringAndFromTheFileAlike) {
+TEST_F(BenchCommand, PlotsAreTheSameWhenMeasuringAndFromTheFile) {
   const Outcome measured =
       run_kaustik({"bench", tiny_scene(), "--spp", "1", "--photons", "1k,4k", "--threads", "1,2", "--repeat",
                    "2", "--json", path("r.json"), "--plot", path("first/")});
@@ -164,7 +164,7 @@ TEST_F(BenchCommand, PlotsWhileMeasuringAndFromTheFileAlike) {
 }
 
 TEST_F(BenchCommand, BadCommandLinesExitWithTwoBeforeAnythingIsMeasured) {
-  const std::string scene = path("missing.pbrt");  // never looked at
+  const std::string scene = path("missing.pbrt");  // never opened
   write("not-a-folder", "");
   write("text.json", "{\"kaustik_bench\": 1, \"version\"");
   write("render.json", "{\"version\": \"0.1.0\"}");
@@ -207,8 +207,8 @@ TEST_F(BenchCommand, BadScenesExitWithThree) {
   EXPECT_FALSE(exists("r.json"));
 }
 
-// A file that was edited by hand: the field is named.
-TEST_F(BenchCommand, DamagedResultsAreRefusedByTheFieldsName) {
+// An error in a file that was edited by hand names the field.
+TEST_F(BenchCommand, DamagedResultsAreRefusedNamingTheField) {
   const Json good = measured({"--photons", "1k", "--threads", "1", "--repeat", "1"});
   const auto refused = [&](const char* pointer, const Json& value) {
     Json bad = good;
@@ -235,7 +235,7 @@ TEST_F(BenchCommand, AnInterruptWritesNothingAndExitsWith130) {
     wait_until_handled(SIGINT, stop);
     if (!stop) std::raise(SIGINT);
   });
-  // Far more runs and samples than a test could wait for: only the signal can end it.
+  // These are far more runs and samples than a test could wait for: only the signal can end them.
   const Outcome outcome = run_kaustik({"bench", scene, "--photons", "1k", "--spp", "1000000", "--json",
                                        path("r.json"), "--plot", path("plots"), "-q"});
   stop = true;
@@ -245,7 +245,7 @@ TEST_F(BenchCommand, AnInterruptWritesNothingAndExitsWith130) {
   EXPECT_THAT(files(), ElementsAre("small.pbrt"));
 }
 
-TEST_F(BenchCommand, SceneNamesThatAreNoUtf8AreReplaced) {
+TEST_F(BenchCommand, SceneNamesThatAreNotUtf8AreReplaced) {
   const std::string scene = path("caf\xe9.pbrt");
   std::filesystem::rename(tiny_scene(), scene);
   const Outcome outcome = run_kaustik({"bench", scene, "--spp", "1", "--photons", "1k", "--threads", "1",
@@ -254,7 +254,7 @@ TEST_F(BenchCommand, SceneNamesThatAreNoUtf8AreReplaced) {
   EXPECT_THAT(result("r.json")["scene"].get<std::string>(), HasSubstr("caf\xef\xbf\xbd.pbrt"));
 }
 
-TEST(BenchResult, SpreadIsMedianAndEnds) {
+TEST(BenchResult, SpreadIsMedianLeastAndLargest) {
   const Spread odd = spread_of({5, 1, 3});
   EXPECT_EQ(odd.median, 3);
   EXPECT_EQ(odd.min, 1);
@@ -263,8 +263,9 @@ TEST(BenchResult, SpreadIsMedianAndEnds) {
   EXPECT_EQ(spread_of({7}).median, 7);
 }
 
-// Four threads that take a third of the time of two: 3 x, at twice the threads an efficiency of 3 / 2.
-TEST(BenchResult, SpeedUpIsOverTheFirstPointOfTheSamePhotons) {
+// Four threads that take a third of the time of two threads are 3 times as fast, at twice the threads: an
+// efficiency of 3 / 2.
+TEST(BenchResult, SpeedUpIsRelativeToTheFirstPointWithEqualPhotons) {
   BenchResult r;
   r.points.resize(3);
   const auto set = [&](size_t i, uint64_t photons, int threads, Spread total) {
@@ -280,7 +281,7 @@ TEST(BenchResult, SpeedUpIsOverTheFirstPointOfTheSamePhotons) {
   EXPECT_EQ(gain.min, 1.5);
   EXPECT_EQ(gain.max, 6);
   EXPECT_EQ(efficiency(r, r.points[2], Phase::kTotal), 1.5);
-  EXPECT_EQ(speed_up(r, r.points[2], Phase::kBvh), std::nullopt);  // took no time
+  EXPECT_EQ(speed_up(r, r.points[2], Phase::kBvh), std::nullopt);  // the phase took no time
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Exit codes and messages of command lines and scenes that cannot work, and what --help says.
+// Tests exit codes and messages of command lines and scenes that cannot work, and the text of --help.
 
 #include <gmock/gmock.h>
 
@@ -9,12 +9,12 @@
 namespace kaustik::app {
 namespace {
 
+using test::Outcome;
+using test::run_kaustik;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::Outcome;
-using testing::run_kaustik;
 
-class CommandLine : public testing::ProgramTest {};
+class CommandLine : public test::ProgramTest {};
 
 TEST_F(CommandLine, HelpAndVersionSucceed) {
   const Outcome help = run_kaustik({"--help"});
@@ -29,7 +29,7 @@ TEST_F(CommandLine, HelpAndVersionSucceed) {
 TEST_F(CommandLine, RenderHelpExplainsEverySettingWithItsDefault) {
   const Outcome help = run_kaustik({"render", "--help"});
   EXPECT_EQ(help.code, kDone);
-  std::string flat;  // the help breaks lines where it likes
+  std::string flat;  // the help without its line breaks
   for (const char c : help.out) {
     if (c != '\n') flat += c;
     while (flat.ends_with("  ")) flat.pop_back();
@@ -40,7 +40,7 @@ TEST_F(CommandLine, RenderHelpExplainsEverySettingWithItsDefault) {
   }
 }
 
-TEST_F(CommandLine, UnknownThingsExitWithTwoAndNameWhatIsNear) {
+TEST_F(CommandLine, UnknownNamesExitWithTwoAndSuggestTheNearest) {
   const Outcome option = run_kaustik({"render", "a.pbrt", "--kernal", "cone"});
   EXPECT_EQ(option.code, kBadCommandLine);
   EXPECT_THAT(option.err, HasSubstr("unknown option --kernal; did you mean --kernel?"));
@@ -80,8 +80,8 @@ TEST_F(CommandLine, BadValuesExitWithTwo) {
   }
 }
 
-// The scene does not exist either: exit code 2 shows that the outputs were looked at first.
-TEST_F(CommandLine, OutputsThatCannotBeWrittenAreFoundFirst) {
+// The scene does not exist either: exit code 2 shows that the outputs were checked first.
+TEST_F(CommandLine, OutputsThatCannotBeWrittenAreReportedFirst) {
   const std::string scene = path("missing.pbrt");
   EXPECT_EQ(run_kaustik({"render", scene, "-o", path("no/such/folder.exr")}).code, kBadCommandLine);
   EXPECT_EQ(run_kaustik({"render", scene, "-o", path("picture.gif")}).code, kBadCommandLine);
@@ -95,7 +95,7 @@ TEST_F(CommandLine, OutputsThatCannotBeWrittenAreFoundFirst) {
   EXPECT_THAT(files(), IsEmpty());
 }
 
-// 10^12 photons take 24 TB at least, more than any machine that runs this.
+// 10^12 photons take at least 24 TB, more than any machine that runs this test has.
 TEST_F(CommandLine, PhotonsThatDoNotFitInMemoryExitWithOne) {
   const Outcome outcome =
       run_kaustik({"photons", small_scene(film(8, 8)), "-o", path("a.ply"), "--photons", "1T"});
@@ -113,7 +113,7 @@ TEST_F(CommandLine, BadScenesExitWithThree) {
   EXPECT_EQ(run_kaustik({"photons", path("missing.pbrt"), "-o", path("a.ply")}).code, kBadScene);
 }
 
-TEST_F(CommandLine, SettingsErrorsOfTheSceneAreLocated) {
+TEST_F(CommandLine, SettingsErrorsInTheSceneHaveALocation) {
   const std::string scene = small_scene("Integrator \"photonmap\" \"string kernal\" \"cone\"");
   const Outcome outcome = run_kaustik({"render", scene, "-o", path("a.exr")});
   EXPECT_EQ(outcome.code, kBadScene);
@@ -122,8 +122,8 @@ TEST_F(CommandLine, SettingsErrorsOfTheSceneAreLocated) {
   EXPECT_FALSE(exists("a.exr"));
 }
 
-// An error of the scene and one of its settings come in the same run.
-TEST_F(CommandLine, AllErrorsOfAFileComeInOneRun) {
+// An error of the scene and an error of its settings are reported in the same run.
+TEST_F(CommandLine, AllErrorsOfAFileAreReportedInOneRun) {
   const std::string scene = small_scene(
       "Integrator \"photonmap\" \"string kernal\" \"cone\"\nFilm \"rgb\" \"integer xresolutio\" 5");
   const Outcome outcome = run_kaustik({"info", scene});
@@ -132,8 +132,8 @@ TEST_F(CommandLine, AllErrorsOfAFileComeInOneRun) {
   EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:4:"));
 }
 
-// The number is out of range for the scene's schema and for --spp.
-TEST_F(CommandLine, OneMistakeIsOneError) {
+// The number is out of range for the scene's schema and for --spp alike.
+TEST_F(CommandLine, OneMistakeGivesOneError) {
   const Outcome outcome = run_kaustik({"info", small_scene("Sampler \"halton\" \"integer pixelsamples\" 0")});
   EXPECT_EQ(outcome.code, kBadScene);
   EXPECT_THAT(outcome.err, HasSubstr("small.pbrt:3:41: error: `pixelsamples`"));

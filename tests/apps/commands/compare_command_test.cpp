@@ -9,13 +9,13 @@
 namespace kaustik::app {
 namespace {
 
+using test::Outcome;
+using test::run_kaustik;
 using ::testing::HasSubstr;
-using testing::Outcome;
-using testing::run_kaustik;
 
-class CompareCommand : public testing::ProgramTest {
+class CompareCommand : public test::ProgramTest {
  protected:
-  // One value everywhere but at one pixel.
+  // A picture with one value everywhere except in one pixel.
   std::string picture(const std::string& name, float value, float at_3_2, int width = 8) const {
     render::Image image(width, 6, Rgb(value));
     image.at(3, 2) = Rgb(at_3_2);
@@ -24,12 +24,12 @@ class CompareCommand : public testing::ProgramTest {
   }
 };
 
-TEST_F(CompareCommand, ReportsTheErrorThatWasPutIn) {
+TEST_F(CompareCommand, ReportsAKnownError) {
   const std::string reference = picture("r.exr", 0.5f, 0.5f), image = picture("i.exr", 0.5f, 1.5f);
   const Outcome outcome = run_kaustik({"compare", reference, image, "--json"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const nlohmann::json json = nlohmann::json::parse(outcome.out);
-  // One of 48 pixels is off by 1; all values are exact in binary, the rest is rounding of doubles.
+  // One of 48 pixels is off by 1; all values are exact in binary, and only doubles round.
   EXPECT_NEAR(json["rmse"].get<double>(), std::sqrt(1.0 / 48), 1e-12);
   EXPECT_NEAR(json["relmse"].get<double>(), 1.0 / (0.25 + 0.01) / 48, 1e-12);
   EXPECT_EQ(json["max_difference"]["value"], 1.0);
@@ -48,14 +48,14 @@ TEST_F(CompareCommand, EqualPicturesHaveNoError) {
 
 TEST_F(CompareCommand, ExitsWithOneAboveTheLimitOnly) {
   const std::string reference = picture("r.exr", 0.5f, 0.5f), image = picture("i.exr", 0.5f, 1.5f);
-  // relMSE is 0.080...: see above.
+  // relMSE is 0.080..., as computed in ReportsAKnownError.
   EXPECT_EQ(run_kaustik({"compare", reference, image, "--max-relmse", "0.081"}).code, kDone);
   const Outcome above = run_kaustik({"compare", reference, image, "--max-relmse", "0.079"});
   EXPECT_EQ(above.code, kFailed);
   EXPECT_THAT(above.err, HasSubstr("above 0.079"));
 }
 
-TEST_F(CompareCommand, NotFinitePixelsAreAboveAnyLimit) {
+TEST_F(CompareCommand, NonFinitePixelsExceedAnyLimit) {
   const std::string reference = picture("r.exr", 0.5f, 0.5f);
   const std::string image = picture("i.exr", 0.5f, std::numeric_limits<float>::quiet_NaN());
   EXPECT_EQ(run_kaustik({"compare", reference, image, "--max-relmse", "1000"}).code, kFailed);
@@ -66,7 +66,7 @@ TEST_F(CompareCommand, MaskBrightLeavesOutTheNeighbourhood) {
   const Outcome outcome = run_kaustik({"compare", reference, image, "--json", "--mask-bright", "4"});
   ASSERT_EQ(outcome.code, kDone);
   const nlohmann::json json = nlohmann::json::parse(outcome.out);
-  EXPECT_EQ(json["pixels"]["masked"], 25);  // 5 x 5 about (3, 2), wholly inside 8 x 6
+  EXPECT_EQ(json["pixels"]["masked"], 25);  // the 5 x 5 pixels about (3, 2) all lie inside 8 x 6
   EXPECT_EQ(json["rmse"], 0.0);
 }
 

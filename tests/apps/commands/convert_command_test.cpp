@@ -1,4 +1,4 @@
-// kaustik convert: the text that is written, and that it renders to the same bits.
+// Tests kaustik convert: the text that it writes, and that this text renders to the same bits.
 
 #include <gmock/gmock.h>
 
@@ -7,22 +7,22 @@
 namespace kaustik::app {
 namespace {
 
+using test::Outcome;
+using test::run_kaustik;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::Outcome;
-using testing::run_kaustik;
 
-class ConvertCommand : public testing::ProgramTest {
+class ConvertCommand : public test::ProgramTest {
  protected:
-  // Renders in the test's folder; gives the picture's bytes.
+  // Renders in the test's folder and returns the picture's bytes.
   std::string picture(const std::string& scene, const std::string& name) const {
     const Outcome outcome = run_kaustik({"render", path(scene), "-o", path(name), "--spp", "2", "--photons",
                                          "2000", "--width", "24", "--threads", "1", "-q"});
     EXPECT_EQ(outcome.code, kDone) << outcome.err;
     return read(name);
   }
-  // The pictures of a scene and of what it is converted to are the same, to the bit. PNG: EXR files hold the
-  // scene's hash and times.
+  // Expects that a scene and its conversion give the same picture, to the bit. Pictures are PNG, since EXR
+  // files contain the scene's hash and times.
   void expect_same_picture(const std::string& scene) const {
     const Outcome outcome = run_kaustik({"convert", path(scene), path("converted.pbrt")});
     ASSERT_EQ(outcome.code, kDone) << outcome.err;
@@ -33,7 +33,7 @@ class ConvertCommand : public testing::ProgramTest {
   }
 };
 
-TEST_F(ConvertCommand, PbrtRendersTheSame) {
+TEST_F(ConvertCommand, PbrtRendersToTheSameBits) {
   std::string mesh = "\"integer indices\" [", points = "] \"point3 P\" [";
   for (int i = 0; i < 30; ++i) {
     const std::string x = std::to_string(0.05 * i - 0.75);
@@ -57,8 +57,8 @@ TEST_F(ConvertCommand, PbrtRendersTheSame) {
   expect_same_picture("scene.pbrt");
 }
 
-// Vertices that are floats go to a PLY file.
-TEST_F(ConvertCommand, ObjRendersTheSame) {
+// Vertices that are exact floats are written to a PLY file.
+TEST_F(ConvertCommand, ObjRendersToTheSameBits) {
   std::string obj = "mtllib scene.mtl\nusemtl clay\n";
   for (int i = 0; i <= 8; ++i) {
     for (int k = 0; k <= 8; ++k)
@@ -78,7 +78,7 @@ TEST_F(ConvertCommand, ObjRendersTheSame) {
   EXPECT_TRUE(exists("converted-files/mesh0.ply"));
 }
 
-TEST_F(ConvertCommand, BadScenesLeaveNothing) {
+TEST_F(ConvertCommand, BadScenesWriteNothing) {
   write("bad.pbrt", "WorldBegin\nShape \"spere\"\n");
   const Outcome outcome = run_kaustik({"convert", path("bad.pbrt"), path("out.pbrt")});
   EXPECT_EQ(outcome.code, kBadScene);
@@ -86,7 +86,7 @@ TEST_F(ConvertCommand, BadScenesLeaveNothing) {
   EXPECT_THAT(files(), ElementsAre("bad.pbrt"));
 }
 
-TEST_F(ConvertCommand, BadNames) {
+TEST_F(ConvertCommand, BadOutputNamesAreRefused) {
   const std::string scene = small_scene();
   EXPECT_EQ(run_kaustik({"convert", scene, path("out.obj")}).code, kBadCommandLine);
   EXPECT_EQ(run_kaustik({"convert", scene, scene}).code, kBadCommandLine);

@@ -1,4 +1,4 @@
-// A scene far from the world's origin, as the commands show it.
+// Tests commands on a scene far from the world's origin.
 
 #include <gmock/gmock.h>
 
@@ -11,14 +11,15 @@
 namespace kaustik::app {
 namespace {
 
+using test::Outcome;
+using test::run_kaustik;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::Outcome;
-using testing::run_kaustik;
 
-class FarScene : public testing::ProgramTest {};
+class FarScene : public test::ProgramTest {};
 
-// Far from the origin the picture is made around another one; what is said and written is in the world's.
+// Far from the world's origin the picture is made around a local origin; all output is in the world's
+// coordinates.
 TEST_F(FarScene, IsReportedInTheWorldsCoordinates) {
   const std::string scene = write("far.pbrt",
                                   "WorldBegin\nLightSource \"point\" \"point3 from\" [1000000 2000004 0]\n"
@@ -26,7 +27,8 @@ TEST_F(FarScene, IsReportedInTheWorldsCoordinates) {
   const Outcome info = run_kaustik({"info", scene, "--json"});
   ASSERT_EQ(info.code, kDone) << info.err;
   const auto json = nlohmann::json::parse(info.out);
-  // A disk of radius 1; floats of a scene of that size, and its bounds' margin, are below 1e-5 m.
+  // The scene is a disk of radius 1, where the rounding of floats and the margin of the bounds are below 1e-5
+  // m.
   EXPECT_NEAR(json["bounds"]["min"][0].get<double>(), 999'999, 1e-5);
   EXPECT_NEAR(json["bounds"]["max"][0].get<double>(), 1'000'001, 1e-5);
   EXPECT_NEAR(json["bounds"]["min"][1].get<double>(), 2'000'000, 1e-5);
@@ -45,7 +47,7 @@ TEST_F(FarScene, IsReportedInTheWorldsCoordinates) {
   }
 }
 
-TEST_F(FarScene, NearOnesHaveTheWorldsOrigin) {
+TEST_F(FarScene, NearScenesKeepTheWorldsOrigin) {
   const Outcome info = run_kaustik({"info", small_scene(), "--json"});
   EXPECT_EQ(nlohmann::json::parse(info.out)["origin"], nlohmann::json({0, 0, 0}));
   EXPECT_THAT(run_kaustik({"info", small_scene()}).out, Not(HasSubstr("\norigin")));

@@ -1,4 +1,5 @@
-// What the program as a process of its own loads, and when: OpenImageIO takes longer than many a render.
+// Tests which libraries the program, as a process of its own, loads and when: loading OpenImageIO takes
+// longer than many renders.
 
 #include <gmock/gmock.h>
 
@@ -11,18 +12,18 @@ namespace kaustik::app {
 namespace {
 
 namespace fs = std::filesystem;
+using test::run_kaustik;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::run_kaustik;
 
 using Arguments = std::vector<std::string>;
 
-class ImageModule : public testing::ProgramTest {
+class ImageModule : public test::ProgramTest {
  protected:
   struct Run {
     int code = -1;
-    std::string said;    // on both streams
-    std::string loader;  // what the dynamic loader did, as LD_DEBUG=files tells it
+    std::string said;    // output of both streams
+    std::string loader;  // log of the dynamic loader, by LD_DEBUG=files
   };
 
   Run run(const std::string& program, const Arguments& arguments) const {
@@ -34,7 +35,7 @@ class ImageModule : public testing::ProgramTest {
     for (int c; (c = std::fgetc(pipe)) != EOF;) out.said += static_cast<char>(c);
     out.code = WEXITSTATUS(pclose(pipe));
     for (const std::string& name : files()) {
-      if (!name.starts_with("loader.")) continue;  // and the number of the process
+      if (!name.starts_with("loader.")) continue;  // the name ends with the process id
       out.loader += read(name);
       fs::remove(path(name));
     }
@@ -45,7 +46,7 @@ class ImageModule : public testing::ProgramTest {
     return {"render", scene, "-o", output, "--photons", "5k", "--guide", "off", "--spp", "1", "-q"};
   }
 
-  // A floor with an image on it.
+  // A scene of a floor with an image on it.
   std::string textured_scene() const {
     render::Image image(2, 2, Rgb(0.5f, 0.1f, 0.1f));
     image.at(1, 0) = Rgb(0.1f, 0.5f, 0.1f);
@@ -59,7 +60,7 @@ class ImageModule : public testing::ProgramTest {
                      "[-3 0 3  3 0 3  3 0 -3  -3 0 -3] \"point2 uv\" [0 0  1 0  1 1  0 1]\n");
   }
 
-  // The program by itself in a folder.
+  // A copy of the program alone in a folder.
   std::string copied_program() const {
     fs::copy_file(KAUSTIK_PROGRAM, path("kaustik"));
     return path("kaustik");
@@ -74,8 +75,8 @@ TEST_F(ImageModule, ExrIsRenderedWithoutOpenImageIo) {
   EXPECT_THAT(run.loader, Not(HasSubstr("libOpenImageIO")));
 }
 
-// The same bits as by the code that this test is linked to.
-TEST_F(ImageModule, PngAndTexturesComeThroughIt) {
+// The bits are those of the code that this test is linked to.
+TEST_F(ImageModule, PngAndTexturesUseIt) {
   const std::string scene = textured_scene();
   for (const std::string extension : {".png", ".exr"}) {
     const Run run = this->run(KAUSTIK_PROGRAM, render(scene, path("program" + extension)));
@@ -86,7 +87,7 @@ TEST_F(ImageModule, PngAndTexturesComeThroughIt) {
   }
 }
 
-TEST_F(ImageModule, WithoutItOnlyWhatNeedsItFails) {
+TEST_F(ImageModule, OnlyItsUsersFailWithoutIt) {
   const std::string program = copied_program(), plain = small_scene(film(24, 16));
   EXPECT_EQ(run(program, render(plain, path("a.exr"))).code, kDone);
   for (const Arguments& arguments : {render(plain, path("b.png")), render(textured_scene(), path("c.exr")),

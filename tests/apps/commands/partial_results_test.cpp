@@ -1,5 +1,5 @@
-// Checkpoints, resume, split and merge from the outside: the files are those of the uninterrupted render,
-// byte for byte, and what does not belong together is refused.
+// Tests checkpoints, resume, split and merge from the outside: the files are those of the uninterrupted
+// render, byte for byte, and parts that do not belong together are refused.
 
 #include <gmock/gmock.h>
 
@@ -17,10 +17,10 @@
 namespace kaustik::app {
 namespace {
 
-using testing::ChildProcess;
+using test::ChildProcess;
+using test::Outcome;
+using test::run_kaustik;
 using ::testing::HasSubstr;
-using testing::Outcome;
-using testing::run_kaustik;
 
 using Arguments = std::vector<std::string>;
 
@@ -33,9 +33,9 @@ void sleep_ms(unsigned ms) {
   std::this_thread::sleep_for(std::chrono::milliseconds(ms));
 }
 
-class PartialResults : public testing::ProgramTest {
+class PartialResults : public test::ProgramTest {
  protected:
-  // Twelve passes with radii that are chosen and shrink.
+  // Twelve passes with automatic radii that shrink.
   Arguments render(const Arguments& more, const std::string& passes = "12") const {
     return Arguments{"render", scene_,    "--photons", "24k",   "--spp", "12", "--passes",
                      passes,   "--alpha", "0.8",       "--aov", "all",   "-q"} +
@@ -45,7 +45,7 @@ class PartialResults : public testing::ProgramTest {
     const Outcome outcome = run_kaustik(arguments);
     EXPECT_EQ(outcome.code, kDone) << outcome.err;
   }
-  // Exit code 2, and an error that holds each of `parts`.
+  // Expects exit code 2 and an error that contains each of `parts`.
   void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const {
     const Outcome outcome = run_kaustik(arguments);
     EXPECT_EQ(outcome.code, kBadCommandLine);
@@ -63,7 +63,7 @@ class PartialResults : public testing::ProgramTest {
   std::string scene_ = small_scene(film(40, 24));
 };
 
-TEST_F(PartialResults, PartsMergedInAnyOrderAreTheWhole) {
+TEST_F(PartialResults, PartsMergedInAnyOrderMatchTheWhole) {
   expect_done(render({"-o", path("whole.exr")}));
   make_parts();
   Arguments order = {path("a.kpart"), path("b.kpart"), path("c.kpart")};
@@ -73,7 +73,7 @@ TEST_F(PartialResults, PartsMergedInAnyOrderAreTheWhole) {
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
-TEST_F(PartialResults, PartsMergedStepByStepAreTheWhole) {
+TEST_F(PartialResults, PartsMergedStepByStepMatchTheWhole) {
   expect_done(render({"-o", path("whole.exr"), "--stats", path("whole.json")}));
   make_parts();
   expect_done({"merge", path("c.kpart"), path("a.kpart"), "--allow-gaps", "-o", path("ac.kpart"), "-q"});
@@ -86,31 +86,31 @@ TEST_F(PartialResults, PartsMergedStepByStepAreTheWhole) {
   for (const char* key : {"photons", "rays", "gather", "radii", "settings", "pass_ranges", "left_out"})
     EXPECT_EQ(merged[key], whole[key]) << key;
   EXPECT_EQ(whole["pass_ranges"], "0:12");
-  // A gap can also be rendered.
+  // A gap can also be filled by rendering it.
   expect_done({"resume", path("ac.kpart"), "-o", path("filled.exr"), "-q"});
   EXPECT_TRUE(read("filled.exr") == read("whole.exr"));
 }
 
-TEST_F(PartialResults, ResumedWithOtherThreadsIsTheWhole) {
+TEST_F(PartialResults, ResumingWithOtherThreadsMatchesTheWhole) {
   expect_done(render({"-o", path("whole.exr")}));
   expect_done(render(
       {"-o", path("a.exr"), "--pass-range", "0:5", "--checkpoint", path("a.kpart"), "--threads", "1"}));
   EXPECT_FALSE(read("a.exr") == read("whole.exr"));
-  // The picture's name comes from the file.
+  // The picture's name comes from the checkpoint.
   expect_done({"resume", path("a.kpart"), "--passes", "12", "--threads", "3", "-q"});
   EXPECT_TRUE(read("a.exr") == read("whole.exr"));
   EXPECT_EQ(passes_in("a.kpart").text(), "0:12");
 }
 
-// A render that is begun again by mistake says what it will cost.
-TEST_F(PartialResults, ACheckpointThatIsThereIsNamed) {
+// A render that will replace a checkpoint says so.
+TEST_F(PartialResults, ExistingCheckpointIsReported) {
   const Arguments arguments = render({"-o", path("a.exr"), "--checkpoint", path("a.kpart")});
   EXPECT_EQ(run_kaustik(arguments).err, "");
   EXPECT_THAT(run_kaustik(arguments).err, HasSubstr("a.kpart exists and will be replaced; `kaustik resume`"));
 }
 
-// More passes than were asked for: those that --pass-range gives.
-TEST_F(PartialResults, RendersAreExtended) {
+// The render gets more passes than were requested, by --pass-range.
+TEST_F(PartialResults, RendersCanBeExtended) {
   expect_done(render({"-o", path("a.exr"), "--checkpoint", path("a.kpart")}));
   expect_done({"resume", path("a.kpart"), "--passes", "15", "-q"});
   expect_done(render({"-o", path("b.exr"), "--pass-range", "0:15"}));
@@ -118,9 +118,9 @@ TEST_F(PartialResults, RendersAreExtended) {
   expect_refused({"resume", path("a.kpart"), "--passes", "14"}, {"a.kpart", "0:15"});
 }
 
-// Killed at any moment, again and again, also while a checkpoint is written: at last the picture is that of
-// the uninterrupted render. The moments are random, of fixed seeds.
-TEST_F(PartialResults, KilledAndResumedIsTheWhole) {
+// The program is killed at random moments (with fixed seeds), some of them while a checkpoint is written. The
+// final picture must be that of the uninterrupted render.
+TEST_F(PartialResults, KilledAndResumedMatchesTheWhole) {
   const Arguments settings = {"--photons", "300k", "--spp", "120"};
   expect_done(render(Arguments{"-o", path("whole.exr")} + settings, "60"));
   int cut_short = 0;
@@ -145,14 +145,14 @@ TEST_F(PartialResults, KilledAndResumedIsTheWhole) {
     expect_done({"resume", path("a.kpart"), "-q"});
     EXPECT_TRUE(read("a.exr") == read("whole.exr")) << "seed " << seed;
   }
-  EXPECT_GT(cut_short, 0);  // else the test shows nothing
+  EXPECT_GT(cut_short, 0);  // otherwise the test shows nothing
 }
 
-// The picture of the complete passes, and a checkpoint of them.
-TEST_F(PartialResults, AnInterruptWritesWhatThereIs) {
+// An interrupt writes the picture of the complete passes and a checkpoint of them.
+TEST_F(PartialResults, InterruptWritesTheCompletePasses) {
   std::atomic<bool> stop = false;
   std::thread sender([&] {
-    testing::wait_until_handled(SIGTERM, stop);
+    test::wait_until_handled(SIGTERM, stop);
     while (!stop && !exists("a.kpart")) sleep_ms(1);
     if (!stop) std::raise(SIGTERM);
   });
@@ -170,7 +170,7 @@ TEST_F(PartialResults, AnInterruptWritesWhatThereIs) {
   EXPECT_TRUE(read("a.exr") == read("c.exr"));
 }
 
-TEST_F(PartialResults, WhatDoesNotBelongTogetherIsNotMerged) {
+TEST_F(PartialResults, MismatchedPartsAreNotMerged) {
   make_parts();
   const std::string a = path("a.kpart"), b = path("b.kpart"), c = path("c.kpart"), x = path("x.exr");
   expect_refused({"merge", a, b, c}, {"-o"});
@@ -188,7 +188,7 @@ TEST_F(PartialResults, WhatDoesNotBelongTogetherIsNotMerged) {
   expect_refused({"merge", a, other({"--crop", "0", "8", "0", "8"}), "-o", x}, {"--crop"});
   std::filesystem::create_directories(path("elsewhere"));
   std::filesystem::copy_file(scene_, path("elsewhere/moved.pbrt"));
-  scene_ = path("elsewhere/moved.pbrt");  // the same contents
+  scene_ = path("elsewhere/moved.pbrt");  // a file with the same contents
   expect_done({"merge", a, other({"--aov", "depth", "--exposure", "2"}), "-o", x, "-q"});
   std::ofstream(scene_, std::ios::app) << "# changed\n";
   expect_refused({"merge", a, other({}), "-o", x}, {"a.kpart", "other.kpart", "different scenes"});
@@ -227,7 +227,7 @@ TEST_F(PartialResults, DamagedFilesAreRefused) {
   expect_refused({"resume", path("a.kpart")}, {"a.kpart", "truncated"});
 }
 
-TEST_F(PartialResults, AChangedSceneIsNotResumed) {
+TEST_F(PartialResults, ChangedSceneIsNotResumed) {
   expect_done(render({"--pass-range", "0:3", "--checkpoint", path("a.kpart"), "-o", path("a.exr")}));
   std::filesystem::create_directories(path("elsewhere"));
   std::filesystem::copy_file(scene_, path("elsewhere/moved.pbrt"));
@@ -249,8 +249,8 @@ TEST_F(PartialResults, BadOptionsAreExplained) {
   expect_refused({"resume", scene_}, {"not a partial result"});
 }
 
-// The hash is of what the files hold: those that are included and named, not where they lie.
-TEST_F(PartialResults, TheHashCoversEveryFile) {
+// The hash covers the contents of all files that are included or named, not their paths.
+TEST_F(PartialResults, HashCoversEveryFile) {
   const auto hash = [&](const std::string& folder, const std::string& part, const std::string& mesh) {
     std::filesystem::create_directories(path(folder));
     write(folder + "/s.pbrt", "WorldBegin\nInclude \"part.pbrt\"\n");

@@ -1,4 +1,4 @@
-// kaustik render, photons and info from the outside: files, reports, interruption.
+// Tests kaustik render, photons and info from the outside: files, reports, interruption.
 
 #include <gmock/gmock.h>
 
@@ -11,20 +11,20 @@
 namespace kaustik::app {
 namespace {
 
-using testing::count_threads;
+using test::count_threads;
+using test::Outcome;
+using test::run_kaustik;
+using test::ThreadCounts;
+using test::wait_until_handled;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::Outcome;
-using testing::run_kaustik;
-using testing::ThreadCounts;
-using testing::wait_until_handled;
 
-class RenderCommand : public testing::ProgramTest {
+class RenderCommand : public test::ProgramTest {
  protected:
   nlohmann::json stats(const std::string& name) const { return nlohmann::json::parse(read(name)); }
 };
 
-TEST_F(RenderCommand, WritesEveryFileAndSaysSo) {
+TEST_F(RenderCommand, WritesAndReportsEveryFile) {
   const Outcome outcome =
       run_kaustik({"render", small_scene(film(24, 16)), "-o", path("a.exr"), "-o", path("a.png"), "--photons",
                    "10k", "--guide", "off", "--spp", "2", "--aov", "all", "--stats", path("a.json")});
@@ -38,7 +38,7 @@ TEST_F(RenderCommand, WritesEveryFileAndSaysSo) {
   EXPECT_EQ(image.height, 16);
 }
 
-TEST_F(RenderCommand, StatisticsHaveTheKeysThatScriptsRead) {
+TEST_F(RenderCommand, StatisticsHaveTheDocumentedKeys) {
   ASSERT_EQ(run_kaustik({"render", small_scene(film(16, 16)), "-o", path("a.exr"), "--photons", "5k", "--spp",
                          "1", "--method", "photon", "--stats", path("a.json"), "--quiet"})
                 .code,
@@ -59,7 +59,7 @@ TEST_F(RenderCommand, StatisticsHaveTheKeysThatScriptsRead) {
   EXPECT_EQ(json["settings"]["spp"], 1);
 }
 
-TEST_F(RenderCommand, QuietSaysNothing) {
+TEST_F(RenderCommand, QuietPrintsNothing) {
   const Outcome outcome = run_kaustik(
       {"render", small_scene(film(8, 8)), "-o", path("a.exr"), "--photons", "1k", "--spp", "1", "--quiet"});
   EXPECT_EQ(outcome.code, kDone);
@@ -67,7 +67,7 @@ TEST_F(RenderCommand, QuietSaysNothing) {
   EXPECT_EQ(outcome.out, "");
 }
 
-TEST_F(RenderCommand, CommandLineWinsOverFileAndFileOverDefaults) {
+TEST_F(RenderCommand, CommandLineOverridesFileAndFileOverridesDefaults) {
   const std::string scene =
       small_scene(film(10, 20) +
                   "\nSampler \"halton\" \"integer pixelsamples\" 3"
@@ -89,10 +89,10 @@ TEST_F(RenderCommand, CommandLineWinsOverFileAndFileOverDefaults) {
   EXPECT_EQ(line["settings"]["kernel"], "epanechnikov");
   EXPECT_EQ(line["settings"]["photons"], 2000);
   EXPECT_EQ(line["width"], 5);
-  EXPECT_EQ(line["height"], 10);  // in proportion
+  EXPECT_EQ(line["height"], 10);  // keeps the aspect ratio
 }
 
-// --method is the command line's word on all estimators, those that the file chose included.
+// --method on the command line replaces all estimators, including those that the file chose.
 TEST_F(RenderCommand, MethodOfTheCommandLineReplacesTheFilesEstimators) {
   const std::string scene = small_scene(film(8, 8) + "\nIntegrator \"sppm\"");
   ASSERT_EQ(run_kaustik({"render", scene, "-o", path("a.exr"), "--stats", path("a.json"), "-q", "--spp", "1",
@@ -135,8 +135,8 @@ TEST_F(RenderCommand, CropOutsideTheImageExitsWithTwo) {
   EXPECT_THAT(outcome.err, HasSubstr("8 x 8"));
 }
 
-// A folder that disappears while the picture is rendered: exit code 1, nothing written.
-TEST_F(RenderCommand, AFailureWhileWritingExitsWithOne) {
+// When the folder disappears during the render the exit code is 1 and nothing is written.
+TEST_F(RenderCommand, FailureWhileWritingExitsWithOne) {
   std::filesystem::create_directories(path("gone"));
   const std::string scene = small_scene(film(64, 64));
   std::atomic<bool> stop = false;
@@ -153,9 +153,10 @@ TEST_F(RenderCommand, AFailureWhileWritingExitsWithOne) {
   EXPECT_FALSE(exists("gone"));
 }
 
-// Before a tile is finished there is nothing to show; partial_results_test.cpp has the rest.
-TEST_F(RenderCommand, AnEarlyInterruptLeavesNoPictureAndExitsWith130) {
-  // Far more samples than a test could wait for: only the signal can end it.
+// Before the first tile is finished there is nothing to write; partial_results_test.cpp tests later
+// interrupts.
+TEST_F(RenderCommand, EarlyInterruptWritesNoPictureAndExitsWith130) {
+  // These are far more samples than a test could wait for: only the signal can end the render.
   const std::string scene = small_scene(film(256, 256));
   std::atomic<bool> stop = false;
   std::thread sender([&] {
@@ -197,16 +198,17 @@ TEST_F(RenderCommand, PhotonsWritesACloudAndAView) {
   EXPECT_GT(brightest, 0.3f);  // far above the dim background, which stays below 0.06
 }
 
-TEST_F(RenderCommand, InfoCountsWhatIsInTheScene) {
+TEST_F(RenderCommand, InfoCountsTheObjectsOfTheScene) {
   const Outcome outcome = run_kaustik({"info", small_scene(film(48, 32)), "--json"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const nlohmann::json json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["image"]["width"], 48);
   EXPECT_EQ(json["lights"].size(), 1u);
-  EXPECT_EQ(json["shapes"].size(), 3u);  // a mesh, a sphere, a disk
+  EXPECT_EQ(json["shapes"].size(), 3u);  // a mesh, a sphere and a disk
   EXPECT_TRUE(json["needs"]["specular"]);
   EXPECT_FALSE(json["needs"]["only_delta_lights"]);
-  // pi L A of a disk of radius 1/2 that emits on one side; the radiance is exact, the rest rounds.
+  // The power is pi L A of a disk of radius 1/2 that emits on one side; the radiance is exact, the rest
+  // rounds.
   const double watts = M_PI * 10 * M_PI * 0.25;
   EXPECT_NEAR(json["lights"][0]["power"][1].get<double>(), watts, 1e-5 * watts);
   const Outcome text = run_kaustik({"info", small_scene(film(48, 32))});

@@ -17,7 +17,7 @@ TEST(ProgressLine, ShowsShareAndTimeLeft) {
             "build    [####################--------------------]  50 %  ETA 1:02:06");
 }
 
-TEST(ProgressBar, RedrawsOneLineOnATerminalAndTakesItOff) {
+TEST(ProgressBar, RedrawsOneLineOnATerminalAndClearsIt) {
   std::ostringstream out, err;
   const Console console{out, err, true, false};
   {

@@ -1,5 +1,5 @@
 #pragma once
-// glTF files written by tests.
+// Helpers that write glTF files.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 
 namespace kaustik::pbrt {
 
-// A buffer that grows, and what glTF says about it.
+// A buffer that grows; its functions return the offset of the new bytes.
 class Bytes {
  public:
   uint64_t floats(std::initializer_list<float> values) {
@@ -57,7 +57,7 @@ inline constexpr std::string_view kTriangleParts = R"(
 
 class ImportGltf : public ImportTest {
  protected:
-  // JSON with its buffer in a .bin beside it.
+  // Writes the JSON, with its buffer in a .bin file beside it.
   std::filesystem::path gltf(const std::string& parts, const std::string& bytes = triangle_bytes()) {
     write("buffer.bin", bytes);
     return write("scene.gltf",

@@ -1,5 +1,5 @@
 #pragma once
-// gzip files written by tests.
+// Compresses text by gzip.
 
 #include <gtest/gtest.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-// What pbrt renders and kaustik takes for something near it.
+// Tests features of pbrt that kaustik approximates.
 
 #include <gmock/gmock.h>
 
@@ -20,19 +20,21 @@ class ImportApproximations : public ImportTest {
   }
 };
 
-// Metal in a coat of index n: reflectance ((1 - n/eta)^2 + k^2) / ((1 + n/eta)^2 + k^2) is of the ratio.
-TEST_F(ImportApproximations, CoatedConductorsAreMetalInTheCoat) {
+// For metal in a coat of index n the reflectance uses the ratio: ((1 - n/eta)^2 + k^2) / ((1 + n/eta)^2 +
+// k^2).
+TEST_F(ImportApproximations, CoatedConductorsBecomeMetalSeenThroughTheCoat) {
   const auto metal = std::get<Conductor>(
       bsdf(R"(Material "coatedconductor" "rgb conductor.eta" [ .3 .6 .9 ] "rgb conductor.k" [ 3 1.5 6 ]
               "float conductor.roughness" .25 "float interface.roughness" .1 "rgb albedo" [ .1 .1 .1 ])"));
   EXPECT_FLOAT_EQ(metal.eta.x, 0.2f);
   EXPECT_FLOAT_EQ(metal.k.z, 4.0f);
-  EXPECT_FLOAT_EQ(metal.facets.alpha_x, 0.5f);  // the root
+  EXPECT_FLOAT_EQ(metal.facets.alpha_x, 0.5f);  // alpha is the root of the roughness
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("material \"coatedconductor\" is approximated: as metal"));
 }
 
-// What enters comes back by the given share: of even light (1 - F) Rd leaves, and F is reflected.
-TEST_F(ImportApproximations, SubsurfaceReflectsAsMuch) {
+// The given share of the light that enters comes back out: of even light (1 - F) Rd leaves, and F is
+// reflected.
+TEST_F(ImportApproximations, SubsurfaceKeepsItsReflectance) {
   const auto skin = std::get<CoatedDiffuse>(
       bsdf(R"(Material "subsurface" "rgb reflectance" [ .75 .5 .25 ] "float eta" 1.4 "float scale" 10)"));
   const double F = fresnel_diffuse(1.4);
@@ -41,19 +43,19 @@ TEST_F(ImportApproximations, SubsurfaceReflectsAsMuch) {
   EXPECT_NEAR(albedo.z, F + (1 - F) * 0.25, 1e-5);
 }
 
-TEST_F(ImportApproximations, SubsurfaceOfMedia) {
+TEST_F(ImportApproximations, SubsurfaceFromMediaKeepsItsAlbedo) {
   const auto white = std::get<CoatedDiffuse>(bsdf(R"(Material "subsurface" "string name" "Spectralon")"));
   EXPECT_NEAR(white.albedo().y, 1, 1e-5);
   const auto ink = std::get<CoatedDiffuse>(
       bsdf(R"(Material "subsurface" "rgb sigma_a" [ 1 0 1 ] "rgb sigma_s" [ 0 1 1 ] "float eta" 1)"));
   EXPECT_EQ(ink.albedo().x, 0.0f);
-  EXPECT_NEAR(ink.albedo().y, 1, 1e-5);  // nothing absorbs
-  // Jensen's formula of albedo 1/2 without a boundary: A = 1.
+  EXPECT_NEAR(ink.albedo().y, 1, 1e-5);  // no absorption
+  // Jensen's formula for albedo 1/2 without a boundary: A = 1.
   const double root = std::sqrt(1.5);
   EXPECT_NEAR(ink.albedo().z, 0.25 * (1 + std::exp(-4 * root / 3)) * std::exp(-root), 1e-6);
 }
 
-TEST_F(ImportApproximations, OtherFilmsAreImages) {
+TEST_F(ImportApproximations, OtherFilmsBecomeRgbFilms) {
   EXPECT_THAT(
       messages(
           "Film \"gbuffer\" \"integer xresolution\" 8 \"string coordinatesystem\" \"camera\"\nWorldBegin"),
@@ -61,9 +63,9 @@ TEST_F(ImportApproximations, OtherFilmsAreImages) {
   EXPECT_TRUE(loaded_);
 }
 
-// One thin element of radii 50 mm and -50 mm and index 1.5, before a plane stop: 1/f = 0.5 (1/50 + 1/50). The
-// film is 3 : 4, 30 mm high and wide of 50 mm across.
-TEST_F(ImportApproximations, LensesAreThin) {
+// One thin element of radii 50 mm and -50 mm and index 1.5 before a plane stop: 1/f = 0.5 (1/50 + 1/50). The
+// film has the ratio 3 : 4 and a diagonal of 50 mm, so it is 30 mm high.
+TEST_F(ImportApproximations, LensSystemsBecomeThinLenses) {
   write("lens.dat", "# radius, thickness, index, diameter\n50 0 1.5 20\n-50 0 1 20\n0 1 0 10\n");
   Diagnostics diagnostics;
   const auto scene = import_scene(write("scene.pbrt", R"(
@@ -73,7 +75,7 @@ TEST_F(ImportApproximations, LensesAreThin) {
                                   diagnostics);
   ASSERT_TRUE(scene && !diagnostics.has_errors()) << diagnostics.format_all();
   EXPECT_EQ(scene->camera->type, "perspective");
-  // At twice the focal length the picture is as far behind the lens: 100 mm.
+  // An object at twice the focal length is in focus as far behind the lens: 100 mm.
   EXPECT_NEAR(scene->camera->find("fov")->numbers[0], glm::degrees(2 * std::atan(0.15)), 1e-9);
   EXPECT_NEAR(scene->camera->find("lensradius")->numbers[0], 0.004, 1e-12);
   EXPECT_NEAR(scene->camera->find("focaldistance")->numbers[0], 0.1, 1e-12);
@@ -83,7 +85,7 @@ TEST_F(ImportApproximations, LensesAreThin) {
   EXPECT_EQ(diagnostics_.error_count(), 1u);
 }
 
-TEST_F(ImportApproximations, ThingsStandAsTheShutterOpens) {
+TEST_F(ImportApproximations, MotionIsTakenAtTheShuttersOpening) {
   const Scene s = world(R"(AttributeBegin ActiveTransform StartTime Translate 1 0 0
     ActiveTransform EndTime Translate 0 5 0 ActiveTransform All Translate 0 0 2 Shape "sphere" AttributeEnd)");
   EXPECT_EQ(std::get<Sphere>(s.shapes[0].geometry).to_world.point({0, 0, 0}), Point3(1, 0, 2));
@@ -98,14 +100,14 @@ TEST_F(ImportApproximations, MediaAreLeftOut) {
   EXPECT_EQ(diagnostics_.warning_count(), 3u);
 }
 
-// Only directions are transformed: a matrix may hold anything else.
-TEST_F(ImportApproximations, SkiesAreOnlyTurned) {
+// A sky has directions only, so a scale or translation in its matrix has no effect.
+TEST_F(ImportApproximations, SkiesKeepOnlyTheRotation) {
   const Scene s = world(R"(Transform [ 0 1 0 3 -1 0 0 0 0 0 1 8.87 5 5 5 1 ] LightSource "infinite"
     LightSource "distant")");
   EXPECT_EQ(s.lights.size(), 2u);
 }
 
-TEST_F(ImportApproximations, IncludedFilesMayBePacked) {
+TEST_F(ImportApproximations, IncludedFilesMayBeGzipped) {
   write("part.pbrt.gz", gzipped("Shape \"sphere\"\nShape \"disk\"\n"));
   EXPECT_EQ(world("Include \"part.pbrt.gz\"").shapes.size(), 2u);
 }

@@ -1,4 +1,4 @@
-// Spectra, blackbodies and colour spaces in scene files, and the sensor of the film.
+// Tests spectra, blackbodies and colour spaces in scene files, and the sensor of the film.
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 namespace kaustik::pbrt {
 namespace {
 
-// Colours are computed in double and kept as float: one rounding, of numbers below 4.
+// Colours are computed in double and rounded to float once, with values below 4.
 constexpr double kFloat = 3e-7;
 
 using ImportColours = ImportTest;
@@ -26,35 +26,35 @@ Rgb reflectance(const Scene& scene) {
 }
 constexpr std::string_view kSphere = "Shape \"sphere\"\n";
 
-// A light of a spectrum has luminance 1 before `scale` and `power`, whatever the numbers of the spectrum.
+// A light with a spectrum has luminance 1 before `scale` and `power`, whatever the values of the spectrum.
 TEST_F(ImportColours, LightsHaveLuminanceOne) {
   for (const std::string text : {"\"blackbody I\" 5500", "\"spectrum I\" \"stdillum-F11\"",
                                  "\"spectrum I\" [ 400 7 700 7 ]", "\"blackbody I\" 1200"}) {
     const Scene scene = world("LightSource \"point\" " + text);
-    // luminance() has four digits of the weights, which is up to 1e-4 of colours with channels up to 5.
+    // luminance() uses weights with four digits, an error of up to 1e-4 of colours with channels up to 5.
     EXPECT_NEAR(luminance(intensity(scene)), 1, 5e-4) << text;
   }
   expect_near(intensity(world("LightSource \"point\" \"spectrum I\" \"stdillum-D65\" \"float scale\" 3")),
               glm::dvec3(3));
   expect_near(intensity(world("LightSource \"point\" \"blackbody I\" 5500 \"float scale\" 2")),
               2.0 * emitted_colour(blackbody(5500)));
-  // 100 lumens, so to speak: power goes by luminance.
+  // `power` scales by luminance.
   EXPECT_NEAR(
       luminance(power(world("LightSource \"point\" \"blackbody I\" 3000 \"float power\" 100").lights[0])),
       100, 1e-4 * 100);
 }
 
-// pbrt-v3's second number.
-TEST_F(ImportColours, BlackbodyWithFactor) {
+// pbrt-v3's blackbody has a second number, a factor.
+TEST_F(ImportColours, BlackbodyTakesAFactor) {
   expect_near(intensity(world("LightSource \"point\" \"blackbody I\" [ 4000 5 ]")),
               5.0 * emitted_colour(blackbody(4000)), 1e-6);
 }
 
-TEST_F(ImportColours, SurfacesUnderDaylight) {
+TEST_F(ImportColours, SurfaceSpectraAreSeenUnderDaylight) {
   expect_near(reflectance(world("Material \"diffuse\" \"spectrum reflectance\" [ 300 0.25 900 0.25 ]\n" +
                                 std::string(kSphere))),
               glm::dvec3(0.25));
-  // Light beyond 600 nm alone is redder than any Rec. 709 red: green and blue end at zero.
+  // A reflectance beyond 600 nm only is redder than any Rec. 709 red: green and blue are cut to zero.
   const Rgb red = reflectance(
       world("Material \"diffuse\" \"spectrum reflectance\" [ 600 0 601 1 800 1 ]\n" + std::string(kSphere)));
   EXPECT_GT(red.r, 0.3f);
@@ -62,7 +62,7 @@ TEST_F(ImportColours, SurfacesUnderDaylight) {
   EXPECT_EQ(red.b, 0);
 }
 
-TEST_F(ImportColours, FilesOfSpectra) {
+TEST_F(ImportColours, SpectraAreReadFromFiles) {
   write("light.spd", "# wavelength value\n300 2\n 900 2 # flat\n");
   const auto flat = Spectrum::from([](double) { return 2; });
   expect_near(intensity(world("LightSource \"point\" \"spectrum I\" \"light.spd\"")), emitted_colour(flat));
@@ -96,17 +96,17 @@ TEST_F(ImportColours, MetalWithoutIndicesIsCopper) {
   EXPECT_EQ(metal.k, Rgb(copper.k));
 }
 
-TEST_F(ImportColours, GlassIsItsIndexAtTheSodiumLine) {
+TEST_F(ImportColours, GlassUsesItsIndexAtTheSodiumLine) {
   const Scene scene =
       world("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n" + std::string(kSphere) +
             "Material \"dielectric\" \"spectrum eta\" \"glass-SF11\"\n" + std::string(kSphere));
   EXPECT_NEAR(std::get<Dielectric>(scene.materials.at(0).typical()).eta, 1.51680, 1e-5);
-  EXPECT_EQ(diagnostics_.warning_count(), 1u);  // of dispersion, once
+  EXPECT_EQ(diagnostics_.warning_count(), 1u);  // one warning about dispersion
 }
 
-TEST_F(ImportColours, ColourSpaces) {
+TEST_F(ImportColours, ColourSpacesAreConverted) {
   const std::string p3 = "ColorSpace \"dci-p3\"\n";
-  // White is white; a colour within our gamut is changed by the matrices; one beyond is cut.
+  // White stays white; a colour within our gamut is transformed by the matrices; one outside is cut.
   expect_near(intensity(world(p3 + "LightSource \"point\" \"rgb I\" [ 2 2 2 ]")), glm::dvec3(2));
   const glm::dvec3 c(0.5, 0.4, 0.3);
   expect_near(intensity(world(p3 + "LightSource \"point\" \"rgb I\" [ 0.5 0.4 0.3 ]")),
@@ -115,33 +115,33 @@ TEST_F(ImportColours, ColourSpaces) {
       reflectance(world(p3 + "Material \"diffuse\" \"rgb reflectance\" [ 0 1 0 ]\n" + std::string(kSphere)));
   EXPECT_EQ(green.r, 0);
   EXPECT_EQ(green.g, 1);
-  // It belongs to the state, and what is in no other space does not change at all.
+  // The colour space belongs to the graphics state, and colours in our own space do not change at all.
   const std::string state =
       "AttributeBegin\n" + p3 + "AttributeEnd\nLightSource \"point\" \"rgb I\" [ 0 1 0 ]";
   EXPECT_EQ(intensity(world(state)), Rgb(0, 1, 0));
 }
 
-TEST_F(ImportColours, Exposure) {
+TEST_F(ImportColours, ExposureScalesTheImage) {
   const auto sensor = [&](const std::string& camera, const std::string& film) {
     return load("Camera \"perspective\" " + camera + "\nFilm \"rgb\" " + film + "\nWorldBegin").scene.sensor;
   };
   EXPECT_TRUE(sensor("", "").neutral);
   EXPECT_TRUE(sensor("\"float shutteropen\" 0 \"float shutterclose\" 1", "\"float iso\" 100").neutral);
-  // The imaging ratio: time times iso / 100.
+  // The imaging ratio is time times iso / 100.
   EXPECT_EQ(
       sensor("\"float shutteropen\" 0.25 \"float shutterclose\" 0.75", "\"float iso\" 800")(Rgb(1, 2, 3)),
       Rgb(4, 8, 12));
   EXPECT_EQ(sensor("", "\"float exposuretime\" 0.5")(Rgb(1, 2, 3)), Rgb(0.5f, 1, 1.5f));
 }
 
-TEST_F(ImportColours, WhiteBalance) {
+TEST_F(ImportColours, WhiteBalanceAdaptsColours) {
   const Sensor sensor = load("Film \"rgb\" \"float whitebalance\" 5000\nWorldBegin").scene.sensor;
   expect_near(sensor(Rgb(emitted_colour(daylight(5000)))), glm::dvec3(1), 1e-5);
   const Sensor none = load("Film \"rgb\" \"float whitebalance\" 6500\nWorldBegin").scene.sensor;
   expect_near(none(Rgb(1, 0.5, 0.25)), glm::dvec3(1, 0.5, 0.25), 1e-5);
 }
 
-TEST_F(ImportColours, Sensors) {
+TEST_F(ImportColours, SensorsAreKnownByName) {
   EXPECT_THAT(messages("Film \"rgb\" \"string sensor\" \"canon_eos_5d\"\nWorldBegin"),
               testing::HasSubstr("warning: sensor \"canon_eos_5d\" is replaced by \"cie1931\""));
   EXPECT_THAT(messages("Film \"rgb\" \"string sensor\" \"canon_eos_6d\"\nWorldBegin"),

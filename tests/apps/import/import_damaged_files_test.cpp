@@ -1,5 +1,5 @@
-// Every kind of file that a scene reads, cut short and with changed bytes: it is read or refused, and what is
-// refused is named.
+// Damages every kind of file that a scene reads, by cuts and by changed bytes: the file is read, or refused
+// with an error that names it.
 
 #include <gmock/gmock.h>
 
@@ -52,7 +52,7 @@ std::string packed_mesh() {
   return gzipped(text);
 }
 
-// A triangle of twelve zeros, then the floats 1: its bytes are in its text.
+// A glTF file with its bytes in the text: a triangle of twelve zeros, then floats of 1.
 std::string gltf_text() {
   return R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0, 1 ] } ],
   "nodes": [ { "mesh": 0, "skin": 0, "weights": [ 0.5 ] }, { "translation": [ 0, 0, 1 ], "children": [] } ],
@@ -79,17 +79,17 @@ std::string library() {
 
 struct Kind {
   std::string name, file;
-  std::string scene;  // that reads it; empty where the file is the scene
+  std::string scene;  // a scene that reads the file; empty where the file is the scene
   std::string (*bytes)();
 };
-// By which ctest names the case.
+// GoogleTest prints a case by its name.
 void PrintTo(const Kind& kind, std::ostream* out) {
   *out << kind.name;
 }
 
 class DamagedFile : public ImportTest, public testing::WithParamInterface<Kind> {
  protected:
-  // Whether it was read.
+  // Returns whether the file was read.
   bool try_bytes(const std::string& bytes, const std::string& what) {
     const Kind& kind = GetParam();
     const auto file = write(kind.file, bytes);
@@ -104,8 +104,8 @@ class DamagedFile : public ImportTest, public testing::WithParamInterface<Kind> 
   }
 };
 
-// A library of materials is damaged as an OBJ's second file: no damage keeps the faces from being read.
-TEST_F(ImportTest, DamagedMaterialsOfAnObj) {
+// The material library of an OBJ is damaged: the faces are still read.
+TEST_F(ImportTest, DamagedMaterialsOfAnObjKeepItsFaces) {
   const std::string bytes = library();
   std::mt19937 random(21);
   for (int trial = 0; trial < 60; ++trial) {
@@ -119,19 +119,19 @@ TEST_F(ImportTest, DamagedMaterialsOfAnObj) {
   }
 }
 
-TEST_P(DamagedFile, CutAnywhere) {
+TEST_P(DamagedFile, IsReadOrRefusedWhenCut) {
   const std::string bytes = GetParam().bytes();
   ASSERT_TRUE(try_bytes(bytes, "whole"));
   for (size_t i = 0; i < 50; ++i)
     try_bytes(bytes.substr(0, bytes.size() * i / 50), std::to_string(i) + "/50");
 }
 
-TEST_P(DamagedFile, ChangedAnywhere) {
+TEST_P(DamagedFile, IsReadOrRefusedWhenChanged) {
   const std::string bytes = GetParam().bytes();
   std::mt19937 random(20);
   for (int trial = 0; trial < 60; ++trial) {
     std::string changed = bytes;
-    // Some in the head, where the sizes are.
+    // Half of the changes are in the header, which holds the sizes.
     const size_t within = trial % 2 ? std::min<size_t>(bytes.size(), 400) : bytes.size();
     for (int changes = 1 + trial % 4; changes > 0; --changes)
       changed[random() % within] = static_cast<char>(random() % 256);

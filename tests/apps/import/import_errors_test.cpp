@@ -1,4 +1,4 @@
-// The wording and the places of messages.
+// Tests the wording and the locations of messages.
 #include "tests/apps/import/import_support.h"
 
 namespace kaustik::pbrt {
@@ -6,7 +6,7 @@ namespace {
 
 class ImportErrors : public ImportTest {};
 
-TEST_F(ImportErrors, OneRunShowsThemAll) {
+TEST_F(ImportErrors, OneRunReportsAllErrors) {
   EXPECT_EQ(
       messages("Camera \"perspectiv\"\n"
                "WorldBegin\n"
@@ -44,21 +44,14 @@ TEST_F(ImportErrors, OneRunShowsThemAll) {
 struct Case {
   std::string_view text, message;
 };
-// The name that a failing case is reported under.
+// GoogleTest reports a failing case by this text.
 void PrintTo(const Case& c, std::ostream* out) {
   *out << c.text.substr(0, 60);
 }
 
-class ImportErrorTable : public ImportTest, public testing::WithParamInterface<Case> {
- protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(KAUSTIK_TEST_OUTPUT_DIR) / "import" / "error_table";
-    folder_ += std::to_string(std::hash<std::string_view>()(GetParam().text));
-    std::filesystem::create_directories(folder_);
-  }
-};
+class ImportErrorTable : public ImportTest, public testing::WithParamInterface<Case> {};
 
-TEST_P(ImportErrorTable, SaysWhatIsWrong) {
+TEST_P(ImportErrorTable, MessageMatches) {
   EXPECT_EQ(first_lines(std::string(GetParam().text)), std::string(GetParam().message) + "\n");
 }
 
@@ -251,7 +244,7 @@ INSTANTIATE_TEST_SUITE_P(
              R"(2:43: error: expected true or false, not `1`)"},
         Case{"Shape \"sphere", "2:7: error: this string is not closed on its line"}));
 
-TEST_F(ImportErrors, MissingWorldBeginIsSaidOnce) {
+TEST_F(ImportErrors, MissingWorldBeginIsReportedOnce) {
   EXPECT_EQ(messages("Shape \"sphere\"\nShape \"sphere\"\n"),
             "scene.pbrt:1:1: error: `Shape` belongs after `WorldBegin`\nShape \"sphere\"\n^\n");
   EXPECT_EQ(messages("Scale 1 1 1\n"), "scene.pbrt: error: the file ends without `WorldBegin`\n");
@@ -268,14 +261,14 @@ TEST_F(ImportErrors, IgnoredParametersAreWarnedAboutOnce) {
   EXPECT_TRUE(loaded_);
 }
 
-TEST_F(ImportErrors, OfIncludedFilesNameThoseFiles) {
+TEST_F(ImportErrors, ErrorsInIncludedFilesNameThoseFiles) {
   write("sub/part.pbrt", "Shape \"spere\"\n");
   EXPECT_EQ(messages("WorldBegin\nInclude \"sub/part.pbrt\"\n"),
             "sub/part.pbrt:1:7: error: unknown shape \"spere\"; did you mean `sphere`? known: trianglemesh, "
             "plymesh, sphere, cylinder, disk, bilinearmesh, loopsubdiv\nShape \"spere\"\n      ^\n");
 }
 
-TEST_F(ImportErrors, AFileThatIsNotThere) {
+TEST_F(ImportErrors, MissingFileIsReported) {
   Diagnostics d;
   EXPECT_FALSE(load_scene(folder_ / "none.pbrt", d));
   EXPECT_EQ(d.format_all(),

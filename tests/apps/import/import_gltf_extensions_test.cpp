@@ -1,4 +1,4 @@
-// Extensions of glTF's materials and nodes, colours of vertices, skins and morph targets.
+// Tests extensions of glTF's materials and nodes, vertex colours, skins and morph targets.
 
 #include "gltf_support.h"
 
@@ -38,8 +38,8 @@ class ImportGltfExtensions : public ImportGltf {
   }
 };
 
-// Metal whose facets are wider along u: alpha_t = alpha + (1 - alpha) strength^2 (KHR_materials_anisotropy).
-TEST_F(ImportGltfExtensions, Anisotropy) {
+// Metal with wider facets along u: alpha_t = alpha + (1 - alpha) strength^2 (KHR_materials_anisotropy).
+TEST_F(ImportGltfExtensions, AnisotropyWidensFacetsAlongU) {
   const auto along_u = material(R"("KHR_materials_anisotropy": { "anisotropyStrength": 0.5 })");
   EXPECT_THAT(numbers(along_u, "uroughness"), ElementsAre(0.25 + 0.75 * 0.25));
   EXPECT_THAT(numbers(along_u, "vroughness"), ElementsAre(0.25));
@@ -49,7 +49,7 @@ TEST_F(ImportGltfExtensions, Anisotropy) {
   EXPECT_THAT(diagnostics_.format_all(), testing::Not(HasSubstr("anisotropy")));
 }
 
-TEST_F(ImportGltfExtensions, ClearcoatIsTheCoat) {
+TEST_F(ImportGltfExtensions, ClearcoatBecomesACoat) {
   const auto paint =
       material(R"("KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.25 })",
                R"(, "metallicFactor": 0)");
@@ -57,7 +57,7 @@ TEST_F(ImportGltfExtensions, ClearcoatIsTheCoat) {
   EXPECT_THAT(numbers(paint, "roughness"), ElementsAre(0.0625));
 }
 
-TEST_F(ImportGltfExtensions, SpecularAndGlossiness) {
+TEST_F(ImportGltfExtensions, SpecularGlossinessIsConverted) {
   const auto paint = material(R"("KHR_materials_pbrSpecularGlossiness": {
       "diffuseFactor": [ 0.5, 0.25, 0.125, 1 ], "specularFactor": [ 0.04, 0.04, 0.04 ], "glossinessFactor": 0.5 })");
   EXPECT_EQ(paint.type, "coateddiffuse");
@@ -70,7 +70,7 @@ TEST_F(ImportGltfExtensions, SpecularAndGlossiness) {
   EXPECT_THAT(numbers(gold, "reflectance"), ElementsAre(1, 0.75, 0.25));
 }
 
-TEST_F(ImportGltfExtensions, DiffuseTransmission) {
+TEST_F(ImportGltfExtensions, DiffuseTransmissionIsConverted) {
   const auto leaf = material(R"("KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.25,
       "diffuseTransmissionColorFactor": [ 1, 0.5, 0 ] })",
                              R"(, "metallicFactor": 0)");
@@ -79,12 +79,12 @@ TEST_F(ImportGltfExtensions, DiffuseTransmission) {
   EXPECT_THAT(numbers(leaf, "transmittance"), ElementsAre(0.25, 0.125, 0));
 }
 
-TEST_F(ImportGltfExtensions, OthersAreNamed) {
+TEST_F(ImportGltfExtensions, UnsupportedExtensionsAreNamed) {
   material(R"("VENDOR_materials_glitter": { "glitter": 1 })");
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("VENDOR_materials_glitter is left out"));
 }
 
-TEST_F(ImportGltfExtensions, ColoursOfVerticesAsTheirMean) {
+TEST_F(ImportGltfExtensions, VertexColoursAreAveraged) {
   Bytes colours;
   colours.floats({1, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0.75f});
   const auto s = describe(triangle_with(
@@ -95,8 +95,9 @@ TEST_F(ImportGltfExtensions, ColoursOfVerticesAsTheirMean) {
               HasSubstr("vertex colours are replaced by their mean over the mesh"));
 }
 
-// Joints a and b, each with half of every vertex: the mean of two translations, whatever the node's own is.
-TEST_F(ImportGltfExtensions, Skins) {
+// Joints a and b each have half of the weight of every vertex: the result is the mean of two translations,
+// and the node's own transform does not count.
+TEST_F(ImportGltfExtensions, SkinsMoveVerticesByTheirJoints) {
   Bytes bytes;
   bytes.shorts({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
   bytes.floats({0.5f, 0.5f, 0, 0, 0.5f, 0.5f, 0, 0, 0.5f, 0.5f, 0, 0});
@@ -113,7 +114,7 @@ TEST_F(ImportGltfExtensions, Skins) {
   EXPECT_THAT(numbers(s.shapes[0], "P"), ElementsAre(1, 2, 0, 2, 2, 0, 1, 3, 0));
 }
 
-TEST_F(ImportGltfExtensions, MorphTargets) {
+TEST_F(ImportGltfExtensions, MorphTargetsAreApplied) {
   std::string parts(kTriangleParts);
   const std::string indices = R"("indices": 3,)";
   parts.replace(parts.find(indices), indices.size(), R"("indices": 3, "targets": [ { "POSITION": 1 } ],)");
@@ -122,7 +123,7 @@ TEST_F(ImportGltfExtensions, MorphTargets) {
   EXPECT_THAT(numbers(s.shapes.at(0), "P"), ElementsAre(0, 0, 0.5, 1, 0, 0.5, 0, 1, 0.5));
 }
 
-TEST_F(ImportGltfExtensions, HiddenNodes) {
+TEST_F(ImportGltfExtensions, HiddenNodesAreLeftOut) {
   const auto s = describe(triangle("{}", R"(, "extensionsRequired": [ "KHR_node_visibility" ], "scenes": [ {
       "nodes": [ 0 ] } ])"));
   EXPECT_EQ(s.shapes.size(), 1u);
@@ -132,8 +133,8 @@ TEST_F(ImportGltfExtensions, HiddenNodes) {
   EXPECT_TRUE(hidden.shapes.empty());
 }
 
-// The normals' accessor as three translations.
-TEST_F(ImportGltfExtensions, Instances) {
+// Uses the accessor of the normals as three translations.
+TEST_F(ImportGltfExtensions, InstancesAreExpanded) {
   const auto s = describe(gltf(std::string(kTriangleParts) + R"("materials": [ {} ], "nodes": [ { "mesh": 0,
       "extensions": { "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": 1 } } } } ],
       "extensionsRequired": [ "EXT_mesh_gpu_instancing" ])"));

@@ -1,4 +1,4 @@
-// glTF 2.0: what becomes of it.
+// Tests the import of glTF 2.0.
 
 #include <numbers>
 
@@ -10,20 +10,20 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST_F(ImportGltf, Triangle) {
+TEST_F(ImportGltf, TriangleIsRead) {
   const SceneDescription s = describe(triangle("{}"));
   ASSERT_EQ(s.shapes.size(), 1u);
   const ShapeDescription& shape = s.shapes[0];
   EXPECT_EQ(shape.type, "trianglemesh");
   EXPECT_THAT(numbers(shape, "P"), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0));
   EXPECT_THAT(numbers(shape, "indices"), ElementsAre(0, 1, 2));
-  // t points down in glTF, up in pbrt.
+  // t points down in glTF and up in pbrt.
   EXPECT_THAT(numbers(shape, "uv"), ElementsAre(0, 1, 1, 1, 0, 0.75));
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("no camera"));
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("no light"));
 }
 
-TEST_F(ImportGltf, BinaryContainer) {
+TEST_F(ImportGltf, BinaryContainerIsRead) {
   const std::string json =
       std::string(R"({ "asset": { "version": "2.0" }, "buffers": [ { "byteLength": 104 } ],)") +
       std::string(kTriangleParts) + R"("materials": [ {} ], "nodes": [ { "mesh": 0 } ] })";
@@ -32,8 +32,8 @@ TEST_F(ImportGltf, BinaryContainer) {
   EXPECT_THAT(numbers(s.shapes[0], "P"), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0));
 }
 
-// A whole scene through the builder: the camera that is made sees the triangle.
-TEST_F(ImportGltf, Builds) {
+// A whole scene goes through the builder: the imported camera sees the triangle.
+TEST_F(ImportGltf, BuildsAScene) {
   Diagnostics diagnostics;
   const auto loaded = load_scene(
       triangle(R"({ "pbrMetallicRoughness": { "metallicFactor": 1, "roughnessFactor": 0 } })"), diagnostics);
@@ -42,7 +42,7 @@ TEST_F(ImportGltf, Builds) {
   Point2 raster;
   Point3 origin;
   ASSERT_TRUE(loaded->scene.camera.project(Point3(0.25f, 0.25f, 0), &raster, &origin));
-  // The world is right-handed: what lies towards +x is to the right, what is higher is nearer to the top.
+  // The world is right-handed: points towards +x appear on the right, and higher points nearer to the top.
   Point2 right, above;
   ASSERT_TRUE(loaded->scene.camera.project(Point3(0.75f, 0.25f, 0), &right, &origin));
   ASSERT_TRUE(loaded->scene.camera.project(Point3(0.25f, 0.75f, 0), &above, &origin));
@@ -50,13 +50,13 @@ TEST_F(ImportGltf, Builds) {
   EXPECT_LT(above.y, raster.y);
 }
 
-TEST_F(ImportGltf, MetalsAndDielectrics) {
+TEST_F(ImportGltf, MetalsAndDielectricsAreConverted) {
   const auto metal = describe(triangle(R"({ "name": "m", "pbrMetallicRoughness": {
       "baseColorFactor": [ 0.9, 0.6, 0.3, 1 ], "roughnessFactor": 0.5 } })"))
                          .materials.at(0);
   EXPECT_EQ(metal.type, "conductor");
   EXPECT_THAT(numbers(metal, "reflectance"), ElementsAre(0.9, 0.6, 0.3));
-  EXPECT_THAT(numbers(metal, "roughness"), ElementsAre(0.25));  // the width is the square
+  EXPECT_THAT(numbers(metal, "roughness"), ElementsAre(0.25));  // alpha is the square
   EXPECT_THAT(numbers(metal, "remaproughness"), ElementsAre(0));
   const auto paint = describe(triangle(R"({ "pbrMetallicRoughness": { "metallicFactor": 0 },
       "extensions": { "KHR_materials_ior": { "ior": 1.3 } } })"))
@@ -69,7 +69,7 @@ TEST_F(ImportGltf, MetalsAndDielectrics) {
   EXPECT_EQ(dull.type, "diffuse");
 }
 
-TEST_F(ImportGltf, Glass) {
+TEST_F(ImportGltf, GlassIsConverted) {
   const auto pane =
       describe(triangle(R"({ "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 0 },
       "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 },
@@ -79,7 +79,7 @@ TEST_F(ImportGltf, Glass) {
   EXPECT_THAT(numbers(pane, "eta"), ElementsAre(1.5));
 }
 
-TEST_F(ImportGltf, Lights) {
+TEST_F(ImportGltf, LightsAreConverted) {
   const auto s = describe(triangle(R"({ "emissiveFactor": [ 1, 0.5, 0 ], "doubleSided": true,
       "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 4 } } })"));
   ASSERT_EQ(s.area_lights.size(), 1u);
@@ -89,8 +89,8 @@ TEST_F(ImportGltf, Lights) {
   EXPECT_TRUE(s.lights.empty());
 }
 
-// 60 degrees high and twice as wide: pbrt's angle is that of the shorter side, the height.
-TEST_F(ImportGltf, CamerasAndLights) {
+// The field is 60 degrees high and twice as wide; pbrt's angle is that of the shorter side, the height.
+TEST_F(ImportGltf, CamerasAreConverted) {
   const auto s = describe(gltf(R"("cameras": [ { "type": "perspective",
         "perspective": { "yfov": 1.0471975511965976, "aspectRatio": 2, "znear": 0.1 } } ],
       "extensions": { "KHR_lights_punctual": { "lights": [
@@ -104,7 +104,7 @@ TEST_F(ImportGltf, CamerasAndLights) {
   EXPECT_NEAR(numbers(*s.camera, "fov").at(0), 60, 1e-12);
   EXPECT_THAT(numbers(*s.film, "xresolution"), ElementsAre(1440));
   EXPECT_EQ(s.camera->camera_to_world[3], glm::dvec4(1, 2, 3, 1));
-  EXPECT_EQ(s.camera->camera_to_world[2], glm::dvec4(0, 0, -1, 0));  // ahead
+  EXPECT_EQ(s.camera->camera_to_world[2], glm::dvec4(0, 0, -1, 0));  // the direction of view
   ASSERT_EQ(s.lights.size(), 3u);
   EXPECT_THAT(numbers(s.lights[0], "I"), ElementsAre(8, 4, 2));
   EXPECT_EQ(s.lights[0].light_to_world[3].y, 5);
@@ -114,8 +114,9 @@ TEST_F(ImportGltf, CamerasAndLights) {
   EXPECT_EQ(diagnostics_.warning_count(), 0u) << diagnostics_.format_all();
 }
 
-// Quarter turn about z, after scaling by 2, below a parent that moves: (1, 0, 0) -> (0, 2, 0) + (10, 0, 0).
-TEST_F(ImportGltf, Hierarchy) {
+// A quarter turn about z after scaling by 2, below a parent with a translation: (1, 0, 0) -> (0, 2, 0) + (10,
+// 0, 0).
+TEST_F(ImportGltf, TransformsOfParentsApply) {
   const auto s = describe(gltf(std::string(kTriangleParts) + R"("materials": [ {} ],
       "nodes": [ { "children": [ 1 ], "translation": [ 10, 0, 0 ] },
                  { "mesh": 0, "rotation": [ 0, 0, 0.7071067811865476, 0.7071067811865476 ], "scale": [ 2, 2, 2 ] } ],
@@ -124,7 +125,7 @@ TEST_F(ImportGltf, Hierarchy) {
   EXPECT_NEAR(glm::length(p - glm::dvec4(10, 2, 0, 1)), 0, 1e-14);
 }
 
-TEST_F(ImportGltf, MeshesOfSeveralNodesAreInstances) {
+TEST_F(ImportGltf, MeshesOfSeveralNodesBecomeInstances) {
   const auto s = describe(gltf(std::string(kTriangleParts) + R"("materials": [ {} ],
       "nodes": [ { "mesh": 0 }, { "mesh": 0, "translation": [ 1, 0, 0 ] } ])"));
   EXPECT_TRUE(s.shapes.empty());
@@ -134,11 +135,11 @@ TEST_F(ImportGltf, MeshesOfSeveralNodesAreInstances) {
   EXPECT_EQ(s.instances[1].instance_to_world[3].x, 1);
 }
 
-TEST_F(ImportGltf, SparseAndQuantised) {
+TEST_F(ImportGltf, SparseAndQuantisedAccessorsAreRead) {
   Bytes b;
   b.shorts({0, 0, 0, 65535, 0, 0, 0, 65535, 0});  // 0: 18 bytes, padded to 20
-  b.shorts({1});                                  // 20: which
-  b.shorts({0, 0, 65535});                        // 24: by what
+  b.shorts({1});                                  // 20: index of the changed vertex
+  b.shorts({0, 0, 65535});                        // 24: its new value
   const auto s = describe(gltf(R"("bufferViews": [ { "buffer": 0, "byteLength": 18 },
       { "buffer": 0, "byteOffset": 20, "byteLength": 2 }, { "buffer": 0, "byteOffset": 24, "byteLength": 6 } ],
       "accessors": [ { "bufferView": 0, "componentType": 5123, "normalized": true, "count": 3, "type": "VEC3",
@@ -149,7 +150,7 @@ TEST_F(ImportGltf, SparseAndQuantised) {
   EXPECT_THAT(numbers(s.shapes.at(0), "P"), ElementsAre(0, 0, 0, 0, 0, 1, 0, 1, 0));
 }
 
-TEST_F(ImportGltf, StripsAndFans) {
+TEST_F(ImportGltf, StripsAndFansBecomeTriangles) {
   for (const auto& [mode, expected] : {std::pair{5, std::vector<double>{0, 1, 2, 2, 1, 3}},
                                        std::pair{6, std::vector<double>{0, 1, 2, 0, 2, 3}}}) {
     Bytes b;

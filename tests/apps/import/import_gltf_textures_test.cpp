@@ -1,4 +1,4 @@
-// Images of glTF files: those within the file, and those that are made from them.
+// Tests the images of glTF files: embedded ones, and those that the importer makes from them.
 
 #include <OpenImageIO/imageio.h>
 
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class GltfTextures : public ImportGltf {
  protected:
-  // Two pixels of red, green, blue and alpha.
+  // A PNG of two pixels of red, green, blue and alpha.
   std::string png(const std::vector<uint8_t>& pixels) const {
     const std::string path = (folder_ / "two.png").string();
     const auto out = OIIO::ImageOutput::create(path);
@@ -32,7 +32,7 @@ class GltfTextures : public ImportGltf {
     in->read_image(0, 0, 0, in->spec().nchannels, OIIO::TypeDesc::FLOAT, out.data());
     return out;
   }
-  // A triangle whose material names texture 0, an image after the triangle's bytes.
+  // A triangle whose material uses texture 0, an image after the triangle's bytes.
   SceneDescription textured(const std::string& material, const std::string& image) {
     std::string parts(kTriangleParts);
     const std::string view = R"({ "buffer": 0, "byteOffset": 96, "byteLength": 6 })";
@@ -50,10 +50,10 @@ class GltfTextures : public ImportGltf {
   }
 };
 
-// Red, then a grey whose alpha is a half.
+// A red pixel, then a grey one with an alpha of one half.
 const std::vector<uint8_t> kTwo = {255, 0, 0, 255, 128, 128, 128, 128};
 
-TEST_F(GltfTextures, ImagesWithinTheFile) {
+TEST_F(GltfTextures, EmbeddedImagesAreWrittenToFiles) {
   const std::string image = png(kTwo);
   std::filesystem::path file;
   {
@@ -63,29 +63,30 @@ TEST_F(GltfTextures, ImagesWithinTheFile) {
     EXPECT_EQ(s.textures[0].value_type, "spectrum");
     EXPECT_EQ(s.textures[0].find("wrap")->strings[0], "clamp");
     EXPECT_EQ(s.materials.at(0).find("reflectance")->strings[0], s.textures[0].name);
-    // The name says nothing of the folder, so that the scene's hash is the same the next time.
+    // The file's name does not contain the folder, so that the scene's hash is reproducible.
     EXPECT_EQ(s.textures[0].find("filename")->strings[0], "image0.png");
     file = file_of(s.textures[0], "filename");
     std::ifstream in(file, std::ios::binary);
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), image);
   }
-  EXPECT_FALSE(std::filesystem::exists(file));  // with the description its files go
+  EXPECT_FALSE(std::filesystem::exists(file));  // the files are deleted with the description
 }
 
-TEST_F(GltfTextures, Factors) {
+TEST_F(GltfTextures, FactorsAreMultipliedIntoImages) {
   const auto s = textured(R"({ "pbrMetallicRoughness": { "baseColorFactor": [ 0.25, 1, 1, 1 ],
       "baseColorTexture": { "index": 0 } } })",
                           png(kTwo));
   const std::vector<float> pixels = pixels_of(file_of(s.textures.at(0), "filename"));
   ASSERT_EQ(pixels.size(), 6u);
-  // sRGB of a quarter is 0.5371 (IEC 61966-2-1); 8 bits.
+  // The sRGB value of 0.25 is 0.5371 (IEC 61966-2-1), in 8 bits.
   EXPECT_NEAR(pixels[0], 0.5371, 0.5 / 255);
   EXPECT_EQ(pixels[1], 0);
   EXPECT_NEAR(pixels[4], 128.0 / 255, 1e-6);
 }
 
-// Roughness is green, its GGX width the square; metal is blue; both are written as 16 bits.
-TEST_F(GltfTextures, Channels) {
+// Roughness is in green, and the GGX width is its square; metalness is in blue. Both are written with 16
+// bits.
+TEST_F(GltfTextures, ChannelsAreSplitIntoImages) {
   const auto s = textured(R"({ "pbrMetallicRoughness": { "metallicRoughnessTexture": { "index": 0 },
       "metallicFactor": 0.5 } })",
                           png({0, 255, 0, 255, 0, 51, 255, 255}));
@@ -96,7 +97,7 @@ TEST_F(GltfTextures, Channels) {
     ASSERT_EQ(images.back().size(), 2u);
   }
   ASSERT_EQ(images.size(), 3u);
-  EXPECT_NEAR(images[1][0], 1, 1e-5);  // roughness of the dielectric
+  EXPECT_NEAR(images[1][0], 1, 1e-5);  // dielectric's roughness
   EXPECT_NEAR(images[1][1], 0.04, 1e-5);
   const auto mix = std::ranges::find_if(s.materials, [](const auto& m) { return m.type == "mix"; });
   ASSERT_NE(mix, s.materials.end());
@@ -109,8 +110,8 @@ TEST_F(GltfTextures, Channels) {
   EXPECT_EQ(diagnostics_.format_all().find("mean"), std::string::npos);
 }
 
-// A texture that is 0 or 1 everywhere mixes nothing.
-TEST_F(GltfTextures, MetalEverywhereOrNowhere) {
+// A metalness texture that is 0 or 1 everywhere needs no mixture.
+TEST_F(GltfTextures, UniformMetalnessNeedsNoMixture) {
   for (const auto& [blue, type] : {std::pair{0, "coateddiffuse"}, std::pair{255, "conductor"}}) {
     const auto b = static_cast<uint8_t>(blue);
     const auto s = textured(R"({ "pbrMetallicRoughness": { "metallicRoughnessTexture": { "index": 0 } } })",
@@ -132,7 +133,7 @@ TEST_F(GltfTextures, TransmissionIsMixedByItsTexture) {
   EXPECT_NEAR(shares.at(1), 0.8 * 128 / 255, 1e-4);
 }
 
-TEST_F(GltfTextures, Alpha) {
+TEST_F(GltfTextures, AlphaModesAreConverted) {
   const std::string material =
       R"({ "alphaMode": "%", "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } })";
   for (const auto& [mode, second] : {std::pair{"BLEND", 128.0 / 255}, std::pair{"MASK", 1.0}}) {
@@ -150,8 +151,8 @@ TEST_F(GltfTextures, Alpha) {
   }
 }
 
-// The factor's largest component is the scale, the rest is in the image.
-TEST_F(GltfTextures, EmissionIsTheImage) {
+// The factor's largest component becomes the scale, and the rest goes into the image.
+TEST_F(GltfTextures, EmissiveTexturesBecomeLightImages) {
   const auto s = textured(R"({ "emissiveFactor": [ 1, 0.25, 1 ], "emissiveTexture": { "index": 0 },
       "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 6 } } })",
                           png({255, 0, 0, 255, 0, 255, 0, 255}));
@@ -161,11 +162,11 @@ TEST_F(GltfTextures, EmissionIsTheImage) {
   const std::vector<float> pixels = pixels_of(file_of(light, "filename"));
   ASSERT_EQ(pixels.size(), 6u);
   EXPECT_EQ(pixels[0], 1);
-  EXPECT_NEAR(pixels[4], 0.5371, 0.5 / 255);                                 // sRGB of a quarter
-  EXPECT_EQ(diagnostics_.warning_count(), 1u) << diagnostics_.format_all();  // of the camera
+  EXPECT_NEAR(pixels[4], 0.5371, 0.5 / 255);                                 // sRGB of 0.25
+  EXPECT_EQ(diagnostics_.warning_count(), 1u) << diagnostics_.format_all();  // about the camera
 }
 
-TEST_F(GltfTextures, EmissionThatPbrtHasNoWordsForIsItsMean) {
+TEST_F(GltfTextures, UnsupportedEmissionUsesItsMean) {
   const auto s = textured(R"({ "emissiveFactor": [ 1, 1, 1 ], "emissiveTexture": { "index": 0,
       "extensions": { "KHR_texture_transform": { "scale": [ 2, 2 ] } } } })",
                           png({255, 0, 0, 255, 0, 255, 0, 255}));
@@ -174,13 +175,13 @@ TEST_F(GltfTextures, EmissionThatPbrtHasNoWordsForIsItsMean) {
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("are rendered as their mean"));
 }
 
-TEST_F(GltfTextures, BlackEmissionIsNoLight) {
+TEST_F(GltfTextures, BlackEmissionMakesNoLight) {
   const auto s = textured(R"({ "emissiveFactor": [ 1, 1, 1 ], "emissiveTexture": { "index": 0 } })",
                           png({0, 0, 0, 255, 0, 0, 0, 255}));
   EXPECT_TRUE(s.area_lights.empty());
 }
 
-TEST_F(GltfTextures, DamagedImages) {
+TEST_F(GltfTextures, DamagedImagesAreRefused) {
   const auto s = textured(R"({ "pbrMetallicRoughness": { "baseColorFactor": [ 0.5, 1, 1, 1 ],
       "baseColorTexture": { "index": 0 } } })",
                           png(kTwo).substr(0, 40));

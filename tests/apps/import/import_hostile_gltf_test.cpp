@@ -1,4 +1,4 @@
-// Damaged and hostile glTF files.
+// Tests damaged and hostile glTF files.
 
 #include <random>
 
@@ -14,7 +14,7 @@ struct Damage {
 };
 class DamagedGltf : public ImportGltf, public testing::WithParamInterface<Damage> {};
 
-TEST_P(DamagedGltf, SaysWhatIsWrong) {
+TEST_P(DamagedGltf, MessageMatches) {
   EXPECT_THAT(error(gltf(std::string(GetParam().parts))), HasSubstr(std::string(GetParam().message)));
 }
 
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"("cameras": [ { "type": "perspective", "perspective": { "yfov": 4 } } ], "nodes": [ { "camera": 0 } ])",
             "cameras[0].perspective.yfov` is 4"}));
 
-TEST_F(ImportGltf, IndicesOutOfRange) {
+TEST_F(ImportGltf, IndicesOutOfRangeAreRefused) {
   Bytes b;
   b.floats({0, 0, 0, 1, 0, 0, 0, 1, 0});
   b.shorts({0, 1, 9});
@@ -77,7 +77,7 @@ TEST_F(ImportGltf, IndicesOutOfRange) {
               HasSubstr("meshes[0].primitives[0].indices` names vertex 9: there are 3"));
 }
 
-TEST_F(ImportGltf, DamagedContainers) {
+TEST_F(ImportGltf, DamagedContainersAreRefused) {
   const std::string json = R"({ "asset": { "version": "2.0" } })";
   std::string file = glb(json, "");
   EXPECT_THAT(error(write("a.glb", file.substr(0, 15))), HasSubstr("the file ends within its header"));
@@ -99,16 +99,16 @@ TEST_F(ImportGltf, DamagedContainers) {
               HasSubstr("has 3 bytes, `byteLength` promises 4"));
 }
 
-// 100,000 nodes in a row are no deeper for us than one.
-TEST_F(ImportGltf, DeepHierarchies) {
+// 100,000 nested nodes must not exhaust the stack.
+TEST_F(ImportGltf, DeepHierarchiesDoNotExhaustTheStack) {
   std::string nodes = "\"nodes\": [ ";
   constexpr int kNodes = 100'000;
   for (int i = 0; i + 1 < kNodes; ++i) nodes += fmt::format("{{ \"children\": [ {} ] }}, ", i + 1);
   describe(gltf(nodes + "{} ], \"scenes\": [ { \"nodes\": [ 0 ] } ]"));
 }
 
-// Whatever is changed, the file is read or refused: a few bytes, digits or cuts at a time.
-TEST_F(ImportGltf, ChangedFiles) {
+// Whatever bytes, digits or cuts are changed, the file is read or refused.
+TEST_F(ImportGltf, ChangedFilesAreReadOrRefused) {
   const std::string json =
       std::string(R"({ "asset": { "version": "2.0" }, "buffers": [ { "byteLength": 104 } ],)") +
       std::string(kTriangleParts) +

@@ -1,4 +1,4 @@
-// Input that nobody meant: it must be refused, quickly and without a crash.
+// Tests malformed and hostile input: it must be refused, quickly and without a crash.
 #include "tests/apps/import/import_support.h"
 
 namespace kaustik::pbrt {
@@ -16,13 +16,13 @@ constexpr std::string_view kSound =
     "ObjectBegin \"o\" Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 1] ObjectEnd\r\n"
     "Translate 1 2 3 Rotate 30 0 1 0 ObjectInstance \"o\"\r\n";
 
-TEST_F(ImportHostile, TheWholeIsSound) {
+TEST_F(ImportHostile, UndamagedSceneLoads) {
   EXPECT_EQ(messages(std::string(kSound)), "");
 }
 
 TEST_F(ImportHostile, EveryTruncationIsHandled) {
   for (size_t n = 0; n <= kSound.size(); ++n) {
-    messages(std::string(kSound.substr(0, n)));  // checks that either there are errors or there is a scene
+    messages(std::string(kSound.substr(0, n)));  // messages() checks that there are errors or a scene
   }
 }
 
@@ -64,7 +64,7 @@ TEST_F(ImportHostile, DeepTransformsAndObjectsEndWithOneError) {
   std::string text;
   for (int i = 0; i < 1'000'000; ++i) text += "TransformBegin\n";
   messages("WorldBegin\n" + text);
-  EXPECT_EQ(diagnostics_.error_count(), 11u);  // and ten of the blocks that are not closed
+  EXPECT_EQ(diagnostics_.error_count(), 11u);  // and ten for the unclosed blocks
 }
 
 TEST_F(ImportHostile, ManyParametersEndWithOneError) {
@@ -76,7 +76,7 @@ TEST_F(ImportHostile, ManyParametersEndWithOneError) {
                                   [](const auto& e) { return e.message == "more than 1000 parameters"; }));
 }
 
-// An object that is instanced many times is small in the file and large in memory.
+// An object with many instances is small in the file but large in memory.
 TEST_F(ImportHostile, InstancesThatMultiplyAreRefused) {
   std::string text = "WorldBegin\nObjectBegin \"a\"\n";
   for (int i = 0; i < 4'000; ++i) text += "Shape \"sphere\"\n";
@@ -87,14 +87,14 @@ TEST_F(ImportHostile, InstancesThatMultiplyAreRefused) {
   EXPECT_EQ(diagnostics_.entries()[0].message, "instances place more than 10000000 shapes, the limit");
 }
 
-TEST_F(ImportHostile, IncludesThatIncludeEachOther) {
+TEST_F(ImportHostile, CyclicIncludesAreRefused) {
   write("a.pbrt", "Include \"b.pbrt\"\n");
   write("b.pbrt", "Include \"a.pbrt\"\n");
   EXPECT_EQ(messages("WorldBegin\nInclude \"a.pbrt\"\n"),
             "b.pbrt:1:9: error: \"a.pbrt\" includes itself\nInclude \"a.pbrt\"\n        ^\n");
 }
 
-TEST_F(ImportHostile, IncludesThatAreTooDeep) {
+TEST_F(ImportHostile, DeepIncludesAreRefused) {
   for (int i = 0; i < 70; ++i) {
     write("f" + std::to_string(i) + ".pbrt", "Include \"f" + std::to_string(i + 1) + ".pbrt\"\n");
   }
@@ -103,8 +103,8 @@ TEST_F(ImportHostile, IncludesThatAreTooDeep) {
   EXPECT_EQ(diagnostics_.entries()[0].message, "more than 64 nested includes");
 }
 
-// Ten times as many at each of six levels.
-TEST_F(ImportHostile, IncludesThatAreTooMany) {
+// Each of six levels includes ten files of the next.
+TEST_F(ImportHostile, TooManyIncludesAreRefused) {
   for (int i = 0; i < 6; ++i) {
     std::string text;
     for (int k = 0; k < 10; ++k) text += "Include \"f" + std::to_string(i + 1) + ".pbrt\"\n";
@@ -122,7 +122,7 @@ TEST_F(ImportHostile, LongTokensAreCut) {
   EXPECT_LT(out.size(), 1000u);
 }
 
-TEST_F(ImportHostile, HugeNumbersOfIndices) {
+TEST_F(ImportHostile, HugeIndicesAreRefused) {
   EXPECT_EQ(
       first_lines(
           "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 4294967298]"),
@@ -132,7 +132,7 @@ TEST_F(ImportHostile, HugeNumbersOfIndices) {
             "2:34: error: `99999999999999999999` is too large for an integer\n");
 }
 
-TEST_F(ImportHostile, TinyNumbersAreZero) {
+TEST_F(ImportHostile, TinyNumbersBecomeZero) {
   const Scene scene = world("Translate 1e-400 0." + std::string(400, '0') + "1 3 Shape \"sphere\"");
   EXPECT_EQ(std::get<Sphere>(scene.shapes.at(0).geometry).to_world.translation, Vector3(0, 0, 3));
 }

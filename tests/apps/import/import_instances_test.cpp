@@ -1,4 +1,4 @@
-// Object instances, and shapes that are cut, as scene files say them.
+// Tests object instances and partial quadrics in scene files.
 #include "tests/apps/import/import_support.h"
 
 namespace kaustik::pbrt {
@@ -22,7 +22,7 @@ TEST_F(ImportInstances, LargeMeshesAreSharedAndGroupsAreNot) {
     const auto& instance = std::get<InstancedMesh>(s.shapes[i].geometry);
     EXPECT_EQ(instance.mesh, first.mesh);
     EXPECT_EQ(instance.to_world.translation, Vector3(0, 0, 2 * float(i)));
-    // One name joins the shapes of an instance, and no two instances.
+    // A group's name joins the shapes of one instance, but not those of different instances.
     EXPECT_EQ(s.shapes[i].surface_group, i / 2);
     EXPECT_EQ(s.shapes[i + 1].surface_group, i / 2);
     EXPECT_FALSE(s.shapes[i].flip_normal);
@@ -37,7 +37,7 @@ TEST_F(ImportInstances, SmallMeshesAreCopied) {
   for (const Shape& shape : s.shapes) EXPECT_TRUE(std::holds_alternative<TriangleMesh>(shape.geometry));
 }
 
-TEST_F(ImportInstances, CutShapesAreQuadrics) {
+TEST_F(ImportInstances, PartialShapesBecomeQuadrics) {
   const Scene s = world(
       "Shape \"sphere\" \"float radius\" 2 \"float zmin\" -1 \"float phimax\" 180 "
       "Shape \"cylinder\" \"float radius\" 0.5 \"float zmin\" 0 \"float zmax\" 3 "
@@ -68,7 +68,7 @@ TEST_F(ImportInstances, EitherEndOfQuadricsMayComeFirst) {
   EXPECT_EQ(sphere.z_max, 0.5f);
 }
 
-TEST_F(ImportInstances, NothingIsLeftOfShapesIsAnError) {
+TEST_F(ImportInstances, EmptyPartsOfShapesAreErrors) {
   EXPECT_EQ(first_lines("Shape \"cylinder\" \"float zmin\" 2 \"float zmax\" 2"),
             "2:31: error: no part of the cylinder lies between `zmin` = 2 and `zmax` = 2\n");
   EXPECT_EQ(first_lines("Shape \"sphere\" \"float phimax\" 0"),
@@ -78,7 +78,7 @@ TEST_F(ImportInstances, NothingIsLeftOfShapesIsAnError) {
             true);
 }
 
-TEST_F(ImportInstances, CamerasAndFilters) {
+TEST_F(ImportInstances, CamerasAndFiltersAreRead) {
   const auto camera = [&](const std::string& text) { return load(text + " WorldBegin").scene.camera; };
   const Camera lens = camera("Camera \"perspective\" \"float lensradius\" 0.1 \"float focaldistance\" 3");
   EXPECT_EQ(lens.lens_radius(), 0.1f);

@@ -1,4 +1,4 @@
-// The images of lights: found beside the scene, checked, and refused with their place.
+// Tests the images of lights: they are found beside the scene, checked, and refused with their location.
 #include "render/picture/image_io.h"
 #include "tests/apps/import/import_support.h"
 
@@ -17,7 +17,7 @@ class ImportLightImages : public ImportTest {
   }
 };
 
-// Half floats keep these numbers, floats all the more.
+// These numbers are exact as half floats and as floats.
 TEST_F(ImportLightImages, MapsBecomeLights) {
   write_exr("square.exr", 4, 4, {1, 2, 3});
   write_exr("wide.exr", 8, 4, {1, 2, 3});
@@ -32,16 +32,16 @@ TEST_F(ImportLightImages, MapsBecomeLights) {
   const Rgb scaled = std::get<ImageInfiniteLight>(s.lights[1]).Le({{0, 0, 0}, {0, 0, 1}});
   EXPECT_NEAR(luminance(scaled) * kPi, 7, 0.02);  // the map's integral: direction_map_test.cpp
   EXPECT_NEAR(luminance(power(s.lights[2])), 3 * luminance({1, 1, 2}), 4e-6);
-  EXPECT_EQ(std::get<GoniometricLight>(s.lights[2]).map->mean(), Rgb(2));  // of the three channels
-  // From below the rectangle the sky lies towards cross(p3 - p0, p1 - p0) = +z.
+  EXPECT_EQ(std::get<GoniometricLight>(s.lights[2]).map->mean(), Rgb(2));  // mean of the three channels
+  // From below the rectangle the sky is towards cross(p3 - p0, p1 - p0) = +z.
   const auto& portal = std::get<PortalInfiniteLight>(s.lights[3]);
   EXPECT_EQ(portal.Le({{0.5f, 0.5f, -1}, {0, 0, 1}}), Rgb(1, 2, 3));
   EXPECT_EQ(portal.Le({{0.5f, 0.5f, 1}, {0, 0, -1}}), Rgb(0));
   EXPECT_NEAR(luminance(power(s.lights[4])), 5, 5e-6);
-  EXPECT_EQ(diagnostics_.warning_count(), 1u);  // of the latitude-longitude map
+  EXPECT_EQ(diagnostics_.warning_count(), 1u);  // about the latitude-longitude map
 }
 
-// `power` takes the mean of all pixels for what is emitted, as pbrt does, and `scale` multiplies it.
+// `power` uses the mean of all pixels as the emitted colour, as pbrt does, and `scale` multiplies it.
 TEST_F(ImportLightImages, AreaLightsShowImages) {
   write_exr("oblong.exr", 3, 1, {1, 2, 3}, {4, 5, 12});
   const Scene s = world(R"(AreaLightSource "diffuse" "string filename" "oblong.exr" "float scale" 2
@@ -61,7 +61,7 @@ TEST_F(ImportLightImages, AreaLightsShowImages) {
   EXPECT_EQ(diagnostics_.warning_count(), 0u);
 }
 
-TEST_F(ImportLightImages, AreaLightsWithBadImages) {
+TEST_F(ImportLightImages, BadImagesOfAreaLightsAreRefused) {
   write_exr("dark.exr", 2, 2, Rgb(0));
   const auto said = [&](const std::string& parameters) {
     const std::string all = first_lines("AreaLightSource \"diffuse\" " + parameters + " Shape \"sphere\"");
@@ -76,7 +76,7 @@ TEST_F(ImportLightImages, AreaLightsWithBadImages) {
   EXPECT_NE(said("\"string filename\" \"dark.exr\" \"float scale\" -3").find("`scale`"), std::string::npos);
 }
 
-TEST_F(ImportLightImages, BadImagesAreRefusedWithTheirPlace) {
+TEST_F(ImportLightImages, BadImagesAreRefusedWithTheirLocation) {
   write_exr("oblong.exr", 6, 4, Rgb(1));
   write_exr("infinite.exr", 4, 4, Rgb(1), {1, std::numeric_limits<float>::infinity(), 1});
   write_exr("nan.exr", 4, 4, Rgb(1), Rgb(std::nanf("")));
@@ -98,7 +98,7 @@ TEST_F(ImportLightImages, BadImagesAreRefusedWithTheirPlace) {
   said("cut.hdr");
 }
 
-TEST_F(ImportLightImages, PixelsBelowZeroCountAsZero) {
+TEST_F(ImportLightImages, NegativePixelsCountAsZero) {
   write_exr("negative.exr", 4, 4, Rgb(1), {-1, 2, 3});
   EXPECT_EQ(first_lines("LightSource \"infinite\" \"string filename\" \"negative.exr\" Shape \"sphere\""),
             "2:42: warning: \"negative.exr\": 1 negative pixel taken as zero; the first is pixel (3, 3), "
@@ -106,7 +106,7 @@ TEST_F(ImportLightImages, PixelsBelowZeroCountAsZero) {
   EXPECT_TRUE(loaded_);
 }
 
-// A changed image is another scene.
+// A changed image changes the scene's hash.
 TEST_F(ImportLightImages, ContentsAreHashed) {
   const std::string scene =
       "WorldBegin LightSource \"infinite\" \"string filename\" \"sky.exr\" Shape \"sphere\"";

@@ -1,4 +1,4 @@
-// Numbers that are none, or too large: refused with the place where they stand.
+// Tests that numbers which are not finite or too large are refused with their location.
 #include <gmock/gmock.h>
 
 #include "tests/apps/import/import_support.h"
@@ -8,7 +8,7 @@ namespace {
 
 class ImportNumbers : public ImportTest {};
 
-TEST_F(ImportNumbers, NanAndInfinityAreNoNumbers) {
+TEST_F(ImportNumbers, NanAndInfinityAreRefused) {
   for (const std::string bad : {"nan", "inf", "NaN", "Infinity"}) {
     EXPECT_THAT(first_lines("Shape \"sphere\" \"float radius\" " + bad),
                 testing::HasSubstr("2:31: error: expected a number for `radius`, not `" + bad + "`"));
@@ -20,7 +20,7 @@ TEST_F(ImportNumbers, NanAndInfinityAreNoNumbers) {
   }
 }
 
-TEST_F(ImportNumbers, BeyondTheRangeOfFloats) {
+TEST_F(ImportNumbers, NumbersBeyondTheRangeOfFloatsAreRefused) {
   for (const std::string bad : {"1e39", "-1e39", "1e300", "1e999", "-inf"}) {
     const std::string message = ": error: `" + bad + "` is beyond the range of floats\n";
     EXPECT_EQ(first_lines("Shape \"sphere\" \"float radius\" " + bad), "2:31" + message);
@@ -29,7 +29,7 @@ TEST_F(ImportNumbers, BeyondTheRangeOfFloats) {
   }
 }
 
-TEST_F(ImportNumbers, PowerBeyondTheRangeOfFloats) {
+TEST_F(ImportNumbers, PowerBeyondTheRangeOfFloatsIsRefused) {
   EXPECT_EQ(first_lines("AreaLightSource \"diffuse\" \"rgb L\" [1e38 1e38 1e38] Shape \"sphere\" "
                         "\"float radius\" 1000"),
             "2:1: error: the power of this light is beyond the range of floats\n");

@@ -1,4 +1,4 @@
-// OBJ with MTL, through assimp.
+// Tests the import of OBJ with MTL, by way of assimp.
 
 #include <gmock/gmock.h>
 
@@ -43,7 +43,7 @@ TEST_F(ImportObj, QuadsBecomeTriangles) {
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("no light"));
 }
 
-TEST_F(ImportObj, Materials) {
+TEST_F(ImportObj, MaterialsAreConverted) {
   write("scene.mtl",
         "newmtl paint\nKd 0.25 0.5 0.75\nKs 0.5 0.5 0.5\nNs 98\n"
         "newmtl wall\nKd 0.5 0.5 0.5\nKs 0 0 0\n"
@@ -66,14 +66,14 @@ TEST_F(ImportObj, Materials) {
   EXPECT_NEAR(numbers(named("paint"), "roughness").at(0), std::sqrt(2.0 / 100), 1e-12);
   EXPECT_EQ(named("wall").type, "diffuse");
   EXPECT_EQ(named("glass").type, "dielectric");
-  EXPECT_NEAR(numbers(named("glass"), "eta").at(0), 1.33, 1e-6);  // read as a float
+  EXPECT_NEAR(numbers(named("glass"), "eta").at(0), 1.33, 1e-6);  // assimp reads floats
   EXPECT_EQ(named("steel").type, "conductor");
   ASSERT_EQ(s.area_lights.size(), 1u);
   EXPECT_THAT(numbers(s.area_lights[0], "L"), ElementsAre(4, 2, 1));
 }
 
-// Options of maps, words that nobody knows, and paths of another machine.
-TEST_F(ImportObj, TypicalLibraries) {
+// Options of maps, unknown keywords, and paths of another machine.
+TEST_F(ImportObj, TypicalLibrariesAreRead) {
   write("wood.png", "");
   write("my wood.png", "");
   write("scene.mtl",
@@ -98,7 +98,7 @@ TEST_F(ImportObj, TypicalLibraries) {
     EXPECT_THAT(diagnostics_.format_all(), HasSubstr(said));
 }
 
-TEST_F(ImportObj, LibrariesMayBeSeveral) {
+TEST_F(ImportObj, SeveralLibrariesAreRead) {
   write("a.mtl", "newmtl a\nKd 0.25 0.25 0.25\n");
   write("b.mtl", "newmtl b\nKd 0.75 0.75 0.75\n");
   const auto s =
@@ -110,12 +110,12 @@ TEST_F(ImportObj, LibrariesMayBeSeveral) {
   EXPECT_EQ(sum, 1);
 }
 
-TEST_F(ImportObj, MissingLibrariesAreGrey) {
+TEST_F(ImportObj, MissingLibrariesGiveGreyMaterials) {
   describe("mtllib none.mtl\n" + std::string(kQuad) + "f 1 2 3\n");
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("scene.obj:1:8: warning: cannot open"));
 }
 
-TEST_F(ImportObj, DamagedFiles) {
+TEST_F(ImportObj, DamagedFilesAreRefused) {
   EXPECT_THAT(error(std::string(kQuad) + "f 1 2 9\n"), HasSubstr("scene.obj"));
   EXPECT_THAT(error(std::string(kQuad)), HasSubstr("scene.obj"));
   EXPECT_THAT(error("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("scene.obj"));

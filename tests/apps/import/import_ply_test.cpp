@@ -1,4 +1,4 @@
-// PLY files, written by the test in every order of bytes.
+// Tests PLY files, as text and in both byte orders.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -50,13 +50,13 @@ std::string format_line(Order order) {
   }
 }
 
-// Triangulation may begin a triangle at another of its corners; the winding stays.
+// Triangulation may begin a triangle at another corner; the winding stays.
 std::array<uint32_t, 3> from_least(std::array<uint32_t, 3> triangle) {
   std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
   return triangle;
 }
 
-// A pyramid's five corners with normals and texture coordinates; a quad and four triangles.
+// The five corners of a pyramid with normals and texture coordinates; a quad and four triangles.
 std::string pyramid(Order order, const std::string& u, const std::string& v) {
   std::string out = format_line(order);
   out += "element vertex 5\n";
@@ -79,7 +79,7 @@ std::string pyramid(Order order, const std::string& u, const std::string& v) {
   return out;
 }
 
-TEST_F(ImportPly, KeepsVerticesNormalsAndTextureCoordinatesInEveryOrder) {
+TEST_F(ImportPly, KeepsVerticesNormalsAndTextureCoordinatesInEveryByteOrder) {
   for (const Order order : {Order::kAscii, Order::kLittle, Order::kBig}) {
     for (const auto& [u, v] :
          {std::pair{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}) {
@@ -95,14 +95,14 @@ TEST_F(ImportPly, KeepsVerticesNormalsAndTextureCoordinatesInEveryOrder) {
         EXPECT_EQ(m.N[i], Normal3(f + 0.75f, f + 1, f + 1.25f));
         EXPECT_EQ(m.uv[i], Point2(f + 1.5f, f + 1.75f));
       }
-      ASSERT_EQ(m.indices.size(), 6u);  // the quad gives two
+      ASSERT_EQ(m.indices.size(), 6u);  // the quad gives two triangles
       EXPECT_EQ(from_least(m.indices[2]), (std::array<uint32_t, 3>{0, 4, 1}));
       EXPECT_EQ(from_least(m.indices[5]), (std::array<uint32_t, 3>{0, 3, 4}));
     }
   }
 }
 
-TEST_F(ImportPly, OtherTypesAndPositionsOnly) {
+TEST_F(ImportPly, ReadsOtherTypesAndPositionsAlone) {
   for (const Order order : {Order::kAscii, Order::kLittle, Order::kBig}) {
     std::string out = format_line(order);
     out +=
@@ -132,7 +132,7 @@ std::string replaced(std::string_view from, std::string_view to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
-// pbrt makes patches of quads: their own parameters are the uv of those that share no corner.
+// pbrt makes patches of quads: the parameters of a patch become the uv of quads that share no corner.
 TEST_F(ImportPly, QuadsHaveTheUvOfPatches) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
@@ -161,12 +161,12 @@ std::string at(const std::string& text, std::string_view needle, std::string_vie
 }
 
 struct BadMesh {
-  std::string_view from, to;  // what is changed in kTriangle
-  std::string_view place;     // the text at the place that is reported
+  std::string_view from, to;  // the change of kTriangle
+  std::string_view place;     // the text at the reported byte
   std::string_view message;
 };
 
-TEST_F(ImportPly, RefusesWhatIsNoMesh) {
+TEST_F(ImportPly, RefusesMalformedFiles) {
   EXPECT_EQ(error("solid cube\n"), "byte 0: not a PLY file: it must begin with `ply`");
   EXPECT_EQ(error(""), "byte 0: not a PLY file: it must begin with `ply`");
   const BadMesh cases[] = {
@@ -184,7 +184,7 @@ TEST_F(ImportPly, RefusesWhatIsNoMesh) {
   };
   for (const BadMesh& bad : cases) {
     const std::string text = replaced(bad.from, bad.to);
-    // The last case: past all of the text.
+    // The last case is reported past the end of the text.
     const std::string expected = bad.place == "\n\n\n" ? fmt::format("byte {}: {}", text.size(), bad.message)
                                                        : at(text, bad.place, bad.message);
     EXPECT_EQ(error(text), expected);
@@ -201,7 +201,7 @@ TEST_F(ImportPly, RefusesWhatIsNoMesh) {
   EXPECT_NE(error(replaced("end_header\n", "")), "");
 }
 
-TEST_F(ImportPly, RefusesPromisesThatTheFileCannotHold) {
+TEST_F(ImportPly, RefusesCountsThatTheFileCannotHold) {
   const std::string text = replaced("element face 1", "element face 1000000000000");
   EXPECT_EQ(error(text),
             at(text, "0 0 0\n",
@@ -214,7 +214,7 @@ TEST_F(ImportPly, RefusesPromisesThatTheFileCannotHold) {
   EXPECT_EQ(error(replaced("element vertex 3", "element vertex -3")), "byte 21: an element needs a count");
 }
 
-// Concave corners: no triangle lies outside of the polygon.
+// The polygons have concave corners; no triangle may lie outside the polygon.
 TEST_F(ImportPly, ConcavePolygonsKeepTheirArea) {
   std::string text =
       "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
@@ -231,11 +231,12 @@ TEST_F(ImportPly, ConcavePolygonsKeepTheirArea) {
     EXPECT_GE(twice, 0);
     area += 0.5 * twice;
   }
-  // Shoelace: 16 - (4 x 3) / 2 = 10 for the first, (1 x 4) / 2 + (1 x 4) / 2 = 4 for the kite.
+  // By the shoelace formula: 16 - (4 x 3) / 2 = 10 for the first, (1 x 4) / 2 + (1 x 4) / 2 = 4 for the kite.
   EXPECT_NEAR(area, 10 + 4, 1e-12);
 }
 
-// Many blocks, read in parallel, in every order; polygons on the way.
+// The mesh takes many blocks, which are read in parallel, in every byte order, with polygons among the
+// triangles.
 TEST_F(ImportPly, LargeMeshesAreReadWhole) {
   constexpr uint32_t kCount = 100'000;
   for (const Order order : {Order::kAscii, Order::kLittle, Order::kBig}) {
@@ -277,7 +278,7 @@ TEST_F(ImportPly, ReadsGzip) {
     EXPECT_NE(error(packed.substr(0, n)).find("of the gzip file: "), std::string::npos) << n;
     std::string damaged = packed;
     damaged[n] = static_cast<char>(~damaged[n]);
-    read(damaged);  // does no harm
+    read(damaged);  // must not crash
   }
 }
 
@@ -288,19 +289,19 @@ TEST_F(ImportPly, GzipBombsAreRefused) {
             std::string::npos);
 }
 
-TEST_F(ImportPly, EveryTruncationIsRefusedOrSound) {
+TEST_F(ImportPly, EveryTruncationIsRefusedOrComplete) {
   for (const Order order : {Order::kAscii, Order::kLittle, Order::kBig}) {
     const std::string whole = pyramid(order, "u", "v");
     for (size_t n = 0; n < whole.size(); ++n) {
       const MeshResult result = read(whole.substr(0, n));
-      // A text whose last number or blank is cut off may still be complete.
-      const bool may_be_sound = order == Order::kAscii && n + 3 > whole.size();
-      EXPECT_TRUE(may_be_sound || !result.error.empty()) << n;
+      // A text without its last digits or blank may still be complete.
+      const bool may_be_complete = order == Order::kAscii && n + 3 > whole.size();
+      EXPECT_TRUE(may_be_complete || !result.error.empty()) << n;
     }
   }
 }
 
-TEST_F(ImportPly, EveryByteChangedDoesNoHarm) {
+TEST_F(ImportPly, EveryChangedByteIsHandled) {
   const std::string whole = pyramid(Order::kBig, "u", "v");
   for (size_t n = 0; n < whole.size(); ++n) {
     std::string bytes = whole;
@@ -312,7 +313,7 @@ TEST_F(ImportPly, EveryByteChangedDoesNoHarm) {
   }
 }
 
-TEST_F(ImportPly, TheSceneSaysWhere) {
+TEST_F(ImportPly, ErrorsAreLocatedInTheScene) {
   write("meshes/bad.ply", "plx\n");
   EXPECT_EQ(messages("WorldBegin\nShape \"plymesh\" \"string filename\" [ \"meshes/bad.ply\" ]\n"),
             "scene.pbrt:2:37: error: cannot read \"meshes/bad.ply\": byte 0: not a PLY file: it must begin "

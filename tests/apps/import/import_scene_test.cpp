@@ -1,4 +1,4 @@
-// What scenes mean: transforms, state, materials, lights, objects, files.
+// Tests the meaning of scenes: transforms, state, materials, lights, objects, files.
 #include <numbers>
 
 #include "apps/import/pbrt/transforms.h"
@@ -9,14 +9,14 @@ namespace {
 
 class ImportScene : public ImportTest {
  protected:
-  // Images of points under the current transform after these directives.
+  // The current transform after these directives.
   Transform ctm(const std::string& directives) {
     const Scene scene = world(directives + " Shape \"sphere\"");
     return std::get<Sphere>(scene.shapes.at(0).geometry).to_world;
   }
 };
 
-// Each coordinate went through one product and sum in double and one rounding.
+// Each coordinate went through one product and sum in double and one rounding to float.
 void expect_near(const Vector3& a, const Vector3& b) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 4e-7f * std::max(1.0f, max_component(glm::abs(b))));
 }
@@ -26,7 +26,7 @@ TEST_F(ImportScene, TransformsApplyLastFirst) {
   expect_near(ctm("Scale 2 2 2 Translate 1 2 3").point({1, 1, 1}), {4, 6, 8});
   expect_near(ctm("Rotate 90 0 0 1").point({1, 0, 0}), {0, 1, 0});
   expect_near(ctm("Rotate 120 1 1 1").point({1, 2, 3}), {3, 1, 2});
-  // Column by column, column vectors: the last four numbers translate.
+  // The matrix is given column by column for column vectors: the last four numbers translate.
   expect_near(ctm("Transform [1 0 0 0  0 0 1 0  0 -1 0 0  5 6 7 1]").point({1, 2, 3}), {6, 3, 9});
   expect_near(ctm("Translate 9 9 9 Identity").point({1, 2, 3}), {1, 2, 3});
   expect_near(ctm("Translate 1 0 0 ConcatTransform [0 1 0 0  -1 0 0 0  0 0 1 0  0 0 0 1]").point({1, 0, 0}),
@@ -47,37 +47,37 @@ TEST_F(ImportScene, QuarterTurnsAreExact) {
   }
 }
 
-TEST_F(ImportScene, TheCameraLooksAlongPositiveZLeftHanded) {
+TEST_F(ImportScene, CameraLooksAlongPositiveZInALeftHandedSpace) {
   const auto camera = [&](const std::string& directives) {
     return load(directives +
                 " Camera \"perspective\" \"float fov\" 90 Film \"rgb\" \"integer xresolution\" 200 "
                 "\"integer yresolution\" 100 WorldBegin")
         .scene.camera;
   };
-  // From (0, 0, -5) along +z: right is +x, up is +y.
+  // From (0, 0, -5) along +z, right is +x and up is +y.
   const Camera c = camera("LookAt 0 0 -5  0 0 0  0 1 0");
   EXPECT_EQ(c.width, 200);
   EXPECT_EQ(std::get<PerspectiveProjection>(c.projection).fov_degrees, 90);
   expect_near(c.to_world.translation, {0, 0, -5});
   expect_near(c.generate_ray({100, 50}).d, {0, 0, 1});
-  // The right edge: the shorter side has half the angle 45 degrees, so the right edge lies at tan = 2.
+  // The shorter side has half the angle 45 degrees, so the right edge is at tan = 2.
   expect_near(c.generate_ray({200, 50}).d, glm::normalize(Vector3(2, 0, 1)));
   expect_near(c.generate_ray({100, 0}).d, glm::normalize(Vector3(0, 1, 1)));
-  // Looking along -z, right is -x.
+  // When the camera looks along -z, right is -x.
   expect_near(camera("LookAt 0 0 5  0 0 0  0 1 0").generate_ray({200, 50}).d,
               glm::normalize(Vector3(-2, 0, -1)));
-  // A flip before the camera mirrors the picture, one after LookAt as well.
+  // A flip before LookAt mirrors the picture, and so does one after it.
   expect_near(camera("Scale -1 1 1 LookAt 0 0 5  0 0 0  0 1 0").generate_ray({200, 50}).d,
               glm::normalize(Vector3(2, 0, -1)));
   expect_near(camera("LookAt 0 0 5  0 0 0  0 1 0 Scale -1 1 1").generate_ray({200, 50}).d,
               glm::normalize(Vector3(2, 0, -1)));
-  // The matrix takes the world to the camera: z is turned, the camera stands at z = 6.8, y = 1.
+  // The matrix takes the world to the camera: z is turned, and the camera is at z = 6.8, y = 1.
   const Camera m = camera("Transform [1 0 0 0  0 1 0 0  0 0 -1 0  0 -1 6.8 1]");
   expect_near(m.to_world.translation, {0, 1, 6.8f});
   expect_near(m.generate_ray({100, 50}).d, {0, 0, -1});
 }
 
-TEST_F(ImportScene, TheCameraSpaceIsKept) {
+TEST_F(ImportScene, CameraSpaceIsKept) {
   const Scene scene =
       load(
           "LookAt 1 2 3  1 2 9  0 1 0\nCamera \"perspective\"\nWorldBegin\nCoordSysTransform \"camera\"\n"
@@ -86,14 +86,14 @@ TEST_F(ImportScene, TheCameraSpaceIsKept) {
   expect_near(std::get<Sphere>(scene.shapes.at(0).geometry).to_world.point({0, 0, 2}), {1, 2, 5});
 }
 
-TEST_F(ImportScene, ScreenWindowAndFrame) {
+TEST_F(ImportScene, ScreenWindowAndFrameAreRead) {
   const Scene frame = load("Camera \"perspective\" \"float frameaspectratio\" 2 WorldBegin").scene;
   EXPECT_EQ(frame.camera.screen_window, glm::vec4(-2, 2, -1, 1));
   const Scene window = load("Camera \"perspective\" \"float screenwindow\" [-1 2 -3 4] WorldBegin").scene;
   EXPECT_EQ(window.camera.screen_window, glm::vec4(-1, 2, -3, 4));
 }
 
-TEST_F(ImportScene, SettingsAreKeptWithTheirPlaces) {
+TEST_F(ImportScene, SettingsAreKeptWithTheirLocations) {
   const SceneDescription d =
       load(
           "Integrator \"anything\" \"integer photons\" [ 1000000 ]\nSampler \"halton\" \"integer "
@@ -109,7 +109,7 @@ TEST_F(ImportScene, SettingsAreKeptWithTheirPlaces) {
   EXPECT_EQ(d.sampler->find("pixelsamples")->numbers[0], 3);
 }
 
-TEST_F(ImportScene, Materials) {
+TEST_F(ImportScene, MaterialsAreBuilt) {
   const Scene s = world(R"(
     Shape "sphere"
     Material "diffuse" "rgb reflectance" [.1 .2 .3] Shape "sphere"
@@ -131,7 +131,7 @@ TEST_F(ImportScene, Materials) {
   EXPECT_EQ(std::get<Conductor>(bsdf(4)).k, Rgb(4));
   EXPECT_EQ(std::get<Mirror>(bsdf(5)).reflectance, Rgb(.9f, .8f, .7f));
   EXPECT_EQ(s.material_names[s.shapes[7].material], "later");
-  // At normal incidence (eta - 1)^2 + k^2 over (eta + 1)^2 + k^2 gives the reflectance back; 1 is clamped to
+  // At normal incidence ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2) gives the reflectance back; 1 is clamped to
   // 0.9999.
   const Conductor metal = std::get<Conductor>(bsdf(6));
   EXPECT_EQ(metal.eta, Rgb(1));
@@ -139,7 +139,7 @@ TEST_F(ImportScene, Materials) {
   expect_near(k2 / (Rgb(4) + k2), {.5f, 0, .9999f});
 }
 
-TEST_F(ImportScene, StateEndsWithItsBlock) {
+TEST_F(ImportScene, GraphicsStateEndsWithItsBlock) {
   const Scene s = world(R"(
     AttributeBegin
       AreaLightSource "diffuse" Material "mirror" ReverseOrientation Attribute "shape" "float radius" 3
@@ -159,7 +159,7 @@ TEST_F(ImportScene, StateEndsWithItsBlock) {
   EXPECT_FALSE(is_specular(s.materials[s.shapes[2].material].typical()));
 }
 
-TEST_F(ImportScene, Lights) {
+TEST_F(ImportScene, LightsAreBuilt) {
   const Scene s = world(R"(
     Translate 1 0 0
     LightSource "point" "rgb I" [1 2 3] "float scale" 2 "point3 from" [0 5 0]
@@ -179,8 +179,8 @@ TEST_F(ImportScene, Lights) {
   EXPECT_EQ(s.infinite_lights, std::vector<uint32_t>{3});
 }
 
-// Of a white light; colours multiply it, as in pbrt-v4.
-TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatAWhiteLightEmits) {
+// `power` is that of a white light; colours multiply it, as in pbrt-v4.
+TEST_F(ImportScene, PowerIsTheLuminanceOfTheWhiteLightsFlux) {
   const Scene s = world(R"(
     LightSource "point" "rgb I" [1 2 3] "float power" 7
     LightSource "spot" "rgb I" [3 2 1] "float power" 7 "float scale" 2
@@ -191,7 +191,7 @@ TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatAWhiteLightEmits) {
     Shape "disk" Shape "sphere"
     Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 0] "integer indices" [0 1 2 1 3 2])");
   const auto emitted = [&](size_t i) { return luminance(power(s.lights[i])); };
-  // Each passes fewer than 32 roundings of relative size 2^-24.
+  // Each value is rounded fewer than 32 times by 2^-24.
   constexpr float kRelative = 32 * 0x1p-24f;
   const float up = 7 * luminance({1, 2, 3}), down = 7 * luminance({3, 2, 1}),
               light = 7 * luminance({5, 4, 3});
@@ -203,7 +203,7 @@ TEST_F(ImportScene, PowerIsTheLuminanceOfAllThatAWhiteLightEmits) {
   EXPECT_TRUE(std::get<DiffuseAreaLight>(s.lights[4]).twosided);
 }
 
-TEST_F(ImportScene, InstancesStandWhereTheyAreTold) {
+TEST_F(ImportScene, InstancesArePlacedByTheirTransforms) {
   const Scene s = world(R"(
     ObjectBegin "pair"
       Translate 1 0 0
@@ -216,17 +216,17 @@ TEST_F(ImportScene, InstancesStandWhereTheyAreTold) {
     Scale -1 1 1
     ObjectInstance "pair")");
   ASSERT_EQ(s.shapes.size(), 4u);
-  EXPECT_TRUE(s.lights.empty());  // with a warning, as in pbrt
+  EXPECT_TRUE(s.lights.empty());  // there is a warning, as in pbrt
   EXPECT_EQ(diagnostics_.warning_count(), 2u);
   EXPECT_EQ(std::get<Sphere>(s.shapes[0].geometry).to_world.translation, Vector3(2, 0, 0));
   EXPECT_EQ(std::get<Sphere>(s.shapes[2].geometry).to_world.translation, Vector3(-2, 0, 0));
   const auto& mesh = std::get<TriangleMesh>(s.shapes[3].geometry);
   EXPECT_EQ(mesh.P, (std::vector<Point3>{{-2, 0, 0}, {-4, 0, 0}, {-2, 2, 0}}));
   EXPECT_FALSE(s.shapes[1].flip_normal);
-  EXPECT_TRUE(s.shapes[3].flip_normal);  // mirrored: the cross product turned over
+  EXPECT_TRUE(s.shapes[3].flip_normal);  // the mirrored transform turns the cross product over
 }
 
-TEST_F(ImportScene, IncludedFiles) {
+TEST_F(ImportScene, IncludeAndImportReadFiles) {
   write("sub/a.pbrt", "Translate 1 0 0 Material \"mirror\" Include \"b.pbrt\" Include \"root.pbrt\"");
   write("sub/b.pbrt", "Shape \"sphere\"");
   write("root.pbrt", "Shape \"disk\"");
@@ -237,10 +237,10 @@ TEST_F(ImportScene, IncludedFiles) {
     return (sphere ? sphere->to_world : std::get<Disk>(s.shapes[i].geometry).to_world).translation.x;
   };
   EXPECT_EQ((std::vector<float>{x(0), x(1), x(2), x(3), x(4), x(5)}), (std::vector<float>{1, 1, 1, 2, 2, 1}));
-  EXPECT_TRUE(is_specular(s.materials[s.shapes[2].material].typical()));  // Include keeps what was set
+  EXPECT_TRUE(is_specular(s.materials[s.shapes[2].material].typical()));  // Include keeps the graphics state
 }
 
-TEST_F(ImportScene, QuadricsAndMirroring) {
+TEST_F(ImportScene, MirroredQuadricsKeepTheirOutside) {
   const Scene s = world(R"(
     Shape "disk" "float radius" 4 "float innerradius" 1 "float height" 3
     Scale -1 1 1
@@ -250,7 +250,7 @@ TEST_F(ImportScene, QuadricsAndMirroring) {
   const auto& disk = std::get<Disk>(s.shapes[0].geometry);
   EXPECT_EQ(disk.inner, 0.25f);
   EXPECT_EQ(disk.to_world.point({1, 0, 0}), Point3(4, 0, 3));
-  EXPECT_FALSE(s.shapes[1].flip_normal);  // a mirrored sphere has its outside outside
+  EXPECT_FALSE(s.shapes[1].flip_normal);  // a mirrored sphere keeps its outside
   EXPECT_TRUE(s.shapes[2].flip_normal);
 }
 
@@ -274,7 +274,7 @@ TEST_F(ImportScene, SurfaceGroupsHaveNames) {
   EXPECT_EQ(s.surface_group_names[1], "disk at " + (folder_ / "scene.pbrt").string() + ":4");
 }
 
-TEST_F(ImportScene, CarriageReturnsCommentsAndByteOrderMark) {
+TEST_F(ImportScene, CarriageReturnsCommentsAndByteOrderMarkAreSkipped) {
   const Scene s = load(
                       "\xef\xbb\xbf# Shape\r\nWorldBegin # Shape "
                       "\"sphere\"\r\nShape\r\n\"sphere\"#x\r\n\"float radius\"[2]\r\n")
@@ -282,7 +282,7 @@ TEST_F(ImportScene, CarriageReturnsCommentsAndByteOrderMark) {
   EXPECT_EQ(s.shapes.size(), 1u);
 }
 
-// Rounding must not make a camera look projective: such are refused.
+// Rounding must not make a camera look projective: projective matrices are refused.
 TEST(Transforms, InversesOfAffineMapsAreAffine) {
   for (int i = 1; i <= 1000; ++i) {
     const double t = 0.37 * i;

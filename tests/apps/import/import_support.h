@@ -1,5 +1,5 @@
 #pragma once
-// Scenes written by tests into a folder of their own.
+// A test fixture that writes scenes into a folder of its own and loads them.
 
 #include <gtest/gtest.h>
 
@@ -9,18 +9,13 @@
 #include <string>
 
 #include "apps/import/import_scene.h"
+#include "tests/support/output_folder.h"
 
 namespace kaustik::pbrt {
 
 class ImportTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::path(KAUSTIK_TEST_OUTPUT_DIR) / "import" / test->test_suite_name() / test->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
+  void SetUp() override { folder_ = test::empty_output_folder(); }
   void TearDown() override {
     if (!HasFailure()) std::filesystem::remove_all(folder_);
   }
@@ -28,13 +23,13 @@ class ImportTest : public testing::Test {
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     const std::filesystem::path path = folder_ / name;
     std::filesystem::create_directories(path.parent_path());
-    // A new file: replacing one's contents can wait for the disk.
+    // Removes the old file first: truncating a file may wait for the disk.
     std::filesystem::remove(path);
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
 
-  // The scene, which must load without errors.
+  // Loads the scene, which must have no errors.
   LoadedScene load(const std::string& text) {
     diagnostics_ = Diagnostics();
     auto loaded = load_scene(write("scene.pbrt", text), diagnostics_);
@@ -43,7 +38,7 @@ class ImportTest : public testing::Test {
   }
   Scene world(const std::string& text) { return load("WorldBegin\n" + text).scene; }
 
-  // Everything that is said about a scene, file names without their folder.
+  // All messages about a scene, with file names without their folder.
   std::string messages(const std::string& text) {
     diagnostics_ = Diagnostics();
     loaded_ = load_scene(write("scene.pbrt", text), diagnostics_).has_value();
@@ -53,7 +48,8 @@ class ImportTest : public testing::Test {
     for (size_t i; (i = out.find(prefix)) != out.npos;) out.erase(i, prefix.size());
     return out;
   }
-  // Only the first line of each message, and only what follows the file's name, after a line with WorldBegin.
+  // Only the first line of each message, without the file's name. The text is put after a line with
+  // WorldBegin.
   std::string first_lines(const std::string& text) {
     messages("WorldBegin\n" + text);
     std::string out;

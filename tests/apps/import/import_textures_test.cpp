@@ -1,4 +1,4 @@
-// Texture directives and image files: what they mean, and what is said about bad ones.
+// Tests texture directives and image files: their meaning, and the messages about bad ones.
 
 #include <OpenImageIO/imageio.h>
 #include <tbb/parallel_for.h>
@@ -13,7 +13,7 @@ namespace {
 
 class ImportTextures : public ImportTest {
  protected:
-  // Rows from the top; channels interleaved.
+  // values: rows from the top, channels interleaved.
   template <class T>
   void write_image(const std::string& name, int width, int channels, const std::vector<T>& values) const {
     const OIIO::TypeDesc type = sizeof(T) == 1 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
@@ -25,13 +25,13 @@ class ImportTextures : public ImportTest {
     ASSERT_TRUE(out->open(path, spec) && out->write_image(type, values.data()) && out->close());
   }
 
-  // A 2 x 2 image of one byte per pixel: 0 and 255 above, 51 and 102 below.
+  // Writes a 2 x 2 image of one byte per pixel: 0 and 255 above, 51 and 102 below.
   void write_fields(const std::string& name = "fields.png") const {
     write_image<uint8_t>(name, 2, 1, {0, 255, 51, 102});
   }
-  // The reflectance that a texture gives to a plane's point uv.
+  // The reflectance that the texture gives to a plane at (u, v).
   static Rgb colour_at(const Scene& scene, float u, float v) {
-    // Barycentrics of a triangle of uv (0, 0), (1, 0), (1, 1).
+    // The triangle has the uv (0, 0), (1, 0), (1, 1).
     SurfaceInteraction si = make_interaction(scene.shapes, {}, {1, 0, 0, {u - v, v}});
     const BsdfAt bsdf(scene, si, {0, 0, 1});
     return std::get<Lambertian>(*bsdf).reflectance;
@@ -45,8 +45,8 @@ class ImportTextures : public ImportTest {
 
 constexpr const char* kLinear = " \"string encoding\" \"linear\"";
 
-// Bilinear between texel centres at 1/4 and 3/4; t points up, so v = 3/4 is the upper row. 8-bit values are
-// kept as half floats: 2^-11 of the value.
+// Interpolation is bilinear between texel centres at 1/4 and 3/4; t points up, so v = 3/4 is the upper row.
+// 8-bit values are kept as half floats, which round by 2^-11 of the value.
 TEST_F(ImportTextures, ImagesAreInterpolatedBetweenTexels) {
   write_fields();
   const Scene s = with_texture(std::string("\"string filename\" \"fields.png\"") + kLinear);
@@ -56,8 +56,8 @@ TEST_F(ImportTextures, ImagesAreInterpolatedBetweenTexels) {
   EXPECT_EQ(colour_at(s, 0.75f, 0.25f).x, colour_at(s, 0.75f, 0.25f).z);
 }
 
-// At s = 1, between the right texel and what follows: the left one again, nothing, or itself.
-TEST_F(ImportTextures, WrapModes) {
+// At s = 1 the value is between the right texel and the next: the left one, zero, or the right one itself.
+TEST_F(ImportTextures, WrapModesAreApplied) {
   write_fields();
   const auto at_edge = [&](const std::string& wrap) {
     const Scene s =
@@ -74,8 +74,9 @@ TEST_F(ImportTextures, WrapModes) {
   EXPECT_EQ(colour_at(far, 0.75f, 0.75f).x, 0);
 }
 
-// Of the byte 102 = 0.4: ((0.4 + 0.055) / 1.055)^2.4 = 0.13287, 0.4, 0.4^2.2 = 0.13320.
-TEST_F(ImportTextures, Encodings) {
+// The byte 102 = 0.4 decodes to ((0.4 + 0.055) / 1.055)^2.4 = 0.13287 (sRGB), 0.4 (linear), 0.4^2.2 = 0.13320
+// (gamma).
+TEST_F(ImportTextures, EncodingsAreDecoded) {
   write_fields();
   const auto decoded = [&](const std::string& encoding) {
     const std::string parameter = encoding.empty() ? "" : " \"string encoding\" \"" + encoding + "\"";
@@ -87,8 +88,8 @@ TEST_F(ImportTextures, Encodings) {
   EXPECT_NEAR(decoded("gamma 2.2"), 0.13320f, 1e-4f);
 }
 
-// Float images are linear whatever the encoding; three channels stay three, alpha is left out.
-TEST_F(ImportTextures, FloatImagesOfFourChannels) {
+// Float images are linear whatever the encoding; three channels are kept, and alpha is ignored.
+TEST_F(ImportTextures, FloatImagesIgnoreEncodingAndAlpha) {
   write_image<float>("c.exr", 1, 4, {0.25f, 0.5f, 0.75f, 0.5f});
   const Scene s = with_texture("\"string filename\" \"c.exr\" \"string encoding\" \"sRGB\"");
   EXPECT_EQ(colour_at(s, 0.5f, 0.25f), Rgb(0.25f, 0.5f, 0.75f));
@@ -100,7 +101,7 @@ TEST_F(ImportTextures, ValuesStayInTheRangeOfTheParameter) {
   EXPECT_EQ(colour_at(s, 0.5f, 0.25f), Rgb(0, 1, 0));
 }
 
-// The transform where the texture is defined, not where it is used.
+// The transform is that of the texture's definition, not that of its use.
 TEST_F(ImportTextures, TextureSpaceIsTheCurrentTransform) {
   const Scene s = world(R"(
     AttributeBegin Translate 2 0 0
@@ -109,11 +110,12 @@ TEST_F(ImportTextures, TextureSpaceIsTheCurrentTransform) {
     Material "diffuse" "texture reflectance" "t"
     Translate 7 0 0.5 Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0])");
   SurfaceInteraction si = make_interaction(s.shapes, {}, {1, 0, 0, {0.25f, 0.25f}});
-  EXPECT_EQ(std::get<Lambertian>(*BsdfAt(s, si, {0, 0, 1})).reflectance, Rgb(0, 1, 0));  // 7.5 - 2: field 5
+  EXPECT_EQ(std::get<Lambertian>(*BsdfAt(s, si, {0, 0, 1})).reflectance,
+            Rgb(0, 1, 0));  // 7.5 - 2 is in field 5
 }
 
-// Roughness and the like take float textures; a number in a float texture is one.
-TEST_F(ImportTextures, FloatTexturesForNumbers) {
+// Numbers such as roughness accept float textures, and a float texture accepts a number.
+TEST_F(ImportTextures, NumbersAcceptFloatTextures) {
   const Scene s = world(R"(
     Texture "a" "float" "constant" "float value" 1.25
     Texture "b" "float" "scale" "texture tex" "a" "float scale" 2
@@ -128,7 +130,7 @@ TEST_F(ImportTextures, ConstantMaterialsStayConstant) {
   EXPECT_TRUE(s.materials[s.shapes[0].material].constant());
 }
 
-TEST_F(ImportTextures, SaysWhatIsWrongWithTextures) {
+TEST_F(ImportTextures, ReportsErrorsInTextures) {
   EXPECT_EQ(first_lines(R"(Texture "t" "colour" "constant")"),
             "2:13: error: a texture is \"float\" or \"spectrum\", not \"colour\"; known: float, spectrum\n");
   EXPECT_EQ(
@@ -149,8 +151,8 @@ TEST_F(ImportTextures, SaysWhatIsWrongWithTextures) {
       "planar\n");
 }
 
-// As in pbrt-v3, whose names end with their block.
-TEST_F(ImportTextures, NamesMayBeUsedAgain) {
+// Names may be reused, as in pbrt-v3, where they end with their block.
+TEST_F(ImportTextures, NamesMayBeReused) {
   const Scene s = world(R"(
     Texture "t" "spectrum" "constant" "rgb value" [ .1 .1 .1 ]
     AttributeBegin
@@ -173,7 +175,7 @@ TEST_F(ImportTextures, NamesMayBeUsedAgain) {
   EXPECT_FLOAT_EQ(reflectance(2), 0.4f);
 }
 
-TEST_F(ImportTextures, NoiseHasItsParameters) {
+TEST_F(ImportTextures, NoiseReadsItsParameters) {
   world(R"(Texture "f" "float" "fbm" "integer octaves" 3 "float roughness" .25
     Texture "w" "float" "wrinkled" Texture "y" "float" "windy"
     Texture "m" "spectrum" "marble" "float scale" 2 "float variation" .5
@@ -182,7 +184,7 @@ TEST_F(ImportTextures, NoiseHasItsParameters) {
             "2:45: error: `octaves` of texture \"fbm\" must be >= 1 and <= 32, not 0\n");
 }
 
-TEST_F(ImportTextures, SaysWhatIsWrongWithNames) {
+TEST_F(ImportTextures, ReportsErrorsInNames) {
   EXPECT_EQ(first_lines("Texture \"wood\" \"spectrum\" \"constant\"\n"
                         "Material \"diffuse\" \"texture reflectance\" \"wod\""),
             "3:42: error: no spectrum texture is named `wod`; did you mean `wood`?\n");
@@ -193,7 +195,7 @@ TEST_F(ImportTextures, SaysWhatIsWrongWithNames) {
             "2:43: error: texture `t` is used before it is defined\n");
 }
 
-// 2^60 lookups from 60 lines.
+// 60 lines would cause 2^60 lookups.
 TEST_F(ImportTextures, RefusesTexturesOfTooManyTextures) {
   std::string text = "Texture \"t0\" \"float\" \"constant\"\n";
   for (int i = 1; i <= 60; ++i) {
@@ -204,14 +206,14 @@ TEST_F(ImportTextures, RefusesTexturesOfTooManyTextures) {
   EXPECT_NE(first_lines(text).find("at most 256 are supported"), std::string::npos);
 }
 
-TEST_F(ImportTextures, SaysWhatIsWrongWithImages) {
+TEST_F(ImportTextures, ReportsErrorsInImages) {
   const auto lines = [&](const std::string& file) {
     return first_lines("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" + file + "\"");
   };
   EXPECT_EQ(lines("none.png"), "2:53: error: cannot open \"none.png\": no such file\n");
   write("text.png", "no picture at all");
   EXPECT_TRUE(lines("text.png").starts_with("2:53: error: cannot read the image \"text.png\": "));
-  // The second half of the pixels is missing.
+  // The second half of the pixels is cut off.
   std::vector<uint8_t> noise(64 * 64);
   for (size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<uint8_t>(i * i * 37 >> 3);
   write_image<uint8_t>("whole.png", 64, 1, noise);
@@ -221,7 +223,7 @@ TEST_F(ImportTextures, SaysWhatIsWrongWithImages) {
   EXPECT_TRUE(lines("half.png").starts_with("2:53: error: cannot read the image \"half.png\": "));
 }
 
-// A file of some hundred bytes that says it holds 2^40 pixels is refused by its header.
+// A file of some hundred bytes that claims 2^40 pixels is refused by its header.
 TEST_F(ImportTextures, RefusesHugeImagesByTheirHeaders) {
   std::ofstream out(folder_ / "huge.pfm", std::ios::binary);
   out << "PF\n1048576 1048576\n-1.0\n" << std::string(100, '\0');
@@ -231,7 +233,8 @@ TEST_F(ImportTextures, RefusesHugeImagesByTheirHeaders) {
   EXPECT_TRUE(said.starts_with("2:53: error: cannot read the image \"huge.pfm\": ")) << said;
 }
 
-// A PNG is refused by its size where its pixels cannot be in it; one colour packs nearly as well as can be.
+// A PNG is refused when it is too small for its pixels; a single colour compresses nearly as well as
+// possible.
 TEST_F(ImportTextures, RefusesCutImagesByTheirSize) {
   write_image<uint8_t>("black.png", 2048, 1, std::vector<uint8_t>(2048 * 2048));
   EXPECT_EQ(colour_at(with_texture("\"string filename\" \"black.png\""), 0.5f, 0.5f), Rgb(0));
@@ -242,8 +245,8 @@ TEST_F(ImportTextures, RefusesCutImagesByTheirSize) {
                   .starts_with("2:53: error: cannot read the image \"cut.png\": it ends early\n"));
 }
 
-// Partial results of another picture are refused: the hash of the scene's files covers images.
-TEST_F(ImportTextures, ImagesAreAPartOfTheContent) {
+// Partial results of another picture are refused, because the hash of the scene's files covers images.
+TEST_F(ImportTextures, ImagesArePartOfTheContentHash) {
   const std::string text = "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\"";
   write_image<uint8_t>("a.png", 1, 1, {10});
   const std::string first = load(text).content_hash;
@@ -252,8 +255,8 @@ TEST_F(ImportTextures, ImagesAreAPartOfTheContent) {
   EXPECT_NE(load(text).content_hash, first);
 }
 
-// Threads outlive scenes: what one looked up of a scene's images says nothing of the next scene's.
-TEST_F(ImportTextures, ScenesComeAndGo) {
+// Threads outlive scenes: what a thread cached of one scene's images must not affect the next scene.
+TEST_F(ImportTextures, ImagesOfSuccessiveScenesAreSeparate) {
   for (int scene = 0; scene < 40; ++scene) {
     const int value = 6 * scene;
     std::string more;

@@ -1,4 +1,4 @@
-// Scenes of pbrt-v3.
+// Tests scenes in the format of pbrt-v3.
 
 #include <gmock/gmock.h>
 
@@ -29,7 +29,7 @@ std::vector<double> numbers(const Directive& d, std::string_view name) {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST_F(ImportV3, Matte) {
+TEST_F(ImportV3, MatteBecomesDiffuse) {
   const auto plain = material("Material \"matte\" \"color Kd\" [ .1 .2 .3 ]");
   EXPECT_EQ(plain.type, "diffuse");
   EXPECT_THAT(numbers(plain, "reflectance"), ElementsAre(.1, .2, .3));
@@ -38,13 +38,13 @@ TEST_F(ImportV3, Matte) {
   EXPECT_EQ(material("Material \"matte\" \"float sigma\" 20").type, "orennayar");
 }
 
-// One warning for each kind of change, however often it is met.
-TEST_F(ImportV3, WarnsOnce) {
+// Each kind of change gives one warning, however often it occurs.
+TEST_F(ImportV3, WarnsOncePerKindOfChange) {
   describe("WorldBegin Material \"matte\" Material \"matte\" Material \"glass\" Material \"glass\"");
   EXPECT_EQ(diagnostics_.warning_count(), 2u);
 }
 
-// v3's polynomial (microfacet.h): roughness 1 is width 1.62142; v4 is told not to map it again.
+// By v3's polynomial (microfacet.h) roughness 1 has the width 1.62142; the v4 scene must not remap it again.
 TEST_F(ImportV3, PlasticKeepsItsWidth) {
   const auto m =
       material("Material \"plastic\" \"rgb Kd\" [ .4 .4 .4 ] \"rgb Ks\" [ .2 .2 .2 ] \"float roughness\" 1");
@@ -58,7 +58,7 @@ TEST_F(ImportV3, PlasticKeepsItsWidth) {
   EXPECT_THAT(numbers(kept, "roughness"), ElementsAre(.25));
 }
 
-TEST_F(ImportV3, GlassAndMetal) {
+TEST_F(ImportV3, GlassAndMetalAreConverted) {
   const auto glass =
       material("Material \"glass\" \"float index\" 1.33 \"rgb Kr\" [ 1 1 1 ] \"rgb Kt\" [ 1 1 1 ]");
   EXPECT_EQ(glass.type, "dielectric");
@@ -72,7 +72,7 @@ TEST_F(ImportV3, GlassAndMetal) {
   EXPECT_EQ(numbers(metal, "roughness").size(), 1u);
 }
 
-TEST_F(ImportV3, OtherMaterials) {
+TEST_F(ImportV3, OtherMaterialsAreConverted) {
   EXPECT_THAT(numbers(material("Material \"mirror\" \"rgb Kr\" [ .9 .8 .7 ]"), "reflectance"),
               ElementsAre(.9, .8, .7));
   EXPECT_EQ(material("Material \"uber\" \"rgb Kd\" 0 \"rgb Kt\" [ 1 1 1 ]").type, "dielectric");
@@ -97,8 +97,9 @@ TEST_F(ImportV3, OtherMaterials) {
   EXPECT_EQ(material("Material \"fourier\" \"string bsdffile\" \"x.bsdf\"").type, "measured");
 }
 
-// What exporters of v3 write: coordinates as floats, cameras of all directions, projectors with a colour.
-TEST_F(ImportV3, OlderWordsAreRendered) {
+// Typical output of exporters to v3: coordinates as floats, cameras in all directions, projectors with a
+// colour.
+TEST_F(ImportV3, OlderKeywordsAreRendered) {
   load(R"(Camera "environment" WorldBegin
     Shape "trianglemesh" "point P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 2 ]
       "float uv" [ 0 0 1 0 0 1 ]
@@ -109,10 +110,10 @@ TEST_F(ImportV3, OlderWordsAreRendered) {
   const auto s = describe("Camera \"environment\" WorldBegin LightSource \"projection\" \"rgb I\" [ 2 2 2 ]");
   EXPECT_EQ(s.camera->type, "spherical");
   EXPECT_EQ(s.camera->find("mapping")->strings[0], "equirectangular");
-  EXPECT_NEAR(numbers(s.lights[0], "scale").at(0), 2, 1e-12);  // of weights that add up to one
+  EXPECT_NEAR(numbers(s.lights[0], "scale").at(0), 2, 1e-12);  // the weights add up to one
 }
 
-TEST_F(ImportV3, WholeFile) {
+TEST_F(ImportV3, WholeFileIsConverted) {
   const auto s = describe(R"(Film "image" "integer xresolution" 64 "integer yresolution" 32 "float scale" 2
     Sampler "lowdiscrepancy" "integer pixelsamples" 4
     Integrator "path" "integer maxdepth" 3
@@ -132,7 +133,7 @@ TEST_F(ImportV3, WholeFile) {
   EXPECT_THAT(numbers(s.lights[0], "scale"), ElementsAre(2));
   EXPECT_EQ(s.lights[0].find("scale")->type, ParameterType::kFloat);
   EXPECT_FALSE(s.lights[0].find("nsamples"));
-  // White of D65, to the four digits above, times the scale.
+  // The white of D65, to the four digits above, times the scale.
   EXPECT_NEAR(numbers(s.lights[1], "L")[0], 1, 5e-4);
   EXPECT_NEAR(numbers(s.lights[1], "L")[1], 0.5, 5e-4);
   EXPECT_NEAR(numbers(s.lights[1], "L")[2], 0.25, 5e-4);

@@ -1,4 +1,5 @@
-// Cores by affinity and by control groups; the groups are files in a folder of the test's own.
+// Tests the number of usable cores by affinity and by control groups; the groups are files in the test's own
+// folder.
 
 #include <sched.h>
 #include <tbb/task_arena.h>
@@ -10,13 +11,13 @@
 namespace kaustik::app {
 namespace {
 
-TEST(ParseCpuMax, QuotaOverPeriod) {
+TEST(ParseCpuMax, IsQuotaOverPeriod) {
   EXPECT_EQ(parse_cpu_max("200000 100000\n"), 2.0);
   EXPECT_EQ(parse_cpu_max("150000 100000"), 1.5);
   EXPECT_EQ(parse_cpu_max("1000 1000000"), 0.001);
 }
 
-TEST(ParseCpuMax, NoLimitAndNonsenseAreNoLimit) {
+TEST(ParseCpuMax, MaxAndMalformedTextSetNoLimit) {
   for (const char* text :
        {"max 100000\n", "max", "", "\n", "100000", "0 100000", "-1 100000", "100000 0", "100000 -5",
         "abc 100000", "100000 abc", "1e5 100000", "100000 100000 7", "99999999999999999999 100000"}) {
@@ -24,7 +25,7 @@ TEST(ParseCpuMax, NoLimitAndNonsenseAreNoLimit) {
   }
 }
 
-TEST(CoreLimits, TheLeastHoldsAndPartsOfACoreCountAsOne) {
+TEST(CoreLimits, LowestLimitAppliesAndFractionsRoundUp) {
   EXPECT_EQ((CoreLimits{8, 8, std::nullopt}).usable(), 8);
   EXPECT_EQ((CoreLimits{8, 3, std::nullopt}).usable(), 3);
   EXPECT_EQ((CoreLimits{8, 8, 2.0}).usable(), 2);
@@ -35,7 +36,7 @@ TEST(CoreLimits, TheLeastHoldsAndPartsOfACoreCountAsOne) {
 }
 
 // A tree of files that stands for / of a machine.
-class CgroupTest : public testing::ProgramTest {
+class CgroupTest : public test::ProgramTest {
  protected:
   void put(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
@@ -45,7 +46,7 @@ class CgroupTest : public testing::ProgramTest {
   void group(const std::string& lines) const { put("proc/self/cgroup", lines); }
   std::optional<double> quota() const {
     std::string root = path("");
-    root.pop_back();  // the slash
+    root.pop_back();  // removes the slash
     return core_limits(root).quota;
   }
 
@@ -61,7 +62,7 @@ TEST_F(CgroupTest, MissingFilesSetNoLimit) {
   EXPECT_EQ(quota(), std::nullopt);
 }
 
-TEST_F(CgroupTest, AGroupAndEveryAncestorBind) {
+TEST_F(CgroupTest, LimitsOfAncestorsApply) {
   mount(kV2Mount);
   group("0::/farm.slice/job.scope\n");
   put("sys/fs/cgroup/farm.slice/job.scope/cpu.max", "800000 100000\n");
@@ -73,7 +74,7 @@ TEST_F(CgroupTest, AGroupAndEveryAncestorBind) {
 }
 
 // In a container with a namespace of its own, the group is the mount's root.
-TEST_F(CgroupTest, AContainersOwnRootIsRead) {
+TEST_F(CgroupTest, RootOfAContainerIsRead) {
   mount(kV2Mount);
   group("0::/\n");
   put("sys/fs/cgroup/cpu.max", "250000 100000\n");
@@ -90,7 +91,7 @@ TEST_F(CgroupTest, PathsAreRelativeToTheMountsRoot) {
   EXPECT_EQ(quota(), 1.0);
 }
 
-TEST_F(CgroupTest, AGroupOutsideTheMountDoesNotLeadOutOfIt) {
+TEST_F(CgroupTest, GroupOutsideTheMountDoesNotLeaveIt) {
   mount(kV2Mount);
   group("0::/../other\n");
   put("sys/fs/other/cpu.max", "100000 100000\n");
@@ -129,7 +130,7 @@ class OneCore {
   cpu_set_t before_;
 };
 
-TEST(UsableCores, AffinityBindsAndIsTheDefaultOfThreads) {
+TEST(UsableCores, AffinityLimitsTheDefaultThreads) {
   const OneCore one;
   EXPECT_EQ(core_limits().affinity, 1);
   int concurrency = 0;

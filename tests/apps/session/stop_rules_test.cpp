@@ -1,4 +1,4 @@
-// Renders that stop when they are good enough: --target-error, --time, and the layers that hold the error.
+// Tests renders that stop when they are good enough: --target-error, --time, and the layers with the error.
 
 #include <gmock/gmock.h>
 
@@ -14,14 +14,14 @@
 namespace kaustik::app {
 namespace {
 
+using test::Outcome;
+using test::run_kaustik;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::Outcome;
-using testing::run_kaustik;
 
 using Arguments = std::vector<std::string>;
 
-class StopRules : public testing::ProgramTest {
+class StopRules : public test::ProgramTest {
  protected:
   Arguments render(const Arguments& more) const {
     Arguments all = {"render", scene_, "--photons", "16k", "--spp", "8"};
@@ -43,7 +43,7 @@ class StopRules : public testing::ProgramTest {
   std::string scene_ = small_scene(film(24, 16));
 };
 
-TEST_F(StopRules, TargetErrorIsReachedAndSaid) {
+TEST_F(StopRules, TargetErrorIsReachedAndReported) {
   const Outcome outcome = expect_done(render({"--target-error", "12%", "-o", path("a.exr"), "--stats",
                                               path("a.json"), "--checkpoint", path("a.kpart")}));
   EXPECT_THAT(outcome.err, HasSubstr("stopped by --target-error 0.12"));
@@ -58,7 +58,7 @@ TEST_F(StopRules, TargetErrorIsReachedAndSaid) {
   EXPECT_LE(std::stod(file->spec().get_string_attribute("kaustik:error").c_str()), 0.12);
 }
 
-// One pass less would not have been enough.
+// One pass fewer would not have been enough.
 TEST_F(StopRules, TargetErrorStopsAtTheFirstPassThatIsEnough) {
   expect_done(render({"--target-error", "12%", "-o", path("a.exr"), "--stats", path("a.json")}));
   const uint64_t passes = stats("a.json")["photons"]["passes"];
@@ -69,7 +69,7 @@ TEST_F(StopRules, TargetErrorStopsAtTheFirstPassThatIsEnough) {
   EXPECT_GT(stats("b.json")["error"]["relative"], 0.12);
 }
 
-TEST_F(StopRules, ALowerTargetGoesOnWhereAHigherStopped) {
+TEST_F(StopRules, LowerTargetContinuesWhereAHigherStopped) {
   expect_done(render(
       {"--target-error", "8%", "-o", path("whole.kpart"), "-o", path("whole.exr"), "--aov", "error,bias"}));
   expect_done(render({"--target-error", "14%", "-o", path("a.kpart"), "--aov", "error,bias"}));
@@ -78,7 +78,7 @@ TEST_F(StopRules, ALowerTargetGoesOnWhereAHigherStopped) {
   EXPECT_GT(render::read_partial(path("whole.kpart")).sums.passes.count(), 2u);
 }
 
-TEST_F(StopRules, ARuleThatIsMetRendersNothingMore) {
+TEST_F(StopRules, RuleThatIsMetRendersNothingMore) {
   const Arguments rule = {"--target-error", "14%", "-o", path("a.kpart"), "-o", path("a.exr")};
   expect_done(render(rule));
   const render::PassSet passes = render::read_partial(path("a.kpart")).sums.passes;
@@ -90,7 +90,7 @@ TEST_F(StopRules, ARuleThatIsMetRendersNothingMore) {
   EXPECT_EQ(read("a.exr"), read("c.exr"));
 }
 
-TEST_F(StopRules, PassesAndNoneOverruleARule) {
+TEST_F(StopRules, PassesAndNoneOverrideARule) {
   expect_done(render({"--target-error", "14%", "-o", path("a.kpart")}));
   const uint64_t passes = render::read_partial(path("a.kpart")).sums.passes.end();
   const std::string more = std::to_string(passes + 2);
@@ -100,7 +100,7 @@ TEST_F(StopRules, PassesAndNoneOverruleARule) {
   EXPECT_EQ(render::read_partial(path("a.kpart")).sums.passes.end(), passes + 2);
 }
 
-TEST_F(StopRules, WhatWasNotMeasuredIsNotShownAndSaid) {
+TEST_F(StopRules, UnmeasuredBiasIsLeftOutAndReported) {
   expect_done(render({"--passes", "4", "-o", path("a.kpart")}));
   const Outcome layers = expect_done({"resume", path("a.kpart"), "--aov", "error,bias", "-o", path("a.exr")});
   EXPECT_THAT(layers.err, HasSubstr("the layer bias is left out"));
@@ -113,21 +113,21 @@ TEST_F(StopRules, WhatWasNotMeasuredIsNotShownAndSaid) {
   EXPECT_THAT(target.err, HasSubstr("noise alone"));
 }
 
-TEST_F(StopRules, APartOfASplitRenderTakesNoRule) {
+TEST_F(StopRules, PartOfASplitRenderTakesNoRule) {
   expect_done(render({"--passes", "8", "--pass-range", "4:8", "-o", path("p.kpart")}));
   expect_refused({"resume", path("p.kpart"), "--time", "5s", "-o", path("a.exr")}, "--time cannot be used");
   expect_refused({"resume", path("p.kpart"), "--target-quantile", "50%", "-o", path("a.exr")},
                  "--target-quantile needs --target-error");
 }
 
-TEST_F(StopRules, AQuantileAsksForMore) {
+TEST_F(StopRules, QuantileNeedsMorePasses) {
   expect_done(render({"--target-error", "15%", "-o", path("a.exr"), "--stats", path("mean.json")}));
   expect_done(render({"--target-error", "15%", "--target-quantile", "95%", "-o", path("a.exr"), "--stats",
                       path("most.json")}));
   EXPECT_GT(stats("most.json")["photons"]["passes"], stats("mean.json")["photons"]["passes"]);
 }
 
-TEST_F(StopRules, TimeThatIsOverLeavesOnePass) {
+TEST_F(StopRules, ExpiredTimeStillRendersOnePass) {
   const Outcome outcome =
       expect_done(render({"--time", "1ms", "-o", path("a.exr"), "--stats", path("a.json")}));
   EXPECT_THAT(outcome.err, HasSubstr("stopped by --time 0.001s after 1 pass"));
@@ -135,8 +135,8 @@ TEST_F(StopRules, TimeThatIsOverLeavesOnePass) {
   EXPECT_TRUE(stats("a.json")["error"].is_null());
 }
 
-// Photons and samples of the scene's own: then the time says how many.
-class FilledTime : public testing::ProgramTest {
+// The scene sets photons and samples; then --time decides how many are used.
+class FilledTime : public test::ProgramTest {
  protected:
   std::vector<float> pixels(const std::string& name) const {
     const auto file = OIIO::ImageInput::open(path(name));
@@ -144,7 +144,7 @@ class FilledTime : public testing::ProgramTest {
     EXPECT_TRUE(file && file->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, out.data())) << name;
     return out;
   }
-  // Of a render of this time, whose statistics are left in NAME.json.
+  // Renders for this time; the statistics are written to NAME.json.
   Outcome render(const std::string& time, const std::string& name, const Arguments& more = {}) const {
     Arguments all = {
         "render", scene_, "--time", time, "-o", path(name + ".exr"), "--stats", path(name + ".json")};
@@ -158,7 +158,7 @@ class FilledTime : public testing::ProgramTest {
   std::string scene_ = small_scene(film(24, 16));
 };
 
-TEST_F(FilledTime, IsOnePassThatOptionsRepeat) {
+TEST_F(FilledTime, IsOnePassThatOptionsReproduce) {
   EXPECT_THAT(render("300ms", "a").err, HasSubstr("--time 0.3s is rendered with --spp "));
   const nlohmann::json json = stats("a"), settings = json["settings"];
   EXPECT_EQ(json["photons"]["passes"], 1);
@@ -171,7 +171,7 @@ TEST_F(FilledTime, IsOnePassThatOptionsRepeat) {
   EXPECT_EQ(pixels("a.exr"), pixels("b.exr"));
 }
 
-TEST_F(FilledTime, IsManyPassesWhereThatIsLong) {
+TEST_F(FilledTime, UsesManyPassesForLongTimes) {
   EXPECT_THAT(render("4.5s", "a").err,
               HasSubstr(" --passes 8 --alpha 0.6666667, and more passes until the time is up"));
   const nlohmann::json json = stats("a");
@@ -179,22 +179,22 @@ TEST_F(FilledTime, IsManyPassesWhereThatIsLong) {
   EXPECT_NEAR(json["settings"]["alpha"], 2.0 / 3, 1e-6);
 }
 
-TEST_F(FilledTime, AllLayersOfPassesHoldTheBias) {
+TEST_F(FilledTime, AllLayersOfSeveralPassesIncludeTheBias) {
   render("4.5s", "a", {"--aov", "all"});
   const nlohmann::json error = stats("a")["error"];
-  if (!error.is_null()) {  // of two passes or more: a machine may be too slow
+  if (!error.is_null()) {  // only for two passes or more: the machine may be too slow
     EXPECT_TRUE(error["holds_bias"]);
   }
 }
 
-TEST_F(FilledTime, SenselessRulesAreRefused) {
+TEST_F(FilledTime, InvalidTimesAreRefused) {
   const Outcome outcome =
       run_kaustik({"render", scene_, "--time", "1s", "--target-quantile", "95%", "-o", path("a.exr")});
   EXPECT_EQ(outcome.code, kBadCommandLine);
   EXPECT_THAT(outcome.err, HasSubstr("--target-quantile needs --target-error"));
 }
 
-TEST_F(FilledTime, LeavesWhatWasAskedFor) {
+TEST_F(FilledTime, KeepsExplicitSettings) {
   render("1ms", "spp", {"--spp", "8"});
   EXPECT_EQ(stats("spp")["passes_of_settings"], 8);
   EXPECT_EQ(stats("spp")["settings"]["spp"], 8);
@@ -213,7 +213,7 @@ TEST_F(FilledTime, LeavesWhatWasAskedFor) {
   EXPECT_EQ(stats("off")["passes_of_settings"], 1);
 }
 
-TEST_F(StopRules, LayersHoldTheError) {
+TEST_F(StopRules, LayersContainTheError) {
   expect_done(render({"--aov", "error,bias", "-o", path("a.exr"), "--stats", path("a.json")}));
   EXPECT_EQ(stats("a.json")["photons"]["passes"], 8);
   const auto file = OIIO::ImageInput::open(path("a.exr"));
@@ -232,7 +232,7 @@ TEST_F(StopRules, LayersHoldTheError) {
   EXPECT_GT(biased, 10u);
 }
 
-TEST_F(StopRules, AllLayersOfOnePassAreThoseItHas) {
+TEST_F(StopRules, AllLayersOfOnePassExcludeTheError) {
   expect_done(render({"--aov", "all", "-o", path("a.exr"), "--passes", "1"}));
   const auto file = OIIO::ImageInput::open(path("a.exr"));
   ASSERT_TRUE(file);
@@ -240,7 +240,7 @@ TEST_F(StopRules, AllLayersOfOnePassAreThoseItHas) {
   EXPECT_THAT(file->spec().channelnames, ::testing::Contains("photons.Y"));
 }
 
-TEST_F(StopRules, SenselessRulesAreRefused) {
+TEST_F(StopRules, InvalidRulesAreRefused) {
   const std::string out = path("a.exr");
   expect_refused(render({"--target-error", "0", "-o", out}),
                  "`0`: expected a share above 0, like 1% or 0.01");
@@ -255,7 +255,7 @@ TEST_F(StopRules, SenselessRulesAreRefused) {
   EXPECT_FALSE(exists("a.exr"));
 }
 
-TEST(Shares, ArePercentOrParts) {
+TEST(Shares, ArePercentagesOrFractions) {
   EXPECT_EQ(parse_share("1%"), 0.01);
   EXPECT_EQ(parse_share("0.25"), 0.25);
   EXPECT_EQ(parse_share("1e-3"), 1e-3);

@@ -1,4 +1,4 @@
-// --quality: what each preset sets, and who wins over it.
+// Tests --quality: the values of each preset, and what overrides it.
 
 #include "apps/settings/quality.h"
 
@@ -11,18 +11,18 @@
 namespace kaustik::app {
 namespace {
 
+using test::run_kaustik;
 using ::testing::HasSubstr;
-using testing::run_kaustik;
 
-class Quality : public testing::ProgramTest {
+class Quality : public test::ProgramTest {
  protected:
-  // Photons and samples of a render of a scene with these lines.
+  // The photons and samples of a render of a scene with these lines.
   std::pair<uint64_t, int> rendered(const std::string& lines, std::vector<std::string> options) const {
     const std::string scene = small_scene(film(4, 3) + "\n" + lines);
     std::vector<std::string> arguments = {"render",  scene,          "-o", path("a.exr"),
                                           "--stats", path("s.json"), "-q"};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    const testing::Outcome outcome = run_kaustik(arguments);
+    const test::Outcome outcome = run_kaustik(arguments);
     EXPECT_EQ(outcome.code, kDone) << outcome.err;
     const auto settings = nlohmann::json::parse(read("s.json"))["settings"];
     return {settings["photons"], settings["spp"]};
@@ -31,7 +31,7 @@ class Quality : public testing::ProgramTest {
   const QualityPreset& draft_ = kQualityPresets[0];
 };
 
-TEST_F(Quality, SetsWhatItSays) {
+TEST_F(Quality, SetsItsDocumentedValues) {
   for (const QualityPreset& preset : kQualityPresets) {
     Settings settings;
     const std::string name(preset.name);
@@ -42,7 +42,7 @@ TEST_F(Quality, SetsWhatItSays) {
   }
 }
 
-// From cheap to dear in every number.
+// Every number rises from the cheapest preset to the most expensive.
 TEST_F(Quality, PresetsRise) {
   for (size_t i = 1; i < kQualityPresets.size(); ++i) {
     EXPECT_GT(kQualityPresets[i].photons, kQualityPresets[i - 1].photons);
@@ -51,13 +51,13 @@ TEST_F(Quality, PresetsRise) {
   }
 }
 
-TEST_F(Quality, TheCommandLinesOwnNumbersWin) {
+TEST_F(Quality, NumbersOnTheCommandLineOverrideIt) {
   EXPECT_EQ(rendered("", {"--quality", "draft"}), Numbers(draft_.photons, draft_.spp));
   EXPECT_EQ(rendered("", {"--quality", "draft", "--spp", "3"}), Numbers(draft_.photons, 3));
   EXPECT_EQ(rendered("", {"--spp", "3", "--photons", "5k", "--quality", "draft"}), Numbers(5000, 3));
 }
 
-TEST_F(Quality, OfTheCommandLineWinsOverTheFile) {
+TEST_F(Quality, OnTheCommandLineOverridesTheFile) {
   const std::string file =
       "Sampler \"independent\" \"integer pixelsamples\" 2\n"
       "Integrator \"photonmap\" \"integer photons\" 7000";
@@ -65,8 +65,8 @@ TEST_F(Quality, OfTheCommandLineWinsOverTheFile) {
   EXPECT_EQ(rendered(file, {"--quality", "draft"}), Numbers(draft_.photons, draft_.spp));
 }
 
-// Wherever they stand in it.
-TEST_F(Quality, OfTheFileYieldsToItsOwnNumbers) {
+// The order of the settings in the file does not matter.
+TEST_F(Quality, InTheFileIsOverriddenByTheFilesNumbers) {
   EXPECT_EQ(rendered("Integrator \"photonmap\" \"string quality\" \"draft\"", {}),
             Numbers(draft_.photons, draft_.spp));
   EXPECT_EQ(rendered("Integrator \"photonmap\" \"integer photons\" 7000 \"string quality\" \"draft\"\n"
@@ -76,7 +76,7 @@ TEST_F(Quality, OfTheFileYieldsToItsOwnNumbers) {
 }
 
 TEST_F(Quality, UnknownNamesAreRefusedWithTheNearest) {
-  const testing::Outcome outcome = run_kaustik({"render", small_scene(), "--quality", "hihg"});
+  const test::Outcome outcome = run_kaustik({"render", small_scene(), "--quality", "hihg"});
   EXPECT_EQ(outcome.code, kBadCommandLine);
   EXPECT_THAT(outcome.err, HasSubstr("did you mean `high`?"));
 }

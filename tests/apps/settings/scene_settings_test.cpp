@@ -55,7 +55,7 @@ Interpreted with_integrator(std::string type, std::vector<Parameter> parameters)
   return interpret(description);
 }
 
-TEST(SceneSettings, AnEmptySceneHasTheDefaults) {
+TEST(SceneSettings, EmptySceneHasTheDefaults) {
   const Interpreted result = interpret({});
   EXPECT_THAT(result.diagnostics.entries(), IsEmpty());
   EXPECT_EQ(result.scene.settings.render.method, render::Method::kAuto);
@@ -85,7 +85,7 @@ TEST(SceneSettings, PhotonmapTakesEverySettingByItsName) {
   EXPECT_EQ(result.scene.settings.tone.exposure, 1);
 }
 
-TEST(SceneSettings, PhotonmapErrorsPointAtTheirPlaceAndNameWhatIsNear) {
+TEST(SceneSettings, PhotonmapErrorsHaveALocationAndSuggestTheNearestName) {
   const Interpreted result = with_integrator(
       "photonmap", {text("kernal", {"cone"}), text("kernel", {"cones"}), real("photons", 1000),
                     integer("spp", 0), numbers(ParameterType::kInteger, "crop", {0, 4})});
@@ -101,7 +101,7 @@ TEST(SceneSettings, PhotonmapErrorsPointAtTheirPlaceAndNameWhatIsNear) {
   EXPECT_THAT(found[4].message, HasSubstr("takes 4 values, not 2"));
 }
 
-TEST(SceneSettings, SppmAsksForPhotonsWithItsDepthCountAndRadius) {
+TEST(SceneSettings, SppmGivesMethodPhotonWithItsDepthCountAndRadius) {
   const Interpreted result = with_integrator(
       "sppm", {integer("maxdepth", 9), integer("photonsperiteration", 5e6), real("radius", 0.05)});
   EXPECT_THAT(result.diagnostics.entries(), IsEmpty());
@@ -115,7 +115,7 @@ TEST(SceneSettings, SppmAsksForPhotonsWithItsDepthCountAndRadius) {
   EXPECT_THAT(result.scene.notes, SizeIs(1));
 }
 
-TEST(SceneSettings, SppmWithoutParametersHasPbrtsDepthAndOurOtherDefaults) {
+TEST(SceneSettings, SppmWithoutParametersUsesPbrtsDepthAndOurOtherDefaults) {
   const Interpreted result = with_integrator("sppm", {integer("photonsperiteration", -1)});
   EXPECT_THAT(result.diagnostics.entries(), IsEmpty());
   EXPECT_EQ(result.scene.settings.render.max_bounces, 5);
@@ -123,14 +123,14 @@ TEST(SceneSettings, SppmWithoutParametersHasPbrtsDepthAndOurOtherDefaults) {
   EXPECT_EQ(result.scene.settings.render.radius, std::nullopt);
 }
 
-TEST(SceneSettings, PathIsMethodMc) {
+TEST(SceneSettings, PathGivesMethodMc) {
   const Interpreted result = with_integrator("path", {integer("maxdepth", 65)});
   EXPECT_EQ(result.scene.settings.render.method, render::Method::kMc);
   EXPECT_EQ(result.scene.settings.render.max_bounces, 65);
   EXPECT_EQ(with_integrator("path", {}).scene.settings.render.max_bounces, 5);
 }
 
-TEST(SceneSettings, OtherIntegratorsOfPbrtAreANoteAndUnknownOnesAnError) {
+TEST(SceneSettings, OtherIntegratorsOfPbrtGiveANoteAndUnknownOnesAnError) {
   const Interpreted known = with_integrator("bdpt", {integer("maxdepth", 3), integer("nonsense", 3)});
   EXPECT_THAT(known.diagnostics.entries(), IsEmpty());
   EXPECT_EQ(known.scene.settings.render.method, render::Method::kAuto);
@@ -141,14 +141,14 @@ TEST(SceneSettings, OtherIntegratorsOfPbrtAreANoteAndUnknownOnesAnError) {
   EXPECT_THAT(unknown.diagnostics.entries()[0].message, HasSubstr("did you mean `photonmap`"));
 }
 
-TEST(SceneSettings, PbrtParametersWithoutMeaningAreOneWarningAndUnknownOnesAnError) {
+TEST(SceneSettings, IgnoredPbrtParametersGiveOneWarningAndUnknownOnesAnError) {
   const Interpreted result = with_integrator("path", {text("lightsampler", {"bvh"}), integer("maxdept", 5)});
   EXPECT_EQ(result.diagnostics.warning_count(), 1u);
   ASSERT_EQ(result.diagnostics.error_count(), 1u);
   EXPECT_THAT(result.diagnostics.entries()[1].message, HasSubstr("did you mean `maxdepth`"));
 }
 
-TEST(SceneSettings, FilmAndSamplerGiveSizeCropOutputAndSamples) {
+TEST(SceneSettings, FilmAndSamplerSetSizeCropOutputAndSamples) {
   SceneDescription description;
   description.film = directive("rgb", {integer("xresolution", 200), integer("yresolution", 100),
                                        numbers(ParameterType::kFloat, "cropwindow", {0.25, 0.5, 0, 0.105}),
@@ -164,10 +164,10 @@ TEST(SceneSettings, FilmAndSamplerGiveSizeCropOutputAndSamples) {
   EXPECT_EQ(crop.x0, 50);
   EXPECT_EQ(crop.x1, 100);
   EXPECT_EQ(crop.y0, 0);
-  EXPECT_EQ(crop.y1, 11);  // rounded up, as pbrt does
+  EXPECT_EQ(crop.y1, 11);  // rounded up, as in pbrt
 }
 
-TEST(SceneSettings, SenselessFilmsAndSamplersAreErrors) {
+TEST(SceneSettings, InvalidFilmsAndSamplersAreErrors) {
   SceneDescription description;
   description.film = directive("rgb", {integer("xresolution", 0), integer("yresolution", 1e6),
                                        numbers(ParameterType::kInteger, "pixelbounds", {9, 9, 0, 5})});

@@ -28,8 +28,7 @@ TEST(SettingsTable, NamesAreUniqueAndEveryRowIsExplained) {
   }
 }
 
-// Every choice of every setting is accepted by its own parser: the table's names and the parser's are the
-// same.
+// The parser accepts every choice that the table lists for a setting.
 TEST(SettingsTable, EveryListedChoiceIsAccepted) {
   for (const Setting& setting : settings_table()) {
     for (const std::string_view value : setting.choices) {
@@ -48,7 +47,7 @@ TEST(SettingsTable, DashesInNamesMayBeLeftOut) {
   EXPECT_EQ(find_setting(""), nullptr);
 }
 
-TEST(SettingsTable, ValuesReachTheirFields) {
+TEST(SettingsTable, ValuesAreStoredInTheirFields) {
   Settings s;
   EXPECT_EQ(assign(s, "method", {"hybrid"}), std::nullopt);
   EXPECT_EQ(assign(s, "direct", {"lecture"}), std::nullopt);
@@ -77,8 +76,8 @@ TEST(SettingsTable, ValuesReachTheirFields) {
   EXPECT_EQ(s.render.adaptive, Settings().render.adaptive);
 }
 
-// What one setting shows, another takes; so a render can be gone on with as it was.
-TEST(SettingsTable, ValuesSurviveBeingShown) {
+// A shown value can be parsed again, so a render can be continued with the same settings.
+TEST(SettingsTable, ShownValuesParseToTheSameSettings) {
   Settings s;
   s.render.direct = render::DirectEstimator::kLecture;
   s.render.photons = 12'345'678'901u;
@@ -104,7 +103,7 @@ TEST(SettingsTable, ValuesSurviveBeingShown) {
   EXPECT_EQ(copy.tone.exposure, s.tone.exposure);
 }
 
-TEST(SettingsTable, ComplaintsNameTheNearestValueAndLeaveTheSettingsAlone) {
+TEST(SettingsTable, ErrorsNameTheNearestValueAndChangeNothing) {
   Settings s;
   const auto complaint = assign(s, "kernel", {"cones"});
   ASSERT_TRUE(complaint.has_value());
@@ -132,8 +131,8 @@ TEST(SettingsTable, ComplaintsNameTheNearestValueAndLeaveTheSettingsAlone) {
   EXPECT_TRUE(s.render.aov.empty());
 }
 
-// On failure the table as it should stand lies in the tests' output folder.
-TEST(SettingsTable, IsWhatTheManualShows) {
+// On failure the correct table is written to the tests' output folder.
+TEST(SettingsTable, MatchesTheManual) {
   std::ifstream file(std::string(KAUSTIK_SOURCE_DIR) + "/docs/cli.md");
   std::stringstream manual;
   manual << file.rdbuf();

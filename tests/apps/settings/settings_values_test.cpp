@@ -22,12 +22,12 @@ TEST(ParseCount, ReadsSuffixesFractionsAndPowers) {
 TEST(ParseCount, IsExactUpTo64Bits) {
   EXPECT_EQ(parse_count("18446744073709551615"), std::numeric_limits<uint64_t>::max());
   EXPECT_EQ(parse_count("18446744073709551616"), std::nullopt);
-  // 2^53 + 1, which a double cannot hold.
+  // 2^53 + 1 is not representable as a double.
   EXPECT_EQ(parse_count("9007199254.740993M"), 9'007'199'254'740'993u);
   EXPECT_EQ(parse_count("1e20"), std::nullopt);
 }
 
-TEST(ParseCount, RefusesWhatIsNoWholeNumber) {
+TEST(ParseCount, RefusesOtherThanWholeNumbers) {
   for (const char* text :
        {"", "M", ".", "-1", "+1", "1.5", "0.0001k", "1 k", "1kk", "ten", "1e", "1e-1", "0x10", "nan"}) {
     EXPECT_EQ(parse_count(text), std::nullopt) << text;
@@ -50,7 +50,7 @@ TEST(ParseInteger, ReadsSignedWholeNumbers) {
   }
 }
 
-TEST(Durations, HaveAUnit) {
+TEST(Durations, AcceptUnits) {
   EXPECT_EQ(parse_duration("60s"), 60.0);
   EXPECT_EQ(parse_duration("10m"), 600.0);
   EXPECT_EQ(parse_duration("1.5h"), 5400.0);

@@ -1,5 +1,5 @@
 #pragma once
-// The program as a process of its own, for what a test cannot do to itself: be killed.
+// Runs the program as a process of its own, so that a test can kill it.
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace kaustik::app::testing {
+namespace kaustik::test {
 
-// Its streams are the test's. Killed at the end, if it still runs.
+// Shares the test's streams. Kills the process at the end if it still runs.
 class ChildProcess {
  public:
   explicit ChildProcess(const std::vector<std::string>& arguments) {
@@ -34,7 +34,7 @@ class ChildProcess {
     return pid_ > 0 && !ended_;
   }
   void kill(int signal) const { ::kill(pid_, signal); }
-  // Its exit code; -1 when a signal ended it.
+  // Returns the exit code, or -1 when a signal ended the process.
   int wait() {
     if (pid_ > 0 && !ended_) waitpid(pid_, &status_, 0);
     ended_ = true;
@@ -47,4 +47,4 @@ class ChildProcess {
   bool ended_ = false;
 };
 
-}  // namespace kaustik::app::testing
+}  // namespace kaustik::test

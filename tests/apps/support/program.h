@@ -1,5 +1,5 @@
 #pragma once
-// The program called in the test's own process, and a folder of its own to work in.
+// Calls the program in the test's own process, with a folder of its own to work in.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "apps/run.h"
+#include "tests/support/output_folder.h"
 
-namespace kaustik::app::testing {
+namespace kaustik::test {
 
 struct Outcome {
   int code = -1;
@@ -24,21 +25,13 @@ inline Outcome run_kaustik(const std::vector<std::string>& arguments) {
   std::vector<const char*> argv = {"kaustik"};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   std::ostringstream out, err;
-  const int code = run(static_cast<int>(argv.size()), argv.data(), out, err);
+  const int code = app::run(static_cast<int>(argv.size()), argv.data(), out, err);
   return {code, out.str(), err.str()};
 }
 
-// A new folder per test, named after it, below the tests' output folder; emptied at the start and left for a
-// look.
+// Works in output_folder(), which is emptied at the start of the test and kept after it for inspection.
 class ProgramTest : public ::testing::Test {
  protected:
-  ProgramTest() {
-    const ::testing::TestInfo* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(KAUSTIK_TEST_OUTPUT_DIR) / info->test_suite_name() / info->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name)) << text;
@@ -58,7 +51,7 @@ class ProgramTest : public ::testing::Test {
     return names;
   }
 
-  // A light over a floor, with a glass sphere between them; `lines` come before WorldBegin.
+  // Writes a scene with a light over a floor and a glass sphere between them; `lines` come before WorldBegin.
   std::string small_scene(const std::string& lines = "") const {
     return write("small.pbrt", "LookAt 0 2 6  0 0.5 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\n" +
                                    lines +
@@ -78,7 +71,7 @@ class ProgramTest : public ::testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path folder_ = empty_output_folder();
 };
 
-}  // namespace kaustik::app::testing
+}  // namespace kaustik::test

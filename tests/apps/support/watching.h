@@ -1,5 +1,5 @@
 #pragma once
-// What a command does to its process while it runs: signals that it answers to, threads that it makes.
+// Observes a command while it runs: the signals that it handles, the threads that it creates.
 
 #include <algorithm>
 #include <atomic>
@@ -10,10 +10,9 @@
 #include <string>
 #include <thread>
 
-namespace kaustik::app::testing {
+namespace kaustik::test {
 
-// Returns once the command answers to this signal (or `stop` says that it has ended): from then on it is at
-// work.
+// Returns once the command handles this signal, or when `stop` says that it has ended.
 inline void wait_until_handled(int signal, const std::atomic<bool>& stop) {
   struct sigaction current {};
   while (!stop && sigaction(signal, nullptr, &current) == 0 && current.sa_handler == SIG_DFL) {
@@ -30,8 +29,8 @@ inline int thread_count() {
 }
 
 struct ThreadCounts {
-  int before = 0;  // the caller's, the watcher, and workers that earlier tests left
-  int most = 0;    // while the work ran
+  int before = 0;  // the caller, the watcher, and workers of earlier tests
+  int most = 0;    // largest number while the work ran
 };
 
 inline ThreadCounts count_threads(const std::function<void()>& work) {
@@ -50,4 +49,4 @@ inline ThreadCounts count_threads(const std::function<void()>& work) {
   return {before, most};
 }
 
-}  // namespace kaustik::app::testing
+}  // namespace kaustik::test

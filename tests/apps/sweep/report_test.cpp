@@ -1,4 +1,4 @@
-// Texts in pages: nothing of a scene's name or a setting can become markup or script.
+// Tests texts in HTML pages: no part of a scene's name or a setting can become markup or script.
 
 #include <gmock/gmock.h>
 
@@ -14,11 +14,11 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(Html, EscapesWhatHasAMeaning) {
+TEST(Html, EscapesMarkup) {
   EXPECT_EQ(html_escaped("<b a=\"x\" c='y'>&amp;"), "&lt;b a=&quot;x&quot; c=&#39;y&#39;&gt;&amp;amp;");
 }
 
-TEST(Html, JsonCannotEndItsElement) {
+TEST(Html, JsonCannotEndItsScriptElement) {
   const Json value = {{"name", "</script><!--<script>\xe2\x80\xa8&"}};
   const std::string text = script_json(value.dump());
   EXPECT_THAT(text, Not(HasSubstr("<")));
@@ -26,8 +26,8 @@ TEST(Html, JsonCannotEndItsElement) {
   EXPECT_EQ(Json::parse(text), value);
 }
 
-// The vectors of RFC 4648, section 10.
-TEST(Html, Base64IsThatOfTheRfc) {
+// The test vectors of RFC 4648, section 10.
+TEST(Html, Base64MatchesTheRfc) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
   EXPECT_EQ(base64("fo"), "Zm8=");
@@ -36,13 +36,13 @@ TEST(Html, Base64IsThatOfTheRfc) {
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-TEST(Html, ValuesAreNotTemplates) {
+TEST(Html, ValuesAreNotExpandedAsTemplates) {
   EXPECT_EQ(filled("a{{x}}b{{y}}", {{"x", "{{y}}"}, {"y", "2"}}), "a{{y}}b2");
   EXPECT_THROW(filled("{{z}}", {}), std::logic_error);
 }
 
-// What goes into script elements as it is must not end them.
-TEST(Html, EmbeddedScriptsStayInside) {
+// Text that is embedded in script elements must not end them.
+TEST(Html, EmbeddedScriptsCannotEndTheirElement) {
   for (const std::string_view script : {assets::chart_library, assets::script}) {
     EXPECT_THAT(std::string(script), Not(HasSubstr("</script")));
     EXPECT_THAT(std::string(script), Not(HasSubstr("<!--")));
@@ -50,7 +50,7 @@ TEST(Html, EmbeddedScriptsStayInside) {
   EXPECT_THAT(std::string(assets::chart_licence), HasSubstr("Permission is hereby granted"));
 }
 
-class Report : public testing::ProgramTest {};
+class Report : public test::ProgramTest {};
 
 TEST_F(Report, NamesAreEscapedEverywhere) {
   const std::string evil = "</script><img src=x onerror=alert(1)>.pbrt";

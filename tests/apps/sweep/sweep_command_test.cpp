@@ -1,4 +1,4 @@
-// kaustik sweep from the outside: files that agree, resumption, what is refused.
+// Tests kaustik sweep from the outside: files that agree, resumption, and refused input.
 
 #include <gmock/gmock.h>
 
@@ -22,13 +22,13 @@
 namespace kaustik::app {
 namespace {
 
+using test::ChildProcess;
+using test::Outcome;
+using test::run_kaustik;
 using ::testing::AnyOf;
-using testing::ChildProcess;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-using testing::Outcome;
-using testing::run_kaustik;
 using Arguments = std::vector<std::string>;
 using Json = nlohmann::ordered_json;
 
@@ -41,7 +41,7 @@ void sleep_ms(int ms) {
   std::this_thread::sleep_for(std::chrono::milliseconds(ms));
 }
 
-class SweepCommand : public testing::ProgramTest {
+class SweepCommand : public test::ProgramTest {
  protected:
   SweepCommand() {
     EXPECT_EQ(run_kaustik({"render", scene_, "--method", "mc", "--spp", "64", "--seed", "9", "-o",
@@ -65,7 +65,7 @@ class SweepCommand : public testing::ProgramTest {
     EXPECT_THAT(outcome.err, HasSubstr(part));
   }
   Json result(const std::string& folder = "out") const { return Json::parse(read(folder + "/sweep.json")); }
-  // The finished cells by their names.
+  // The contents of the finished cells' files by name.
   std::map<std::string, std::string> cells(const std::string& folder = "out") const {
     std::map<std::string, std::string> texts;
     if (!exists(folder + "/cells")) return texts;
@@ -76,7 +76,7 @@ class SweepCommand : public testing::ProgramTest {
     return texts;
   }
 
-  // A sweep of one cell, with a reference that is rendered.
+  // The arguments of a sweep of one cell with a rendered reference.
   Arguments with_reference(const Arguments& more = {}) const {
     return Arguments{"sweep",   scene_, "--photons",        "1k",   "--radius", "auto",      "--spp", "2",
                      "--seeds", "1",    "--reference-time", "10ms", "-o",       path("out"), "-q"} +
@@ -97,11 +97,11 @@ std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
   return rows;
 }
 
-TEST_F(SweepCommand, CsvAndJsonHoldTheSame) {
+TEST_F(SweepCommand, CsvAndJsonAgree) {
   expect_done(sweep(against_file() + Arguments{"--methods", "photon,mc"}));
   const Json cells = result()["cells"];
   const auto rows = csv_rows(read("out/sweep.csv"));
-  ASSERT_EQ(cells.size(), 5u);  // mc is one point
+  ASSERT_EQ(cells.size(), 5u);  // mc has a single point
   ASSERT_EQ(rows.size(), 1 + cells.size());
   for (size_t i = 0; i < cells.size(); ++i) {
     std::map<std::string, std::string> row;
@@ -114,7 +114,7 @@ TEST_F(SweepCommand, CsvAndJsonHoldTheSame) {
       EXPECT_EQ(row[key], cells[i]["error"][key].dump()) << key;
     EXPECT_EQ(row["seconds"], cells[i]["seconds"]["total"]["median"].dump());
     EXPECT_EQ(row["pareto"], cells[i]["pareto"].dump());
-    // The parts add up, as of error_parts.h; sums of 1152 doubles.
+    // The parts of the error add up as error_parts.h says; sums of 1152 doubles.
     const double relmse = cells[i]["error"]["relmse"];
     EXPECT_NEAR(double(cells[i]["error"]["bias2"]) + double(cells[i]["error"]["variance"]), relmse, 1e-12);
   }
@@ -123,8 +123,8 @@ TEST_F(SweepCommand, CsvAndJsonHoldTheSame) {
   EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
 }
 
-// The errors are those that `render` and `compare` show.
-TEST_F(SweepCommand, ErrorsAreThoseOfTheRender) {
+// The errors match those of `render` followed by `compare`.
+TEST_F(SweepCommand, ErrorsMatchTheRender) {
   expect_done(sweep(against_file()));
   const Json cell = result()["cells"][3];
   ASSERT_EQ(cell["flags"], "--photons 4k --radius 2x --spp 2");
@@ -136,7 +136,7 @@ TEST_F(SweepCommand, ErrorsAreThoseOfTheRender) {
   }
 }
 
-// Multiples of two: floats hold them exactly.
+// Multiples of two are exact in float.
 TEST_F(SweepCommand, RadiusFactorsScaleEveryMap) {
   const auto radii = [&](const std::string& radius) {
     expect_done({"render", scene_, "--method", "photon", "--photons", "20k", "--radius", radius, "--spp", "1",
@@ -151,7 +151,7 @@ TEST_F(SweepCommand, RadiusFactorsScaleEveryMap) {
   }
 }
 
-TEST_F(SweepCommand, AFinishedSweepIsNotRenderedAgainAndMayGrow) {
+TEST_F(SweepCommand, FinishedSweepIsNotRenderedAgainAndMayGrow) {
   expect_done(sweep(against_file()));
   const auto before = cells();
   const std::string csv = read("out/sweep.csv"), json = read("out/sweep.json");
@@ -159,14 +159,14 @@ TEST_F(SweepCommand, AFinishedSweepIsNotRenderedAgainAndMayGrow) {
   EXPECT_EQ(cells(), before);
   EXPECT_EQ(read("out/sweep.csv"), csv);
   EXPECT_EQ(read("out/sweep.json"), json);
-  expect_done(sweep(against_file() + Arguments{"--radius", "0.5x"}));  // one more
+  expect_done(sweep(against_file() + Arguments{"--radius", "0.5x"}));  // adds one cell
   EXPECT_EQ(result()["cells"].size(), 6u);
   for (const auto& [name, text] : before) EXPECT_EQ(cells()[name], text);
 }
 
-// Killed when the first cell is there: that one is kept, the others follow, and the errors are those of a
-// sweep that ran through.
-TEST_F(SweepCommand, KilledBetweenCellsGoesOn) {
+// The sweep is killed when its first cell is written. That cell is kept, the others follow, and the errors
+// are those of an uninterrupted sweep.
+TEST_F(SweepCommand, ContinuesAfterAKillBetweenCells) {
   const Arguments more = against_file() + Arguments{"--photons", "30k,31k", "--threads", "1"};
   expect_done(sweep(more, "whole"));
   ChildProcess first(sweep(more));
@@ -184,15 +184,15 @@ TEST_F(SweepCommand, KilledBetweenCellsGoesOn) {
   for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(resumed[i]["error"], whole[i]["error"]) << i;
 }
 
-TEST_F(SweepCommand, AnInterruptLeavesAFolderToGoOnWith) {
+TEST_F(SweepCommand, InterruptLeavesAFolderToContinueWith) {
   const std::string scene = small_scene(film(256, 256));
   std::atomic<bool> stop = false;
   std::thread sender([&] {
-    testing::wait_until_handled(SIGINT, stop);
+    test::wait_until_handled(SIGINT, stop);
     while (!stop && cells().empty()) sleep_ms(1);
     if (!stop) std::raise(SIGINT);
   });
-  // The second point takes far longer than a test could wait: only the signal can end it.
+  // The second point takes far longer than a test could wait for: only the signal can end it.
   const Outcome outcome =
       run_kaustik({"sweep", scene, "--photons", "1k", "--radius", "auto", "--spp", "1,1000000", "--seeds",
                    "1", "--reference-time", "100ms", "-o", path("out"), "-q"});
@@ -205,8 +205,8 @@ TEST_F(SweepCommand, AnInterruptLeavesAFolderToGoOnWith) {
                "--reference-time", "100ms", "-o", path("out"), "-q"});
 }
 
-// The passes that are complete are kept, and gone on with: each run that is interrupted late enough has more.
-TEST_F(SweepCommand, AnInterruptedReferenceIsGoneOnWith) {
+// An interrupt keeps the complete passes of the reference, and the next run continues with them.
+TEST_F(SweepCommand, InterruptedReferenceIsContinued) {
   const auto passes = [&] {
     return exists("out/reference.kpart")
                ? render::read_partial(path("out/reference.kpart")).sums.passes.count()
@@ -218,7 +218,7 @@ TEST_F(SweepCommand, AnInterruptedReferenceIsGoneOnWith) {
       while (!exists("out/sweep-of.json") && run.running()) sleep_ms(1);
       sleep_ms(ms);
       run.kill(SIGINT);
-      EXPECT_THAT(run.wait(), AnyOf(kInterrupted, -1));  // -1: on a busy machine it was not yet at work
+      EXPECT_THAT(run.wait(), AnyOf(kInterrupted, -1));  // -1 if a busy machine had not yet started the work
     }
     return passes();
   };
@@ -228,7 +228,7 @@ TEST_F(SweepCommand, AnInterruptedReferenceIsGoneOnWith) {
   EXPECT_THAT(cells(), IsEmpty());
 }
 
-TEST_F(SweepCommand, ARenderedReferenceTellsItsNoise) {
+TEST_F(SweepCommand, RenderedReferenceReportsItsNoise) {
   const Outcome outcome = run_kaustik(sweep({"--reference-time", "50ms", "--reference-method", "mc"}));
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("never finds the light of point lights through glass"));
@@ -239,7 +239,7 @@ TEST_F(SweepCommand, ARenderedReferenceTellsItsNoise) {
   EXPECT_FALSE(exists("out/reference.kpart"));
   const std::string exr = read("out/reference.exr");
   expect_done(sweep({"--reference-time", "50ms", "--reference-method", "mc", "--radius", "3x"}));
-  EXPECT_TRUE(read("out/reference.exr") == exr);  // taken as it is
+  EXPECT_TRUE(read("out/reference.exr") == exr);  // used as it is
 }
 
 TEST_F(SweepCommand, RefusesTheFolderOfAnotherSweep) {
@@ -271,7 +271,7 @@ TEST_F(SweepCommand, BadInputExitsWithTwo) {
   EXPECT_EQ(run_kaustik({"sweep", path("no.pbrt"), "-o", path("x")}).code, kBadScene);
 }
 
-TEST_F(SweepCommand, ADamagedCellIsRenderedAgain) {
+TEST_F(SweepCommand, DamagedCellIsRenderedAgain) {
   expect_done(sweep(against_file()));
   const Json before = result()["cells"];
   const std::string name = "out/cells/" + cells().begin()->first;
@@ -283,7 +283,7 @@ TEST_F(SweepCommand, ADamagedCellIsRenderedAgain) {
   for (size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i]["error"], before[i]["error"]);
 }
 
-TEST_F(SweepCommand, ADamagedReferenceIsRenderedAgain) {
+TEST_F(SweepCommand, DamagedReferenceIsRenderedAgain) {
   expect_done(with_reference());
   const std::string about = read("out/reference.json"), picture = read("out/reference.exr");
   const auto expect_again = [&](const std::string& what) {
@@ -308,13 +308,13 @@ TEST_F(SweepCommand, ADamagedReferenceIsRenderedAgain) {
   expect_again("reference.kpart");
 }
 
-// A cell belongs to the picture that it was measured against.
-TEST_F(SweepCommand, AnotherReferenceMeansOtherCells) {
+// A cell is valid only for the reference it was compared with.
+TEST_F(SweepCommand, AnotherReferenceInvalidatesCells) {
   expect_done(with_reference());
   const auto before = cells();
   expect_done(with_reference());
-  EXPECT_EQ(cells(), before);  // the picture in the file is the one that was rendered, to the bit
-  // As if it had been rendered anew, with another number of passes.
+  EXPECT_EQ(cells(), before);  // the file contains exactly the rendered picture
+  // Replaces the reference by one with another number of passes.
   std::filesystem::copy_file(path("ref.exr"), path("out/reference.exr"),
                              std::filesystem::copy_options::overwrite_existing);
   Json about = Json::parse(read("out/reference.json"));
@@ -324,9 +324,9 @@ TEST_F(SweepCommand, AnotherReferenceMeansOtherCells) {
   EXPECT_EQ(cells().size(), before.size() + 1);
 }
 
-// What a sweep examines does not reach the reference: two of as many passes are the same picture. (Two passes
-// of 10^6 photons take longer than 10 ms, so there are two.)
-TEST_F(SweepCommand, TheReferenceDoesNotTakePartInTheSweep) {
+// The settings that a sweep varies do not affect the reference: two references with as many passes are the
+// same picture. (Two passes of 10^6 photons take longer than 10 ms, so there are two.)
+TEST_F(SweepCommand, SweptSettingsDoNotAffectTheReference) {
   const Arguments other = {"--lookup",   "leaf",          "--kernel",  "cone",
                            "--emission", "uniform-angle", "--nearest", "3"};
   const auto mean_after = [&](const Arguments& more) {
@@ -341,7 +341,7 @@ TEST_F(SweepCommand, TheReferenceDoesNotTakePartInTheSweep) {
   EXPECT_EQ(plain.second, examined.second);
 }
 
-TEST_F(SweepCommand, OneSweepAtATimeInAFolder) {
+TEST_F(SweepCommand, FolderTakesOneSweepAtATime) {
   expect_done(sweep(against_file()));
   const int file = open(path("out/.lock").c_str(), O_RDWR);
   ASSERT_GE(file, 0);
@@ -351,8 +351,8 @@ TEST_F(SweepCommand, OneSweepAtATimeInAFolder) {
   expect_done(sweep(against_file()));
 }
 
-// When to stop is no setting of a sweep's renders.
-TEST_F(SweepCommand, StopRulesOfTheSceneAreLeftOut) {
+// Stop rules do not apply to the renders of a sweep.
+TEST_F(SweepCommand, StopRulesOfTheSceneAreIgnored) {
   small_scene(film(24, 16) +
               "\nIntegrator \"photonmap\" \"string target-error\" \"10%\" \"string time\" \"2s\"");
   expect_done(sweep(against_file()));
@@ -360,14 +360,14 @@ TEST_F(SweepCommand, StopRulesOfTheSceneAreLeftOut) {
     EXPECT_FALSE(result()["settings"].contains(name)) << name;
 }
 
-TEST_F(SweepCommand, APictureOfWholeNumbersIsWarnedOf) {
+TEST_F(SweepCommand, IntegerReferenceGivesAWarning) {
   EXPECT_EQ(run_kaustik({"render", scene_, "--spp", "1", "-o", path("ref.png"), "-q"}).code, kDone);
   const std::string warning = "in an integer format";
   EXPECT_THAT(run_kaustik(sweep({"--reference", path("ref.png")}, "png")).err, HasSubstr(warning));
   EXPECT_THAT(run_kaustik(sweep(against_file())).err, Not(HasSubstr(warning)));
 }
 
-TEST_F(SweepCommand, ABadGridIsFoundBeforeAnythingIsRendered) {
+TEST_F(SweepCommand, BadGridIsReportedBeforeAnythingIsRendered) {
   expect_refused(with_reference({"--photons", "100", "--passes", "1000"}),
                  "cannot be divided among 1k passes");
   EXPECT_FALSE(exists("out"));

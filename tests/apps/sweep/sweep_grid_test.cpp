@@ -37,7 +37,7 @@ TEST(SweepGrid, ReadsEveryForm) {
   EXPECT_EQ(grid.seeds, 3u);
 }
 
-TEST(SweepGrid, RadiiSurviveBeingShown) {
+TEST(SweepGrid, ShownRadiiParseToTheSameRadii) {
   for (const char* text : {"auto", "0.5x", "2x", "0.011", "1e-07"}) {
     const RadiusChoice radius = parse_radius(text).value();
     EXPECT_EQ(radius.text(), text);
@@ -47,7 +47,7 @@ TEST(SweepGrid, RadiiSurviveBeingShown) {
   }
 }
 
-TEST(SweepGrid, RefusesWhatIsNoGrid) {
+TEST(SweepGrid, RefusesInvalidGrids) {
   EXPECT_THAT(refusal({.photons = {}}), HasSubstr("--photons: expected at least one"));
   EXPECT_THAT(refusal({.photons = {""}}), HasSubstr("--photons: ``"));
   EXPECT_THAT(refusal({.photons = {"0"}}), HasSubstr("--photons: `0`: expected a whole number, 1 to"));
@@ -70,8 +70,8 @@ SceneNeeds glass() {
   return needs;
 }
 
-// Methods that read no photons are one point for each sample count, whatever photons and radii there are.
-TEST(SweepGrid, PointsAreThoseThatDiffer) {
+// A method without photons has one point for each sample count, whatever photons and radii there are.
+TEST(SweepGrid, MethodsWithoutPhotonsIgnorePhotonsAndRadii) {
   const SweepGrid grid = parse_grid({.photons = {"1k", "2k"},
                                      .radii = {"auto", "2x"},
                                      .methods = {"mc", "photon"},
@@ -85,7 +85,7 @@ TEST(SweepGrid, PointsAreThoseThatDiffer) {
   EXPECT_EQ(flags_of(points[9], grid, {}), "--method photon --photons 2k --radius 2x --spp 4");
 }
 
-TEST(SweepGrid, WithoutMethodsTheScenesOwnEstimatorsHold) {
+TEST(SweepGrid, WithoutMethodsTheScenesEstimatorsApply) {
   Settings base;
   base.render.method = render::Method::kMc;
   base.render.indirect = render::IndirectEstimator::kPhotons;
@@ -103,14 +103,14 @@ TEST(SweepGrid, WithoutMethodsTheScenesOwnEstimatorsHold) {
             std::nullopt);
 }
 
-// What the command line says of all points is part of what to type for one.
-TEST(SweepGrid, FlagsHoldTheSettingsThatWereGiven) {
+// The flags of a single point include those given for all points.
+TEST(SweepGrid, FlagsIncludeTheGivenSettings) {
   SettingOverrides overrides;
   overrides.add(*find_setting("width"), {"64"});
   overrides.add(*find_setting("direct"), {"signed"});
   overrides.add(*find_setting("crop"), {"0", "8", "2", "6"});
   Settings base;
-  base.render.nearest = 5;  // the scene's own
+  base.render.nearest = 5;  // set by the scene
   overrides.apply(base);
   const SweepGrid grid = parse_grid({.photons = {"1k"}, .radii = {"auto"}});
   const auto points = points_of(grid, base, overrides, glass());
@@ -130,7 +130,7 @@ TEST(SweepGrid, RefusesFewerPhotonsThanPasses) {
     EXPECT_EQ(error.code(), kBadCommandLine);
     EXPECT_THAT(error.what(), HasSubstr("100 photons cannot be divided among 1k passes"));
   }
-  // Paths take no photons.
+  // Method mc needs no photons.
   EXPECT_THAT(points_of(parse_grid({.photons = {"100"}, .methods = {"mc"}}), base, {}, glass()), SizeIs(1));
 }
 
@@ -142,7 +142,7 @@ SweepCell cell(double time, double relative_error, std::string flags) {
   return c;
 }
 
-TEST(SweepResult, TheFrontIsWhatNothingBeats) {
+TEST(SweepResult, FrontContainsTheUnbeatenPoints) {
   const std::vector<SweepCell> cells = {cell(4, 0.01, "d"),         cell(1, 0.15, "a"),
                                         cell(2, 0.3, "worse"),      cell(2, 0.04, "b"),
                                         cell(2, 0.05, "slow twin"), cell(8, 0.01, "later")};
@@ -150,12 +150,12 @@ TEST(SweepResult, TheFrontIsWhatNothingBeats) {
   EXPECT_THAT(pareto_front({}), IsEmpty());
 }
 
-TEST(SweepResult, AdviceNamesTheCheapestOfTheFront) {
+TEST(SweepResult, AdviceNamesTheCheapestPointOfTheFront) {
   const std::vector<Advice> advice = advice_of(
       {cell(3.14, 0.02, "--photons 4M"), cell(0.5, 0.15, "--photons 1k"), cell(60, 0.019, "--photons 1G")});
   ASSERT_THAT(advice, SizeIs(3));
   EXPECT_EQ(advice[0].text, "For 20 % on this scene: --photons 1k, 0.5 s.");
-  // Serves 10, 5 and 2 %.
+  // The point reaches 10, 5 and 2 %.
   EXPECT_EQ(advice[1].text, "For 2 % on this scene: --photons 4M, 3.1 s.");
   EXPECT_EQ(advice[2].text, "No point of this grid reaches 1 %. The best is 1.9 % with --photons 1G, 60 s.");
   EXPECT_EQ(advice[2].cell, std::nullopt);

@@ -1,4 +1,4 @@
-// Properties that every BSDF must have, run over instances of all of them.
+// Tests the properties that every BSDF must have, on instances of all types.
 
 #include "core/bsdf/bsdf.h"
 
@@ -6,12 +6,14 @@
 
 #include <set>
 
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
+#include "tests/support/random.h"
+#include "tests/support/statistics.h"
 
 namespace kaustik {
 namespace {
 
-using test::IndependentRandom;
+using test::Random;
 
 const Rgb kCopperEta(0.2f, 0.92f, 1.1f), kCopperK(3.9f, 2.45f, 2.14f);
 
@@ -51,7 +53,7 @@ const std::vector<Bsdf>& instances() {
 std::string name_of(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return std::string(b.kName); }, bsdf);
 }
-// Of the broad part, or of the glossy one.
+// The value of the diffuse lobes, or of the glossy ones.
 Rgb f(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, bool glossy = false) {
   return std::visit(
       [&](const auto& b) {
@@ -70,10 +72,10 @@ float pdf(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, bool glossy = 
       },
       bsdf);
 }
-std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vector3& wo, IndependentRandom& random,
+std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vector3& wo, Random& random,
                                  TransportMode mode = TransportMode::kImportance) {
-  const float uc = random.next();
-  const Point2 u = random.next_2d();
+  const float uc = random.uniform();
+  const Point2 u = random.uniform_2d();
   return std::visit([&](const auto& b) { return b.sample_f(wo, uc, u, mode); }, bsdf);
 }
 
@@ -89,11 +91,10 @@ TEST(Bsdf, InstancesCoverEveryType) {
   EXPECT_EQ(seen.size(), std::variant_size_v<Bsdf>);
 }
 
-// Samples of one part alone, where there are two.
-std::optional<BsdfSample> sample_part(const Bsdf& bsdf, bool glossy, const Vector3& wo,
-                                      IndependentRandom& random) {
-  const float uc = random.next();
-  const Point2 u = random.next_2d();
+// Samples one part alone where the BSDF has two.
+std::optional<BsdfSample> sample_part(const Bsdf& bsdf, bool glossy, const Vector3& wo, Random& random) {
+  const float uc = random.uniform();
+  const Point2 u = random.uniform_2d();
   constexpr TransportMode kMode = TransportMode::kRadiance;
   return std::visit(
       [&](const auto& b) {
@@ -106,7 +107,7 @@ std::optional<BsdfSample> sample_part(const Bsdf& bsdf, bool glossy, const Vecto
       bsdf);
 }
 
-// Calls fn(bsdf, glossy) for the parts that have densities.
+// Calls fn(bsdf, glossy) for each part that has a density.
 template <class Fn>
 void for_each_part(const Fn& fn) {
   for (const Bsdf& b : instances()) {
@@ -123,8 +124,9 @@ const Ggx* facets_of(const Bsdf& bsdf) {
   return facets && !facets->smooth() ? facets : nullptr;
 }
 
-// Microfacets: peaks want more points of each bin, which must not be narrower than their distance. What is
-// scattered to the wrong side is lost, so that their mass has no lower bound: it is a bin of the test.
+// The narrow peaks of microfacets need more points in each bin, and must not be narrower than the distance
+// between the points. Directions scattered to the wrong side of the surface are lost, so the mass of
+// microfacets has no lower bound; the test counts the lost samples in a bin of their own.
 TEST(Bsdf, SamplesFollowTheirDensity) {
   std::vector<test::SquareCase> cases, of_facets;
   for_each_part([&](const Bsdf& b, bool glossy) {
@@ -133,7 +135,7 @@ TEST(Bsdf, SamplesFollowTheirDensity) {
     for (const Vector3& wo : kDirections) {
       test::SquareCase c;
       c.name = name_of(b) + " " + std::to_string(b.index()) + " wo.z " + std::to_string(wo.z);
-      c.sample = [=](IndependentRandom& random, Point2* p) {
+      c.sample = [=](Random& random, Point2* p) {
         const auto s = sample_part(b, glossy, wo, random);
         if (!s) return false;
         *p = test::direction_to_square(s->wi, -1);
@@ -150,14 +152,14 @@ TEST(Bsdf, SamplesFollowTheirDensity) {
   test::expect_all_accepted(of_facets, 20000, 2e-3, 0);
 }
 
-// Delta lobes: how often each is chosen against the probability that its samples report.
+// For delta lobes, compares how often each lobe is chosen with the probability that its samples report.
 TEST(Bsdf, SpecularLobesFollowTheirProbability) {
   for (const Bsdf& b : instances()) {
     const Lobes parts = lobes(b);
     if (parts.broad || parts.glossy) continue;
     for (const Vector3& wo : kDirections) {
       SCOPED_TRACE(name_of(b) + " wo.z " + std::to_string(wo.z));
-      IndependentRandom random(8);
+      Random random(8);
       constexpr int kSamples = 20000;
       int64_t count[2] = {0, 0};
       double probability[2] = {0, 0};
@@ -176,10 +178,11 @@ TEST(Bsdf, SpecularLobesFollowTheirProbability) {
   }
 }
 
-// Relative rounding of values: three chained float roundings on either side. Of microfacets the half vector
-// is computed anew from the two directions: its slope is off by a few roundings over the cosines, which is
-// left out near grazing, and D changes by 4 over alpha for each unit of slope. Refraction's half vector and
-// its Jacobian hold differences that may be small: a thousandth.
+// Relative rounding error of a value. Both sides of a comparison chain three float roundings. For microfacets
+// the half vector is computed anew from the two directions: its slope is off by a few roundings divided by
+// the cosines, so near-grazing directions are left out, and D changes by 4 / alpha for each unit of slope.
+// The half vector of refraction and its Jacobian contain differences that may be small, which costs up to
+// 1e-3.
 double rounding_of(const Bsdf& bsdf) {
   const double plain = 8 * 0x1p-24;
   const Ggx* facets = facets_of(bsdf);
@@ -192,7 +195,7 @@ bool near_edge(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi) {
 }
 
 TEST(Bsdf, WeightIsValueTimesCosineOverDensity) {
-  IndependentRandom random(1);
+  Random random(1);
   for_each_part([&](const Bsdf& b, bool glossy) {
     const double tolerance = rounding_of(b);
     for (int i = 0; i < 2000; ++i) {
@@ -216,19 +219,20 @@ float squared_index(const Bsdf& bsdf, const Vector3& w) {
 }
 
 TEST(Bsdf, IsReciprocal) {
-  IndependentRandom random(2);
+  Random random(2);
   for (const Bsdf& b : instances()) {
     for (int i = 0; i < 2000; ++i) {
       const Vector3 wo = random.direction();
       const Vector3 wi = random.direction();
       if (near_edge(b, wo, wi)) continue;
       for (const bool glossy : {false, true}) {
-        // f over eta^2 of the side that radiance leaves to is symmetric (Veach 1997, equation 5.14).
+        // f divided by eta^2 of the side that radiance leaves to is symmetric (Veach 1997, equation 5.14).
         const Rgb there = f(b, wo, wi, glossy) / squared_index(b, wo);
         const Rgb back = f(b, wi, wo, glossy) / squared_index(b, wi);
         const bool through = !same_hemisphere(wo, wi);
-        // Sums in another order. Refraction's half vectors are of other lengths: far from the peak, where f
-        // is small, they leave out of D what they keep of digits.
+        // The two directions add the same terms in another order. The half vectors of refraction have
+        // different lengths in the two directions; far from the peak, where f is small, their rounding
+        // dominates D.
         const double tolerance = through ? 1e-2 * double(there.x) + 1e-5 : 1e-4 * double(there.x);
         if (rounding_of(b) < 1e-6) {
           EXPECT_EQ(there, back) << name_of(b);
@@ -241,15 +245,15 @@ TEST(Bsdf, IsReciprocal) {
   }
 }
 
-// White furnace: the mean weight is the directional albedo. It must not exceed one; for Lambert's it is the
-// reflectance itself.
-TEST(Bsdf, MakesNoEnergy) {
+// White furnace: the mean weight is the directional albedo, which must not exceed one. For a Lambertian
+// surface it is the reflectance.
+TEST(Bsdf, CreatesNoEnergy) {
   const float cosines[] = {1, 0.7f, 0.3f, 0.05f, 0.001f, -0.5f, -0.01f};
   for (const Bsdf& b : instances()) {
     for (const float z : cosines) {
       SCOPED_TRACE(name_of(b) + " wo.z " + std::to_string(z));
       const Vector3 wo(std::sqrt(1 - z * z), 0, z);
-      IndependentRandom random(6);
+      Random random(6);
       test::Mean albedo[3];
       for (int i = 0; i < 20000; ++i) {
         const auto s = sample(b, wo, random);
@@ -270,25 +274,25 @@ TEST(Bsdf, MakesNoEnergy) {
             lambertian.reflectance);
 }
 
-// The stated hemispherical albedo against the mean weight over cosine-distributed wo.
+// Compares the stated hemispherical albedo with the mean weight over cosine-distributed wo.
 TEST(Bsdf, AlbedoIsTheMeanOverTheHemisphere) {
   for (const Bsdf& b : instances()) {
-    // These count transmission: one by definition.
+    // The albedo of these types counts transmission, so it is one by definition.
     if (std::holds_alternative<Dielectric>(b) || std::holds_alternative<ThinDielectric>(b)) continue;
-    if (facets_of(b)) continue;  // stated for the smooth surface
-    IndependentRandom random(12);
+    if (facets_of(b)) continue;  // the albedo is stated for the smooth surface
+    Random random(12);
     test::Mean mean;
     for (int i = 0; i < 100000; ++i) {
-      const auto s = sample(b, sample_cosine_hemisphere(random.next_2d()), random);
+      const auto s = sample(b, sample_cosine_hemisphere(random.uniform_2d()), random);
       if (s) mean.add(s->transmission ? 0 : s->weight.y);
     }
-    // Eight quadrature points of the conductor's smooth curve: 1e-3.
+    // The albedo of a conductor is an integral by eight quadrature points over a smooth curve: 1e-3.
     EXPECT_NEAR(albedo(b).y, mean.mean, 4.5 * mean.standard_error() + 1e-3) << name_of(b);
   }
 }
 
 TEST(Bsdf, GrazingAndExtremeInputStayFinite) {
-  IndependentRandom random(3);
+  Random random(3);
   for (const Bsdf& b : instances()) {
     for (const float z : {0.0f, -0.0f, 1e-38f, -1e-30f, 1e-20f, 1e-7f, 1.0f, 0x1.000002p0f}) {
       const Vector3 wo(std::sqrt(std::max(0.0f, 1 - z * z)), 0, z);
@@ -306,7 +310,7 @@ TEST(OrenNayar, SigmaZeroIsLambertian) {
   const Rgb reflectance(0.2f, 0.5f, 1);
   const OrenNayar rough = OrenNayar::from_sigma_degrees(reflectance, 0);
   const Lambertian flat{reflectance};
-  IndependentRandom random(4);
+  Random random(4);
   for (int i = 0; i < 1000; ++i) {
     const Vector3 wo = random.direction();
     const Vector3 wi = random.direction();
@@ -315,8 +319,8 @@ TEST(OrenNayar, SigmaZeroIsLambertian) {
   EXPECT_EQ(rough.albedo(), flat.albedo());
 }
 
-// Against the angles of the paper's equation 30, in double.
-TEST(OrenNayar, MatchesThePapersAngles) {
+// Compares with equation 30 of Oren and Nayar's paper, which is written with angles, in double.
+TEST(OrenNayar, MatchesThePapersEquationInAngles) {
   constexpr double kSigma = 0.5;
   const OrenNayar b =
       OrenNayar::from_sigma_degrees(Rgb(0.8f), static_cast<float>(kSigma * 180 / std::numbers::pi));

@@ -1,4 +1,4 @@
-// Fresnel's factor and Snell's law against their closed forms.
+// Tests Fresnel's factor and Snell's law against their closed forms.
 
 #include "core/bsdf/fresnel.h"
 
@@ -12,7 +12,7 @@
 namespace kaustik {
 namespace {
 
-// Fresnel's amplitudes in complex double arithmetic: serves dielectrics and conductors alike.
+// Fresnel's amplitudes in complex double arithmetic, for dielectrics and conductors alike.
 double fresnel_reference(double cos_i, std::complex<double> eta) {
   const double sin2 = 1 - cos_i * cos_i;
   const std::complex<double> cos_t = std::sqrt(1.0 - sin2 / (eta * eta));
@@ -21,8 +21,8 @@ double fresnel_reference(double cos_i, std::complex<double> eta) {
   return 0.5 * (std::norm(parallel) + std::norm(perpendicular));
 }
 
-// Input as float, so that both sides see the same angle. A reflectance is a ratio of differences near one:
-// 1e-6.
+// Inputs are floats, so that both sides see the same angle. A reflectance is a ratio of differences of
+// numbers near one, which rounds by about 1e-6.
 constexpr double kTolerance = 2e-6;
 
 TEST(Fresnel, NormalIncidence) {
@@ -33,8 +33,8 @@ TEST(Fresnel, NormalIncidence) {
   }
 }
 
-// At Brewster's angle, tan = eta, only the perpendicular part is reflected: ((1 - eta^2) / (1 + eta^2))^2
-// / 2.
+// At Brewster's angle, where tan = eta, only the perpendicular part is reflected: ((1 - eta^2) / (1 +
+// eta^2))^2 / 2.
 TEST(Fresnel, BrewsterAngle) {
   for (const double eta : {1.33, 1.5, 2.4}) {
     const double r = (1 - eta * eta) / (1 + eta * eta);
@@ -56,7 +56,8 @@ TEST(Fresnel, DielectricMatchesComplexReference) {
   for (const float eta : {1.1f, 1.5f, 0.8f, 2.4f}) {
     for (int i = 1; i <= 100; ++i) {
       const float c = static_cast<float>(i) / 100;
-      // At the critical angle the curve is vertical: rounding of the angle shows as its square root.
+      // At the critical angle the curve is vertical, so a rounding error e of the angle changes the value by
+      // sqrt(e).
       if (std::abs((1 - c * c) / (eta * eta) - 1) < 1e-3f) continue;
       EXPECT_NEAR(fresnel_dielectric(c, eta), fresnel_reference(c, eta), 1e-5) << eta << " " << c;
     }
@@ -68,14 +69,14 @@ TEST(Fresnel, ConductorMatchesComplexReference) {
        {std::pair{0.2f, 3.9f}, {1.1f, 2.14f}, {2.5f, 0.1f}, {1.5f, 0.0f}, {0.05f, 10.0f}}) {
     for (int i = 0; i <= 100; ++i) {
       const float c = static_cast<float>(i) / 100;
-      // Differences of squares of index and extinction lose a few more bits.
+      // Differences of squares of the index and the extinction lose a few more bits.
       EXPECT_NEAR(fresnel_conductor(c, eta, k), fresnel_reference(c, {eta, k}), 2e-5)
           << eta << " " << k << " " << c;
     }
   }
 }
 
-// A metal of reflectance zero matches its surroundings.
+// A metal of reflectance zero matches the index of its surroundings.
 TEST(Fresnel, ConductorIsNeverNegative) {
   for (int i = 0; i <= 100'000; ++i) EXPECT_GE(fresnel_conductor(float(i) * 1e-5f, 1, 0), 0.0f) << i;
 }
@@ -103,7 +104,7 @@ TEST(Dielectric, ObeysSnellOnBothSides) {
   }
 }
 
-TEST(Dielectric, EtaOneIsStraight) {
+TEST(Dielectric, EtaOneDoesNotBendRays) {
   const Vector3 wo = glm::normalize(Vector3(0.9f, -0.3f, 0.001f));
   const auto s = Dielectric{1}.sample_f(wo, 0, {0, 0}, TransportMode::kRadiance);
   ASSERT_TRUE(s);

@@ -1,15 +1,17 @@
-// Microfacets, coats and panes against what they must be.
+// Tests microfacets, coats and panes against integrals and sums that they must reproduce.
 
 #include <gtest/gtest.h>
 
 #include "core/bsdf/bsdf.h"
 #include "core/bsdf/rough_coat.h"
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
+#include "tests/support/random.h"
+#include "tests/support/statistics.h"
 
 namespace kaustik {
 namespace {
 
-using test::IndependentRandom;
+using test::Random;
 
 const Rgb kCopperEta(0.2f, 0.92f, 1.1f), kCopperK(3.9f, 2.45f, 2.14f);
 const Vector3 kDirections[] = {{0, 0, 1},
@@ -18,8 +20,9 @@ const Vector3 kDirections[] = {{0, 0, 1},
                                glm::normalize(Vector3(-1, 0.2f, -0.3f)),
                                glm::normalize(Vector3(0.3f, -1, 0.01f))};
 
-// pbrt-v4's conventions: alpha = sqrt(roughness) unless remapping is off, smooth below 1e-3.
-TEST(Ggx, RoughnessIsPbrts) {
+// pbrt-v4's convention: alpha = sqrt(roughness) unless remapping is off, and below 1e-3 the surface is
+// smooth.
+TEST(Ggx, RoughnessFollowsPbrtsConvention) {
   EXPECT_EQ(Ggx::from_roughness(0.25f, 0.04f, true).alpha_x, 0.5f);
   EXPECT_EQ(Ggx::from_roughness(0.25f, 0.04f, true).alpha_y, 0.2f);
   EXPECT_EQ(Ggx::from_roughness(0.25f, 0.04f, false).alpha_x, 0.25f);
@@ -29,17 +32,17 @@ TEST(Ggx, RoughnessIsPbrts) {
   EXPECT_EQ(Ggx::from_roughness(1.1e-6f, 0, true).alpha_y, Ggx::kLeastAlpha);
 }
 
-// The projected area of all facets is that of the surface, and of those that w sees what w sees of it
-// (Heitz 2014, equations 4 and 14).
-TEST(Ggx, NormalsCoverTheSurface) {
+// The projected areas of all facets add up to the surface, and those that w sees add up to what w sees of the
+// surface (Heitz 2014, equations 4 and 14).
+TEST(Ggx, FacetsProjectToTheSurface) {
   for (const Ggx& g : {Ggx{0.3f, 0.3f}, Ggx{1, 1}, Ggx{0.4f, 0.8f}}) {
     for (const Vector3& w : kDirections) {
-      // Midpoints in s = tan / (1 + tan) and phi.
+      // Midpoint rule in s = tan / (1 + tan) and phi.
       constexpr int kSteps = 400;
       double area = 0, seen = 0;
       for (int i = 0; i < kSteps; ++i) {
         const double s = (i + 0.5) / kSteps, t = s / (1 - s), z = 1 / std::sqrt(1 + t * t);
-        // sin dtheta, with dtan/ds = (1 + t)^2 and dtheta/dtan = z^2.
+        // sin(theta) dtheta, with dtan/ds = (1 + t)^2 and dtheta/dtan = z^2.
         const double measure = t * z * z * z * (1 + t) * (1 + t) / kSteps;
         for (int j = 0; j < kSteps; ++j) {
           const double phi = (j + 0.5) * 2 * std::numbers::pi / kSteps;
@@ -56,8 +59,8 @@ TEST(Ggx, NormalsCoverTheSurface) {
   }
 }
 
-// Lobes change their part at the threshold, and keep their values.
-TEST(Ggx, WidthDecidesThePart) {
+// At the threshold a lobe changes from specular to diffuse and keeps its values.
+TEST(Ggx, WidthDecidesWhetherALobeIsSpecular) {
   const Vector3 wo = kDirections[2], wi = glm::normalize(Vector3(-0.8f, -0.7f, 1));
   const float a = Ggx::kNarrowAlpha;
   const Conductor narrow{kCopperEta, kCopperK, {0.999f * a, a}}, broad{kCopperEta, kCopperK, {1.001f * a, a}};
@@ -68,8 +71,9 @@ TEST(Ggx, WidthDecidesThePart) {
   EXPECT_NEAR(narrow.f_glossy(wo, wi).x, broad.f(wo, wi).x, 0.01f * broad.f(wo, wi).x);
 }
 
-// A white base under a coat that absorbs nothing loses nothing: what is reflected and what comes out after
-// all inner reflections adds up to one for every direction. Midpoint rule of 1000 points: 1e-5.
+// A white base under a coat that absorbs nothing loses no energy: for every direction, what the coat reflects
+// and what leaves after all inner reflections add up to one. The midpoint rule with 1000 points is accurate
+// to 1e-5.
 TEST(CoatedDiffuse, WhiteFurnace) {
   for (const float eta : {1.0f, 1.33f, 1.5f, 2.5f}) {
     const CoatedDiffuse b = CoatedDiffuse::from_reflectance(Rgb(1), eta);
@@ -81,22 +85,22 @@ TEST(CoatedDiffuse, WhiteFurnace) {
         const float c = (i + 0.5f) / kPoints;
         out += 2 * std::numbers::pi * double(b.f(wo, {std::sqrt(1 - c * c), 0, c}).x * c) / kPoints;
       }
-      // fresnel_diffuse() is off by 1e-6, which inner reflections under a white base multiply by up to 20.
+      // fresnel_diffuse() is off by 1e-6, which inner reflections above a white base multiply by up to 20.
       EXPECT_NEAR(out, 1, 1e-4) << eta << " " << z;
     }
   }
 }
 
-// The share of each part is that of its light: neither part's samples outweigh what the whole surface
-// scatters.
-TEST(CoatedDiffuse, PartsAddUp) {
+// Each part is chosen in proportion to its light, so that no sample of one part weighs more than what the
+// whole surface scatters.
+TEST(CoatedDiffuse, NoSampleOutweighsTheWholeSurface) {
   const CoatedDiffuse b = CoatedDiffuse::from_reflectance(Rgb(0.5f, 0.2f, 0.8f), 1.5f);
-  IndependentRandom random(9);
+  Random random(9);
   for (const Vector3& wo : kDirections) {
     test::Mean either, broad, specular;
     for (int i = 0; i < 50000; ++i) {
-      const Point2 u = random.next_2d();
-      const float uc = random.next();
+      const Point2 u = random.uniform_2d();
+      const float uc = random.uniform();
       constexpr TransportMode kMode = TransportMode::kRadiance;
       if (const auto s = b.sample_f(wo, uc, u, kMode)) either.add(double(s->weight.x));
       if (const auto s = b.sample_broad(wo, uc, u, kMode)) broad.add(double(s->weight.x));
@@ -107,8 +111,8 @@ TEST(CoatedDiffuse, PartsAddUp) {
   }
 }
 
-// Two smooth surfaces and all reflections between them, summed one by one.
-TEST(ThinDielectric, HoldsAllReflections) {
+// The reference sums all reflections between two smooth surfaces one by one.
+TEST(ThinDielectric, EqualsTheSumOfAllReflections) {
   const Vector3 wo = glm::normalize(Vector3(1, 0, 0.4f));
   const double R = double(fresnel_dielectric(wo.z, 1.5f)), T = 1 - R;
   double reflected = R;
@@ -120,23 +124,23 @@ TEST(ThinDielectric, HoldsAllReflections) {
   EXPECT_NEAR(through->pdf, 1 - reflected, 1e-6);
 }
 
-// The table against many samples of the boundary itself. Random cosines, alphas and indices; linear
-// interpolation of smooth curves.
-TEST(RoughCoat, TableIsWhatTheBoundaryDoes) {
-  IndependentRandom random(21);
+// Compares the table with many samples of the boundary itself, at random cosines, alphas and indices. The
+// table is interpolated linearly between smooth curves.
+TEST(RoughCoat, TableMatchesSamplesOfTheBoundary) {
+  Random random(21);
   for (int i = 0; i < 40; ++i) {
-    const float alpha = random.between(0.02f, 1), eta = random.between(1.05f, 3),
-                z = random.between(0.02f, 1);
+    const float alpha = random.uniform(0.02f, 1), eta = random.uniform(1.05f, 3),
+                z = random.uniform(0.02f, 1);
     const Dielectric boundary{eta, {alpha, alpha}};
     const Vector3 wo(std::sqrt(1 - z * z), 0, z);
     test::Mean through, inner;
     for (int k = 0; k < 20000; ++k) {
-      const auto s = boundary.sample_f(wo, random.next(), random.next_2d(), TransportMode::kImportance);
+      const auto s = boundary.sample_f(wo, random.uniform(), random.uniform_2d(), TransportMode::kImportance);
       through.add(s && s->transmission ? double(s->weight.x) : 0.0);
-      Vector3 from_inside = sample_cosine_hemisphere(random.next_2d());
+      Vector3 from_inside = sample_cosine_hemisphere(random.uniform_2d());
       from_inside.z = -from_inside.z;
       const auto r =
-          boundary.sample_f(from_inside, random.next(), random.next_2d(), TransportMode::kImportance);
+          boundary.sample_f(from_inside, random.uniform(), random.uniform_2d(), TransportMode::kImportance);
       inner.add(r && !r->transmission ? double(r->weight.x) : 0.0);
     }
     EXPECT_NEAR(double(rough_transmittance(z, alpha, eta)), through.mean,

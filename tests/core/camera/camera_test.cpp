@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/sampling/warp.h"
-#include "tests/core/support/statistics.h"
-#include "tests/core/support/test_tracer.h"
+#include "tests/core/support/chi_square.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik {
 namespace {
@@ -21,7 +22,7 @@ Camera camera(int width, int height, float fov) {
 TEST(PerspectiveCamera, LooksAlongZWithRowZeroOnTop) {
   const Camera c = camera(200, 100, 90);
   EXPECT_EQ(c.generate_ray({100, 50}).d, Vector3(0, 0, 1));
-  // The full angle of the shorter axis is the fov: the top edge rises by tan 45 = 1.
+  // The fov is the full angle of the shorter axis: the top edge rises by tan 45 = 1.
   const Vector3 top = c.generate_ray({100, 0}).d;
   EXPECT_NEAR(top.y / top.z, 1, 1e-6);
   const Vector3 right = c.generate_ray({200, 50}).d;
@@ -33,22 +34,23 @@ TEST(PerspectiveCamera, LooksAlongZWithRowZeroOnTop) {
 
 TEST(PerspectiveCamera, ProjectInvertsGenerateRay) {
   Camera c = camera(640, 480, 35);
-  // A mirrored, scaled frame, as scene files often give.
+  // A mirrored and scaled frame, which scene files often give.
   c.to_world = Transform::from_matrix(test::affine({-2, 0, 0, 0, 1.6, 1.2, 0, -1.2, 1.6}, {3, -4, 5}));
-  test::IndependentRandom random(1);
+  test::Random random(1);
   for (int i = 0; i < 10000; ++i) {
-    const Point2 raster(random.between(1, 639), random.between(1, 479));
+    const Point2 raster(random.uniform(1, 639), random.uniform(1, 479));
     const Ray ray = c.generate_ray(raster);
     ASSERT_NEAR(glm::length(ray.d), 1, 1e-6);
     Point2 back;
     Point3 eye;
-    ASSERT_TRUE(c.project(ray.at(random.between(1, 100)), &back, &eye));
-    // World coordinates of about 10 and a focal length of 760 pixels: 760 * 10 * 2^-24 * a few.
+    ASSERT_TRUE(c.project(ray.at(random.uniform(1, 100)), &back, &eye));
+    // World coordinates are about 10 and the focal length is 760 pixels: 760 * 10 * 2^-24 times a few
+    // roundings.
     ASSERT_LT(glm::distance(back, raster), 4e-3f);
   }
 }
 
-TEST(PerspectiveCamera, ProjectRejectsBehindAndBeside) {
+TEST(PerspectiveCamera, ProjectRejectsPointsBehindAndBesideTheImage) {
   const Camera c = camera(100, 100, 60);
   Point2 raster;
   Point3 eye;
@@ -59,9 +61,9 @@ TEST(PerspectiveCamera, ProjectRejectsBehindAndBeside) {
   EXPECT_FALSE(c.project({5, 0, 1}, &raster, &eye));
 }
 
-// A ray through any part of the lens meets the one through its middle at the focal distance; elsewhere they
-// are apart by lens |1 - z / f|, the circle of confusion.
-TEST(ThinLens, CircleOfConfusionIsThatOfTheClosedForm) {
+// Rays through all parts of the lens meet at the focal distance; at depth z they are apart by lens |1 - z /
+// f|, the circle of confusion.
+TEST(ThinLens, CircleOfConfusionMatchesTheClosedForm) {
   constexpr float kRadius = 0.1f, kFocal = 4;
   for (const Projection& projection : {Projection{PerspectiveProjection{40, {kRadius, kFocal}}},
                                        Projection{OrthographicProjection{{kRadius, kFocal}}}}) {
@@ -69,16 +71,16 @@ TEST(ThinLens, CircleOfConfusionIsThatOfTheClosedForm) {
     c.projection = projection;
     EXPECT_EQ(c.lens_radius(), kRadius);
     const RayGenerator generate(c);
-    test::IndependentRandom random(2);
+    test::Random random(2);
     for (int i = 0; i < 1000; ++i) {
-      const Point2 raster(random.between(0, 320), random.between(0, 240));
-      const Point2 lens = sample_uniform_disk_concentric(random.next_2d());
+      const Point2 raster(random.uniform(0, 320), random.uniform(0, 240));
+      const Point2 lens = sample_uniform_disk_concentric(random.uniform_2d());
       const Ray middle = generate(raster), ray = generate.through(raster, lens);
       ASSERT_NEAR(glm::length(ray.d), 1, 1e-6);
       for (const float z : {1.0f, kFocal, 9.0f}) {
         const Vector3 apart = ray.at((z - ray.o.z) / ray.d.z) - middle.at((z - middle.o.z) / middle.d.z);
         const Point2 expected = kRadius * (1 - z / kFocal) * lens;
-        // Coordinates up to 9, a few roundings each.
+        // Coordinates are at most 9 and are rounded a few times.
         ASSERT_NEAR(apart.x, expected.x, 1e-5f);
         ASSERT_NEAR(apart.y, expected.y, 1e-5f);
       }
@@ -106,22 +108,22 @@ TEST(SphericalCamera, ShowsEveryDirectionOnce) {
   for (const auto mapping : {SphericalMapping::kEquirectangular, SphericalMapping::kEqualArea}) {
     Camera c = camera(400, 200, 90);
     c.projection = SphericalProjection{mapping};
-    test::IndependentRandom random(3);
+    test::Random random(3);
     for (int i = 0; i < 10000; ++i) {
       const Vector3 d = random.direction();
       Point2 raster;
       Point3 eye;
       ASSERT_TRUE(c.project(5.0f * d, &raster, &eye));
       const Ray ray = c.generate_ray(raster);
-      // Raster positions up to 400, rounded to 2^-16: 2e-5 of a turn's 2 pi; the square roots at the poles
-      // and at the equal-area map's folds double its digits.
+      // Raster positions up to 400 are rounded to 2^-16, which is 2e-5 of a turn of 2 pi. The square roots at
+      // the poles and at the folds of the equal-area map take the square root of that.
       ASSERT_LT(glm::distance(ray.d, d), 2e-3f);
     }
   }
 }
 
-// pbrt's places: +y is up; rows of the equirectangular map run from +y to -y, columns from +x over +z.
-TEST(SphericalCamera, LooksWherePbrtDoes) {
+// pbrt's convention: +y is up; rows of the equirectangular map run from +y to -y, columns from +x over +z.
+TEST(SphericalCamera, DirectionsFollowPbrtsConvention) {
   Camera c = camera(400, 200, 90);
   c.projection = SphericalProjection{SphericalMapping::kEquirectangular};
   const auto expect_direction = [&](const Point2& raster, const Vector3& d) {
@@ -137,7 +139,7 @@ TEST(SphericalCamera, LooksWherePbrtDoes) {
   expect_direction({0, 0}, {0, -1, 0});
   expect_direction({400, 100}, {1, 0, 0});
   expect_direction({200, 200}, {0, 0, 1});
-  // A pixel filter reaches beyond the image: the sphere goes on.
+  // A pixel filter reaches beyond the image, where the map continues around the sphere.
   expect_direction({-1, 60}, c.generate_ray({1, 140}).d);
 }
 

@@ -2,19 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
+#include "tests/support/random.h"
 
 namespace kaustik {
 namespace {
 
-using test::IndependentRandom;
+using test::Random;
 
 struct Named {
   std::string name;
   FilterAxis x, y;
 };
 
-// pbrt's defaults, and one of each that is not square.
+// pbrt's defaults, and one filter of each kind with different radii in x and y.
 std::vector<Named> filters() {
   const auto axis = [](FilterKind kind, float radius) {
     FilterAxis a;
@@ -34,7 +35,8 @@ std::vector<Named> filters() {
   return all;
 }
 
-// Of f or |f| over its support, by the midpoint rule: the error of kinks is about (2 / n)^2 of it.
+// The integral of f or |f| over its support by the midpoint rule, whose error at kinks is about (2 / n)^2 of
+// it.
 double integral(const FilterAxis& f, bool modulus) {
   constexpr int kSteps = 1 << 14;
   double sum = 0;
@@ -51,8 +53,8 @@ TEST(PixelFilter, SamplesFollowItsModulus) {
     const PixelFilter filter(n.x, n.y);
     test::SquareCase c;
     c.name = n.name;
-    c.sample = [=](IndependentRandom& random, Point2* p) {
-      *p = 0.5f + 0.5f * filter.sample(random.next_2d()).offset / Point2(n.x.radius, n.y.radius);
+    c.sample = [=](Random& random, Point2* p) {
+      *p = 0.5f + 0.5f * filter.sample(random.uniform_2d()).offset / Point2(n.x.radius, n.y.radius);
       return true;
     };
     const double area = 4 * double(n.x.radius) * double(n.y.radius);
@@ -64,12 +66,14 @@ TEST(PixelFilter, SamplesFollowItsModulus) {
     c.subdivisions = 8;
     cases.push_back(std::move(c));
   }
-  // Midpoints of cells of 1/128 of the support h: |f| bends by at most pi^2 a pixel^2 and has kinks at its
-  // zeros, so that the rule is off by about pi^2 h^2 / 24 per axis: 3e-3 for sinc, where h is 1/8 of a pixel.
+  // The test evaluates |f| at the midpoints of cells of 1/128 of the support h. |f| bends by at most pi^2 per
+  // square pixel and has kinks at its zeros, so this rule is off by about pi^2 h^2 / 24 per axis: 3e-3 for
+  // sinc, where h is 1/8 of a pixel.
   test::expect_all_accepted(cases, 200000, 5e-3);
 }
 
-// Weights times density are the filter: over its mean weight it integrates to one, and it leans to no side.
+// Weights times density are the filter: divided by its mean weight it integrates to one, and its mean is the
+// pixel's centre.
 TEST(PixelFilter, WeightsIntegrateToOne) {
   constexpr int kSide = 512;
   for (const Named& n : filters()) {
@@ -85,8 +89,9 @@ TEST(PixelFilter, WeightsIntegrateToOne) {
     }
     const double expected =
         integral(n.x, false) / integral(n.x, true) * integral(n.y, false) / integral(n.y, true);
-    // The table's cells of 1/32 pixel each integrate |f| to about (1/32)^2 / 12 of its curvature; sinc bends
-    // by pi^2. The grid places sign changes to a cell of 1 / 512 on each axis, at most 14 of them.
+    // The table's cells are 1/32 pixel wide, and the integral of |f| over each is off by about (1/32)^2 / 12
+    // of its curvature, pi^2 for sinc. The grid places sign changes to within a cell of 1/512 on each axis;
+    // there are at most 14 of them.
     EXPECT_NEAR(filter.mean_weight(), expected, 2e-3);
     EXPECT_NEAR(weight / (kSide * kSide), filter.mean_weight(), 2.0 * 14 / kSide);
     EXPECT_LT(glm::length(lean) / (kSide * kSide), 14 * double(n.y.radius) / kSide);
@@ -100,8 +105,8 @@ TEST(PixelFilter, TheDefaultIsTheMeanOverThePixel) {
   EXPECT_FALSE(PixelFilter({FilterKind::kBox, 1}, {}).is_pixel_box());
 }
 
-// Closed forms at a few points (Mitchell and Netravali 1988, equation 8; Lanczos' window).
-TEST(PixelFilter, IsWhatTheFieldCallsIt) {
+// Compares with closed forms at a few points (Mitchell and Netravali 1988, equation 8; Lanczos' window).
+TEST(PixelFilter, ValuesMatchThePublishedFormulas) {
   const FilterAxis mitchell{FilterKind::kMitchell, 2};
   EXPECT_NEAR(mitchell(0), (6 - 2 / 3.0) / 6, 1e-6);
   EXPECT_NEAR(mitchell(1), 1 / 18.0, 1e-6);

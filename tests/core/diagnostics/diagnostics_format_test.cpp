@@ -21,14 +21,14 @@ TEST(Diagnostics, ShowsPlaceLineAndCaret) {
             "^\n");
 }
 
-TEST(Diagnostics, KeepsTabsSoThatTheCaretStaysBelow) {
+TEST(Diagnostics, KeepsTabsSoThatTheCaretIsAligned) {
   Diagnostics d;
   const uint32_t file = d.files.add("a", "\tx\ty");
   d.warning({file, 1, 4}, "w");
   EXPECT_EQ(d.format_all(), "a:1:4: warning: w\n\tx\ty\n\t \t^\n");
 }
 
-TEST(Diagnostics, CountsLettersOfSeveralBytesOnce) {
+TEST(Diagnostics, CountsMultibyteLettersOnce) {
   Diagnostics d;
   const uint32_t file = d.files.add("a", "\xc3\xa4\xc3\xb6 x");  // two letters of two bytes each
   d.error({file, 1, 6}, "e");
@@ -44,14 +44,14 @@ TEST(Diagnostics, CutsLongLinesAroundTheCaret) {
                                 "...\n" + std::string(53, ' ') + "^\n");
 }
 
-TEST(Diagnostics, PrintsControlCharactersAndCarriageReturnsAsNothing) {
+TEST(Diagnostics, LeavesOutControlCharactersAndCarriageReturns) {
   Diagnostics d;
   const uint32_t file = d.files.add("a", std::string("a\0b\r\nc", 6));
   d.error({file, 1, 3}, "e");
   EXPECT_EQ(d.format_all(), "a:1:3: error: e\na b\n  ^\n");
 }
 
-TEST(Diagnostics, WorksWithoutAPlace) {
+TEST(Diagnostics, FormatsMessagesWithoutALocation) {
   Diagnostics d;
   d.error({}, "no file");
   const uint32_t file = d.files.add("a", "");
@@ -60,7 +60,7 @@ TEST(Diagnostics, WorksWithoutAPlace) {
   EXPECT_EQ(d.format_all(), "error: no file\na: error: whole file\na:7:3: error: past the end\n");
 }
 
-TEST(Diagnostics, SortsByPlaceAndKeepsTheOrderWithinOne) {
+TEST(Diagnostics, SortsByLocationAndKeepsTheOrderWithinOne) {
   Diagnostics d;
   d.error({0, 2, 1}, "c");
   d.error({0, 1, 5}, "a");
@@ -73,14 +73,14 @@ TEST(Diagnostics, SortsByPlaceAndKeepsTheOrderWithinOne) {
   EXPECT_EQ(d.warning_count(), 1u);
 }
 
-TEST(NearestName, MeasuresEdits) {
+TEST(NearestName, EditDistanceCountsEditsAndSwaps) {
   EXPECT_EQ(edit_distance("", "abc"), 3u);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
   EXPECT_EQ(edit_distance("Shpae", "Shape"), 1u);  // two neighbours swapped
   EXPECT_EQ(edit_distance("FOV", "fov"), 0u);
 }
 
-TEST(NearestName, FindsWhatWasMeantOrNothing) {
+TEST(NearestName, FindsTheNearestNameWithinReach) {
   const std::array<std::string_view, 3> names = {"reflectance", "sigma", "eta"};
   EXPECT_EQ(nearest_name("reflectanc", names), "reflectance");
   EXPECT_EQ(nearest_name("etta", names), "eta");

@@ -14,7 +14,7 @@ std::string hash_of(std::string_view text) {
   return hash.text();
 }
 
-TEST(ContentHash, DoesNotDependOnHowTheBytesAreCut) {
+TEST(ContentHash, DoesNotDependOnHowTheBytesAreSplit) {
   std::mt19937 random(1);
   std::string text(1000, '\0');
   for (char& c : text) c = static_cast<char>(random());
@@ -30,8 +30,8 @@ TEST(ContentHash, DoesNotDependOnHowTheBytesAreCut) {
   EXPECT_EQ(hash_of(text).size(), 32u);
 }
 
-// Every bit of every byte, zeros at the end, order: all count.
-TEST(ContentHash, TellsContentsApart) {
+// Every bit of every byte, zeros at the end and the order of the bytes change the hash.
+TEST(ContentHash, DiffersForDifferentContents) {
   std::set<std::string> seen;
   std::string text = "twenty bytes of text";
   EXPECT_TRUE(seen.insert(hash_of(text)).second);

@@ -1,4 +1,4 @@
-// Exact spheres and disks, and surface points rebuilt from hits.
+// Tests the intersection of rays with spheres and disks, and surface points rebuilt from hits.
 
 #include <gtest/gtest.h>
 
@@ -6,20 +6,22 @@
 
 #include "core/geometry/interaction.h"
 #include "core/geometry/sphere_lanes.h"
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
 #include "tests/core/support/test_tracer.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik {
 namespace {
 
 using test::affine;
-using test::IndependentRandom;
+using test::Random;
 
 Sphere unit_at(const Point3& center, float radius = 1) {
   return Sphere{Transform::from_matrix(affine(glm::dmat3(radius), center))};
 }
 
-// The quadratic of a round sphere in double.
+// Solves the quadratic of a round sphere in double.
 double sphere_reference(const Point3& center, double r, const Ray& ray) {
   const glm::dvec3 o = glm::dvec3(ray.o) - glm::dvec3(center), d(ray.d);
   const double a = glm::dot(d, d), b = glm::dot(o, d), c = glm::dot(o, o) - r * r;
@@ -32,31 +34,31 @@ double sphere_reference(const Point3& center, double r, const Ray& ray) {
 }
 
 TEST(IntersectSphere, MatchesDoubleReference) {
-  IndependentRandom random(1);
+  Random random(1);
   int hits = 0;
   for (int i = 0; i < 100000; ++i) {
     const Point3 center = 10.0f * random.direction();
-    const float radius = random.between(0.1f, 12);
-    const Point3 target = center + radius * random.between(0, 0.99f) * random.direction();
-    const Point3 o = random.between(0, 30) * random.direction();
-    const Ray ray{o, random.between(0.1f, 10) * (target - o)};
+    const float radius = random.uniform(0.1f, 12);
+    const Point3 target = center + radius * random.uniform(0, 0.99f) * random.direction();
+    const Point3 o = random.uniform(0, 30) * random.direction();
+    const Ray ray{o, random.uniform(0.1f, 10) * (target - o)};
     const double expected = sphere_reference(center, radius, ray);
     const float t = intersect_sphere(unit_at(center, radius), ray);
-    // Starting within rounding of the surface decides between two roots: not asked here.
+    // Origins within rounding of the surface are skipped: rounding decides there between two roots.
     if (std::abs(glm::distance(o, center) - radius) < 1e-3f * (radius + 10)) continue;
     ASSERT_TRUE(std::isfinite(t) == std::isfinite(expected));
     if (!std::isfinite(expected)) continue;
     ++hits;
-    // The target's offset of up to 0.99 radii amplifies rounding by 1/sqrt(1 - 0.99^2) = 7.
+    // The ray aims up to 0.99 radii off the centre, which amplifies rounding by 1/sqrt(1 - 0.99^2) = 7.
     const double scale = (glm::length(o) + glm::length(center) + radius) / glm::length(ray.d);
     ASSERT_NEAR(t, expected, 64 * 0x1p-24 * scale);
   }
   EXPECT_GT(hits, 50000);
 }
 
-// From a distance of 10^6 radii the plain quadratic has lost the sphere; here a grazing ray at 99 % of the
-// radius still hits and one at 101 % misses.
-TEST(IntersectSphere, FarAwayKeepsItsOutline) {
+// From a distance of 10^6 radii the textbook quadratic has lost all precision. Here a grazing ray at 99 % of
+// the radius must still hit, and one at 101 % must miss.
+TEST(IntersectSphere, OutlineIsPreciseFromFarAway) {
   const Sphere s = unit_at({0, 0, 0});
   const float distance = 0x1p20f;
   EXPECT_TRUE(std::isfinite(intersect_sphere(s, {{0, 0.99f, -distance}, {0, 0, 1}})));
@@ -64,7 +66,7 @@ TEST(IntersectSphere, FarAwayKeepsItsOutline) {
   EXPECT_EQ(intersect_sphere(s, {{0, 0, -distance}, {0, 0, 1}}), distance - 1);
 }
 
-TEST(IntersectSphere, InsideGrazingBehindAndLimits) {
+TEST(IntersectSphere, OriginsInsideTangentsAndRangeLimits) {
   const Sphere s = unit_at({0, 0, 5}, 2);
   EXPECT_FLOAT_EQ(intersect_sphere(s, {{0, 0, 0}, {0, 0, 1}}), 3);
   EXPECT_FLOAT_EQ(intersect_sphere(s, {{0, 0, 5}, {0, 0, 1}}), 2);   // from the centre
@@ -72,7 +74,7 @@ TEST(IntersectSphere, InsideGrazingBehindAndLimits) {
   EXPECT_FLOAT_EQ(intersect_sphere(s, {{0, 0, 0}, {0, 0, 0.5f}}), 6);
   EXPECT_FALSE(std::isfinite(intersect_sphere(s, {{0, 0, 0}, {0, 0, -1}})));
   EXPECT_FALSE(std::isfinite(intersect_sphere(s, {{0, 0, 0}, {0, 0, 1}, 2.9f})));
-  EXPECT_FALSE(std::isfinite(intersect_sphere(s, {{0, 0, 0}, {0, 0, 1}, 3})));  // the end is open
+  EXPECT_FALSE(std::isfinite(intersect_sphere(s, {{0, 0, 0}, {0, 0, 1}, 3})));  // t_max is excluded
   EXPECT_FLOAT_EQ(intersect_sphere(s, {{2, 0, 0}, {0, 0, 1}}), 5);              // tangent: touches exactly
   EXPECT_FALSE(std::isfinite(intersect_sphere(s, {{2.0001f, 0, 0}, {0, 0, 1}})));
 }
@@ -86,7 +88,7 @@ TEST(IntersectSphere, EllipsoidAndItsNormal) {
   EXPECT_NEAR(hit.t, 9 - x, 1e-5);
   const SurfaceInteraction si = make_interaction({shape}, ray, hit);
   EXPECT_LT(glm::distance(si.p, Point3(glm::dvec3(1 + x, 0.5, 0))), 4e-6);
-  // Gradient of the implicit form.
+  // The expected normal is the gradient of the implicit form.
   EXPECT_LT(glm::distance(si.n, Normal3(glm::normalize(glm::dvec3(x / 9, 0.5, 0)))), 1e-6);
 }
 
@@ -104,13 +106,13 @@ TEST(IntersectDisk, HitsTheAnnulusOnly) {
 }
 
 TEST(Interaction, NormalsFollowOrientation) {
-  Shape shape = test::triangle_shape({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  Shape shape = test::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   const Ray ray{{0.25f, 0.25f, 1}, {0, 0, -1}};
   const Hit hit = test::brute_force({shape}, ray);
   EXPECT_EQ(make_interaction({shape}, ray, hit).n, Normal3(0, 0, 1));
   shape.flip_normal = true;
   EXPECT_EQ(make_interaction({shape}, ray, hit).n, Normal3(0, 0, -1));
-  // Vertex normals win over flip_normal and pull n into their hemisphere.
+  // Vertex normals take precedence over flip_normal and put n into their hemisphere.
   auto& mesh = std::get<TriangleMesh>(shape.geometry);
   mesh.N = {{0.6f, 0, 0.8f}, {0, 0, 1}, {0, 0, 1}};
   SurfaceInteraction si = make_interaction({shape}, ray, hit);
@@ -123,7 +125,7 @@ TEST(Interaction, NormalsFollowOrientation) {
 }
 
 TEST(Interaction, CarriesTheShapesIndices) {
-  std::vector<Shape> shapes = {test::sphere_shape({0, 0, 5}, 1), test::sphere_shape({0, 0, 10}, 1)};
+  std::vector<Shape> shapes = {test::sphere({0, 0, 5}, 1), test::sphere({0, 0, 10}, 1)};
   shapes[1].material = 3;
   shapes[1].light = 2;
   shapes[1].surface_group = 7;
@@ -138,13 +140,13 @@ TEST(Interaction, CarriesTheShapesIndices) {
 }
 
 TEST(Shape, AreasAndBounds) {
-  EXPECT_NEAR(surface_area(test::triangle_shape({0, 0, 0}, {2, 0, 0}, {0, 3, 0})), 3, 1e-12);
-  EXPECT_NEAR(surface_area(test::sphere_shape({1, 2, 3}, 2)), 16 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(surface_area(test::triangle({0, 0, 0}, {2, 0, 0}, {0, 3, 0})), 3, 1e-12);
+  EXPECT_NEAR(surface_area(test::sphere({1, 2, 3}, 2)), 16 * std::numbers::pi, 1e-9);
   Shape shape;
-  // Prolate spheroid, half-axes 1, 1, c: 2 pi (1 + c/e asin e), e^2 = 1 - 1/c^2.
+  // Area of a prolate spheroid of half-axes 1, 1, c: 2 pi (1 + c/e asin e), e^2 = 1 - 1/c^2.
   const double c = 3, e = std::sqrt(1 - 1 / (c * c));
   shape.geometry = Sphere{Transform::from_matrix(affine({1, 0, 0, 0, c, 0, 0, 0, 1}, {0, 0, 0}))};
-  // The quadrature's own error, second order in 1/128.
+  // The quadrature's own error is of second order in 1/128.
   EXPECT_NEAR(surface_area(shape) / (2 * std::numbers::pi * (1 + c / e * std::asin(e))), 1, 1e-3);
   const Bounds3 b = bounds_of(shape);
   for (int axis = 0; axis < 3; ++axis) {
@@ -156,13 +158,13 @@ TEST(Shape, AreasAndBounds) {
   EXPECT_EQ(primitive_count(shape), 1u);
 }
 
-// Ellipsoids and spheres of all sizes, from inside, outside and on the surface, with and without an end, and
-// counts that fill no lanes.
-TEST(IntersectSphere, LanesAreTheScalarCodeBitForBit) {
-  IndependentRandom random(5);
+// Ellipsoids and spheres of all sizes, with origins inside, outside and on the surface, with and without
+// t_max, and counts that do not fill a vector.
+TEST(IntersectSphere, LanesMatchTheScalarCodeBitForBit) {
+  Random random(5);
   int hits = 0;
   for (int i = 0; i < 20000; ++i) {
-    glm::dmat3 linear(std::ldexp(1.0, static_cast<int>(random.between(-20, 20))));
+    glm::dmat3 linear(std::ldexp(1.0, static_cast<int>(random.uniform(-20, 20))));
     if (i % 2) linear[1] *= 3.0;
     const Point3 center = 10.0f * random.direction();
     const Sphere sphere{Transform::from_matrix(affine(linear, center))};
@@ -170,10 +172,10 @@ TEST(IntersectSphere, LanesAreTheScalarCodeBitForBit) {
     const float size = static_cast<float>(linear[0][0]);
     std::array<Ray, kSphereLanes> rays;
     for (size_t k = 0; k < kSphereLanes; ++k) {
-      const float reach = k % 4 == 0 ? 1.0f : random.between(0, 3);
+      const float reach = k % 4 == 0 ? 1.0f : random.uniform(0, 3);
       const Point3 from = center + reach * size * random.direction();
-      const Point3 to = center + random.between(0, 1.5f) * size * random.direction();
-      rays[k] = {from, random.between(0.1f, 10) * (to - from), k % 3 ? kInfinity : random.between(0, 2)};
+      const Point3 to = center + random.uniform(0, 1.5f) * size * random.direction();
+      rays[k] = {from, random.uniform(0.1f, 10) * (to - from), k % 3 ? kInfinity : random.uniform(0, 2)};
       for (int c = 0; c < 3; ++c) {
         o[c][k] = rays[k].o[c];
         d[c][k] = rays[k].d[c];

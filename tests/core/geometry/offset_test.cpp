@@ -1,17 +1,20 @@
-// Rays that leave a surface never meet it again, at any scale, and scaling by 2^k scales every bit.
+// Tests that a ray leaving a surface never meets it again, at any scale, and that scaling by 2^k scales every
+// result exactly.
 
 #include <gtest/gtest.h>
 
 #include "core/geometry/interaction.h"
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
 #include "tests/core/support/test_tracer.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik {
 namespace {
 
-using test::IndependentRandom;
+using test::Random;
 
-// A triangle test as a robust float intersector does it: everything relative to the origin, the plane
+// A triangle test as in a robust float intersector: it works relative to the ray's origin and takes the plane
 // distance from the rounded cross product.
 bool float_triangle_hit(const TriangleMesh& mesh, const Ray& ray) {
   const Vector3 v0 = mesh.P[0] - ray.o, v1 = mesh.P[1] - ray.o, v2 = mesh.P[2] - ray.o;
@@ -42,17 +45,17 @@ bool meets(const Shape& shape, const Ray& ray) {
   return test::brute_force({shape}, ray).valid();
 }
 
-Point3 random_point(IndependentRandom& random, float size) {
-  return {random.between(-size, size), random.between(-size, size), random.between(-size, size)};
+Point3 random_point(Random& random, float size) {
+  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
 
-// Height over longest edge of at least 1/50: of needles thinner than that the float normal itself is unsure.
-Shape random_triangle(IndependentRandom& random) {
+// The height is at least 1/50 of the longest edge: the float normal of thinner needles is itself imprecise.
+Shape random_triangle(Random& random) {
   for (;;) {
-    const Point3 at = random_point(random, std::exp2(random.between(-4, 10)));
-    const float size = std::exp2(random.between(-4, 6));
-    const Shape shape = test::triangle_shape(at + random_point(random, size), at + random_point(random, size),
-                                             at + random_point(random, size));
+    const Point3 at = random_point(random, std::exp2(random.uniform(-4, 10)));
+    const float size = std::exp2(random.uniform(-4, 6));
+    const Shape shape = test::triangle(at + random_point(random, size), at + random_point(random, size),
+                                       at + random_point(random, size));
     const auto& P = std::get<TriangleMesh>(shape.geometry).P;
     const Vector3 a = P[1] - P[0], b = P[2] - P[0], c = P[2] - P[1];
     const float longest2 = std::max(length_squared(a), std::max(length_squared(b), length_squared(c)));
@@ -60,35 +63,35 @@ Shape random_triangle(IndependentRandom& random) {
   }
 }
 
-Shape random_sphere(IndependentRandom& random) {
-  return test::sphere_shape(random_point(random, std::exp2(random.between(-4, 10))),
-                            std::exp2(random.between(-4, 6)));
+Shape random_sphere(Random& random) {
+  return test::sphere(random_point(random, std::exp2(random.uniform(-4, 10))),
+                      std::exp2(random.uniform(-4, 6)));
 }
 
-// Rotated, unequal half-axes within a factor of eight.
-Shape random_ellipsoid(IndependentRandom& random) {
+// Rotated, with unequal half-axes within a factor of eight.
+Shape random_ellipsoid(Random& random) {
   const Frame f = Frame::from_z(random.direction());
   glm::mat3 m(f.x, f.y, f.z);
-  for (int c = 0; c < 3; ++c) m[c] *= std::exp2(random.between(0, 3));
+  for (int c = 0; c < 3; ++c) m[c] *= std::exp2(random.uniform(0, 3));
   Shape shape;
   shape.geometry = Sphere{Transform::from_matrix(test::affine(glm::dmat3(m), random_point(random, 100)))};
   return shape;
 }
 
-Shape random_disk(IndependentRandom& random) {
+Shape random_disk(Random& random) {
   Shape shape = random_ellipsoid(random);
   const Transform t = std::get<Sphere>(shape.geometry).to_world;
   shape.geometry = Disk{t, 0.25f};
   return shape;
 }
 
-// A hit at a random place of the shape, from outside.
-bool random_hit(IndependentRandom& random, const Shape& shape, Ray* ray, Hit* hit) {
+// A hit at a random place of the shape, by a ray from outside.
+bool random_hit(Random& random, const Shape& shape, Ray* ray, Hit* hit) {
   const Bounds3 b = bounds_of(shape);
   const Point3 o = b.center() + 3 * b.radius() * random.direction();
   Point3 target = b.center() + 0.5f * b.radius() * random.direction();
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
-    const float r = random.next(), s = random.next() * (1 - r);
+    const float r = random.uniform(), s = random.uniform() * (1 - r);
     target = mesh->P[0] + (r * (mesh->P[1] - mesh->P[0]) + s * (mesh->P[2] - mesh->P[0]));
   }
   *ray = {o, glm::normalize(target - o)};
@@ -96,17 +99,17 @@ bool random_hit(IndependentRandom& random, const Shape& shape, Ray* ray, Hit* hi
   return hit->valid();
 }
 
-// Any direction on a random side, often grazing.
-Vector3 random_leaving(IndependentRandom& random, const Normal3& n) {
+// A direction on a random side of the surface, often a grazing one.
+Vector3 random_leaving(Random& random, const Normal3& n) {
   const Vector3 w = random.direction();
-  const float grazing = std::exp2(-random.between(0, 20));
+  const float grazing = std::exp2(-random.uniform(0, 20));
   return glm::normalize(w - (1 - grazing) * glm::dot(w, n) * n);
 }
 
-using Generator = Shape (*)(IndependentRandom&);
+using Generator = Shape (*)(Random&);
 
 void expect_no_self_hits(Generator generate, bool closed) {
-  IndependentRandom random(1);
+  Random random(1);
   int tested = 0;
   for (int i = 0; i < 200000; ++i) {
     const Shape shape = generate(random);
@@ -115,7 +118,7 @@ void expect_no_self_hits(Generator generate, bool closed) {
     if (!random_hit(random, shape, &ray, &hit)) continue;
     const SurfaceInteraction si = make_interaction({shape}, ray, hit);
     const Vector3 w = random_leaving(random, si.n);
-    if (closed && glm::dot(w, si.n) < 0) continue;  // would cross the inside and rightly meet the far wall
+    if (closed && glm::dot(w, si.n) < 0) continue;  // crosses the inside and meets the far wall
     ASSERT_FALSE(meets(shape, si.spawn(w))) << i;
     ++tested;
   }
@@ -135,9 +138,9 @@ TEST(OffsetOrigin, NoSelfHitsOnDisks) {
   expect_no_self_hits(random_disk, false);
 }
 
-// Into a sphere: the next hit is the far wall, a chord of 2 r cos away, never the entry point.
+// A ray into a sphere next hits the far wall, at a chord of 2 r cos, never its entry point.
 TEST(OffsetOrigin, RefractedRayReachesTheFarWall) {
-  IndependentRandom random(2);
+  Random random(2);
   for (int i = 0; i < 100000; ++i) {
     const Shape shape = random_sphere(random);
     Ray ray;
@@ -150,14 +153,15 @@ TEST(OffsetOrigin, RefractedRayReachesTheFarWall) {
     const Hit far_hit = test::brute_force({shape}, si.spawn(w));
     ASSERT_TRUE(far_hit.valid());
     const float radius = std::get<Sphere>(shape.geometry).to_world.linear[0].x;
-    // The chord ends where sphere and ray cross at the angle of `cosine`, which magnifies the offset.
+    // At the end of the chord the angle between sphere and ray has the cosine `cosine`, which divides the
+    // offset's error.
     ASSERT_NEAR(far_hit.t, 2 * radius * cosine, 4 * (si.p_error + 16 * 0x1p-24f * radius) / cosine);
   }
 }
 
-// Hit, surface point, bound and next origin at scale 2^k are those at scale one, times 2^k, to the bit.
+// Hit, surface point, error bound and next origin at scale 2^k are exactly those at scale one times 2^k.
 void expect_exact_scaling(Generator generate) {
-  IndependentRandom random(3);
+  Random random(3);
   for (int i = 0; i < 2000; ++i) {
     const Shape shape = generate(random);
     Ray ray;

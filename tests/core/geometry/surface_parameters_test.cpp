@@ -1,4 +1,5 @@
-// uv of shapes and its derivatives: pbrt-v4's conventions, worked out by hand from its manual's formulas.
+// Tests uv of shapes and its derivatives against values worked out by hand from the formulas of pbrt-v4's
+// manual.
 
 #include "core/geometry/surface_parameters.h"
 
@@ -28,8 +29,9 @@ void expect_near(const Vector3& a, const Vector3& b, float tolerance) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance);
 }
 
-// u = phi / (2 pi) from +x towards +y, v = 0 at -z and 1 at +z. Some roundings of float: 4e-6.
-TEST(SurfaceParameters, OfASphere) {
+// u = phi / (2 pi) from +x towards +y; v = 0 at -z and 1 at +z. The tolerance of 4e-6 is a few float
+// roundings.
+TEST(SurfaceParameters, SphereMatchesPbrtsFormulas) {
   const Shape shape = sphere_of();
   const SurfaceParameters x = surface_parameters(shape, hit_from(shape, {3, 0, 0}, {-1, 0, 0}));
   expect_near({x.uv, 0}, {0, 0.5f, 0}, 4e-6f);
@@ -42,8 +44,8 @@ TEST(SurfaceParameters, OfASphere) {
   expect_near({z.uv, 0}, {0.25f, 0.75f, 0}, 4e-6f);
 }
 
-// The poles have no phi: derivatives stay finite and are no line.
-TEST(SurfaceParameters, OfPoles) {
+// At the poles phi is undefined: the derivatives stay finite and linearly independent.
+TEST(SurfaceParameters, PolesHaveFiniteIndependentDerivatives) {
   const Shape shape = sphere_of();
   for (const float z : {-3.0f, 3.0f}) {
     const SurfaceParameters pole = surface_parameters(shape, hit_from(shape, {0, 0, z}, {0, 0, -z}));
@@ -52,9 +54,9 @@ TEST(SurfaceParameters, OfPoles) {
   }
 }
 
-// u = phi / (2 pi), v = (radius - r) / (radius - innerradius). At r = 3/4 of an annulus of inner radius 1/2:
+// u = phi / (2 pi), v = (radius - r) / (radius - innerradius). At r = 3/4 of an annulus of inner radius 1/2,
 // v = 1/2.
-TEST(SurfaceParameters, OfADisk) {
+TEST(SurfaceParameters, DiskMatchesPbrtsFormulas) {
   Shape shape;
   shape.geometry = Disk{Transform::from_matrix(glm::scale(glm::dmat4(1), glm::dvec3(2))), 0.5f};
   const SurfaceParameters x = surface_parameters(shape, hit_from(shape, {0, 1.5f, 1}, {0, 0, -1}));
@@ -78,43 +80,44 @@ SurfaceParameters on_triangle(const Shape& shape, float b1, float b2) {
   return surface_parameters(shape, make_interaction({shape}, {}, {1, 0, 0, {b1, b2}}));
 }
 
-// Without uv the corners are (0, 0), (1, 0), (1, 1): at b = (1/2, 1/4, 1/4) uv = (1/2, 1/4). P(u, v) =
-// P0 + u (P1 - P0) + v (P2 - P1).
-TEST(SurfaceParameters, OfATriangleWithoutUv) {
+// Without uv the corners have (0, 0), (1, 0), (1, 1): at b = (1/2, 1/4, 1/4) uv = (1/2, 1/4). P(u, v) = P0 +
+// u (P1 - P0) + v (P2 - P1).
+TEST(SurfaceParameters, TriangleWithoutUvUsesDefaultCorners) {
   const SurfaceParameters s = on_triangle(triangle_of({}), 0.25f, 0.25f);
   EXPECT_EQ(s.uv, Point2(0.5f, 0.25f));
   EXPECT_EQ(s.dpdu, Vector3(2, 0, 0));
   EXPECT_EQ(s.dpdv, Vector3(-2, 4, 0));
 }
 
-TEST(SurfaceParameters, OfATriangleWithUv) {
+TEST(SurfaceParameters, TriangleWithUvInterpolatesThem) {
   const SurfaceParameters s = on_triangle(triangle_of({{1, 1}, {1, 2}, {3, 1}}), 0.5f, 0.25f);
   EXPECT_EQ(s.uv, Point2(1.5f, 1.5f));
   EXPECT_EQ(s.dpdu, Vector3(0, 2, 0));
   EXPECT_EQ(s.dpdv, Vector3(2, 0, 0));
 }
 
-// uv on one line: two tangents at right angles, of the size of the triangle.
-TEST(SurfaceParameters, OfDegenerateUv) {
+// Where uv lie on one line the tangents are two perpendicular vectors of the triangle's size.
+TEST(SurfaceParameters, DegenerateUvGiveAnyTangentFrame) {
   const SurfaceParameters s = on_triangle(triangle_of({{0, 0}, {1, 1}, {2, 2}}), 0.5f, 0.25f);
   EXPECT_NEAR(glm::length(glm::cross(s.dpdu, s.dpdv)), 4, 1e-5f);
   EXPECT_NEAR(s.dpdu.z, 0, 1e-6f);
 }
 
-// dndu and dndv against differences of the shading normal over a step of 1e-2 in barycentrics: the second
-// derivative of these normals is below 2, so the error is below 2e-2.
-TEST(SurfaceParameters, NormalsTurnAsTheirDerivativesSay) {
+// Compares dndu and dndv with differences of the shading normal over a step of 1e-2 in barycentrics. The
+// second derivative of these normals is below 2, so the error is below 2e-2.
+TEST(SurfaceParameters, NormalDerivativesMatchDifferences) {
   const Shape shape = triangle_of({}, {Normal3(-0.3f, 0, 1), Normal3(0.3f, 0, 1), Normal3(0, 0.5f, 1)});
   const auto ns = [&](float b1, float b2) { return make_interaction({shape}, {}, {1, 0, 0, {b1, b2}}).ns; };
   constexpr float kStep = 1e-2f;
   const SurfaceParameters s = on_triangle(shape, 0.25f, 0.25f);
-  // One step of u is b1 + 1; one step of v is b2 + 1, b1 - 1.
+  // Increasing u by one adds 1 to b1; increasing v by one adds 1 to b2 and takes 1 from b1.
   expect_near((ns(0.25f + kStep, 0.25f) - ns(0.25f, 0.25f)) / kStep, s.dndu, 2e-2f);
   expect_near((ns(0.25f - kStep, 0.25f + kStep) - ns(0.25f, 0.25f)) / kStep, s.dndv, 2e-2f);
 }
 
-// The same of ellipsoids, inside and out: differences over 1e-3 in uv, by the ray to the shifted point.
-TEST(SurfaceParameters, OfAnEllipsoid) {
+// Compares the derivatives of ellipsoids, hit from inside and outside, with differences over 1e-3 in uv; the
+// shifted point is found by the ray to it.
+TEST(SurfaceParameters, EllipsoidDerivativesMatchDifferences) {
   const glm::dmat4 m =
       glm::scale(glm::rotate(glm::dmat4(1), 0.4, glm::dvec3(1, 2, 3)), glm::dvec3(1, 2, 0.5));
   for (const bool flip : {false, true}) {
@@ -129,8 +132,8 @@ TEST(SurfaceParameters, OfAnEllipsoid) {
     const SurfaceInteraction si = at(0.3, 0.4), u = at(0.301, 0.4), v = at(0.3, 0.401);
     const SurfaceParameters s = surface_parameters(shape, si);
     expect_near({s.uv, 0}, {0.3f, 0.4f, 0}, 1e-5f);
-    // Second derivatives are below (2 pi)^2 times the axes: half of it times the step, and float rounding of
-    // 1e-6 over the step.
+    // The second derivatives are below (2 pi)^2 times the axes. The error is half of that times the step,
+    // plus float rounding of 1e-6 over the step.
     constexpr float kTolerance = 0.5f * 40 * 2 * 1e-3f + 2e-3f;
     expect_near((u.p - si.p) / 0.001f, s.dpdu, kTolerance);
     expect_near((v.p - si.p) / 0.001f, s.dpdv, kTolerance);

@@ -1,17 +1,19 @@
-// What a textured light emits, and how evenly photons share it.
+// Tests what a textured area light emits and how evenly its photons share the flux.
 
 #include "core/light/image/emission_image.h"
 
 #include <gtest/gtest.h>
 
 #include "core/light/area.h"
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
 #include "tests/core/support/test_tracer.h"
+#include "tests/support/random.h"
+#include "tests/support/statistics.h"
 
 namespace kaustik {
 namespace {
 
-using test::IndependentRandom;
+using test::Random;
 
 std::shared_ptr<const LightImage> image_of(int width, int height, std::vector<Rgb> pixels) {
   return std::make_shared<const LightImage>(LightImage{width, height, std::move(pixels)});
@@ -33,48 +35,48 @@ TEST(EmissionImage, LowerLeftIsZero) {
   EXPECT_EQ(light.image->value({1, 0}), Rgb(4));
   EXPECT_EQ(light.image->value({0, 1}), Rgb(1));
   EXPECT_EQ(light.image->value({0.5f, 0.5f}), Rgb(2.5f));
-  // Clamped, not repeated; what is no number reads a corner.
+  // Lookups are clamped, not repeated; NaN reads a corner.
   EXPECT_EQ(light.image->value({7, -3}), Rgb(4));
   EXPECT_EQ(light.image->value({std::nanf(""), 1}), Rgb(1));
   EXPECT_EQ(light.image->mean_of_pixels(), Rgb(2.5f));
-  // By a rule of eight points a pixel, which meets the clamped edges' kinks.
+  // The integral uses eight points a pixel, and crosses the kinks of the clamped edges.
   EXPECT_NEAR(light.power().x, kPi * 2.5f, 1e-3f * kPi * 2.5f);
 }
 
-// uv that the sampled point has is the one that a ray sees there.
-TEST(EmissionImage, SampledPlacesAreThoseThatAreMet) {
+// The uv of a sampled point are those that a ray finds there.
+TEST(EmissionImage, SampledPointsHaveTheUvThatRaysFind) {
   std::vector<Shape> shapes = {square()};
   const auto image = image_of(3, 2, {Rgb(1), Rgb(9), Rgb(2), Rgb(5), Rgb(0), Rgb(3)});
   const auto light = *DiffuseAreaLight::make(shapes[0], Rgb(1), true, image);
-  IndependentRandom random(3);
+  Random random(3);
   const Point3 eye(0.4f, 0.7f, 1);
   for (int i = 0; i < 2000; ++i) {
-    const auto s = light.sample_Li(eye, random.next_2d());
+    const auto s = light.sample_Li(eye, random.uniform_2d());
     ASSERT_TRUE(s);
     const Ray ray{eye, s->wi};
     const Hit hit = test::brute_force(shapes, ray);
-    if (!hit.valid()) continue;  // the rim
+    if (!hit.valid()) continue;  // missed at the rim
     const SurfaceInteraction si = make_interaction(shapes, ray, hit);
-    // The image's slope is below 9 a pixel of a third; points are known to 1e-6.
+    // The image's slope is below 9 per pixel, a pixel is a third of the shape, and points are known to 1e-6.
     EXPECT_NEAR(light.Le(si, -s->wi).x, s->Li.x, 1e-4f);
   }
 }
 
-// Photons of one colour: a picture of one colour gives each the same flux. Where colour rises from nothing
-// along both sides of a cell its corner has three times the root mean square, and more where a cell begins in
-// the dark, but few do. Choosing points evenly, the brightest would carry 100 times the mean here, and the
-// standard deviation would be 5 means.
+// Photons of a light of one colour should have nearly equal flux: a uniform picture gives each the same.
+// Where brightness rises from zero along both sides of a cell its corner has three times the root mean
+// square, and more where a cell begins in the dark, but few photons start there. If points were chosen
+// evenly, the brightest would carry 100 times the mean here, and the standard deviation would be 5 means.
 TEST(EmissionImage, PhotonsCarryNearlyTheSameFlux) {
   std::vector<Rgb> pixels(16 * 16, Rgb(0.02f));
   pixels[5 * 16 + 9] = pixels[12 * 16 + 2] = Rgb(10);
   for (const bool even : {true, false}) {
     const auto image = even ? image_of(1, 1, {Rgb(2)}) : image_of(16, 16, pixels);
     const auto light = *DiffuseAreaLight::make(square(), Rgb(1), false, image);
-    IndependentRandom random(5);
+    Random random(5);
     test::Mean mean;
     float most = 0;
     for (int i = 0; i < 20000; ++i) {
-      const auto s = light.sample_Le(random.next_2d(), random.next_2d(), EmissionMode::kCosine);
+      const auto s = light.sample_Le(random.uniform_2d(), random.uniform_2d(), EmissionMode::kCosine);
       if (!s) continue;
       mean.add(double(s->flux.x));
       most = std::max(most, s->flux.x);
@@ -85,7 +87,7 @@ TEST(EmissionImage, PhotonsCarryNearlyTheSameFlux) {
   }
 }
 
-// Many small triangles, each of one colour.
+// Many small triangles, each with one colour.
 TEST(EmissionImage, DarkTrianglesAreSeldomChosen) {
   Shape strip;
   TriangleMesh mesh;
@@ -99,17 +101,18 @@ TEST(EmissionImage, DarkTrianglesAreSeldomChosen) {
   std::vector<Rgb> pixels(50, Rgb(0));
   pixels[30] = Rgb(1);
   const auto light = *DiffuseAreaLight::make(strip, Rgb(1), false, image_of(50, 1, pixels));
-  IndependentRandom random(7);
+  Random random(7);
   int dark = 0;
   for (int i = 0; i < 10000; ++i) {
-    const auto s = light.sample_Le(random.next_2d(), random.next_2d(), EmissionMode::kCosine);
+    const auto s = light.sample_Le(random.uniform_2d(), random.uniform_2d(), EmissionMode::kCosine);
     dark += s && is_black(s->flux);
   }
-  // The share that is spread evenly: 1 in 33, of which nearly all is dark. Five standard deviations.
+  // A share of 1 in 33 is spread evenly, and nearly all of that lands on dark triangles. The tolerance is
+  // five standard deviations.
   EXPECT_NEAR(dark, 10000 / 33.0, 5 * std::sqrt(10000 / 33.0));
 }
 
-TEST(EmissionImage, ABlackImageIsALightThatGivesNothing) {
+TEST(EmissionImage, BlackImageEmitsNothing) {
   const auto light = *DiffuseAreaLight::make(square(), Rgb(1), false, image_of(1, 1, {Rgb(0)}));
   EXPECT_EQ(light.power(), Rgb(0));
   const auto s = light.sample_Le({0.3f, 0.4f}, {0.5f, 0.6f}, EmissionMode::kCosine);

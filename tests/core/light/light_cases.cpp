@@ -1,6 +1,8 @@
 #include "tests/core/light/light_cases.h"
 
 #include "core/sampling/warp.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik::test {
 namespace {
@@ -24,26 +26,26 @@ Shape bent_mesh() {
 
 Shape disk_shape(float inner, bool flip) {
   Shape shape;
-  // An ellipse, tilted, whose +z side faces up; flip turns it down.
+  // A tilted ellipse whose +z side faces up; `flip` turns it down.
   const glm::dmat3 linear(1, 0, 0.2, 0, 0.5, 0.1, 0, 0, 1);
   shape.geometry = Disk{Transform::from_matrix(affine(linear, {0.3, 0, 2})), inner};
   shape.flip_normal = flip;
   return shape;
 }
 
-// Pixels of random colour, a few of them black and one very bright.
+// Pixels of random colour, some of them black and one very bright.
 std::shared_ptr<const LightImage> random_image(int width, int height) {
   LightImage image{width, height, {}};
-  IndependentRandom random(77);
+  Random random(77);
   for (int i = 0; i < width * height; ++i) {
-    const Rgb c(random.next(), random.next(), random.next());
+    const Rgb c(random.uniform(), random.uniform(), random.uniform());
     image.pixels.push_back(i % 7 == 3 ? Rgb(0) : c);
   }
   image.pixels[static_cast<size_t>(width * height / 3)] = Rgb(20, 30, 10);
   return std::make_shared<const LightImage>(std::move(image));
 }
 
-// Shows an image, of which `shape` has the uv.
+// A light that shows an image, with the uv of `shape`.
 LightCase image_case(const std::string& name, const Shape& shape, bool twosided, std::vector<Point3> refs,
                      const EmitterAlpha& alpha = {}) {
   LightCase c = area_case(name, shape, twosided, std::move(refs));
@@ -53,7 +55,7 @@ LightCase image_case(const std::string& name, const Shape& shape, bool twosided,
   return c;
 }
 
-// The two triangles show parts of the image that are not the same, and one is turned over in it.
+// The two triangles show different parts of the image, one of them mirrored.
 Shape mapped_mesh() {
   Shape shape = bent_mesh();
   std::get<TriangleMesh>(shape.geometry).uv = {{0, 0}, {0, 1}, {1, 0.8f}, {0.7f, -0.2f}};
@@ -93,7 +95,7 @@ std::vector<LightCase> image_cases(const std::vector<Point3>& below) {
   return cases;
 }
 
-// Parts of quadrics of radius 0.6 about (0.3, 0, 2.5), tilted; a cylinder is twice as long as it is wide.
+// Parts of quadrics of radius 0.6 about (0.3, 0, 2.5), tilted; the cylinder is twice as long as wide.
 Shape quadric_shape(QuadricKind kind, bool flip) {
   Quadric q;
   q.kind = kind;
@@ -128,18 +130,19 @@ std::vector<LightCase> make_cases() {
   cases = {point, spot, distant, infinite};
   for (LightCase& c : image_cases(below)) cases.push_back(std::move(c));
 
-  cases.push_back(area_case("triangle", triangle_shape({0, 0, 2}, {0, 1, 2}, {1, 0, 2}), false, below));
+  cases.push_back(area_case("triangle", triangle({0, 0, 2}, {0, 1, 2}, {1, 0, 2}), false, below));
   cases.push_back(area_case("bent mesh", bent_mesh(), false, below));
   cases.push_back(area_case("bent mesh", bent_mesh(), true, {{0, 0, 0}, {1, 0.5f, 6}}));
   const Point3 center(0.5f, 0, 3);
-  cases.push_back(area_case("sphere", sphere_shape(center, 0.8f), false, {{0, 0, 0}, {0.5f, 0.1f, 2.1f}}));
-  cases.push_back(area_case("distant sphere", sphere_shape({0, 0, 300}, 0.8f), false, {{0, 0, 0}}));
+  cases.push_back(area_case("sphere", sphere(center, 0.8f), false, {{0, 0, 0}, {0.5f, 0.1f, 2.1f}}));
+  cases.push_back(area_case("distant sphere", sphere({0, 0, 300}, 0.8f), false, {{0, 0, 0}}));
   cases.back().receiver_radius = 150;
-  cases.push_back(area_case("inward sphere", sphere_shape(center, 4, true), false, {{0.1f, 0, 2}, center}));
-  cases.push_back(area_case("sphere", sphere_shape(center, 4), true, {{0.1f, 0.2f, 2}, {8, 1, 1}}));
+  cases.push_back(area_case("inward sphere", sphere(center, 4, 0, true), false, {{0.1f, 0, 2}, center}));
+  cases.push_back(area_case("sphere", sphere(center, 4), true, {{0.1f, 0.2f, 2}, {8, 1, 1}}));
   cases.push_back(area_case("disk", disk_shape(0, true), false, below));
   cases.push_back(area_case("annulus", disk_shape(0.6f, false), true, {{0, 0, 0}, {0.5f, 0.5f, 4}}));
-  // From inside: seen from outside, density has no bound at the silhouette of what is sampled by area.
+  // The receivers are inside: from outside, the density of a light that is sampled by area is unbounded at
+  // its silhouette.
   for (const auto& [name, kind] :
        {std::pair{"part of a sphere", QuadricKind::kSphere}, {"cylinder", QuadricKind::kCylinder}}) {
     for (const bool twosided : {false, true}) {
@@ -153,7 +156,7 @@ std::vector<LightCase> make_cases() {
   cases.push_back(image_case("image on a mesh", mapped_mesh(), true, {{0, 0, 0}, {1, 0.5f, 6}}));
   cases.push_back(image_case("image on bare triangles", bent_mesh(), false, below));
   cases.push_back(image_case("image on a disk", disk_shape(0.2f, true), false, below));
-  cases.push_back(image_case("image in a sphere", sphere_shape(center, 4, true), false, {{0.1f, 0, 2}}));
+  cases.push_back(image_case("image in a sphere", sphere(center, 4, 0, true), false, {{0.1f, 0, 2}}));
   const Shape drum = quadric_shape(QuadricKind::kCylinder, true);
   cases.push_back(image_case("image in a cylinder", drum, true, {{0.3f, 0.05f, 2.45f}}));
   cases.back().receiver_radius = 0.2f;
@@ -177,7 +180,7 @@ Cone cone_of(const LightCase& c, const Point3& ref) {
 
 double density(const LightCase& c, const LightReceiver& x, const Vector3& wi) {
   if (is_infinite(c.light)) return escaped_pdf(c.light, x, wi);
-  // Every part of the light along the ray counts: sample_Li knows no visibility.
+  // Every part of the light along the ray counts, because sample_Li ignores visibility.
   const auto& area = std::get<DiffuseAreaLight>(c.light);
   double sum = 0;
   Ray ray{x.p, wi};
@@ -187,7 +190,7 @@ double density(const LightCase& c, const LightReceiver& x, const Vector3& wi) {
     const SurfaceInteraction on_light = make_interaction(c.shapes, ray, hit);
     sum += area.pdf_Li(x.p, wi, on_light);
     const auto* sphere = std::get_if<SphereEmitter>(&area.surface);
-    if (sphere) break;  // sampled by its visible cone, or seen from inside
+    if (sphere) break;  // spheres are sampled by their visible cone, or seen from inside
     ray = on_light.spawn(wi);
   }
   return sum;
@@ -221,7 +224,7 @@ SquareCase direction_square(const LightCase& c, const LightReceiver& x) {
   SquareCase square;
   square.name = c.name;
   square.subdivisions = c.subdivisions;
-  square.sample = [=](IndependentRandom& random, Point2* p) {
+  square.sample = [=](Random& random, Point2* p) {
     const auto s = sample_Li(c.light, x, random);
     if (!s) return false;
     *p = direction_to_square(cone.frame.to_local(s->wi), cone.z_min);

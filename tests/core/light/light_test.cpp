@@ -1,4 +1,4 @@
-// Properties that every light must have, run over instances of all of them.
+// Tests the properties that every light must have, on instances of all types.
 
 #include "core/light/light.h"
 
@@ -7,13 +7,16 @@
 #include <set>
 
 #include "tests/core/light/light_cases.h"
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/statistics.h"
 
 namespace kaustik {
 namespace {
 
-using test::IndependentRandom;
 using test::LightCase;
+using test::Random;
 
 TEST(Light, CasesCoverEveryTypeAndSurface) {
   std::set<size_t> types, surfaces;
@@ -29,7 +32,7 @@ TEST(Light, MeanEmittedFluxIsThePower) {
   for (const LightCase& c : test::light_cases()) {
     for (const EmissionMode mode : {EmissionMode::kCosine, EmissionMode::kUniformAngle}) {
       SCOPED_TRACE(c.name);
-      IndependentRandom random(1);
+      Random random(1);
       test::Mean flux;
       for (int i = 0; i < 50000; ++i) {
         const auto s = test::sample_Le(c.light, random, mode);
@@ -38,20 +41,20 @@ TEST(Light, MeanEmittedFluxIsThePower) {
           ASSERT_NEAR(glm::length(s->ray.d), 1, 1e-6);
         }
       }
-      // Equal-flux emission has no variance; float rounding alone remains.
+      // Emission with equal flux has no variance; only float rounding remains.
       const double power_y = luminance(power(c.light));
       EXPECT_NEAR(flux.mean, power_y, 4.5 * flux.standard_error() + 1e-5 * power_y);
     }
   }
 }
 
-// Photons through a disk in space against the irradiance on it, from sample_Li at random points of the disk:
-// two routes through different code that must carry the same flux. Both are independent means.
+// Compares the flux of photons through a disk with the irradiance on it, from sample_Li at random points of
+// the disk: two ways through different code that must give the same flux. Both are independent means.
 TEST(Light, PhotonsAndIrradianceCarryTheSameFlux) {
   for (const LightCase& c : test::light_cases()) {
     for (const EmissionMode mode : {EmissionMode::kCosine, EmissionMode::kUniformAngle}) {
       SCOPED_TRACE(c.name);
-      IndependentRandom random(2);
+      Random random(2);
       const test::Receiver receiver = test::receiver_of(c);
       test::Mean photons, irradiance;
       for (int i = 0; i < 400000; ++i) {
@@ -59,7 +62,7 @@ TEST(Light, PhotonsAndIrradianceCarryTheSameFlux) {
         photons.add(s && receiver.meets(s->ray) ? luminance(s->flux) : 0);
       }
       for (int i = 0; i < 100000; ++i) {
-        const Point3 p = receiver.point(random.next_2d());
+        const Point3 p = receiver.point(random.uniform_2d());
         const auto s = test::sample_Li(c.light, {p, receiver.normal, false}, random);
         const float cosine = s ? glm::dot(s->wi, receiver.normal) : 0;
         irradiance.add(cosine > 0 ? luminance(s->Li) * cosine / s->pdf * receiver.area() : 0);
@@ -72,40 +75,42 @@ TEST(Light, PhotonsAndIrradianceCarryTheSameFlux) {
   }
 }
 
-// sample_Li's directions against pdf_Li, evaluated where rays meet the light: chi-square, and mass one.
+// Tests sample_Li's directions against pdf_Li, evaluated where rays meet the light: chi-square, and total
+// mass one.
 TEST(Light, DirectionsFollowTheirDensity) {
   std::vector<test::SquareCase> cases;
   for (const LightCase& c : test::light_cases()) {
     if (is_delta(c.light)) continue;
     for (const Point3& ref : c.refs) {
       cases.push_back(test::direction_square(c, {ref}));
-      // Of skies, the receiver's normal chooses too.
+      // For skies the receiver's normal also affects the choice.
       if (is_infinite(c.light))
         cases.push_back(test::direction_square(c, {ref, glm::normalize(Vector3(1, -2, 0.5f)), false}));
     }
   }
-  // A light's outline crosses bins: 40 subdivisions of 16 bins resolve its area to better than a percent.
+  // A light's outline crosses bins: 40 subdivisions of each of 16 bins resolve its area to better than a
+  // percent.
   test::expect_all_accepted(cases, 40000, 0.01);
 }
 
-TEST(Light, SampledDensityIsTheQueriedOne) {
+TEST(Light, SampledDensityEqualsPdfLi) {
   for (const LightCase& c : test::light_cases()) {
     const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
     if (!area) continue;
     for (const Point3& ref : c.refs) {
       SCOPED_TRACE(c.name);
-      IndependentRandom random(3);
+      Random random(3);
       int compared = 0, other_cell = 0;
       for (int i = 0; i < 2000; ++i) {
-        const auto s = area->sample_Li(ref, random.next_2d());
+        const auto s = area->sample_Li(ref, random.uniform_2d());
         if (!s) continue;
         const Ray ray{ref, s->wi};
         const Hit hit = test::brute_force(c.shapes, ray);
-        if (!hit.valid()) continue;  // the very rim
+        if (!hit.valid()) continue;  // missed at the rim
         const SurfaceInteraction on_light = make_interaction(c.shapes, ray, hit);
-        // Another part of the light hides the sampled point: its own density is meant.
+        // Where another part of the light hides the sampled point, the densities belong to different points.
         if (glm::distance(on_light.p, s->p_light) > 1e-4f * glm::distance(ref, s->p_light)) continue;
-        // The cosine at the light loses its relative precision at grazing angles.
+        // The cosine at the light loses relative precision at grazing angles.
         const float cosine = abs_dot(on_light.n, s->wi);
         const float found = area->pdf_Li(ref, s->wi, on_light), error = std::abs(found - s->pdf);
         ++compared;
@@ -114,22 +119,23 @@ TEST(Light, SampledDensityIsTheQueriedOne) {
         ++other_cell;
       }
       EXPECT_GT(compared, 500);
-      // Of an image: rounding takes a point over the edge of its cell, which is a millionth of it away.
+      // For an image, rounding may move the point over the edge of its cell, which is about a millionth of
+      // the cell away.
       EXPECT_LE(other_cell, 2);
     }
   }
 }
 
-// The shadow ray's end lies on the side of the light that shines on the point: nothing of the light is
-// between.
+// The shadow ray ends on the side of the light that shines on the point, so no part of the light is between
+// them.
 TEST(Light, SampledPointIsNotBehindItsOwnLight) {
   for (const LightCase& c : test::light_cases()) {
     const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
     if (!area || std::holds_alternative<TriangleEmitter>(area->surface)) continue;
     for (const Point3& ref : c.refs) {
-      IndependentRandom random(4);
+      Random random(4);
       for (int i = 0; i < 20000; ++i) {
-        const auto s = area->sample_Li(ref, random.next_2d());
+        const auto s = area->sample_Li(ref, random.uniform_2d());
         if (!s) continue;
         const Vector3 d = s->p_light - ref;
         ASSERT_FALSE(test::brute_force(c.shapes, Ray{ref, d, 1}).valid()) << c.name << " " << i;
@@ -143,11 +149,11 @@ TEST(Light, EmittedRaysDoNotMeetTheirConvexLight) {
     const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
     const auto* sphere = area ? std::get_if<SphereEmitter>(&area->surface) : nullptr;
     const bool mesh = area && std::holds_alternative<TriangleEmitter>(area->surface);
-    // Inner sides of spheres and of bent meshes may well shine on the light itself.
+    // Inner sides of spheres and of bent meshes may shine on the light itself.
     const auto* quadric = area ? std::get_if<QuadricEmitter>(&area->surface) : nullptr;
     const bool hollow = quadric && quadric->quadric.kind != QuadricKind::kDisk;
     if (!area || hollow || (sphere && sphere->inward) || (area->twosided && (sphere || mesh))) continue;
-    IndependentRandom random(5);
+    Random random(5);
     for (int i = 0; i < 20000; ++i) {
       const auto s = test::sample_Le(c.light, random, EmissionMode::kCosine);
       if (!s) continue;
@@ -156,7 +162,7 @@ TEST(Light, EmittedRaysDoNotMeetTheirConvexLight) {
   }
 }
 
-TEST(Light, PowerDistribution) {
+TEST(Light, PowerDistributionFollowsTheLightsPower) {
   std::vector<Light> lights = {PointLight{Point3(0), Rgb(1)}, PointLight{Point3(0), Rgb(0)},
                                PointLight{Point3(0), Rgb(3)}};
   const DiscreteDistribution d = light_power_distribution(lights);

@@ -1,54 +1,54 @@
-// The choice of a light among many: probabilities that sum to one, are those by which lights are chosen, and
-// are zero only where nothing arrives.
+// Tests the choice of a light among many: the stated probabilities sum to one, match the choices, and are
+// zero only where a light contributes nothing.
 
 #include <gtest/gtest.h>
 
 #include "core/light/choice/light_sampler.h"
-#include "tests/core/support/statistics.h"
-#include "tests/core/support/test_tracer.h"
+#include "tests/core/support/chi_square.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik {
 namespace {
 
-using test::IndependentRandom;
+using test::Random;
 
-Point3 point_in_box(IndependentRandom& random, float size) {
-  return size * Point3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+Point3 point_in_box(Random& random, float size) {
+  return size * Point3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
 }
 
-DiffuseAreaLight triangle_light(IndependentRandom& random, float size) {
+DiffuseAreaLight triangle_light(Random& random, float size) {
   const Point3 p = point_in_box(random, size);
   const auto corner = [&] { return p + 0.05f * size * random.direction(); };
-  const Shape shape = test::triangle_shape(p, corner(), corner());
-  return *DiffuseAreaLight::make(shape, Rgb(random.between(1, 9)), random.next() < 0.2f);
+  const Shape shape = test::triangle(p, corner(), corner());
+  return *DiffuseAreaLight::make(shape, Rgb(random.uniform(1, 9)), random.uniform() < 0.2f);
 }
 
-SpotLight spot(IndependentRandom& random, float size) {
+SpotLight spot(Random& random, float size) {
   SpotLight s;
   s.position = point_in_box(random, size);
   s.frame = Frame::from_z(random.direction());
-  s.I = Rgb(size * size * random.between(1, 5));
-  s.cos_total_width = random.between(-0.9f, 0.98f);
-  s.cos_falloff_start = random.between(s.cos_total_width, 1);
+  s.I = Rgb(size * size * random.uniform(1, 5));
+  s.cos_total_width = random.uniform(-0.9f, 0.98f);
+  s.cos_falloff_start = random.uniform(s.cos_total_width, 1);
   return s;
 }
 
-// One of each kind in turn; coordinates and distances go with size.
+// Lights of each kind in turn; coordinates and distances scale with `size`.
 std::vector<Light> lights(int count, float size = 1, uint64_t seed = 8) {
-  IndependentRandom random(seed);
+  Random random(seed);
   std::vector<Light> out;
   for (int i = 0; i < count; ++i) {
     switch (i % 5) {
       case 0:
-        out.push_back(PointLight{point_in_box(random, size), Rgb(size * size * random.between(1, 5))});
+        out.push_back(PointLight{point_in_box(random, size), Rgb(size * size * random.uniform(1, 5))});
         break;
       case 1:
         out.push_back(spot(random, size));
         break;
       case 2:
         out.push_back(*DiffuseAreaLight::make(
-            test::sphere_shape(point_in_box(random, size), 0.03f * size, random.next() < 0.3f), Rgb(3),
-            false));
+            test::sphere(point_in_box(random, size), 0.03f * size, random.uniform() < 0.3f), Rgb(3), false));
         break;
       default:
         out.push_back(triangle_light(random, size));
@@ -57,8 +57,8 @@ std::vector<Light> lights(int count, float size = 1, uint64_t seed = 8) {
   return out;
 }
 
-LightReceiver receiver(IndependentRandom& random, float size = 1) {
-  return {point_in_box(random, 1.5f * size), random.direction(), random.next() < 0.3f};
+LightReceiver receiver(Random& random, float size = 1) {
+  return {point_in_box(random, 1.5f * size), random.direction(), random.uniform() < 0.3f};
 }
 
 double sum_of_probabilities(const LightTree& tree, const LightReceiver& x, int count) {
@@ -67,7 +67,8 @@ double sum_of_probabilities(const LightTree& tree, const LightReceiver& x, int c
   return sum;
 }
 
-// Each step down multiplies by a factor rounded once: at most about 40 steps of 2^-24 for 1000 lights.
+// Each step down the tree multiplies by a factor that is rounded once: at most about 40 steps of 2^-24 for
+// 1000 lights.
 TEST(LightTree, ProbabilitiesSumToOne) {
   constexpr double kRounding = 40 * 0x1p-24;
   for (const int count : {1, 2, 17, 1000}) {
@@ -75,10 +76,10 @@ TEST(LightTree, ProbabilitiesSumToOne) {
     for (const Light& light : lights(5 * count))
       if (std::holds_alternative<PointLight>(light)) points.push_back(light);
     const LightTree of_points(points), of_all(lights(count));
-    IndependentRandom random(9);
+    Random random(9);
     for (int i = 0; i < 50; ++i) {
       LightReceiver x = receiver(random);
-      // Less than one where a branch cannot give anything although its parent might.
+      // The sum is less than one where a branch cannot contribute although its parent might.
       const double sum = sum_of_probabilities(of_all, x, count);
       EXPECT_LE(sum, 1 + kRounding);
       EXPECT_TRUE(sum > 0 || !of_all.choose(x, 0.5f));
@@ -88,12 +89,12 @@ TEST(LightTree, ProbabilitiesSumToOne) {
   }
 }
 
-// Every number leads to a light with the probability that is stated for it, and the numbers that lead to one
-// light are an interval of that length.
-TEST(LightTree, ChoosesByTheProbabilityItStates) {
+// Every random number leads to a light with the stated probability, and the numbers that lead to one light
+// form an interval of that length.
+TEST(LightTree, StatedProbabilitiesMatchTheChoices) {
   const int count = 200;
   const LightTree tree(lights(count));
-  IndependentRandom random(10);
+  Random random(10);
   for (int i = 0; i < 5; ++i) {
     const LightReceiver x = receiver(random);
     std::vector<int> chosen(count);
@@ -114,13 +115,13 @@ TEST(LightTree, ChoosesByTheProbabilityItStates) {
 TEST(LightTree, IsNeverZeroWhereALightContributes) {
   const std::vector<Light> all = lights(300);
   const LightTree tree(all);
-  IndependentRandom random(11);
+  Random random(11);
   int contributing = 0;
   for (int i = 0; i < 60; ++i) {
     const LightReceiver x = receiver(random);
     for (uint32_t light = 0; light < all.size(); ++light)
       for (int k = 0; k < 20; ++k) {
-        const Point2 u = random.next_2d();
+        const Point2 u = random.uniform_2d();
         const auto s = sample_Li(all[light], x, u);
         if (!s || is_black(s->Li)) continue;
         if (!x.two_sided && !(glm::dot(x.n, s->wi) > 0)) continue;
@@ -131,7 +132,7 @@ TEST(LightTree, IsNeverZeroWhereALightContributes) {
   EXPECT_GT(contributing, 50000);
 }
 
-// Lights in one place, lights on a line, lights whose powers differ by many orders: all are found.
+// Lights in one place, on a line, and with powers that differ by many orders are all found.
 TEST(LightTree, FindsLightsOfAnyArrangement) {
   std::vector<Light> all;
   for (int i = 0; i < 3000; ++i) {
@@ -149,17 +150,17 @@ TEST(LightTree, FindsLightsOfAnyArrangement) {
   EXPECT_NEAR(sum, 1, 1e-4);
 }
 
-// The same lights by the same probabilities in a scene that is 2^k times as large.
+// A scene that is 2^k times as large gives the same lights with the same probabilities.
 TEST(LightTree, ScalesByPowersOfTwo) {
   const LightTree one(lights(100));
   for (const int k : {-30, 20}) {
     const float size = std::ldexp(1.0f, k);
     const LightTree scaled(lights(100, size));
-    IndependentRandom random(12), same(12);
+    Random random(12), same(12);
     for (int i = 0; i < 1000; ++i) {
       const LightReceiver x = receiver(random), y = receiver(same, size);
-      const float u = random.next();
-      ASSERT_EQ(same.next(), u);
+      const float u = random.uniform();
+      ASSERT_EQ(same.uniform(), u);
       const auto a = one.choose(x, u), b = scaled.choose(y, u);
       ASSERT_EQ(a.has_value(), b.has_value());
       if (!a) continue;
@@ -182,14 +183,14 @@ TEST(LightSampler, FewLightsAreChosenByPower) {
   }
 }
 
-TEST(LightSampler, LightsWithoutAPlaceStandBesideTheTree) {
+TEST(LightSampler, LightsWithoutAPositionAreChosenBesideTheTree) {
   std::vector<Light> all = lights(40);
   all.insert(all.begin() + 3, DistantLight{{0, 0, 1}, Rgb(1), {0, 0, 0}, 2});
   all.insert(all.begin() + 9, InfiniteLight{Rgb(1), {0, 0, 0}, 2});
-  all.push_back(InfiniteLight{Rgb(0), {0, 0, 0}, 2});  // gives nothing
+  all.push_back(InfiniteLight{Rgb(0), {0, 0, 0}, 2});  // black
   const LightSampler sampler(all);
   const LightReceiver x{{0, 0, 0}, {0, 0, 1}, true};
-  // One choice in eight is made by power.
+  // One choice in eight goes by power.
   const DiscreteDistribution by_power = light_power_distribution(all);
   for (const uint32_t light : {3u, 9u})
     EXPECT_FLOAT_EQ(sampler.probability(x, light), 0.875f / 3 + 0.125f * by_power.pdf(light));

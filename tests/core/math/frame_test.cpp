@@ -1,4 +1,4 @@
-// Frames, transforms and bounds.
+// Tests frames, transforms and bounds.
 
 #include "core/math/frame.h"
 
@@ -6,8 +6,9 @@
 
 #include "core/math/bounds.h"
 #include "core/math/transform.h"
-#include "tests/core/support/statistics.h"
-#include "tests/core/support/test_tracer.h"
+#include "tests/core/support/chi_square.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik {
 namespace {
@@ -22,11 +23,11 @@ TEST(Frame, IsOrthonormalForEveryNormal) {
                                   glm::normalize(Vector3(-1e-7f, 1e-7f, -1)),
                                   glm::normalize(Vector3(1e-20f, 0, -1)),
                                   glm::normalize(Vector3(1, 1, -1e-8f))};
-  test::IndependentRandom random(1);
+  test::Random random(1);
   for (int i = 0; i < 10000; ++i) normals.push_back(random.direction());
   for (const Normal3& n : normals) {
     const Frame f = Frame::from_z(n);
-    // A product of a few roundings of unit numbers each (Duff et al. report the same size).
+    // Each is a product of a few roundings of numbers near one (Duff et al. report the same size).
     constexpr float kTolerance = 16 * 0x1p-24f;
     EXPECT_EQ(f.z, n);
     EXPECT_NEAR(glm::dot(f.x, f.x), 1, kTolerance);
@@ -39,7 +40,7 @@ TEST(Frame, IsOrthonormalForEveryNormal) {
 }
 
 TEST(Frame, LocalAndWorldAreInverse) {
-  test::IndependentRandom random(2);
+  test::Random random(2);
   for (int i = 0; i < 1000; ++i) {
     const Frame f = Frame::from_z(random.direction());
     const Vector3 v = random.direction();
@@ -47,13 +48,13 @@ TEST(Frame, LocalAndWorldAreInverse) {
   }
 }
 
-TEST(Transform, PointsVectorsAndNormals) {
+TEST(Transform, TransformsPointsVectorsAndNormals) {
   const Transform t = Transform::from_matrix(test::affine({2, 0, 0, 1, 4, 0, 0, 0, -8}, {1, 2, 3}));
   EXPECT_EQ(t.point({1, 1, 1}), Point3(4, 6, -5));
   EXPECT_EQ(t.vector({1, 1, 1}), Vector3(3, 4, -8));
   EXPECT_EQ(t.inverse_point({4, 6, -5}), Point3(1, 1, 1));
   EXPECT_EQ(t.inverse_vector({3, 4, -8}), Vector3(1, 1, 1));
-  // A normal stays perpendicular to transformed tangents.
+  // A transformed normal stays perpendicular to transformed tangents.
   EXPECT_EQ(glm::dot(t.normal({1, -1, 0}), t.vector({1, 1, 0})), 0);
   EXPECT_TRUE(t.swaps_handedness());
   EXPECT_TRUE(t.invertible());

@@ -8,9 +8,9 @@
 namespace kaustik::photon {
 namespace {
 
-// Pages are at least 4096 bytes and at most 65536: nothing outside the given bytes may change, nor what is
-// near their ends, and the memory can be written again.
-TEST(MemoryPages, OnlyWhatIsGivenBackChanges) {
+// Pages have between 4096 and 65536 bytes. Nothing outside the given bytes may change, nor what is near their
+// ends, and the memory can be written again.
+TEST(MemoryPages, ReturningPagesChangesNothingElse) {
   constexpr size_t kSize = 1 << 20, kBegin = 100001, kEnd = 900001;
   std::vector<unsigned char> bytes(kSize, 7);
   prefer_large_pages(bytes.data(), bytes.size());
@@ -22,7 +22,7 @@ TEST(MemoryPages, OnlyWhatIsGivenBackChanges) {
   EXPECT_EQ(std::count(bytes.begin(), bytes.end(), 9), ptrdiff_t(kSize));
 }
 
-TEST(MemoryPages, LessThanAPageStays) {
+TEST(MemoryPages, RangesBelowAPageAreLeftAlone) {
   std::vector<unsigned char> bytes(4096, 7);
   give_back_pages(bytes.data() + 1, 4094);
   give_back_pages(bytes.data(), 0);

@@ -1,4 +1,4 @@
-// The Sobol sampler: stratification, determinism, padding, uniformity over seeds.
+// Tests the Sobol sampler: stratification, determinism, padding, uniformity over seeds.
 
 #include "core/sampling/sampler.h"
 
@@ -7,13 +7,14 @@
 #include <numeric>
 #include <set>
 
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
+#include "tests/support/random.h"
 
 namespace kaustik {
 namespace {
 
-// Counts of points 0..2^m-1 (offset by `block` blocks) in the elementary interval grid with 2^bits[k] cells
-// along dimension first + k.
+// Counts the points 0..2^m-1 (offset by `block` blocks) in the grid of elementary intervals with 2^bits[k]
+// cells along dimension first + k.
 std::vector<int> interval_counts(uint64_t seed, uint32_t first, const std::vector<int>& bits, int m,
                                  uint32_t block) {
   const int cells = std::accumulate(bits.begin(), bits.end(), 0);
@@ -33,8 +34,8 @@ void expect_equal_counts(const std::vector<int>& counts, int each) {
   for (const int c : counts) ASSERT_EQ(c, each);
 }
 
-// Owen scrambling keeps nets; aligned blocks of a (0, 2)-sequence are (0, m, 2)-nets: one point per
-// elementary interval of volume 2^-m, whatever its shape.
+// Owen scrambling keeps nets, and aligned blocks of a (0, 2)-sequence are (0, m, 2)-nets: they have one point
+// in each elementary interval of volume 2^-m, whatever its shape.
 TEST(Sampler, FirstTwoDimensionsOfEachSetAreZeroNets) {
   constexpr int kM = 8;
   for (const uint32_t first : {0u, 4u, 20u}) {
@@ -52,7 +53,7 @@ TEST(Sampler, EveryDimensionIsStratified) {
   for (uint32_t d = 0; d < 16; ++d) expect_equal_counts(interval_counts(7, d, {kM}, kM, 0), 1);
 }
 
-// Sobol's bound: t is the sum of (degree - 1) of the primitive polynomials, 0 + 0 + 1 + 2 = 3 in four
+// Sobol's bound: t is the sum of (degree - 1) over the primitive polynomials, 0 + 0 + 1 + 2 = 3 in four
 // dimensions.
 TEST(Sampler, WholeSetIsNetOfQualityThree) {
   constexpr int kM = 9, kT = 3;
@@ -90,7 +91,7 @@ TEST(Sampler, IndicesAboveThirtyTwoBitsAreOtherSequences) {
   for (uint64_t i = 0; i < 1000; ++i) {
     equal += Sampler(1, i).next_1d() == Sampler(1, i + (1ull << 32)).next_1d();
   }
-  // Values have 24 bits: the chance of even two accidental matches in 1000 is below 1e-8.
+  // Values have 24 bits, so the chance of even two accidental matches in 1000 is below 1e-8.
   EXPECT_LE(equal, 1);
 }
 
@@ -102,15 +103,15 @@ TEST(Sampler, ValuesStayBelowOne) {
   }
 }
 
-// A fixed index seen over many seeds must be uniform and uncorrelated between dimensions: that is what makes
-// every estimate unbiased.
+// A fixed index must be uniform over many seeds, and uncorrelated between dimensions: that makes every
+// estimate unbiased.
 TEST(Sampler, IsUniformOverSeeds) {
   std::vector<test::SquareCase> cases;
   for (const auto& [d0, d1] : {std::pair{0u, 1u}, {2u, 3u}, {1u, 2u}, {3u, 4u}, {0u, 8u}}) {
     for (const uint32_t index : {0u, 1u, 0xffffffffu}) {
       cases.push_back({"dimensions " + std::to_string(d0) + "," + std::to_string(d1), nullptr,
                        [](double, double) { return 1.0; }});
-      cases.back().sample = [=, seed = uint64_t{0}](test::IndependentRandom&, Point2* p) mutable {
+      cases.back().sample = [=, seed = uint64_t{0}](test::Random&, Point2* p) mutable {
         *p = {sobol_owen(index, seed, d0), sobol_owen(index, seed, d1)};
         ++seed;
         return true;

@@ -5,9 +5,9 @@
 namespace kaustik {
 namespace {
 
-// Every dimension of every lane is what Sampler draws, bit for bit, at both ends of the range of indices,
-// whatever the count, with neighbours of the same set and of others.
-TEST(SobolLanes, AreTheSamplersNumbers) {
+// Every dimension of every lane equals what Sampler draws, bit for bit: at both ends of the range of indices,
+// for any count, and with neighbours from the same and from other sets of dimensions.
+TEST(SobolLanes, MatchTheSamplersNumbers) {
   constexpr uint64_t kSeed = 0x1234567890abcdefull;
   constexpr uint32_t kLastSet = 1000;
   for (const uint64_t first :

@@ -1,4 +1,4 @@
-// Descriptions made in code: what the builder does that no text is needed for.
+// Tests the builder on descriptions made in code, for what needs no text.
 #include "core/scene/build/builder.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ ShapeDescription mesh_file(std::string name) {
   return shape_of("plymesh", {p});
 }
 
-// A mesh of `count` triangles whose first corner's x is the count.
+// A mesh of `count` triangles; the x of its first corner is the count.
 MeshResult fan(size_t count) {
   MeshResult result;
   TriangleMesh& mesh = result.mesh;
@@ -71,7 +71,7 @@ TEST(Builder, ReportsEveryMeshThatFailsInFileOrder) {
   }
 }
 
-TEST(Builder, ChecksWhatLoadersReturn) {
+TEST(Builder, ChecksTheMeshesThatLoadersReturn) {
   const auto message = [](const MeshResult& result) {
     SceneDescription d;
     d.shapes.push_back(mesh_file("m"));
@@ -137,7 +137,7 @@ TEST(Bilinear, FlatConvexPatchesAreTwoTriangles) {
 }
 
 TEST(Bilinear, TiltedFlatPatchesStayFlat) {
-  // A parallelogram of rounded corners: flat up to rounding.
+  // The corners of this parallelogram are rounded, so it is flat up to rounding.
   const Point3 p(0.1f, 0.7f, 0.3f);
   const Vector3 u(0.3f, 0.17f, -0.9f), v(-0.23f, 0.77f, 0.41f);
   const TriangleMesh mesh = triangulate_patches({{p, p + u, p + v, p + u + v}, {}, {}, {{0, 1, 2, 3}}});
@@ -145,14 +145,14 @@ TEST(Bilinear, TiltedFlatPatchesStayFlat) {
 }
 
 TEST(Bilinear, CurvedPatchesStayWithinTheChord) {
-  // z = u v over the unit square.
+  // The patch is z = u v over the unit square.
   const TriangleMesh mesh =
       triangulate_patches({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}, {}, {}, {{0, 1, 2, 3}}});
   ASSERT_EQ(mesh.N.size(), mesh.P.size());
   const double tolerance = std::sqrt(3.0) / 1024;
   for (const auto& t : mesh.indices) {
-    // The patch is farthest from a triangle at the middle of an edge: of its diagonal, or of none (edges
-    // along u or v lie in the patch).
+    // The patch is farthest from a triangle at the middle of its diagonal; the edges along u or v lie in the
+    // patch.
     for (int k = 0; k < 3; ++k) {
       const Point3 middle = 0.5f * (mesh.P[t[k]] + mesh.P[t[(k + 1) % 3]]);
       EXPECT_LE(std::abs(middle.z - middle.x * middle.y), tolerance);
@@ -160,12 +160,12 @@ TEST(Bilinear, CurvedPatchesStayWithinTheChord) {
   }
   for (size_t i = 0; i < mesh.P.size(); ++i) {
     const Point3& q = mesh.P[i];
-    const Normal3 n = glm::normalize(Normal3(-q.y, -q.x, 1));  // of z - x y = 0
+    const Normal3 n = glm::normalize(Normal3(-q.y, -q.x, 1));  // normal of z - x y = 0
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(mesh.N[i][k], n[k], 4 * std::numeric_limits<float>::epsilon());
   }
 }
 
-TEST(Bilinear, FarApartDiagonalsStaySmall) {
+TEST(Bilinear, LongThinPatchesStayWithinTheTriangleLimit) {
   const PatchMesh patch{{{0, 0, 0}, {1e6f, 0, 0}, {1e6f, 0, 1e-6f}, {0, 0, 1e-6f}}, {}, {}, {{0, 1, 2, 3}}};
   EXPECT_LE(triangulate_patches(patch).indices.size(), 2u * 23 * 23);
 }

@@ -1,4 +1,4 @@
-// Scenes far from the world's origin, made in code.
+// Tests scenes far from the world's origin, made in code.
 #include "core/scene/build/local_origin.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ ExactBounds box(const glm::dvec3& center, const glm::dvec3& half) {
   return {center - half, center + half};
 }
 
-TEST(LocalOrigin, IsTheWorldsForScenesNearIt) {
+TEST(LocalOrigin, EqualsTheWorldsOriginForScenesNearIt) {
   const glm::dvec3 half(2, 1, 2);  // radius 3
   for (const double d : {0.0, 3.0, 64 * 3.0})
     for (const glm::dvec3& axis : {glm::dvec3(d, 0, 0), glm::dvec3(0, -d, 0), glm::dvec3(0, 0, d)})
@@ -21,7 +21,7 @@ TEST(LocalOrigin, IsTheWorldsForScenesNearIt) {
   EXPECT_NE(local_origin(box({64 * 3.0 + 1, 0, 0}, half)), glm::dvec3(0));
 }
 
-TEST(LocalOrigin, IsTheWorldsWithoutAnExtent) {
+TEST(LocalOrigin, EqualsTheWorldsOriginForScenesWithoutExtent) {
   const double inf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(local_origin({}), glm::dvec3(0));
   EXPECT_EQ(local_origin(box({1e6, 0, 0}, glm::dvec3(0))), glm::dvec3(0));
@@ -29,8 +29,9 @@ TEST(LocalOrigin, IsTheWorldsWithoutAnExtent) {
   EXPECT_EQ(local_origin({glm::dvec3(1e200), glm::dvec3(1e200 * (1 + 1e-12))}), glm::dvec3(0));
 }
 
-// Multiples of the smallest power of two above the radius, and no farther from the centre than half of that.
-TEST(LocalOrigin, IsAShortNumberNearTheCentre) {
+// The local origin is a multiple of the smallest power of two above the radius, and no farther from the
+// centre than half of that.
+TEST(LocalOrigin, IsARoundNumberNearTheCentre) {
   for (const double d : {1e3, 1e6, 1e9}) {
     const glm::dvec3 center(1.1 * d, -0.3 * d, 0.7), half(2, 1, 2);
     const glm::dvec3 origin = local_origin(box(center, half));
@@ -77,7 +78,7 @@ glm::dmat4 translation(const glm::dvec3& v) {
   return glm::translate(glm::dmat4(1), v);
 }
 
-// At `move`, by transforms or by the coordinates of vertices and lights themselves.
+// How the scene is moved: by transforms, or by the coordinates of vertices and lights themselves.
 enum class Way { kTransforms, kCoordinates };
 
 std::vector<double> moved(std::vector<double> coordinates, const glm::dvec3& move) {
@@ -85,8 +86,8 @@ std::vector<double> moved(std::vector<double> coordinates, const glm::dvec3& mov
   return coordinates;
 }
 
-// One of everything that has a place. The box of all shapes is [-1, 1]^3: its radius is sqrt(3), and the
-// origin's step 2. Coordinates are multiples of 2^-10, so that sums with moves are exact.
+// One of everything that has a position. The bounding box of all shapes is [-1, 1]^3, so its radius is
+// sqrt(3) and the origin's step is 2. Coordinates are multiples of 2^-10, so that sums with moves are exact.
 SceneDescription everything(const glm::dvec3& move, Way way) {
   const glm::dvec3 by_matrix = way == Way::kTransforms ? move : glm::dvec3(0);
   const glm::dvec3 by_number = move - by_matrix;
@@ -156,7 +157,7 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.bounds.max, b.bounds.max);
 }
 
-TEST(LocalOrigin, FarScenesAreBuiltWithTheBitsOfTheirLikesAtTheOrigin) {
+TEST(LocalOrigin, FarScenesHaveTheSameBitsAsAtTheOrigin) {
   const Scene reference = built(everything(glm::dvec3(0), Way::kTransforms));
   EXPECT_EQ(reference.origin, glm::dvec3(0));
   for (const double sizes : {1e3, 1e4, 1e5, 1e6, 1e9})
@@ -169,8 +170,8 @@ TEST(LocalOrigin, FarScenesAreBuiltWithTheBitsOfTheirLikesAtTheOrigin) {
     }
 }
 
-// The world's coordinates rounded to float, as ever.
-TEST(LocalOrigin, NearScenesAreBuiltInTheWorld) {
+// Near scenes keep the world's coordinates, rounded to float.
+TEST(LocalOrigin, NearScenesKeepWorldCoordinates) {
   const glm::dvec3 move(50, -25, 37.5);
   for (const Way way : {Way::kTransforms, Way::kCoordinates}) {
     const Scene scene = built(everything(move, way));
@@ -201,7 +202,7 @@ TEST(LocalOrigin, ScalingByAPowerOfTwoScalesFarScenesExactly) {
   }
 }
 
-// What a mesh file holds are floats. Those that are as coarse as the distance are moved without another
+// A mesh file holds floats. Coordinates that are as coarse as the distance are moved without another
 // rounding.
 TEST(LocalOrigin, FloatsOfMeshFilesAreMovedExactly) {
   MeshResult file;
@@ -219,8 +220,8 @@ TEST(LocalOrigin, FloatsOfMeshFilesAreMovedExactly) {
     EXPECT_EQ(glm::dvec3(mesh_of(scene.shapes[0]).P[i]) + scene.origin, glm::dvec3(file.mesh.P[i]));
 }
 
-// A metre of the second mesh is 1e36 of its units: the origin, 1024 m away, is beyond floats there.
-TEST(LocalOrigin, MeshesThatAreTinyInTheWorldStayAroundTheirOwn) {
+// A metre is 1e36 units of the second mesh, so the origin, 1024 m away, is out of the range of floats there.
+TEST(LocalOrigin, MeshesWithTinyUnitsArePlacedExactly) {
   const auto triangle = [](double size, const glm::dmat4& to_world) {
     return shape("trianglemesh", {numbers(ParameterType::kPoint3, "P", {0, 0, 0, size, 0, 0, 0, size, 0})},
                  to_world);

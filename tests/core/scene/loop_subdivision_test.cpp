@@ -35,29 +35,30 @@ TriangleMesh subdivided(const TriangleMesh& cage, int levels) {
   return mesh.value_or(TriangleMesh{});
 }
 
-// The vertices of a level lie on the limit surface, so that finer levels keep them.
+// The vertices of each level lie on the limit surface, so finer levels keep them.
 TEST(LoopSubdivision, EveryLevelLiesOnTheSameSurface) {
   const TriangleMesh coarse = subdivided(octahedron(), 1), fine = subdivided(octahedron(), 4);
   EXPECT_EQ(fine.indices.size(), 8u << 8);
   ASSERT_LT(coarse.P.size(), fine.P.size());
-  // Refinement keeps the numbers of the vertices. Doubles inside, rounded to float once.
+  // Refinement keeps the numbering of the vertices. Positions are computed in double and rounded to float
+  // once.
   for (size_t i = 0; i < coarse.P.size(); ++i) {
     EXPECT_LT(glm::distance(coarse.P[i], fine.P[i]), 1e-6f);
     EXPECT_LT(glm::distance(coarse.N[i], fine.N[i]), 1e-5f);
   }
 }
 
-// Of valence 4 the limit of a vertex is (1 - 4 g) p + g (ring) with g = 1 / (4 + 3 / (8 beta)),
-// beta = 3 / 32: the ring sums to zero, so that the octahedron's corners go to 1 - 4 / 8.
-TEST(LoopSubdivision, LimitOfTheOctahedronsCorners) {
+// The limit of a vertex of valence 4 is (1 - 4 g) p + g (ring) with g = 1 / (4 + 3 / (8 beta)), beta = 3 /
+// 32. The ring sums to zero, so the octahedron's corners move to 1 - 4 / 8.
+TEST(LoopSubdivision, OctahedronsCornersReachTheirLimit) {
   const TriangleMesh mesh = subdivided(octahedron(), 0);
   for (size_t i = 0; i < 6; ++i) {
     EXPECT_LT(glm::distance(mesh.P[i], 0.5f * octahedron().P[i]), 1e-6f);
-    EXPECT_LT(glm::distance(mesh.N[i], octahedron().P[i]), 1e-6f);  // outward, as the winding
+    EXPECT_LT(glm::distance(mesh.N[i], octahedron().P[i]), 1e-6f);  // outward, by the winding
   }
 }
 
-// Normals are those of the facets, more and more.
+// With each level the normals come closer to those of the facets.
 TEST(LoopSubdivision, NormalsFitTheFacets) {
   const TriangleMesh mesh = subdivided(octahedron(), 5);
   for (const auto& [a, b, c] : mesh.indices) {
@@ -74,10 +75,10 @@ TEST(LoopSubdivision, FlatMeshesStayFlatToTheirBoundary) {
     EXPECT_LT(glm::distance(mesh.N[i], Normal3(0, 0, 1)), 1e-6f) << i;
     right = std::max(right, mesh.P[i].x);
   }
-  EXPECT_NEAR(right, 3, 1e-6);  // the boundary's straight parts stay
+  EXPECT_NEAR(right, 3, 1e-6);  // straight parts of the boundary do not move
 }
 
-TEST(LoopSubdivision, RefusesWhatHasNoLimit) {
+TEST(LoopSubdivision, RefusesMeshesWithoutALimit) {
   const auto error_of = [](TriangleMesh cage, int levels = 1) {
     std::string error;
     EXPECT_FALSE(subdivide_loop(cage, levels, &error));

@@ -1,25 +1,24 @@
-// What finalize_scene derives.
+// Tests what finalize_scene derives.
 
 #include "core/scene/scene.h"
+#include "tests/support/shapes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "tests/core/support/test_tracer.h"
 
 namespace kaustik {
 namespace {
 
 Scene two_spheres() {
   Scene scene;
-  scene.shapes = {test::sphere_shape({0, 0, 0}, 1), test::sphere_shape({4, 0, 0}, 2)};
+  scene.shapes = {test::sphere({0, 0, 0}, 1), test::sphere({4, 0, 0}, 2)};
   scene.shapes[1].material = 1;
   scene.materials = {Lambertian{}, Mirror{}};
   scene.lights = {PointLight{}, InfiniteLight{}, DistantLight{}};
   return scene;
 }
 
-TEST(Scene, BoundsAndScenesSphereHoldEveryShape) {
+TEST(Scene, BoundsAndBoundingSphereHoldEveryShape) {
   Scene scene = two_spheres();
   finalize_scene(scene);
   EXPECT_LE(scene.bounds.min.x, -1);
@@ -30,9 +29,9 @@ TEST(Scene, BoundsAndScenesSphereHoldEveryShape) {
   for (const Point3& corner : {scene.bounds.min, scene.bounds.max}) {
     EXPECT_LE(glm::distance(corner, light.scene_center), light.scene_radius);
   }
-  // Box of 7 x 4 x 4.
+  // The bounding box is 7 x 4 x 4.
   EXPECT_NEAR(light.scene_radius, 4.5, 1e-4);
-  // Powers are known only after the scene's sphere is: 4 pi, 4 pi^2 r^2, pi r^2.
+  // Powers depend on the scene's bounding sphere: 4 pi, 4 pi^2 r^2, pi r^2.
   const double p0 = 4, p1 = 4 * std::numbers::pi * 4.5 * 4.5, p2 = 4.5 * 4.5;
   EXPECT_NEAR(scene.light_power.pdf(1), p1 / (p0 + p1 + p2), 1e-4);
 }
@@ -45,7 +44,7 @@ TEST(Scene, NeedsFollowFromSurfacesAndLights) {
   EXPECT_FALSE(scene.needs.only_delta_lights);
   EXPECT_TRUE(scene.needs.left_out().empty());
 
-  scene.shapes.pop_back();  // the mirror is a material that no shape uses now
+  scene.shapes.pop_back();  // no shape uses the mirror material now
   scene.lights = {PointLight{}};
   finalize_scene(scene);
   EXPECT_FALSE(scene.needs.specular);

@@ -1,4 +1,4 @@
-// docs/reference/scene_format.md holds the schema's own tables.
+// Tests that docs/reference/scene_format.md holds the schema's own tables.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace kaustik {
 namespace {
 
-TEST(SchemaDocument, HoldsTheTablesOfTheSchema) {
+TEST(SchemaDocument, ContainsTheTablesOfTheSchema) {
   std::ifstream in(KAUSTIK_SOURCE_DIR "/docs/reference/scene_format.md");
   ASSERT_TRUE(in) << "docs/reference/scene_format.md is missing";
   std::stringstream text;
@@ -23,12 +23,12 @@ TEST(SchemaDocument, HoldsTheTablesOfTheSchema) {
   }
 }
 
-TEST(SchemaDocument, EveryMaterialAndLightIsThere) {
+TEST(SchemaDocument, ListsEveryMaterialAndLight) {
   const std::string tables = schema_markdown();
   const auto has_row = [&](std::string_view directive, std::string_view name) {
     return tables.find(fmt::format("`{} \"{}\"`", directive, name)) != std::string::npos;
   };
-  // Each BSDF has a row that makes it from its defaults.
+  // Each BSDF has a row in the schema that makes it from its defaults.
   std::set<size_t> made;
   for (const MaterialRow& row : material_rows()) {
     EXPECT_TRUE(has_row("Material", row.spec.name));

@@ -1,4 +1,4 @@
-// Bump and normal maps against normals worked out by hand.
+// Tests bump and normal maps against normals worked out by hand.
 
 #include "core/scene/shading_normal.h"
 
@@ -7,7 +7,7 @@
 namespace kaustik {
 namespace {
 
-// A plane of 2 x 3 metres, uv from 0 to 1 along x and y.
+// A plane of 2 x 3 metres with uv from 0 to 1 along x and y.
 SurfaceParameters plane() {
   SurfaceParameters s;
   s.uv = {0.25f, 0.5f};
@@ -20,7 +20,7 @@ struct BumpedPlane {
   TextureSet textures;
   TexturedMaterial material;
 
-  // Height 0.5 u + 0.75 v metres.
+  // The height is 0.5 u + 0.75 v metres.
   BumpedPlane() {
     material.displacement =
         textures.add(BilerpTexture{UvMapping{}, Rgb(0), Rgb(0.75f), Rgb(0.5f), Rgb(1.25f)}, Transform());
@@ -34,10 +34,10 @@ struct BumpedPlane {
   }
 };
 
-// Slopes 0.5 / 2 and 0.75 / 3: the normal is (-1/4, -1/4, 1) normalised, whatever the step, since the height
-// is linear. Differences of heights of order one over a step of 5e-4: rounding of 6e-8 / 5e-4 = 1.2e-4, by
-// three.
-TEST(BumpMap, OfAPlane) {
+// The slopes are 0.5 / 2 and 0.75 / 3, so the normal is (-1/4, -1/4, 1) normalised, whatever the step, since
+// the height is linear. Differences of heights near one over a step of 5e-4 round by 6e-8 / 5e-4 = 1.2e-4,
+// times three.
+TEST(BumpMap, PlaneMatchesTheClosedForm) {
   const BumpedPlane bumped;
   const SurfaceInteraction si;
   const Normal3 expected = glm::normalize(Vector3(-0.25f, -0.25f, 1));
@@ -47,8 +47,9 @@ TEST(BumpMap, OfAPlane) {
   }
 }
 
-// Seen from below, heights rise to the other side: (-1/4, -1/4, -1) normalised, about n = -z.
-TEST(BumpMap, RisesAlongTheNormal) {
+// Seen from below, heights rise towards the viewer's side: the normal is (-1/4, -1/4, -1) normalised, about n
+// = -z.
+TEST(BumpMap, RisesTowardsTheSideThatIsSeen) {
   const BumpedPlane bumped;
   SurfaceInteraction si;
   si.n = si.ns = {0, 0, -1};
@@ -57,7 +58,7 @@ TEST(BumpMap, RisesAlongTheNormal) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(n[c], expected[c], 4e-4f);
 }
 
-// However steep, the normal stays on n's side.
+// However steep the slope, the normal stays on the side of n.
 TEST(BumpMap, StaysInTheHemisphere) {
   BumpedPlane bumped;
   SurfaceInteraction si;
@@ -90,8 +91,8 @@ Normal3 mapped(const Rgb& colour, const SurfaceInteraction& si, const SurfacePar
   return shading_normal(textures, material, {}, surface, si);
 }
 
-// 2 c - 1 in the frame of u, ns x u, ns: (0.6, 0, 0.8) from (0.8, 0.5, 0.9).
-TEST(NormalMap, OfAPlane) {
+// The normal is 2 c - 1 in the frame (u, ns x u, ns): (0.6, 0, 0.8) from (0.8, 0.5, 0.9).
+TEST(NormalMap, PlaneMatchesTheClosedForm) {
   const Normal3 n = mapped({0.8f, 0.5f, 0.9f}, {});
   EXPECT_NEAR(n.x, 0.6f, 1e-6f);
   EXPECT_NEAR(n.y, 0, 1e-6f);
@@ -99,8 +100,9 @@ TEST(NormalMap, OfAPlane) {
   EXPECT_NEAR(mapped({0.5f, 0.8f, 0.9f}, {}).y, 0.6f, 1e-6f);
 }
 
-// Symmetric models show half of a map mirrored: up in the map stays up on both halves, from either side.
-TEST(NormalMap, GreenIsTowardsV) {
+// Symmetric models often use one half of a map mirrored: up in the map stays up on both halves, seen from
+// either side.
+TEST(NormalMap, GreenPointsTowardsV) {
   for (const bool u_turned : {false, true})
     for (const bool v_turned : {false, true})
       for (const float side : {1.0f, -1.0f}) {
@@ -115,7 +117,7 @@ TEST(NormalMap, GreenIsTowardsV) {
       }
 }
 
-TEST(NormalMap, WithoutANormalChangesNothing) {
+TEST(NormalMap, ZeroVectorChangesNothing) {
   SurfaceInteraction si;
   si.ns = glm::normalize(Vector3(0.1f, 0.2f, 1));
   EXPECT_EQ(mapped(Rgb(0.5f), si), si.ns);

@@ -27,16 +27,16 @@ std::vector<uint32_t> groups(std::vector<Shape> shapes, std::vector<std::string>
 using Groups = std::vector<uint32_t>;
 const Vector3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
-TEST(SurfaceGroups, TilesOfAFloorAreOneSurface) {
+TEST(SurfaceGroups, TilesOfAFloorShareAGroup) {
   EXPECT_EQ(groups({tile({0, 0, 0}, kX, kZ), tile({1, 0, 0}, kX, kZ), tile({2, 0, 0}, kX, kZ, true)}),
             Groups({0, 0, 0}));
 }
 
-TEST(SurfaceGroups, FloorAndWallAreTwo) {
+TEST(SurfaceGroups, FloorAndWallAreSeparateGroups) {
   EXPECT_EQ(groups({tile({0, 0, 0}, kX, kZ), tile({0, 0, 0}, kX, kY)}), Groups({0, 1}));
 }
 
-TEST(SurfaceGroups, TheBendDecides) {
+TEST(SurfaceGroups, TheAngleAtTheEdgeDecides) {
   const auto bent = [&](float degrees) {
     const float a = glm::radians(degrees);
     return groups({tile({0, 0, 0}, kX, kZ), tile({1, 0, 0}, {std::cos(a), std::sin(a), 0}, kZ)});
@@ -51,12 +51,12 @@ TEST(SurfaceGroups, ACommonCornerOrANearEdgeDoesNotJoin) {
             Groups({0, 1}));
 }
 
-TEST(SurfaceGroups, MinusZeroIsZero) {
+TEST(SurfaceGroups, MinusZeroMatchesZero) {
   EXPECT_EQ(groups({tile({-1, 0, 0}, kX, kZ), tile({-0.0f, -0.0f, -0.0f}, kX, kZ)}), Groups({0, 0}));
 }
 
 TEST(SurfaceGroups, InnerEdgesDoNotJoin) {
-  // The second one stands on the diagonal of the first, which is no boundary of it.
+  // The second tile stands on the diagonal of the first, which is not a boundary edge of it.
   Shape on_diagonal = tile({0, 0, 0}, {1, 0, 1}, {-1, 0, 1});
   EXPECT_EQ(groups({tile({0, 0, 0}, kX, kZ), on_diagonal}), Groups({0, 1}));
 }

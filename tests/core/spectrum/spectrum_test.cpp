@@ -1,4 +1,4 @@
-// Spectra against published chromaticities, and what must hold by definition.
+// Tests spectra against published chromaticities and against their definitions.
 
 #include <gtest/gtest.h>
 
@@ -18,16 +18,16 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance, std
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << what << ' ' << i;
 }
 
-// The integral of y is 106.856895 nm by the CIE's table in steps of 1 nm, on which pbrt's sums are built.
-// Ours is refined from steps of 5 nm.
-TEST(Spectrum, ObserverIntegral) {
+// The integral of the observer's y is 106.856895 nm by the CIE's table in steps of 1 nm, which pbrt's sums
+// use. Our table is refined from steps of 5 nm.
+TEST(Spectrum, ObserverHasThePublishedIntegral) {
   EXPECT_NEAR(tristimulus(Spectrum::from([](double) { return 1; })).y, 106.856895, 0.002);
 }
 
-// CIE 15:2004, table T.3: chromaticities of the illuminants, four digits as printed there. F lights are
-// tables in steps of 5 nm, summed by the CIE at these steps; we interpolate, which moves peaked spectra by up
-// to 0.0003.
-TEST(Spectrum, IlluminantChromaticities) {
+// CIE 15:2004, table T.3: chromaticities of the illuminants, with the four digits printed there. F
+// illuminants are tables in steps of 5 nm which the CIE sums at these steps; we interpolate, which moves
+// peaked spectra by up to 0.0003.
+TEST(Spectrum, IlluminantsHaveThePublishedChromaticities) {
   const struct {
     const char* name;
     double x, y, tolerance;
@@ -51,8 +51,8 @@ TEST(Spectrum, IlluminantChromaticities) {
   }
 }
 
-// Points of the Planckian locus (Wyszecki and Stiles 1982, table 3.11; there with c2 = 1.4388 cm K).
-TEST(Spectrum, PlanckianLocus) {
+// Points of the Planckian locus (Wyszecki and Stiles 1982, table 3.11, where c2 = 1.4388 cm K).
+TEST(Spectrum, BlackbodiesLieOnThePlanckianLocus) {
   const struct {
     double kelvin, x, y;
   } published[] = {
@@ -65,7 +65,7 @@ TEST(Spectrum, PlanckianLocus) {
 }
 
 TEST(Spectrum, BlackbodyPeaksAtOne) {
-  // Wien: 5000 K peaks at 579.55 nm.
+  // By Wien's law 5000 K peaks at 579.55 nm.
   const Spectrum s = blackbody(5000);
   EXPECT_NEAR(s.at(579.55), 1, 1e-5);  // linear between nanometres
   EXPECT_EQ(*std::max_element(s.values.begin(), s.values.end()), s.at(580));
@@ -79,23 +79,23 @@ TEST(Spectrum, DaylightIsWhite) {
 TEST(Spectrum, LightsHaveLuminanceOne) {
   for (const std::string_view name : spectrum_names()) {
     const glm::dvec3 c = emitted_colour(*named_spectrum(name));
-    // The middle row of the matrix from Rec. 709 to XYZ.
+    // Luminance uses the middle row of the matrix from Rec. 709 to XYZ.
     const glm::dmat3& m = colour_spaces().front().to_xyz;
-    if (name.ends_with("O-k") || name.ends_with("2-k")) continue;  // zero
+    if (name.ends_with("O-k") || name.ends_with("2-k")) continue;  // these spectra are zero
     EXPECT_NEAR(m[0].y * c.x + m[1].y * c.y + m[2].y * c.z, 1, 1e-12) << name;
   }
 }
 
-// IEC 61966-2-1 prints its matrix for the white (0.3127, 0.3290); ours is 2e-5 from there.
-TEST(Spectrum, MatrixOfSrgb) {
+// IEC 61966-2-1 prints its matrix for the white point (0.3127, 0.3290); ours is 2e-5 from there.
+TEST(Spectrum, SrgbMatchesThePublishedMatrix) {
   const glm::dmat3& m = colour_spaces().front().to_xyz;
   expect_near(m[0], {0.4124, 0.2126, 0.0193}, 2e-4);
   expect_near(m[1], {0.3576, 0.7152, 0.1192}, 2e-4);
   expect_near(m[2], {0.1805, 0.0722, 0.9505}, 4e-4);
 }
 
-// ITU-R BT.2087 gives Rec. 709 to Rec. 2020; its inverse leads back.
-TEST(Spectrum, MatrixOfRec2020) {
+// ITU-R BT.2087 gives the matrix from Rec. 709 to Rec. 2020; our matrix is its inverse.
+TEST(Spectrum, Rec2020MatchesThePublishedMatrix) {
   const glm::dmat3 back({0.6274, 0.0691, 0.0164}, {0.3293, 0.9195, 0.0880}, {0.0433, 0.0114, 0.8956});
   const glm::dmat3 product = find_colour_space("rec2020")->light_to_ours() * back;
   for (int c = 0; c < 3; ++c) {
@@ -106,7 +106,7 @@ TEST(Spectrum, MatrixOfRec2020) {
 TEST(Spectrum, WhiteSurfacesStayWhite) {
   for (const ColourSpace& space : colour_spaces())
     expect_near(space.surface_to_ours() * glm::dvec3(1), glm::dvec3(1), 1e-12, space.name);
-  // The white of ACES is warmer than ours.
+  // The white point of ACES is warmer than ours.
   const glm::dvec3 light = find_colour_space("aces2065-1")->light_to_ours() * glm::dvec3(1);
   EXPECT_GT(light.r, 1.03);
   EXPECT_LT(light.b, 0.95);
@@ -114,8 +114,8 @@ TEST(Spectrum, WhiteSurfacesStayWhite) {
   EXPECT_EQ(find_colour_space("prophoto"), nullptr);
 }
 
-// Schott's data sheets (SF10: of today's N-SF10): n_d at 587.56 nm.
-TEST(Spectrum, Glasses) {
+// Schott's data sheets (for SF10, that of today's N-SF10): n_d at 587.56 nm.
+TEST(Spectrum, GlassesHaveThePublishedIndices) {
   const std::pair<const char*, double> sheets[] = {
       {"glass-BK7", 1.51680}, {"glass-BAF10", 1.67003}, {"glass-FK51A", 1.48656}, {"glass-LASF9", 1.85025},
       {"glass-SF5", 1.67270}, {"glass-F5", 1.67270},    {"glass-SF10", 1.72828},  {"glass-SF11", 1.78472},
@@ -123,8 +123,8 @@ TEST(Spectrum, Glasses) {
   for (const auto& [name, nd] : sheets) EXPECT_NEAR(named_spectrum(name)->at(587.56), nd, 1e-5) << name;
 }
 
-// Gold reflects red and little blue; silver is the best mirror. Magnitudes: Palik (1985), to 0.03.
-TEST(Spectrum, Metals) {
+// Gold reflects red and little blue; silver is the best mirror. Magnitudes are from Palik (1985), to 0.03.
+TEST(Spectrum, MetalsHaveThePublishedReflectances) {
   for (const MetalIndex& m : metals()) {
     const MetalColour c = metal_colour(m.eta, m.k);
     const glm::dvec3 k2 = c.k * c.k;
@@ -133,7 +133,7 @@ TEST(Spectrum, Metals) {
     if (m.name == "Ag") expect_near(r, {0.97, 0.96, 0.92}, 0.03, m.name);
     if (m.name == "Al") expect_near(r, {0.91, 0.92, 0.92}, 0.02, m.name);
     if (m.name == "Cu") expect_near(r, {0.95, 0.64, 0.54}, 0.04, m.name);
-    // The reduction keeps the colour of the spectral reflectance wherever k can.
+    // The reduction to RGB keeps the colour of the spectral reflectance wherever a k exists that gives it.
     const Spectrum exact = Spectrum::from([&](double nm) {
       const double n = m.eta.at(nm), k = m.k.at(nm);
       return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
@@ -142,7 +142,7 @@ TEST(Spectrum, Metals) {
   }
 }
 
-TEST(Spectrum, SamplesAreJoinedByLines) {
+TEST(Spectrum, SamplesAreInterpolatedLinearly) {
   const double nm[] = {400, 500, 600}, v[] = {0, 1, 0.5};
   const Spectrum s = sampled_spectrum(nm, v);
   EXPECT_EQ(s.at(399), 0);
@@ -153,7 +153,7 @@ TEST(Spectrum, SamplesAreJoinedByLines) {
   EXPECT_EQ(s.at(601), 0);
 }
 
-TEST(Spectrum, MissingOnesAreKnown) {
+TEST(Spectrum, KnowsPbrtsSpectraThatAreMissingHere) {
   EXPECT_EQ(nearest_to_missing_spectrum("metal-CuZn-eta"), "metal-Cu-eta");
   EXPECT_EQ(nearest_to_missing_spectrum("canon_eos_5d_mkii_r"), "");
   EXPECT_FALSE(nearest_to_missing_spectrum("metal-Xy-eta"));

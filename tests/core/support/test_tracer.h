@@ -1,5 +1,5 @@
 #pragma once
-// Nearest hit by trying every primitive; triangles in double. For tests only.
+// Finds the nearest hit by trying every primitive, without a BVH; triangles in double.
 
 #include <glm/glm.hpp>
 
@@ -39,23 +39,6 @@ inline Hit brute_force(const std::vector<Shape>& shapes, const Ray& ray) {
     if (hit.t < best.t) best = hit;
   }
   return best;
-}
-
-inline glm::dmat4 affine(const glm::dmat3& linear, const glm::dvec3& translation) {
-  glm::dmat4 m(linear);
-  m[3] = glm::dvec4(translation, 1);
-  return m;
-}
-inline Shape sphere_shape(const Point3& center, float radius, bool flip = false) {
-  Shape shape;
-  shape.geometry = Sphere{Transform::from_matrix(affine(glm::dmat3(radius), center))};
-  shape.flip_normal = flip;
-  return shape;
-}
-inline Shape triangle_shape(const Point3& a, const Point3& b, const Point3& c) {
-  Shape shape;
-  shape.geometry = TriangleMesh{{a, b, c}, {}, {}, {{0, 1, 2}}};
-  return shape;
 }
 
 }  // namespace kaustik::test

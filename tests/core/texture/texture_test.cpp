@@ -1,4 +1,4 @@
-// Textures against values worked out by hand.
+// Tests textures against values worked out by hand.
 
 #include "core/texture/texture.h"
 
@@ -42,7 +42,7 @@ TEST(TextureMapping, Uv) {
   EXPECT_EQ(c.dstdy, Vector2(1, 0.75f));
 }
 
-// s = theta / pi, t = phi / (2 pi) of pbrt-v4.
+// pbrt-v4's formula: s = theta / pi, t = phi / (2 pi).
 TEST(TextureMapping, Spherical) {
   expect_near(mapped(SphereMapping{}, {0, 0, 5}), {0, 0});
   expect_near(mapped(SphereMapping{}, {2, 0, 0}), {0.5f, 0});
@@ -50,14 +50,14 @@ TEST(TextureMapping, Spherical) {
   expect_near(mapped(SphereMapping{}, {0, -1, 1}), {0.25f, 0.75f});
 }
 
-// s = (pi + phi) / (2 pi) with phi in (-pi, pi], t = z.
+// pbrt-v4's formula: s = (pi + phi) / (2 pi) with phi in (-pi, pi], t = z.
 TEST(TextureMapping, Cylindrical) {
   expect_near(mapped(CylinderMapping{}, {1, 0, 7}), {0.5f, 7});
   expect_near(mapped(CylinderMapping{}, {0, 2, -1}), {0.75f, -1});
   expect_near(mapped(CylinderMapping{}, {0, -2, 0}), {0.25f, 0});
 }
 
-// In texture space: what the transform leads from.
+// Coordinates are in texture space, which the transform leads from.
 TEST(TextureMapping, PlanarInTextureSpace) {
   const PlanarMapping mapping{{2, 0, 0}, {0, 0, 1}, {0.5f, 0.25f}};
   expect_near(mapped(mapping, {1, 9, 3}), {2.5f, 3.25f});
@@ -65,7 +65,7 @@ TEST(TextureMapping, PlanarInTextureSpace) {
   expect_near(mapped(mapping, {3, 0, 4}, to_world), {2.5f, 2.25f});  // texture space (1, 0, 2)
 }
 
-// Derivatives against differences over a step of 1e-3: second derivatives are of order one here.
+// Compares derivatives with differences over a step of 1e-3; second derivatives are of order one here.
 TEST(TextureMapping, DerivativesAreDifferences) {
   const glm::dmat4 m = glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(1, 1, 0));
   const TextureMapping mappings[] = {SphereMapping{}, CylinderMapping{}, PlanarMapping{{1, 2, 0}, {0, 1, 3}}};
@@ -127,8 +127,9 @@ TEST(Texture, CheckerboardFields) {
   EXPECT_EQ(value(cubes, at({0.5f, 0.5f, -0.5f})), Rgb(0));
 }
 
-// A triangle filter of half width r = 1.5 w about the border of two fields: by symmetry 1/2. At distance d <
-// r inside: 1 - (1 - d / r)^2 / 2, the triangle's part beyond.
+// Filters the border of two fields by a triangle of half width r = 1.5 w: on the border the result is 1/2 by
+// symmetry, and at distance d < r inside it is 1 - (1 - d / r)^2 / 2, where the second term is the triangle's
+// part beyond the border.
 TEST(Texture, CheckerboardIsFilteredByATriangle) {
   constexpr float kWidth = 0.2f, kRadius = 1.5f * kWidth;
   TexturePoint x = at_uv(1, 0.5f);
@@ -139,8 +140,7 @@ TEST(Texture, CheckerboardIsFilteredByATriangle) {
   EXPECT_NEAR(value(board(), x).x, 1 - beyond, 1e-5f);
 }
 
-// The same of a footprint of 1/65536 of a field, far from the origin: a quarter of r inside the field beyond
-// the border, 1 - (3/4)^2 / 2.
+// Far from the origin, with a footprint of 1/65536 of a field, at r/4 inside the border: 1 - (3/4)^2 / 2.
 TEST(Texture, CheckerboardIsFilteredInSmall) {
   for (const float border : {1.0f, 15.0f}) {
     constexpr float kRadius = 0x1p-16f;
@@ -152,15 +152,16 @@ TEST(Texture, CheckerboardIsFilteredInSmall) {
   }
 }
 
-// Octaves that are beyond numbers leave no number, which readers of textures know.
-TEST(Texture, MarbleOfWhatIsNoNumber) {
+// Octaves that overflow give NaN, which the readers of textures handle.
+TEST(Texture, MarbleOfOverflowingOctavesIsNaN) {
   MarbleTexture marble;
   marble.octaves.omega = 1e30f;
   EXPECT_TRUE(std::isnan(value(marble, at({0.3f, 0.4f, 0.5f})).x));
 }
 
-// Filtering moves values, it adds none: the mean over a period is that of the two textures, for any width.
-// Midpoints of 64 columns: exact up to rounding for a function that is symmetric about both borders.
+// Filtering moves values but adds none: the mean over a period is that of the two textures, for any width.
+// The mean over the midpoints of 64 columns is exact up to rounding for a function that is symmetric about
+// both borders.
 TEST(Texture, CheckerboardKeepsItsMean) {
   for (const float width : {0.0f, 0.1f, 0.4f, 3.0f}) {
     double sum = 0;
@@ -173,8 +174,8 @@ TEST(Texture, CheckerboardKeepsItsMean) {
   }
 }
 
-// Perlin's noise is zero on the lattice in all three dimensions; with z fixed at 1/2 it is not, but it keeps
-// its period and its bounds.
+// Perlin's noise is zero on the lattice in three dimensions. With z fixed at 1/2 it is not, but it keeps its
+// period and its bounds.
 TEST(Texture, NoiseRepeatsAndIsBounded) {
   for (int i = 0; i < 1000; ++i) {
     const float x = 0.37f * float(i) - 100, y = 0.73f * float(i) - 200;
@@ -184,8 +185,8 @@ TEST(Texture, NoiseRepeatsAndIsBounded) {
   EXPECT_EQ(noise(kInfinity, 0), 0);
 }
 
-// At most one disc of radius 0.35 in each field: so much of the plane at most; some fields have none.
-// One octave of noise is noise. A footprint as wide as its period leaves nothing but the mean of turbulence.
+// With one octave, octaves of noise equal the noise itself. With a footprint as wide as the period, only the
+// mean of the turbulence is left.
 TEST(Texture, OctavesOfNoise) {
   const Point3 p(0.3f, 1.7f, 2.2f);
   const Vector3 none(0), wide(10, 0, 0);
@@ -197,7 +198,8 @@ TEST(Texture, OctavesOfNoise) {
   EXPECT_NEAR(turbulence(p, none, wide, {0.5f, 2}), 0.2f + 0.2f + 0.1f, 1e-6f);
 }
 
-TEST(Texture, DotsCoverAPart) {
+// Each field holds at most one disc of radius 0.35, and some hold none.
+TEST(Texture, DotsCoverPartOfThePlane) {
   const DotsTexture dots{UvMapping{}, {Rgb(1)}, {Rgb(0)}};
   double covered = 0;
   constexpr int kSide = 400;
@@ -208,7 +210,7 @@ TEST(Texture, DotsCoverAPart) {
   EXPECT_LT(covered, std::numbers::pi * 0.35 * 0.35);
 }
 
-// An image that says where it was asked.
+// An image that reports where it was looked up.
 class Probe final : public ImageLibrary {
  public:
   Rgb lookup(uint32_t image, const ImageSampling&, const Point2& st, const Vector2& dstdx,
@@ -217,8 +219,8 @@ class Probe final : public ImageLibrary {
   }
 };
 
-// t points up in the image, rows go down; scale comes before invert; nothing is negative; float textures take
-// the first channel.
+// t points up in the image while rows go down; scale comes before invert; results are not negative; float
+// textures take the first channel.
 TEST(Texture, ImagesAreTurnedScaledAndInverted) {
   TextureSet set;
   set.set_images(std::make_shared<Probe>());

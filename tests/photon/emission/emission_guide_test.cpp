@@ -1,5 +1,5 @@
-// Guided emission: the density that is drawn is the one that is stated, whatever was learned; guided photons
-// carry on the mean what uniform ones do.
+// Tests guided emission: the points are drawn with the stated density, whatever was learned, and guided
+// photons carry on average the flux of uniform ones.
 
 #include "photon/emission/emission_guide.h"
 
@@ -11,11 +11,14 @@
 #include "photon/shoot/guide_shoot.h"
 #include "photon/shoot/shoot.h"
 #include "tests/photon/support/trace_scenes.h"
+#include "tests/support/packed_flux.h"
+#include "tests/support/shapes.h"
+#include "tests/support/statistics.h"
 
 namespace kaustik::photon {
 namespace {
 
-using testing::settings_for;
+using test::settings_for;
 
 EmissionPoint point(uint64_t seed, uint64_t index) {
   Sampler sampler(seed, index);
@@ -24,7 +27,7 @@ EmissionPoint point(uint64_t seed, uint64_t index) {
   return u;
 }
 
-// Within a narrow box of volume .02 x .05 x .5.
+// Whether u lies in a narrow box of volume 0.02 x 0.05 x 0.5.
 bool in_cluster(const EmissionPoint& u) {
   return u[0] > 0.3f && u[0] < 0.32f && u[2] > 0.9f && u[2] < 0.95f && u[4] < 0.5f;
 }
@@ -38,9 +41,9 @@ std::vector<GuideHit> cluster(size_t count, double weight = 1) {
   return hits;
 }
 
-// N points of density p with weights 1/p: any region gets its volume as the mean weight. A weight is at most
-// 1 / kUniformShare, so the variance of the mean is at most volume / kUniformShare / N.
-TEST(EmissionGuide, DrawsByTheDensityItStates) {
+// With N points of density p and weights 1/p, the mean weight in any region is its volume. A weight is at
+// most 1 / kUniformShare, so the variance of the mean is at most volume / kUniformShare / N.
+TEST(EmissionGuide, DrawsWithTheStatedDensity) {
   const EmissionGuide guide(cluster(4000), 5);
   constexpr uint64_t kPoints = 200'000;
   double all = 0, low = 0, inside = 0, drawn_inside = 0;
@@ -49,7 +52,7 @@ TEST(EmissionGuide, DrawsByTheDensityItStates) {
     const float weight = guide.warp(u);
     for (const float x : u) ASSERT_TRUE(x >= 0 && x < 1) << x;
     ASSERT_LE(weight, 1.0001 / EmissionGuide::kUniformShare);
-    // At a box's face rounding may take a point to the next box.
+    // At the face of a box, rounding may take a point to the next box.
     if (guide.density(u) * weight < 0.999f || guide.density(u) * weight > 1.001f) continue;
     all += weight;
     low += u[1] < 0.25f ? weight : 0;
@@ -62,11 +65,11 @@ TEST(EmissionGuide, DrawsByTheDensityItStates) {
   EXPECT_NEAR(all / kPoints, 1, bound(1));
   EXPECT_NEAR(low / kPoints, 0.25, bound(0.25));
   EXPECT_NEAR(inside / kPoints, 0.02 * 0.05 * 0.5, bound(0.02 * 0.05 * 0.5));
-  EXPECT_GT(drawn_inside / kPoints, (1 - EmissionGuide::kUniformShare) / 3);  // of a volume of 0.0005
+  EXPECT_GT(drawn_inside / kPoints, (1 - EmissionGuide::kUniformShare) / 3);  // in a volume of 0.0005
   EXPECT_LT(guide.variance(), 0.02);
 }
 
-TEST(EmissionGuide, DependsOnTheWeightsRatiosAlone) {
+TEST(EmissionGuide, DependsOnRatiosOfWeightsOnly) {
   const EmissionGuide a(cluster(1000), 5), b(cluster(1000, 0x1p-60), 5), c(cluster(1000, 0x1p90), 5);
   for (uint64_t i = 0; i < 1000; ++i) {
     const EmissionPoint at = point(1, i);
@@ -78,7 +81,7 @@ TEST(EmissionGuide, DependsOnTheWeightsRatiosAlone) {
   }
 }
 
-// Hits that are spread evenly, and hits too few to tell, teach nothing.
+// Hits that are spread evenly, or too few to be significant, teach nothing.
 TEST(EmissionGuide, LearnsNothingFromEvenHits) {
   std::vector<GuideHit> even;
   for (uint64_t i = 0; i < 4096; ++i) even.push_back({point(5, i), 1});
@@ -98,11 +101,11 @@ LearnedGuide learn(const Scene& scene, int threads = 2, uint64_t photons = 100'0
   return learned;
 }
 
-// A room with a small glass sphere below the light, `size` of the room's half width.
+// A room with a small glass sphere below the light, with a radius of `size` times the room's half width.
 Scene room_with_marble(float size, float s = 1) {
-  Scene scene = testing::lit_room(Rgb(0.5f), Rgb(4, 2, 1), s);
+  Scene scene = test::lit_room(Rgb(0.5f), Rgb(4, 2, 1), s);
   scene.materials.push_back(Dielectric{1.5f});
-  scene.shapes.push_back(testing::sphere({0.2f * s, -0.8f * s, 0.1f * s}, size * s, 1));
+  scene.shapes.push_back(test::sphere({0.2f * s, -0.8f * s, 0.1f * s}, size * s, 1));
   finalize_scene(scene);
   return scene;
 }
@@ -124,35 +127,29 @@ double flux_of(const ShootResult& shot) {
   return sum;
 }
 
-struct Mean {
-  double mean = 0, standard_error = 0;
-};
-Mean flux_over_seeds(const Scene& scene, const EmissionGuide* guide) {
-  constexpr int kSeeds = 12;
-  double sum = 0, squares = 0;
-  for (uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const double flux = flux_of(shoot_caustics(scene, 20'000, guide, seed));
-    sum += flux, squares += flux * flux;
-  }
-  const double mean = sum / kSeeds;
-  return {mean, std::sqrt((squares / kSeeds - mean * mean) / (kSeeds - 1))};
+test::Estimate flux_over_seeds(const Scene& scene, const EmissionGuide* guide) {
+  test::Mean flux;
+  for (uint64_t seed = 0; seed < 12; ++seed) flux.add(flux_of(shoot_caustics(scene, 20'000, guide, seed)));
+  return flux.estimate();
 }
 
-// 5 standard errors of 22 degrees of freedom, and what packing to 9 bits may shift on the mean (packing.h).
-void expect_equal_flux(const Mean& a, const Mean& b) {
-  EXPECT_NEAR(a.mean, b.mean, 5 * std::hypot(a.standard_error, b.standard_error) + a.mean / 511);
+// The tolerance is 5 standard errors with 22 degrees of freedom, plus the rounding of packed fluxes.
+void expect_equal_flux(const test::Estimate& a, const test::Estimate& b) {
+  EXPECT_NEAR(a.mean, b.mean,
+              5 * std::hypot(a.standard_error, b.standard_error) + test::kPackedFluxError * a.mean);
 }
 
-TEST(GuidedEmission, CarriesWhatUniformEmissionDoes) {
-  const Scene scene = testing::full_room();
+TEST(GuidedEmission, CarriesTheFluxOfUniformEmission) {
+  const Scene scene = test::full_room();
   const LearnedGuide learned = learn(scene);
   ASSERT_FALSE(learned.guide.empty());
-  const Mean uniform = flux_over_seeds(scene, nullptr), guided = flux_over_seeds(scene, &learned.guide);
+  const test::Estimate uniform = flux_over_seeds(scene, nullptr),
+                       guided = flux_over_seeds(scene, &learned.guide);
   expect_equal_flux(uniform, guided);
   EXPECT_LT(guided.standard_error, 0.1 * guided.mean);  // the test can fail
 }
 
-// A marble that one of 1100 photons meets.
+// The marble is met by one photon in 1100.
 TEST(GuidedEmission, FindsASmallTarget) {
   const Scene scene = room_with_marble(0.05f);
   const LearnedGuide learned = learn(scene, 2, 1'000'000);
@@ -163,9 +160,9 @@ TEST(GuidedEmission, FindsASmallTarget) {
   expect_equal_flux(flux_over_seeds(scene, nullptr), flux_over_seeds(scene, &learned.guide));
 }
 
-TEST(GuidedEmission, LightsThatNobodySawKeepTheirLight) {
+TEST(GuidedEmission, LightsWithoutLearnedHitsKeepTheirFlux) {
   Scene scene = room_with_marble(0.3f);
-  testing::add_light(scene, testing::quad({-0.9f, 0.5f, -0.9f}, {0.1f, 0, 0}, {0, 0, 0.1f}), Rgb(40));
+  test::add_light(scene, test::parallelogram({-0.9f, 0.5f, -0.9f}, {0.1f, 0, 0}, {0, 0, 0.1f}), Rgb(40));
   finalize_scene(scene);
   ASSERT_EQ(scene.lights.size(), 2u);
   std::vector<GuideHit> hits;
@@ -174,38 +171,38 @@ TEST(GuidedEmission, LightsThatNobodySawKeepTheirLight) {
     hits.back().u[4] *= scene.light_power.pdf(0);
   }
   const EmissionGuide guide(hits, 5);
-  const Mean uniform = flux_over_seeds(scene, nullptr), guided = flux_over_seeds(scene, &guide);
+  const test::Estimate uniform = flux_over_seeds(scene, nullptr), guided = flux_over_seeds(scene, &guide);
   expect_equal_flux(uniform, guided);
   EXPECT_LT(5 * std::hypot(uniform.standard_error, guided.standard_error), 0.2 * uniform.mean);
 }
 
-TEST(GuidedEmission, IsOffWhereNothingIsFoundOrAllIs) {
-  EXPECT_TRUE(learn(testing::lit_room(Rgb(0.5f), Rgb(1))).guide.empty());
-  Scene dark = testing::full_room();
+TEST(GuidedEmission, IsOffWhereNoPhotonOrEveryPhotonHits) {
+  EXPECT_TRUE(learn(test::lit_room(Rgb(0.5f), Rgb(1))).guide.empty());
+  Scene dark = test::full_room();
   dark.lights.clear();
   for (Shape& shape : dark.shapes) shape.light = kNoIndex;
   finalize_scene(dark);
   EXPECT_TRUE(learn(dark).guide.empty());
-  EXPECT_EQ(learn(testing::lit_room(Rgb(0.5f), Rgb(1))).hits, 0u);
-  // A plate of glass below the light, as wide as the room.
-  Scene covered = testing::lit_room(Rgb(0.5f), Rgb(1));
+  EXPECT_EQ(learn(test::lit_room(Rgb(0.5f), Rgb(1))).hits, 0u);
+  // A glass plate below the light, as wide as the room: every photon meets it.
+  Scene covered = test::lit_room(Rgb(0.5f), Rgb(1));
   covered.materials.push_back(Dielectric{1.5f});
-  covered.shapes.push_back(testing::quad({-1, 0.5f, -1}, {2, 0, 0}, {0, 0, 2}, 1));
+  covered.shapes.push_back(test::parallelogram({-1, 0.5f, -1}, {2, 0, 0}, {0, 0, 2}, 1));
   finalize_scene(covered);
   const LearnedGuide learned = learn(covered);
   EXPECT_TRUE(learned.guide.empty());
   EXPECT_GT(learned.hits, learned.emitted / 2);
 }
 
-TEST(GuidedEmission, SameForAnyNumberOfThreadsAndAnyScale) {
+TEST(GuidedEmission, DoesNotDependOnThreadsOrScale) {
   const auto records = [](const Scene& scene, int threads) {
     const LearnedGuide learned = learn(scene, threads);
     return shoot_caustics(scene, 20'000, &learned.guide, 1).buffers[size_t(PhotonKind::kCaustic)];
   };
-  const PhotonBuffer one = records(testing::full_room(), 1);
+  const PhotonBuffer one = records(test::full_room(), 1);
   ASSERT_GT(one.records.size(), 1000u);
   for (const float scale : {1.0f, 0x1p-20f, 0x1p13f}) {
-    const PhotonBuffer other = records(testing::full_room(scale), 3);
+    const PhotonBuffer other = records(test::full_room(scale), 3);
     EXPECT_EQ(other.flux_unit, one.flux_unit * scale * scale);
     ASSERT_EQ(other.records.size(), one.records.size());
     for (size_t i = 0; i < one.records.size(); ++i) {
@@ -216,9 +213,9 @@ TEST(GuidedEmission, SameForAnyNumberOfThreadsAndAnyScale) {
   }
 }
 
-// Every photon is the one of its index, whatever travels beside it.
-TEST(GuidedEmission, PhotonsAreToldByTheirIndex) {
-  const Scene scene = testing::full_room();
+// The path of a photon depends on its index only, not on the photons traced with it.
+TEST(GuidedEmission, PhotonsDependOnTheirIndexOnly) {
+  const Scene scene = test::full_room();
   const accel::Bvh bvh(scene);
   const LearnedGuide learned = learn(scene);
   TraceSettings settings = settings_for(500, {false, false, true, false});

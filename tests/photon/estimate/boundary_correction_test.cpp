@@ -1,5 +1,5 @@
-// The share of a gather disc that lies on the surface: closed forms against sums over grids, and estimates of
-// even light up to the borders.
+// Tests the share of a gather disc that lies on the surface: closed forms against sums over grids, and
+// estimates of even light up to the borders.
 
 #include "photon/estimate/boundary_correction.h"
 
@@ -11,6 +11,8 @@
 #include "photon/estimate/radiance_estimate.h"
 #include "tests/photon/support/photon_sets.h"
 #include "tests/photon/support/trace_scenes.h"
+#include "tests/support/packed_flux.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik::photon {
 namespace {
@@ -20,8 +22,8 @@ const KernelSpec kKernels[] = {{KernelType::kConstant, 1},
                                {KernelType::kCone, 1},
                                {KernelType::kCone, 2.5f}};
 
-// Midpoint rule in polar coordinates over what lies behind the segment from (d, t1) to (d, t2), seen from the
-// origin.
+// The midpoint rule in polar coordinates over the part of the disc behind the segment from (d, t1) to (d,
+// t2), seen from the origin.
 double integrated_mass(const KernelSpec& kernel, double d, double t1, double t2) {
   constexpr int kAngles = 2000, kRadii = 400;
   const KernelTerms terms = kernel_terms(kernel, 1);
@@ -39,11 +41,11 @@ double integrated_mass(const KernelSpec& kernel, double d, double t1, double t2)
   return sum;
 }
 
-// The integrand falls to zero with a finite slope at the rim, in one cell of 2000 at each end: less than
-// (pi/2000)^2. The float kernel adds 1e-7.
+// The integrand falls to zero with a finite slope at the rim, in one of 2000 cells at each end: an error of
+// less than (pi/2000)^2. The float kernel adds 1e-7.
 constexpr double kMidpointError = 4e-6;
 
-TEST(MassBehindEdge, IsTheKernelsIntegral) {
+TEST(MassBehindEdge, MatchesTheKernelsIntegral) {
   const double segments[][2] = {{-9, 9}, {-0.4, 0.7}, {0.1, 0.3}, {-0.9, -0.2}, {0.3, 5}, {0.99, 1.5}};
   for (const KernelSpec& kernel : kKernels)
     for (const double d : {0.0, 1e-9, 0.05, 0.3, 0.7, 0.95})
@@ -52,7 +54,7 @@ TEST(MassBehindEdge, IsTheKernelsIntegral) {
             << int(kernel.type) << ": " << d << " from " << t1 << " to " << t2;
 }
 
-TEST(MassBehindEdge, HalfAtTheEdgeNothingOutOfReach) {
+TEST(MassBehindEdge, IsHalfAtTheEdgeAndZeroOutOfReach) {
   for (const KernelSpec& kernel : kKernels) {
     EXPECT_NEAR(mass_behind_edge(kernel, 0, -2, 2), 0.5, 1e-15);
     EXPECT_NEAR(mass_behind_edge(kernel, 0, 0, 2), 0.25, 1e-15);
@@ -75,7 +77,7 @@ SurfaceInteraction at(const Point3& p, const Normal3& n = {0, 0, 1}) {
   return si;
 }
 
-// Sum over a grid of the kernel's disc about p in the plane z = 0.
+// The kernel's disc about p in the plane z = 0, summed over a grid.
 double grid_share(const KernelSpec& kernel, double radius, const Point3& p,
                   const std::function<bool(double, double)>& on_surface) {
   constexpr int kCells = 1000;
@@ -92,8 +94,8 @@ double grid_share(const KernelSpec& kernel, double radius, const Point3& p,
   return sum;
 }
 
-// A grid decides whole cells: straight borders along the axes are off by at most half a cell each, about four
-// of them of length 2 cross the disc, with the kernel's density below one.
+// A grid decides on whole cells: straight borders along the axes are off by at most half a cell each. About
+// four borders of length 2 cross the disc, and the kernel's density is below one.
 constexpr double kGridError = 4 * 2 * 0.5 * 2.0 / 1000;
 
 const Point3 kPointsOfSquare[] = {{0.001f, 0.002f, 0}, {0.999f, 0.9995f, 0}, {0.5f, 0.5f, 0}, {0.5f, 0, 0},
@@ -115,23 +117,23 @@ bool in_square(double x, double y) {
   return x >= 0 && x <= 1 && y >= 0 && y <= 1;
 }
 
-TEST(SurfaceShare, OfASquare) {
+TEST(SurfaceShare, SquareMatchesTheGrid) {
   Scene scene;
-  scene.shapes = {testing::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
+  scene.shapes = {test::parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
   const accel::EdgeIndex edges = edges_of(scene);
   EXPECT_EQ(edges.size(), 4u);
   for (const double radius : {0.2, 0.6}) expect_shares(edges, radius, in_square);
 }
 
-// Not star-shaped: the far sides of the hole come back in reach. Eight tiles, every second wound the other
-// way.
-TEST(SurfaceShare, OfASquareWithAHole) {
+// This shape is not star-shaped: the far sides of the hole come back within reach. It has eight tiles, every
+// second one wound the other way.
+TEST(SurfaceShare, SquareWithAHoleMatchesTheGrid) {
   Scene scene;
   for (int i = 0; i < 9; ++i) {
     if (i == 4) continue;
     const Vector3 x(0.25f, 0, 0), y(0, 0.25f, 0);
     const Point3 corner(0.125f + 0.25f * float(i % 3), 0.125f + 0.25f * float(i / 3), 0);
-    scene.shapes.push_back(i % 2 ? testing::quad(corner, y, x) : testing::quad(corner, x, y));
+    scene.shapes.push_back(i % 2 ? test::parallelogram(corner, y, x) : test::parallelogram(corner, x, y));
   }
   const accel::EdgeIndex edges = edges_of(scene);
   EXPECT_EQ(edges.size(), 16u);
@@ -147,8 +149,9 @@ TEST(SurfaceShare, OfASquareWithAHole) {
   }
 }
 
-// The rim's polygon stands off by at most 1 - cos(pi/64) = 0.0012 of its radius, here 0.012 of the disc's.
-TEST(SurfaceShare, OfADisk) {
+// The rim's polygon is within 1 - cos(pi/64) = 0.0012 of the rim's radius of the circle, here 0.012 of the
+// gather disc's radius.
+TEST(SurfaceShare, DiskMatchesTheGrid) {
   Scene scene;
   Shape shape;
   shape.geometry = Disk{Transform::from_matrix(glm::dmat4(1)), 0.5f};
@@ -165,17 +168,17 @@ TEST(SurfaceShare, OfADisk) {
 
 TEST(SurfaceShare, IsOneAtSeamsWithinASurface) {
   Scene scene;
-  scene.shapes = {testing::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
-                  testing::quad({1, 0, 0}, {0, 1, 0}, {1, 0, 0}),  // shares a side, wound the other way
-                  testing::quad({0, 1, 0}, {2, 0, 0}, {0, 1, 0}),  // T-junction with both
-                  testing::quad({0, -1, 0}, {2, 0, 0}, {0, 0.99999994f, 0})};  // unwelded by rounding
+  scene.shapes = {test::parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                  test::parallelogram({1, 0, 0}, {0, 1, 0}, {1, 0, 0}),  // shares a side, wound the other way
+                  test::parallelogram({0, 1, 0}, {2, 0, 0}, {0, 1, 0}),  // T-junction with both
+                  test::parallelogram({0, -1, 0}, {2, 0, 0}, {0, 0.99999994f, 0})};  // unwelded by rounding
   const accel::EdgeIndex edges = edges_of(scene);
   for (const Point3 p : {Point3(1, 0.5f, 0), Point3(1, 1, 0), Point3(0.5f, 1, 0), Point3(1, 0, 0)})
     EXPECT_EQ(surface_share(edges, at(p), {}, 0.3f), 1) << p.x << ' ' << p.y;
   EXPECT_NEAR(surface_share(edges, at({0, 1, 0}), {}, 0.3f), 0.5, 1e-6);
 }
 
-// Floor and wall of one mesh: each ends at the crease.
+// Floor and wall belong to one mesh; each ends at the crease.
 TEST(SurfaceShare, EndsAtCreasesOnBothSides) {
   TriangleMesh mesh;
   mesh.P = {{-1, 0, 0}, {1, 0, 0}, {0.999f, 0.9995f, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}};
@@ -193,14 +196,14 @@ TEST(SurfaceShare, EndsAtCreasesOnBothSides) {
       EXPECT_NEAR(surface_share(edges, at({0, d, 0}), {}, 0.2f), expected, 1e-6);
       EXPECT_NEAR(surface_share(edges, at({0, 0, d}, {0, wall_normal, 0}), {}, 0.2f), expected, 1e-6);
     }
-    // A surface turned by 45 degrees to both has both of them: no edge for it.
+    // A surface turned by 45 degrees against both accepts photons of both, so the crease is no edge for it.
     const Normal3 between = glm::normalize(Normal3(0, 1, 1));
     EXPECT_EQ(surface_share(edges, at({0, 0, 0}, between), {}, 0.2f), 1);
   }
 }
 
-// The lower rim of a thin slab is within reach of its top, but not part of it.
-TEST(SurfaceShare, AThinSlabHasOneRimOnEachSide) {
+// The lower rim of a thin slab is within reach of its top, but is not part of the top.
+TEST(SurfaceShare, EachSideOfAThinSlabHasOneRim) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) mesh.P.push_back({float(i & 1), float(i >> 1 & 1), (i >> 2) ? 0.02f : 0.0f});
   mesh.indices = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
@@ -209,7 +212,7 @@ TEST(SurfaceShare, AThinSlabHasOneRimOnEachSide) {
   scene.shapes.resize(1);
   scene.shapes[0].geometry = mesh;
   const accel::EdgeIndex edges = edges_of(scene);
-  EXPECT_EQ(edges.size(), 24u);  // twelve, for each of their two sides
+  EXPECT_EQ(edges.size(), 24u);  // twelve edges, each counted for both of its faces
   EXPECT_NEAR(surface_share(edges, at({0.5f, 0, 0.02f}), {}, 0.2f), 0.5, 1e-6);
   EXPECT_NEAR(surface_share(edges, at({0.5f, 0, 0}, {0, 0, -1}), {}, 0.2f), 0.5, 1e-6);
 }
@@ -218,8 +221,8 @@ TEST(SurfaceShare, ScalesByPowersOfTwo) {
   for (const int exponent : {-20, -1, 20}) {
     const float s = std::ldexp(1.0f, exponent);
     Scene scene, scaled;
-    scene.shapes = {testing::quad({0.3f, 0, 0}, {1, 0.2f, 0.1f}, {0, 1, 0.4f})};
-    scaled.shapes = {testing::quad({s * 0.3f, 0, 0}, {s, s * 0.2f, s * 0.1f}, {0, s, s * 0.4f})};
+    scene.shapes = {test::parallelogram({0.3f, 0, 0}, {1, 0.2f, 0.1f}, {0, 1, 0.4f})};
+    scaled.shapes = {test::parallelogram({s * 0.3f, 0, 0}, {s, s * 0.2f, s * 0.1f}, {0, s, s * 0.4f})};
     const Normal3 n = glm::normalize(glm::cross(Vector3(1, 0.2f, 0.1f), Vector3(0, 1, 0.4f)));
     const accel::EdgeIndex a = edges_of(scene), b = edges_of(scaled);
     for (const float t : {0.01f, 0.1f, 0.3f}) {
@@ -231,10 +234,10 @@ TEST(SurfaceShare, ScalesByPowersOfTwo) {
   }
 }
 
-// A unit square under even light of 1 W/m^2: with the correction every point of it shows 1/pi, without it the
-// border is at one half and the corner at one quarter. Photons in reach are binomial; four standard errors,
-// for a kernel with K^2 integrating to at most 3/2 of the constant one's, and the rounding of the stored
-// power.
+// A unit square under even light of 1 W/m^2. With the correction every point of it shows 1/pi; without it the
+// border would show one half of that and the corner one quarter. The number of photons in reach is binomial.
+// The tolerance is four standard errors, for kernels whose K^2 integrates to at most 3/2 of the constant
+// one's, and the rounding of packed fluxes.
 TEST(CorrectedEstimate, IsEvenUpToTheBorder) {
   constexpr int kPhotons = 200000;
   PhotonMaker make(77);
@@ -243,7 +246,7 @@ TEST(CorrectedEstimate, IsEvenUpToTheBorder) {
     photons.push_back({{make.uniform(), make.uniform(), 0}, {0, 0, 1}, Rgb(1.0f / kPhotons), {0, 0, 1}, 0});
   const PhotonMap map = PhotonMap::build(make_buffer(photons, 0x1p-17f));
   Scene scene;
-  scene.shapes = {testing::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
+  scene.shapes = {test::parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
   const accel::EdgeIndex edges = edges_of(scene);
   const struct {
     Point3 p;
@@ -264,12 +267,12 @@ TEST(CorrectedEstimate, IsEvenUpToTheBorder) {
                  double(kPi);
         };
         const double in_reach = nearest ? nearest : kPhotons * double(kPi) * 0.01 * share;
-        const double error = 4 * std::sqrt(1.5 / in_reach) + 1.0 / 511;
+        const double error = 4 * std::sqrt(1.5 / in_reach) + test::kPackedFluxError;
         EXPECT_NEAR(irradiance(), share, share * error) << p.x << ' ' << p.y;
         settings.edges = &edges;
         EXPECT_NEAR(irradiance(), 1, error) << p.x << ' ' << p.y;
         settings.leaf = true;
-        EXPECT_LE(irradiance(), share * (1 + error));  // as it was: a cell never adds photons
+        EXPECT_LE(irradiance(), share * (1 + error));  // uncorrected: a cell never adds photons
       }
 }
 

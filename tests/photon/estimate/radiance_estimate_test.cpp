@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "tests/photon/support/photon_sets.h"
+#include "tests/support/packed_flux.h"
 
 namespace kaustik::photon {
 namespace {
 
 constexpr int kPhotons = 40000;
 
-// A unit square floor under even light: each photon carries E / kPhotons watts from straight above.
+// A unit square floor under even light: each photon carries E / kPhotons watts and arrives from straight
+// above.
 PhotonMap even_floor(const Rgb& E) {
   PhotonMaker make(40);
   std::vector<Photon> photons;
@@ -29,11 +31,12 @@ SurfaceInteraction middle() {
 const Vector3 kViewer = glm::normalize(Vector3(0.3f, -0.2f, 0.8f));
 const Rgb kIrradiance(3, 2, 0.5f);
 
-// Photons in reach are binomial: the relative standard error of the constant kernel is 1/sqrt(n), that of a
-// kernel K sqrt(pi r^2 int K^2 / n): 4/3 for Epanechnikov, at most 3/2 for the cone. Five of them.
+// The number of photons in reach is binomial: the relative standard error of the constant kernel is
+// 1/sqrt(n), that of a kernel K is sqrt(pi r^2 int K^2 / n), where pi r^2 int K^2 is 4/3 for Epanechnikov and
+// at most 3/2 for the cone. The tolerance is five of them and the rounding of packed fluxes.
 float tolerance(float radius) {
   const float n = kPi * radius * radius * float(kPhotons);
-  return 5 * std::sqrt(1.5f / n) + 1.0f / 511;
+  return 5 * std::sqrt(1.5f / n) + float(test::kPackedFluxError);
 }
 
 TEST(RadianceEstimate, LambertianUnderEvenLightIsAlbedoTimesIrradianceOverPi) {
@@ -55,13 +58,13 @@ TEST(RadianceEstimate, OtherBsdfsAreEvaluatedPerPhoton) {
   const PhotonMap map = even_floor(kIrradiance);
   const EstimateSettings settings{0.1f, {KernelType::kEpanechnikov, 1}, 0, false, 64};
   GatherCounters counters;
-  // Without roughness Oren-Nayar is Lambertian: both branches must agree up to rounding of up to n terms.
+  // Without roughness Oren-Nayar is Lambertian: both branches must agree up to the rounding of up to n terms.
   const Rgb smooth =
       estimate_radiance(map, middle(), kViewer, OrenNayar{Rgb(0.5f), 1, 0}, settings, counters);
   const Rgb lambertian = estimate_radiance(map, middle(), kViewer, Lambertian{Rgb(0.5f)}, settings, counters);
   const float rounding = float(counters.accepted) * std::numeric_limits<float>::epsilon();
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(smooth[c], lambertian[c], lambertian[c] * rounding);
-  // With it, light from one direction has one value of f.
+  // With roughness, light from one direction has a single value of f.
   const OrenNayar rough = OrenNayar::from_sigma_degrees(Rgb(0.5f), 30);
   const Rgb expected = rough.f(kViewer, {0, 0, 1}) * kIrradiance;
   const Rgb Lr = estimate_radiance(map, middle(), kViewer, rough, settings, counters);
@@ -74,7 +77,7 @@ TEST(RadianceEstimate, NearestUsesTheDiscOfTheKthPhoton) {
   const EstimateSettings settings{0.5f, {}, kNearest, false, 64};
   GatherCounters counters;
   const Rgb Lr = estimate_radiance(map, middle(), kViewer, Lambertian{Rgb(1)}, settings, counters);
-  // The radius of the K-th photon makes the density K/A a gamma variate: relative error 1/sqrt(K), bias
+  // With the radius of the K-th photon the density K/A is a gamma variate: relative error 1/sqrt(K), bias
   // 1/(K-1).
   const Rgb expected = kIrradiance * kInvPi;
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lr[c], expected[c], expected[c] * 5 / std::sqrt(float(kNearest)));

@@ -7,7 +7,7 @@
 namespace kaustik::photon {
 namespace {
 
-// A floor over the unit square: lit where x < lit_until, in shadow beyond.
+// A floor over the unit square: lit where x < lit_until, in shadow elsewhere.
 struct Floor {
   PhotonMap direct, shadow;
 };
@@ -26,7 +26,7 @@ Floor make_floor(int photons, float lit_until) {
 
 constexpr LectureSettings kSettings{0.01f, 64, 8};
 
-// The conditions, counted photon by photon in the cell of `depth` around p.
+// The lecture's conditions, counted photon by photon in the cell of depth `depth` around p.
 struct CellCheck {
   uint64_t lit = 0, dark = 0;
   bool keeps = false;
@@ -63,7 +63,7 @@ TEST(LectureLookup, ObeysTheThreeConditions) {
     } else if (answer.outcome == LectureOutcome::kShadow) {
       EXPECT_GT(cell.dark, 0u);
     }
-    // A fallback means that no ancestor answers either.
+    // A fallback means that no ancestor cell can answer either.
     for (int depth = answer.depth; !answer.use_photons() && depth >= 0; --depth) {
       const CellCheck parent = check_cell(floor, p, depth);
       EXPECT_FALSE(parent.keeps && parent.dark == 0 && parent.lit > kSettings.min_photons);

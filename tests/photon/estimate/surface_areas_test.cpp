@@ -1,4 +1,4 @@
-// The share of a gather disc on surfaces that curve, against closed forms of balls and tubes.
+// Tests the share of a gather disc on curved surfaces against closed forms for balls and tubes.
 
 #include "photon/estimate/surface_areas.h"
 
@@ -13,9 +13,10 @@
 namespace kaustik::photon {
 namespace {
 
-// Pieces at the rim of the disc count as a whole: of pi F^2 in the disc 2 pi F, each wrong by a number that
-// is even in [-1/2, 1/2], so with a variance of 1/12. Where the surface crosses voxels diagonally pieces are
-// up to sqrt(3) times as large and so many fewer. Four standard errors.
+// The surface is cut into pieces, and pieces at the rim of the disc count as a whole. A disc of radius F
+// pieces has pi F^2 pieces, 2 pi F of them at the rim, each wrong by a number that is uniform in [-1/2, 1/2],
+// so with a variance of 1/12. Where the surface crosses voxels diagonally, pieces are up to sqrt(3) times as
+// large and fewer by that factor. The tolerance is four standard errors.
 const double kPieceError =
     4 * std::sqrt(std::numbers::sqrt3 * 2 * std::numbers::pi * SurfaceAreas::kFineness / 12) /
     (std::numbers::pi * SurfaceAreas::kFineness * SurfaceAreas::kFineness);
@@ -43,7 +44,7 @@ SurfaceInteraction at(const Point3& p, const Normal3& n, uint32_t group = 0) {
   return si;
 }
 
-// Of a closed tube about z, its ends left open; facets face outwards.
+// The wall of a tube about z with open ends; its facets face outwards.
 Shape tube(float radius, float length, int sides, int rings) {
   TriangleMesh mesh;
   for (int i = 0; i <= rings; ++i)
@@ -69,9 +70,9 @@ Shape ball(float radius) {
   return shape;
 }
 
-// A cap of a sphere within distance r of its pole has the area of a disc of that radius, up to 60 degrees
+// The cap of a sphere within a distance r of its pole has the area of a disc of radius r, up to 60 degrees
 // away, where r is the sphere's radius and normals cease to count.
-TEST(SurfaceAreas, OfABallTheDiscIsWholeUpToItsRadius) {
+TEST(SurfaceAreas, DiscOnABallIsFullUpToTheBallsRadius) {
   for (const float radius : {0.5f, 0.9f, 1.2f, 2.0f, 5.0f}) {
     const SurfaceAreas areas = areas_of({ball(1)}, radius);
     ASSERT_TRUE(areas.covers(0));
@@ -81,7 +82,7 @@ TEST(SurfaceAreas, OfABallTheDiscIsWholeUpToItsRadius) {
   }
 }
 
-// Midpoint sums over azimuth and height.
+// The midpoint rule over azimuth and height.
 double share_of_tube(double a, const KernelSpec& kernel, double radius) {
   constexpr int kSteps = 2000;
   const KernelTerms terms = kernel_terms(kernel, float(radius));
@@ -98,9 +99,10 @@ double share_of_tube(double a, const KernelSpec& kernel, double radius) {
   return sum * a * 2 * std::numbers::pi / 3 / kSteps;
 }
 
-TEST(SurfaceAreas, OfATubeTheDiscIsAStrip) {
+TEST(SurfaceAreas, DiscOnATubeIsAStrip) {
   constexpr float kTube = 0.25f;
-  // 128 sides: facets' normals are off by 1.4 degrees, so up to 1 in 43 of a strip 120 degrees wide.
+  // With 128 sides the facets' normals are off by 1.4 degrees, which changes up to 1 in 43 of a strip 120
+  // degrees wide.
   const double tolerance = kPieceError + 1 / 43.0;
   for (const KernelSpec& kernel :
        {KernelSpec{KernelType::kConstant, 1}, KernelSpec{KernelType::kEpanechnikov, 1}})
@@ -113,14 +115,15 @@ TEST(SurfaceAreas, OfATubeTheDiscIsAStrip) {
     }
 }
 
-// The outside of an instance is where SurfaceInteraction has it, mirrored or not, whoever says where it is.
-TEST(SurfaceAreas, KnowTheOutsideOfInstances) {
+// The outside of an instance is the side that SurfaceInteraction uses, mirrored or not, whether vertex
+// normals or the winding define it.
+TEST(SurfaceAreas, UseTheOutsideOfInstances) {
   constexpr float kTube = 0.25f, kRadius = 0.5f;
   for (const bool with_normals : {false, true})
     for (const bool flip : {false, true})
       for (const float mirror : {1.0f, -1.0f}) {
         auto mesh = std::get<TriangleMesh>(tube(kTube, 8, 128, 16).geometry);
-        // Normals of a reversed shape are turned over where the mesh is made.
+        // The builder turns the vertex normals of a reversed shape over.
         if (with_normals)
           for (const Point3& p : mesh.P)
             mesh.N.push_back((flip ? -1.0f : 1.0f) * glm::normalize(Normal3(p.x, p.y, 0)));
@@ -140,8 +143,8 @@ TEST(SurfaceAreas, KnowTheOutsideOfInstances) {
       }
 }
 
-// A wire under even light of 1 W/m^2 shows 1/pi, read with discs five times as wide as it is.
-TEST(SurfaceAreas, MakeAWireAsBrightAsItIs) {
+// A wire under even light of 1 W/m^2 shows 1/pi, gathered with discs five times as wide as the wire.
+TEST(SurfaceAreas, KeepTheBrightnessOfAWire) {
   constexpr float kWire = 0.05f, kLength = 4, kRadius = 0.25f;
   constexpr int kPhotons = 200000;
   const float flux = 2 * kPi * kWire * kLength / kPhotons;
@@ -162,23 +165,23 @@ TEST(SurfaceAreas, MakeAWireAsBrightAsItIs) {
     const SurfaceInteraction si = at({kWire * n.x, kWire * n.y, 0.3f}, n);
     return kPi * estimate_radiance(map, si, n, Lambertian{Rgb(1)}, settings, counters).x;
   };
-  // The disc holds a strip of 2/3 pi a times 2 r, so 8000 photons: four standard errors are 4.5 %. To its
-  // ends normals decide, in bins of four degrees: another 2 in 60.
+  // The disc holds a strip of 2/3 pi a times 2 r, so 8000 photons: four standard errors are 4.5 %. At the
+  // strip's ends the normals decide, in bins of four degrees: another 2 in 60.
   for (const Normal3& n : {Normal3(1, 0, 0), Normal3(0, -1, 0), Normal3(0.6f, 0.8f, 0)})
     EXPECT_NEAR(irradiance(n), 1, 0.045 + 2 / 60.0);
   settings.areas = nullptr;
   EXPECT_LT(irradiance({1, 0, 0}), 0.3);
 }
 
-TEST(SurfaceAreas, LeavesFlatThingsToTheirEdges) {
+TEST(SurfaceAreas, LeaveFlatSurfacesToTheirEdges) {
   EXPECT_FALSE(areas_of({ball(1)}, 0.05f).covers(0));
   Shape wall;
   wall.geometry = TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {}, {}, {{0, 1, 2}, {0, 2, 3}}};
   EXPECT_FALSE(areas_of({wall}, 10).covers(0));
 }
 
-// Where windings differ from facet to facet nobody knows which normals belong together.
-TEST(SurfaceAreas, KeepsAwayFromMixedWindings) {
+// Where windings differ from facet to facet it is unknown which normals belong together.
+TEST(SurfaceAreas, IgnoreMeshesWithMixedWindings) {
   Shape mixed = tube(0.25f, 8, 128, 16);
   auto& indices = std::get<TriangleMesh>(mixed.geometry).indices;
   for (size_t i = 0; i < indices.size(); i += 2) std::swap(indices[i][0], indices[i][1]);

@@ -1,4 +1,4 @@
-// Every instruction set that this machine has against the plainest one.
+// Tests every instruction set of this machine against the baseline.
 
 #include "photon/gather/gather.h"
 
@@ -68,7 +68,8 @@ TEST(Gather, EveryInstructionSetAcceptsTheSamePhotons) {
         ASSERT_EQ(answers[i].accepted, plain[i].accepted) << hwy::TargetName(target) << ", " << set.name;
         ASSERT_EQ(answers[i].distances, plain[i].distances) << hwy::TargetName(target) << ", " << set.name;
         ASSERT_EQ(answers[i].nearest, plain[i].nearest) << hwy::TargetName(target) << ", " << set.name;
-        // Sums in another order, of at most 1024 terms a lane: see PhotonMapSets in photon_map_test.cpp.
+        // The sums run in another order, over at most 1024 terms per lane: see PhotonMapSets in
+        // photon_map_test.cpp.
         const float scale = kernel_terms({KernelType::kEpanechnikov, 1}, queries[i].radius).scale;
         const float bound =
             (1024 + 16) * std::numeric_limits<float>::epsilon() * scale * float(plain[i].accepted);
@@ -78,7 +79,7 @@ TEST(Gather, EveryInstructionSetAcceptsTheSamePhotons) {
   }
 }
 
-TEST(Gather, TogetherOrAloneIsTheSameOnEveryInstructionSet) {
+TEST(Gather, GathersTogetherMatchGathersAloneOnEveryInstructionSet) {
   for (const PhotonSet& set : photon_sets()) {
     const PhotonMap map = PhotonMap::build(make_buffer(set.photons));
     const std::vector<GatherQuery> queries = with_neighbours(queries_for(set, 60), map.size());

@@ -5,7 +5,7 @@
 namespace kaustik::photon {
 namespace {
 
-// Integral of K over its disc, 2 pi int_0^r K(d) d dd, by the midpoint rule in double.
+// The integral of K over its disc, 2 pi int_0^r K(d) d dd, by the midpoint rule in double.
 double integral(const KernelSpec& kernel, float radius) {
   constexpr int kSteps = 20000;
   const KernelTerms terms = kernel_terms(kernel, radius);
@@ -17,8 +17,8 @@ double integral(const KernelSpec& kernel, float radius) {
   return 2 * std::numbers::pi * sum * double(radius) / kSteps;
 }
 
-// The midpoint rule's error for these cubics and quartics is below 1 / kSteps^2 of the integral; what remains
-// is the rounding of scale and slope to float, a few units in the last place.
+// The midpoint rule's error for these cubics and quartics is below 1 / kSteps^2 of the integral. The rest is
+// the rounding of scale and slope to float, a few units in the last place.
 constexpr double kBound = 16 * double(std::numeric_limits<float>::epsilon());
 
 TEST(Kernel, IntegratesToOneOverItsDisc) {
@@ -30,7 +30,7 @@ TEST(Kernel, IntegratesToOneOverItsDisc) {
   }
 }
 
-TEST(Kernel, ReachesItsClosedFormsAtCentreAndRim) {
+TEST(Kernel, MatchesItsClosedFormsAtCentreAndRim) {
   const float r = 0.5f, area = kPi * r * r;
   const auto at = [&](KernelSpec kernel, float d) {
     return kernel_value(kernel.type, kernel_terms(kernel, r), d * d);
@@ -43,7 +43,7 @@ TEST(Kernel, ReachesItsClosedFormsAtCentreAndRim) {
   EXPECT_FLOAT_EQ(at({KernelType::kCone, 2}, r), 0.5f / (2.0f / 3) / area);
 }
 
-TEST(Kernel, ADiscWithoutAreaHoldsNoDensity) {
+TEST(Kernel, DiscWithoutAreaHasZeroDensity) {
   for (const float radius : {0.0f, -1.0f, kInfinity, std::numeric_limits<float>::quiet_NaN()}) {
     EXPECT_EQ(kernel_terms({}, radius).scale, 0) << radius;
   }

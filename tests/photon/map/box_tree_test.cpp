@@ -1,4 +1,5 @@
-// The boxes hold what they stand for, and searches that begin with the octree's cells miss nothing.
+// Tests that the boxes bound their photons, and that searches which begin with the octree's cells miss
+// nothing.
 
 #include "photon/map/box_tree.h"
 
@@ -12,7 +13,7 @@
 namespace kaustik::photon {
 namespace {
 
-// Photons of the level's box.
+// The photons of a box of a level.
 PhotonRange box_range(const PhotonMap& map, int level, uint64_t box) {
   const uint64_t photons = uint64_t(BoxTree::kBlockPhotons) << (4 * level);
   return {std::min(map.size(), box * photons), std::min(map.size(), (box + 1) * photons)};
@@ -45,7 +46,7 @@ TEST(BoxTree, BoxesAreTheBoundsOfTheirPhotons) {
   }
 }
 
-TEST(BoxTree, BlocksKnowWhatTheirSurfacesHaveInCommon) {
+TEST(BoxTree, BlocksRecordWhatTheirSurfacesShare) {
   for (const PhotonSet& set : photon_sets()) {
     SCOPED_TRACE(set.name);
     const PhotonMap map = PhotonMap::build(make_buffer(set.photons));
@@ -67,9 +68,9 @@ TEST(BoxTree, BlocksKnowWhatTheirSurfacesHaveInCommon) {
   }
 }
 
-// Every photon of the range within the radius lies in one of the ranges, which ascend; their nodes hold them
-// all.
-TEST(BoxTree, SearchesBeginWithAllThatIsInReach) {
+// Every photon of the range within the radius lies in one of the ranges, which ascend, and the start nodes
+// contain all of them.
+TEST(BoxTree, SearchesBeginWithAllPhotonsInReach) {
   for (const PhotonSet& set : photon_sets()) {
     SCOPED_TRACE(set.name);
     const PhotonMap map = PhotonMap::build(make_buffer(set.photons));
@@ -95,8 +96,8 @@ TEST(BoxTree, SearchesBeginWithAllThatIsInReach) {
   }
 }
 
-// The distinct nodes of random ascending ranges, at the lowest level at which they are few.
-TEST(BoxTree, StartHasEachNodeOfTheRangesOnce) {
+// Compares with the distinct nodes of random ascending ranges, at the lowest level at which they are few.
+TEST(BoxTree, StartContainsEachNodeOfTheRangesOnce) {
   PhotonMaker make(32);
   for (int round = 0; round < 2000; ++round) {
     CellRanges ranges;
@@ -128,7 +129,7 @@ TEST(BoxTree, StartHasEachNodeOfTheRangesOnce) {
   }
 }
 
-TEST(NearestSearch, DoesNotDependOnTheGuess) {
+TEST(NearestSearch, DoesNotDependOnTheInitialRadius) {
   for (const PhotonSet& set : photon_sets()) {
     SCOPED_TRACE(set.name);
     const PhotonMap map = PhotonMap::build(make_buffer(set.photons));
@@ -142,7 +143,7 @@ TEST(NearestSearch, DoesNotDependOnTheGuess) {
   }
 }
 
-// Random values, spread evenly and not, with and without equal ones.
+// Random values, evenly and unevenly spread, with and without equal ones.
 TEST(NearestSearch, SelectsTheKthSmallest) {
   PhotonMaker make(31);
   for (const size_t size : {1u, 2u, 16u, 31u, 32u, 33u, 100u, 1000u, 5000u}) {

@@ -32,9 +32,9 @@ void check_ascending(const KeyBuckets& buckets, std::vector<uint64_t> keys) {
   }
 }
 
-// A bucket's ends lie within a quarter of a bucket of where they would be exact, so it holds at most one and
-// a half of its share. Spread keys, keys that share their first 20 bits, and few bits above many.
-TEST(KeyBuckets, HoldAboutEquallyManyOfTheSample) {
+// A bucket's ends lie within a quarter of a bucket of their exact places, so it holds at most one and a half
+// times its share. The keys are spread evenly, share their first 20 bits, or have few bits above many.
+TEST(KeyBuckets, HoldAboutEqualPartsOfTheSample) {
   for (const uint64_t mask : {kKeyMask, kKeyMask >> 20, uint64_t(0x7800000fffffffff)}) {
     const size_t wanted = 500, each = 64;
     const std::vector<uint64_t> sample = sorted_sample(wanted * each, mask, uint64_t(5) << 45);
@@ -47,7 +47,7 @@ TEST(KeyBuckets, HoldAboutEquallyManyOfTheSample) {
   }
 }
 
-TEST(KeyBuckets, AFrequentKeyHasItsOwn) {
+TEST(KeyBuckets, FrequentKeyHasABucketOfItsOwn) {
   for (const uint64_t frequent : {uint64_t(0), uint64_t(1) << 48, kKeyMask / 3, kKeyMask}) {
     std::vector<uint64_t> sample = sorted_sample(1000, kKeyMask, 0);
     sample.insert(sample.end(), 1000, frequent);
@@ -59,7 +59,7 @@ TEST(KeyBuckets, AFrequentKeyHasItsOwn) {
   }
 }
 
-TEST(KeyBuckets, OneForAllWithoutASample) {
+TEST(KeyBuckets, EmptySampleGivesOneBucket) {
   const KeyBuckets buckets({}, 1);
   EXPECT_EQ(buckets.size(), 1u);
   EXPECT_EQ(buckets.of(0), 0u);
@@ -67,7 +67,7 @@ TEST(KeyBuckets, OneForAllWithoutASample) {
   EXPECT_FALSE(buckets.single_key(0));
 }
 
-TEST(KeyBuckets, OneKeyOnly) {
+TEST(KeyBuckets, SampleOfOneKeyGivesASingleKeyBucket) {
   const KeyBuckets buckets(std::vector<uint64_t>(64, 12345), 4);
   EXPECT_TRUE(buckets.single_key(buckets.of(12345)));
   check_ascending(buckets, {12344, 12345, 12346});

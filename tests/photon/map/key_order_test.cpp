@@ -20,8 +20,8 @@ std::vector<uint32_t> expected(const std::vector<uint64_t>& keys) {
   return order;
 }
 
-// Masks: all bits; few and many ties; ties in the highest 32 bits that are settled below; one key. Sizes: on
-// both sides of the change from comparisons to digits.
+// The masks give: all bits; few and many ties; ties in the highest 32 bits that lower bits settle; a single
+// key. The sizes lie on both sides of the change from comparisons to a radix sort.
 TEST(KeyOrder, AgreesWithAStableSort) {
   std::mt19937_64 random(7);
   KeyOrder order;
@@ -35,7 +35,7 @@ TEST(KeyOrder, AgreesWithAStableSort) {
   }
 }
 
-TEST(KeyOrder, KeepsWhatIsSortedAndTurnsWhatIsReversed) {
+TEST(KeyOrder, SortsSortedAndReversedKeys) {
   std::vector<uint64_t> keys(5000);
   for (size_t i = 0; i < keys.size(); ++i) keys[i] = i << 40;
   KeyOrder order;

@@ -22,8 +22,8 @@ TEST(Morton, InterleavesBitByBit) {
   }
 }
 
-// Every length leaves another rest for the last vector; among the coordinates are those that clamp.
-TEST(Morton, KeysInLanesAreThoseOfOneByOne) {
+// Every length leaves a different remainder for the last vector; some coordinates are clamped.
+TEST(Morton, KeysInLanesMatchTheScalarKeys) {
   PhotonMaker make(12);
   const MortonCube cube = MortonCube::around({Point3(-1), Point3(2)});
   const float special[] = {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(), 0, -0.0f,
@@ -46,7 +46,7 @@ TEST(Morton, KeysInLanesAreThoseOfOneByOne) {
   }
 }
 
-TEST(MortonCube, HoldsTheBoundsOffItsFaces) {
+TEST(MortonCube, ContainsTheBoundsAwayFromItsFaces) {
   PhotonMaker make(4);
   for (int i = 0; i < 1000; ++i) {
     Bounds3 bounds;

@@ -14,7 +14,7 @@ uint64_t cell_prefix(uint64_t key, int depth) {
   return depth == 0 ? 0 : key >> (3 * (kMortonBits - depth));
 }
 
-// Photons of the cell of `depth` around the key, counted one by one.
+// The photons of the cell of depth `depth` around the key, found one by one.
 PhotonRange brute_force_cell(const PhotonMap& map, uint64_t key, int depth) {
   PhotonRange range{map.size(), map.size()};
   for (uint64_t i = map.size(); i-- > 0;) {
@@ -57,8 +57,8 @@ TEST(Octree, NodesPartitionThePhotons) {
   }
 }
 
-// More photons than one subtree holds, at all depths: evenly spread, in one point, around one point ever more
-// densely.
+// More photons than one subtree holds, at all depths: evenly spread, in one point, and around one point with
+// rising density.
 TEST(Octree, LargeTreesPartitionThePhotons) {
   PhotonMaker make(21);
   const Normal3 up(0, 0, 1);
@@ -78,7 +78,7 @@ TEST(Octree, LargeTreesPartitionThePhotons) {
   }
 }
 
-TEST(Octree, DescendFindsTheCellsOfBruteForce) {
+TEST(Octree, DescendMatchesBruteForce) {
   for (const PhotonSet& set : photon_sets()) {
     if (set.photons.size() > 5000) continue;
     SCOPED_TRACE(set.name);
@@ -97,7 +97,7 @@ TEST(Octree, DescendFindsTheCellsOfBruteForce) {
   }
 }
 
-// The lecture's rules, on the definition.
+// Checks the lecture's stopping rules by their definition.
 TEST(Octree, FindCellObeysTheStoppingRules) {
   for (const PhotonSet& set : photon_sets()) {
     if (set.photons.size() > 5000) continue;
@@ -123,8 +123,8 @@ TEST(Octree, FindCellObeysTheStoppingRules) {
   }
 }
 
-// Where p keeps the radius from the faces, the cell holds the whole sphere.
-TEST(Octree, TheCellHoldsEveryPhotonInReach) {
+// Where p is at least the radius away from the faces, the cell contains the whole sphere.
+TEST(Octree, CellContainsEveryPhotonInReach) {
   PhotonMaker make(14);
   std::vector<Photon> photons;
   for (int i = 0; i < 20000; ++i) photons.push_back(make.on_wall());
@@ -145,7 +145,7 @@ TEST(Octree, TheCellHoldsEveryPhotonInReach) {
   EXPECT_GT(stayed, 0u);
 }
 
-TEST(Octree, CellBoundsHoldThePoint) {
+TEST(Octree, CellBoundsContainThePoint) {
   const PhotonSet walls = photon_sets()[8];
   const PhotonMap map = PhotonMap::build(make_buffer(walls.photons));
   for (const Photon& photon : walls.photons) {

@@ -1,5 +1,5 @@
-// The photon map and its rivals in the benchmarks against brute force: the same photons count, and their sums
-// agree. So the benchmarks compare equal work.
+// Tests the photon map and its rivals in the benchmarks against brute force: they accept the same photons and
+// their sums agree, so the benchmarks compare equal work.
 
 #include "benchmarks/photon_index.h"
 
@@ -24,15 +24,15 @@ using photon::PhotonBuffer;
 using photon::PhotonRecord;
 using photon::PhotonSet;
 
-// The definition, record by record.
+// Whether a photon counts, by the definition.
 bool counts(const PhotonRecord& record, const GatherQuery& q) {
   const Vector3 d = Point3(record.x, record.y, record.z) - q.p;
   return d.x * d.x + d.y * d.y + d.z * d.z <= q.radius * q.radius &&
          record.surface >> 16 == (q.surface_group & 0xffff) && photon::normal_counts(record.surface, q.n);
 }
 
-// Numbers below 2^27 as a flux that RGB9E5 holds exactly: nine bits per channel, and the exponent of which
-// the mantissas are integers.
+// Encodes a number below 2^27 as a flux that RGB9E5 holds exactly: nine bits in each channel, with the
+// exponent at which the mantissas are integers.
 uint32_t power_of_id(uint32_t id) {
   return id | 24u << 27;
 }
@@ -46,7 +46,7 @@ PhotonBuffer numbered(const PhotonSet& set) {
   return buffer;
 }
 
-// By radius, for which an index is made. An infinite one reaches everything.
+// Queries by radius, since an index is built for one radius. An infinite radius reaches everything.
 std::map<float, std::vector<GatherQuery>> queries_by_radius(const PhotonSet& set) {
   std::map<float, std::vector<GatherQuery>> queries;
   for (const GatherQuery& query : photon::queries_for(set, 240)) queries[query.radius].push_back(query);
@@ -123,7 +123,7 @@ TYPED_TEST(PhotonIndices, SumTheFluxOfBruteForce) {
   }
 }
 
-TEST(KdTree, NearestRadiusIsThatOfThePhotonMap) {
+TEST(KdTree, NearestRadiusMatchesThePhotonMap) {
   for (const PhotonSet& set : photon::photon_sets()) {
     const PhotonBuffer buffer = photon::make_buffer(set.photons);
     const PhotonMapIndex map = PhotonMapIndex::build(PhotonBuffer(buffer), 0);
@@ -132,14 +132,14 @@ TEST(KdTree, NearestRadiusIsThatOfThePhotonMap) {
       for (const uint32_t k : {1u, 50u}) {
         GatherCounters counters;
         const float radius = tree.nearest_radius(query, k, counters);
-        // A root and a squared distance, rounded otherwise by nanoflann: a few units in the last place.
+        // nanoflann rounds the root and the squared distance differently: a few units in the last place.
         ASSERT_NEAR(map.nearest_radius(query, k, counters), radius, 1e-6f * radius) << set.name;
       }
     }
   }
 }
 
-// Grids made for one radius also answer smaller ones.
+// Grids built for one radius also answer queries with smaller radii.
 TYPED_TEST(PhotonIndices, AnswerSmallerRadiiThanThatOfTheBuild) {
   const std::vector<PhotonSet> sets = photon::photon_sets();
   const auto walls =

@@ -1,4 +1,4 @@
-// The photon map against brute force, on random and degenerate sets of photons.
+// Tests the photon map against brute force, on random and degenerate sets of photons.
 
 #include "photon/map/photon_map.h"
 
@@ -9,6 +9,7 @@
 
 #include "photon/record/packing.h"
 #include "tests/photon/support/photon_sets.h"
+#include "tests/support/packed_flux.h"
 
 namespace kaustik::photon {
 namespace {
@@ -18,7 +19,7 @@ float distance_squared(const Point3& a, const Point3& b) {
   return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
-// The definition, photon by photon, on the stored (packed) photons.
+// Whether a stored (packed) photon counts, by the definition.
 bool counts(const PhotonMap& map, uint64_t i, const GatherQuery& q) {
   const uint32_t surface = map.columns().surface[i];
   return distance_squared(map.photon(i).p, q.p) <= q.radius * q.radius &&
@@ -26,8 +27,8 @@ bool counts(const PhotonMap& map, uint64_t i, const GatherQuery& q) {
 }
 
 struct BruteForce {
-  std::vector<float> distances;  // squared, in Morton order
-  glm::dvec3 sum{0};             // flux K
+  std::vector<float> distances;  // squared distances in Morton order
+  glm::dvec3 sum{0};             // flux times kernel
 };
 
 BruteForce brute_force(const PhotonMap& map, const GatherQuery& q, const KernelSpec& kernel) {
@@ -72,9 +73,9 @@ TEST_P(PhotonMapSets, GatherSumsWhatBruteForceSums) {
       const Rgb sum = map_.gather_flux(query, kernel, counters);
       const BruteForce expected = brute_force(map_, query, kernel);
       ASSERT_EQ(counters.accepted, expected.distances.size());
-      // All terms are positive. A lane adds at most 1024 before it moves to double, each term and each sum
-      // rounded once, and a weight carries a few roundings of numbers up to one: its error is absolute, so
-      // the bound is relative to the sum with the weight at its largest.
+      // All terms are positive. A lane adds at most 1024 terms before it moves the sum to double; each term
+      // and each sum is rounded once. A weight carries a few roundings of numbers up to one, an absolute
+      // error, so the bound is relative to the sum with the weight at its largest.
       const KernelTerms terms = kernel_terms(kernel, query.radius);
       const double rounding = (1024 + 16) * double(std::numeric_limits<float>::epsilon()) / 2;
       const double bound = rounding * double(terms.scale) * double(expected.distances.size());
@@ -83,13 +84,13 @@ TEST_P(PhotonMapSets, GatherSumsWhatBruteForceSums) {
   }
 }
 
-TEST_P(PhotonMapSets, GathersTogetherHaveTheBitsOfEachAlone) {
+TEST_P(PhotonMapSets, GathersTogetherHaveTheBitsOfGathersAlone) {
   const std::vector<GatherQuery> queries = with_neighbours(queries_, map_.size());
   for (const KernelType type : {KernelType::kConstant, KernelType::kCone, KernelType::kEpanechnikov}) {
     const KernelSpec kernel{type, 1.25f};
     std::vector<PhotonMap::Gathered> together(queries.size()), some(queries.size());
     map_.gather_flux(queries, kernel, together.data());
-    // In other company.
+    // The same queries, grouped differently.
     map_.gather_flux(std::span(queries).subspan(5), kernel, some.data() + 5);
     for (size_t i = 0; i < queries.size(); ++i) {
       GatherCounters counters;
@@ -103,7 +104,7 @@ TEST_P(PhotonMapSets, GathersTogetherHaveTheBitsOfEachAlone) {
   }
 }
 
-TEST_P(PhotonMapSets, NearestRadiusIsThatOfBruteForce) {
+TEST_P(PhotonMapSets, NearestRadiusMatchesBruteForce) {
   GatherCounters counters;
   for (const GatherQuery& query : queries_) {
     BruteForce all = brute_force(map_, query, {});
@@ -114,7 +115,8 @@ TEST_P(PhotonMapSets, NearestRadiusIsThatOfBruteForce) {
         ASSERT_EQ(radius, query.radius);
         continue;
       }
-      // The smallest float whose square reaches the k-th photon, up to the rounding of the root.
+      // The radius is the smallest float whose square reaches the k-th photon, up to the rounding of the
+      // root.
       const float d2 = all.distances[k - 1];
       ASSERT_GE(radius * radius, d2);
       ASSERT_LE(radius, std::min(query.radius, std::nextafter(std::sqrt(d2), kInfinity)));
@@ -138,7 +140,7 @@ TEST_P(PhotonMapSets, WithinLimitsTheSearchToARange) {
   }
 }
 
-TEST_P(PhotonMapSets, PhotonsAreThoseOfTheBufferInAscendingKeys) {
+TEST_P(PhotonMapSets, PhotonsAreThoseOfTheBufferInKeyOrder) {
   PhotonRecords records = make_buffer(GetParam().photons).records;
   const MortonCube cube = map_.cube();
   std::stable_sort(records.begin(), records.end(), [&](const PhotonRecord& a, const PhotonRecord& b) {
@@ -161,7 +163,7 @@ std::vector<Photon> wall_photons(int count) {
   return photons;
 }
 
-// Everything that a map holds, as bytes.
+// Everything that a map stores, as bytes.
 std::vector<uint32_t> contents(const PhotonMap& map) {
   std::vector<uint32_t> words;
   const auto add = [&](const void* from, size_t bytes) {
@@ -181,7 +183,7 @@ std::vector<uint32_t> contents(const PhotonMap& map) {
   return words;
 }
 
-TEST(PhotonMap, IsTheSameBytesForAnyNumberOfThreads) {
+TEST(PhotonMap, HasTheSameBytesForAnyNumberOfThreads) {
   const std::vector<Photon> photons = wall_photons(400000);
   std::vector<uint32_t> one_thread;
   for (const size_t threads : {1u, 2u, 3u, 8u}) {
@@ -223,15 +225,16 @@ TEST(PhotonMap, PackedPowerAgreesWithF32) {
   for (Photon& photon : photons) photon.flux *= flux_unit;
   const PhotonMap packed = PhotonMap::build(make_buffer(photons, flux_unit));
   const PhotonMap exact = PhotonMap::build_f32(photons, flux_unit);
-  // Two columns more, of whole cache lines.
+  // The f32 map has two more columns, padded to whole cache lines.
   EXPECT_NEAR(double(exact.memory_bytes() - packed.memory_bytes()),
               8.0 * double(photons.size() + kGatherPadding), 128);
   for (GatherQuery query : queries_for({"walls", photons}, 200)) {
     GatherCounters a, b;
     const Rgb f32 = exact.gather_flux(query, {}, a), rgb9e5 = packed.gather_flux(query, {}, b);
     EXPECT_EQ(a.accepted, b.accepted);
-    // Each photon is off by at most 1/511 of its largest component, which is at most the sum of all three.
-    const float bound = (f32.x + f32.y + f32.z) / 511 * (1 + 1e-3f);
+    // Each packed flux is off by at most kPackedFluxError of its largest channel, and the largest channel is
+    // at most the sum of all three.
+    const float bound = (f32.x + f32.y + f32.z) * float(test::kPackedFluxError) * (1 + 1e-3f);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(f32[c], rgb9e5[c], bound);
   }
 }

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "tests/photon/support/photon_sets.h"
+#include "tests/support/output_folder.h"
 
 namespace kaustik::photon {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path output(const std::string& name) {
-  fs::create_directories(KAUSTIK_TEST_OUTPUT_DIR);
-  return fs::path(KAUSTIK_TEST_OUTPUT_DIR) / name;
+  return test::output_folder() / name;
 }
 
 std::string read(const fs::path& path) {
@@ -31,7 +31,7 @@ TEST(PlyExport, WritesEachPhotonAsOneVertex) {
   const fs::path path = output("photons.ply");
   write_photons_ply(path, parts, glm::dvec3(0));
   EXPECT_FALSE(fs::exists(path.string() + ".part"));
-  for (const auto& entry : fs::directory_iterator(path.parent_path()))  // nothing unfinished either
+  for (const auto& entry : fs::directory_iterator(path.parent_path()))  // no unfinished file either
     EXPECT_FALSE(entry.path().filename().string().starts_with(".photons.")) << entry.path();
 
   const std::string text = read(path), end = "end_header\n";
@@ -52,8 +52,9 @@ TEST(PlyExport, WritesEachPhotonAsOneVertex) {
   }
 }
 
-// Where floats are too coarse for the world's coordinates, these are doubles: the sum is exact.
-TEST(PlyExport, FarScenesAreWrittenInTheWorldsCoordinates) {
+// Where floats are too coarse for the world's coordinates the file holds doubles, and the sum with the origin
+// is exact.
+TEST(PlyExport, FarScenesAreWrittenInWorldCoordinates) {
   PhotonMaker make(31);
   const std::vector<Photon> lit = {make.on_wall(), make.on_wall()};
   const PhotonBuffer direct = make_buffer(lit);
@@ -77,13 +78,13 @@ TEST(PlyExport, FarScenesAreWrittenInTheWorldsCoordinates) {
   }
 }
 
-TEST(PlyExport, AnEmptyCloudIsAFileWithoutVertices) {
+TEST(PlyExport, EmptyCloudGivesAFileWithoutVertices) {
   const fs::path path = output("none.ply");
   write_photons_ply(path, {}, glm::dvec3(0));
   EXPECT_NE(read(path).find("element vertex 0\n"), std::string::npos);
 }
 
-TEST(PlyExport, SaysWhichPathCannotBeWritten) {
+TEST(PlyExport, NamesThePathThatCannotBeWritten) {
   const fs::path path = output("no such folder") / "a.ply";
   try {
     write_photons_ply(path, {}, glm::dvec3(0));

@@ -1,21 +1,22 @@
-// What a shoot will take, predicted, and the limit that it is held to.
+// Tests the predicted memory of a shoot, and the limit on it.
 
 #include "photon/shoot/memory_estimate.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/photon/support/trace_scenes.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik::photon {
 namespace {
 
-using testing::settings_for;
+using test::settings_for;
 
 constexpr KindMask kDirectOnly = {true, false, false, false};
-const Scene kRoom = testing::lit_room(Rgb(0.5f), Rgb(1));
+const Scene kRoom = test::lit_room(Rgb(0.5f), Rgb(1));
 constexpr uint64_t kUnlimited = std::numeric_limits<uint64_t>::max();
 
-// What check_memory says; empty when it lets the shoot go on.
+// The message of check_memory; empty when it allows the shoot.
 std::string refusal(const Scene& scene, const TraceSettings& settings, PhotonUse use, uint64_t limit) {
   try {
     check_memory(scene, accel::Bvh(scene), settings, use, limit);
@@ -25,12 +26,12 @@ std::string refusal(const Scene& scene, const TraceSettings& settings, PhotonUse
   return {};
 }
 
-// Two shoots of n photons each leave counts that differ by less than 5 standard deviations sqrt(2 v), v the
-// variance of one: at most 16 times its mean for counts of 0 to 16 per photon.
-TEST(MemoryEstimate, IsWhatALargerShootStores) {
-  const Scene scene = testing::full_room();
+// The counts of two shoots of n photons each differ by less than 5 standard deviations sqrt(2 v), where v is
+// the variance of one: at most 16 times its mean for counts of 0 to 16 per photon.
+TEST(MemoryEstimate, MatchesWhatALargerShootStores) {
+  const Scene scene = test::full_room();
   const accel::Bvh bvh(scene);
-  const TraceSettings settings = settings_for(2 * kEstimatePhotons, testing::kAllKinds);
+  const TraceSettings settings = settings_for(2 * kEstimatePhotons, test::kAllKinds);
   const auto estimate = estimate_stored(scene, bvh, settings);
   const TraceCounters counted = shoot(scene, bvh, settings).counters;
   for (size_t k = 0; k < kPhotonKinds; ++k) {
@@ -40,13 +41,13 @@ TEST(MemoryEstimate, IsWhatALargerShootStores) {
   }
 }
 
-TEST(MemoryEstimate, PeakIsTheLargestMapsBuildBesideTheRest) {
+TEST(MemoryEstimate, PeakIsTheBuildOfTheLargestMapBesideTheOthers) {
   EXPECT_EQ(peak_bytes({10, 20, 30, 40}, PhotonUse::kRecords), 24 * 100);
   EXPECT_DOUBLE_EQ(peak_bytes({10, 20, 30, 40}, PhotonUse::kMaps), 26.4 * 60 + 52 * 40);
 }
 
-// In a closed room every photon of the light leaves one direct photon.
-TEST(MemoryEstimate, RefusesWhatDoesNotFitAndSaysWhatWould) {
+// In a closed room every emitted photon leaves one direct photon.
+TEST(MemoryEstimate, RefusesTooManyPhotonsAndNamesANumberThatFits) {
   const TraceSettings settings = settings_for(1'000'000'000, kDirectOnly);
   EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kMaps, 52'000'000'000), "");
   EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kRecords, 24'000'000'000), "");
@@ -66,10 +67,10 @@ TEST(MemoryEstimate, RefusesMorePhotonsThanAMapCanNumber) {
   EXPECT_EQ(refusal(kRoom, settings, PhotonUse::kRecords, kUnlimited), "");
 }
 
-// The direct photons alone fill the limit; those that meet the shelf leave shadow photons behind it.
+// The direct photons alone fill the limit; photons that meet the shelf leave shadow photons behind it.
 TEST(MemoryEstimate, ShadowPhotonsCountToo) {
   Scene scene = kRoom;
-  scene.shapes.push_back(testing::quad({-0.5f, 0, -0.5f}, {0, 0, 1}, {1, 0, 0}));
+  scene.shapes.push_back(test::parallelogram({-0.5f, 0, -0.5f}, {0, 0, 1}, {1, 0, 0}));
   finalize_scene(scene);
   const uint64_t photons = 10'000'000, limit = 24 * photons;
   const TraceSettings direct = settings_for(photons, kDirectOnly);
@@ -78,7 +79,7 @@ TEST(MemoryEstimate, ShadowPhotonsCountToo) {
   EXPECT_NE(refusal(scene, both, PhotonUse::kRecords, limit), "");
 }
 
-TEST(MemoryEstimate, NoPhotonsNeedNothing) {
+TEST(MemoryEstimate, NoPhotonsNeedNoMemory) {
   EXPECT_EQ(refusal(kRoom, settings_for(0, kDirectOnly), PhotonUse::kMaps, 0), "");
 }
 

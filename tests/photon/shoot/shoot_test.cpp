@@ -1,4 +1,5 @@
-// The parallel shoot: the same bytes for any number of threads, exact counters, progress and cancellation.
+// Tests the parallel shoot: the same bytes for any number of threads, exact counters, progress and
+// cancellation.
 
 #include "photon/shoot/shoot.h"
 
@@ -10,13 +11,14 @@
 #include <cstring>
 
 #include "tests/photon/support/trace_scenes.h"
+#include "tests/support/packed_flux.h"
 
 namespace kaustik::photon {
 namespace {
 
-using testing::settings_for;
+using test::settings_for;
 
-// Not a multiple of the block.
+// Not a multiple of the block's size.
 constexpr uint64_t kPhotons = 5 * kShootBlock + 123;
 
 void expect_same_bytes(const ShootResult& a, const ShootResult& b) {
@@ -35,8 +37,8 @@ void expect_same_bytes(const ShootResult& a, const ShootResult& b) {
 }
 
 TEST(Shoot, SameBytesForAnyNumberOfThreads) {
-  const Scene scene = testing::full_room();
-  const TraceSettings settings = settings_for(kPhotons, testing::kAllKinds);
+  const Scene scene = test::full_room();
+  const TraceSettings settings = settings_for(kPhotons, test::kAllKinds);
   std::vector<ShootResult> results;
   for (int threads : {1, 2, 3, 8}) {
     const tbb::global_control cap(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
@@ -54,11 +56,11 @@ void sort_records(ShootResult& r) {
   }
 }
 
-// Blocks and groups change the order, never the photons.
-TEST(Shoot, IsTheTracerPhotonByPhoton) {
-  const Scene scene = testing::full_room();
+// Blocks and groups change the order of the photons, but not the photons.
+TEST(Shoot, MatchesTheTracerPhotonByPhoton) {
+  const Scene scene = test::full_room();
   const accel::Bvh bvh(scene);
-  const TraceSettings settings = settings_for(kPhotons, testing::kAllKinds);
+  const TraceSettings settings = settings_for(kPhotons, test::kAllKinds);
   ShootResult expected;
   const float unit = flux_unit_of(scene, settings.photons);
   for (auto& buffer : expected.buffers) buffer.flux_unit = unit;
@@ -79,20 +81,19 @@ TEST(Shoot, IsTheTracerPhotonByPhoton) {
   expect_same_bytes(expected, got);
 }
 
-// RGB9E5 rounds the largest channel to 9 bits and the others to the same step: half a step is 2^-9 of the
-// largest.
+// The error of each channel is bounded relative to the largest channel, which is the third.
 TEST(Shoot, RecordsKeepTheFlux) {
-  const Scene scene = testing::lit_room(Rgb(0.5f), {1, 2, 3});
+  const Scene scene = test::lit_room(Rgb(0.5f), {1, 2, 3});
   const ShootResult r = shoot(scene, accel::Bvh(scene), settings_for(kPhotons, {true, false, false, false}));
   const PhotonBuffer& direct = r.buffers[0];
   ASSERT_EQ(direct.records.size(), kPhotons);
   glm::dvec3 sum(0);
   for (const PhotonRecord& record : direct.records) sum += glm::dvec3(unpack(record, direct.flux_unit).flux);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], M_PI / 4 * (c + 1), 0x1p-9 * M_PI / 4 * 3);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], M_PI / 4 * (c + 1), test::kPackedFluxError * M_PI / 4 * 3);
 }
 
 TEST(Shoot, FluxUnitIsThePowerOfTwoBelowTheMeanFlux) {
-  const Scene scene = testing::lit_room(Rgb(0.5f), {1, 2, 3});
+  const Scene scene = test::lit_room(Rgb(0.5f), {1, 2, 3});
   for (uint64_t n : {uint64_t{1}, uint64_t{1000}, uint64_t{10'000'000'000}}) {
     const float unit = flux_unit_of(scene, n);
     int exponent = 0;
@@ -107,8 +108,8 @@ TEST(Shoot, FluxUnitIsThePowerOfTwoBelowTheMeanFlux) {
 }
 
 TEST(Shoot, ScalingByPowersOfTwoKeepsTheRecords) {
-  const Scene scene = testing::full_room(), scaled = testing::full_room(0x1p-12f);
-  const TraceSettings settings = settings_for(2000, testing::kAllKinds);
+  const Scene scene = test::full_room(), scaled = test::full_room(0x1p-12f);
+  const TraceSettings settings = settings_for(2000, test::kAllKinds);
   const ShootResult a = shoot(scene, accel::Bvh(scene), settings),
                     b = shoot(scaled, accel::Bvh(scaled), settings);
   for (int k = 0; k < kPhotonKinds; ++k) {
@@ -126,8 +127,8 @@ TEST(Shoot, ScalingByPowersOfTwoKeepsTheRecords) {
   }
 }
 
-TEST(Shoot, SeedAndPassGiveOtherPhotons) {
-  const Scene scene = testing::lit_room(Rgb(0.5f), Rgb(1));
+TEST(Shoot, SeedAndPassChangeThePhotons) {
+  const Scene scene = test::lit_room(Rgb(0.5f), Rgb(1));
   const accel::Bvh bvh(scene);
   TraceSettings settings = settings_for(100, {true, false, false, false});
   const ShootResult first = shoot(scene, bvh, settings);
@@ -145,7 +146,7 @@ TEST(Shoot, SeedAndPassGiveOtherPhotons) {
 }
 
 TEST(Shoot, ReportsProgressAndStopsWhenTold) {
-  const Scene scene = testing::lit_room(Rgb(0.5f), Rgb(1));
+  const Scene scene = test::lit_room(Rgb(0.5f), Rgb(1));
   const accel::Bvh bvh(scene);
   TraceSettings settings = settings_for(kPhotons, {true, false, false, false});
   std::vector<uint64_t> done;
@@ -163,10 +164,10 @@ TEST(Shoot, ReportsProgressAndStopsWhenTold) {
   EXPECT_EQ(stopped.buffers[0].records.size(), kShootBlock);
 }
 
-TEST(Shoot, NothingToDo) {
-  const Scene scene = testing::lit_room(Rgb(0.5f), Rgb(1));
+TEST(Shoot, NoPhotonsOrNoKindsTraceNothing) {
+  const Scene scene = test::lit_room(Rgb(0.5f), Rgb(1));
   const accel::Bvh bvh(scene);
-  EXPECT_EQ(shoot(scene, bvh, settings_for(0, testing::kAllKinds)).counters.emitted, 0u);
+  EXPECT_EQ(shoot(scene, bvh, settings_for(0, test::kAllKinds)).counters.emitted, 0u);
   EXPECT_EQ(shoot(scene, bvh, settings_for(1000, {})).counters.rays, 0u);
 }
 

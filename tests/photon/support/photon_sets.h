@@ -2,11 +2,11 @@
 // Sets of photons, random and degenerate, for the tests of maps and searches.
 
 #include <ostream>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "photon/map/photon_map.h"
+#include "tests/support/random.h"
 
 namespace kaustik::photon {
 
@@ -14,20 +14,16 @@ struct PhotonSet {
   std::string name;
   std::vector<Photon> photons;
 };
-// The name that a test of one set is listed under.
+// GoogleTest lists the test of a set under this name.
 inline void PrintTo(const PhotonSet& set, std::ostream* out) {
   *out << set.name;
 }
 
-class PhotonMaker {
+// Random photons.
+class PhotonMaker : public test::Random {
  public:
-  explicit PhotonMaker(uint32_t seed) : random_(seed) {}
+  using Random::Random;
 
-  float uniform() { return float(random_() >> 8) * 0x1p-24f; }
-  Vector3 direction() {
-    const float z = 2 * uniform() - 1, phi = 2 * kPi * uniform(), s = std::sqrt(std::max(0.0f, 1 - z * z));
-    return {s * std::cos(phi), s * std::sin(phi), z};
-  }
   Photon at(const Point3& p, const Normal3& n, uint32_t group) {
     const Vector3 w = direction();
     return {p, glm::dot(w, n) < 0 ? -w : w, Rgb(uniform(), uniform(), uniform()), n, group};
@@ -35,18 +31,14 @@ class PhotonMaker {
   // On the walls of the box [0, 4] x [0, 3] x [0, 2], one group per axis, normals inwards.
   Photon on_wall() {
     const Vector3 size(4, 3, 2);
-    const int axis = int(random_() % 3);
-    const bool high = random_() & 1;
+    const int axis = int(bits() % 3);
+    const bool high = bits() & 1;
     Point3 p(uniform() * size.x, uniform() * size.y, uniform() * size.z);
     p[axis] = high ? size[axis] : 0.0f;
     Normal3 n(0);
     n[axis] = high ? -1.0f : 1.0f;
     return at(p, n, uint32_t(axis));
   }
-  uint32_t bits() { return random_(); }
-
- private:
-  std::mt19937 random_;
 };
 
 inline std::vector<PhotonSet> photon_sets() {
@@ -81,7 +73,7 @@ inline PhotonBuffer make_buffer(const std::vector<Photon>& photons, float flux_u
   return buffer;
 }
 
-// Queries in, near and far outside the set; on photons and between them.
+// Queries inside, near and far outside the set; on photons and between them.
 inline std::vector<GatherQuery> queries_for(const PhotonSet& set, int count) {
   PhotonMaker make(2);
   Bounds3 bounds;
@@ -104,7 +96,8 @@ inline std::vector<GatherQuery> queries_for(const PhotonSet& set, int count) {
   return queries;
 }
 
-// Seventeen queries around each: more than a packet, and their neighbours in the list are elsewhere.
+// Seventeen queries around each of the given ones: more than a packet, while their neighbours in the list lie
+// elsewhere.
 inline std::vector<GatherQuery> with_neighbours(const std::vector<GatherQuery>& queries, uint64_t photons) {
   PhotonMaker make(3);
   std::vector<GatherQuery> all;

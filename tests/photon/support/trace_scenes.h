@@ -5,35 +5,16 @@
 #include <vector>
 
 #include "photon/trace/tracer.h"
+#include "tests/support/shapes.h"
 
-namespace kaustik::testing {
-
-inline Shape quad(Point3 p, Vector3 a, Vector3 b, uint32_t material = 0) {
-  TriangleMesh mesh;
-  mesh.P = {p, p + a, p + a + b, p + b};
-  mesh.indices = {{0, 1, 2}, {0, 2, 3}};
-  Shape shape;
-  shape.geometry = std::move(mesh);
-  shape.material = material;
-  return shape;
-}
-
-inline Shape sphere(Point3 center, float radius, uint32_t material) {
-  glm::dmat4 m(1);
-  for (int i = 0; i < 3; ++i) m[i][i] = static_cast<double>(radius);
-  m[3] = glm::dvec4(glm::dvec3(center), 1);
-  Shape shape;
-  shape.geometry = Sphere{Transform::from_matrix(m)};
-  shape.material = material;
-  return shape;
-}
+namespace kaustik::test {
 
 // The inside of the cube [-s, s]^3, each face with its own surface group.
 inline void add_box(Scene& scene, float s, uint32_t material = 0) {
   const Vector3 x(2 * s, 0, 0), y(0, 2 * s, 0), z(0, 0, 2 * s);
   const Point3 low(-s), high(s);
-  for (Shape face : {quad(low, x, y), quad(low, y, z), quad(low, z, x), quad(high, -y, -x),
-                     quad(high, -z, -y), quad(high, -x, -z)}) {
+  for (Shape face : {parallelogram(low, x, y), parallelogram(low, y, z), parallelogram(low, z, x),
+                     parallelogram(high, -y, -x), parallelogram(high, -z, -y), parallelogram(high, -x, -z)}) {
     face.material = material;
     face.surface_group = static_cast<uint32_t>(scene.shapes.size());
     scene.shapes.push_back(std::move(face));
@@ -42,8 +23,7 @@ inline void add_box(Scene& scene, float s, uint32_t material = 0) {
 
 // Adds a shape that emits radiance L on its outside.
 inline void add_light(Scene& scene, Shape shape, const Rgb& L) {
-  shape.light = static_cast<uint32_t>(scene.lights.size());
-  scene.lights.emplace_back(*DiffuseAreaLight::make(shape, L, false));
+  make_light(scene, shape, L);
   scene.shapes.push_back(std::move(shape));
 }
 
@@ -53,13 +33,13 @@ inline Scene lit_room(const Rgb& reflectance, const Rgb& L, float s = 1) {
   Scene scene;
   scene.materials = {Lambertian{reflectance}};
   add_box(scene, s);
-  add_light(scene, quad({-0.25f * s, 0.9f * s, -0.25f * s}, {0.5f * s, 0, 0}, {0, 0, 0.5f * s}), L);
+  add_light(scene, parallelogram({-0.25f * s, 0.9f * s, -0.25f * s}, {0.5f * s, 0, 0}, {0, 0, 0.5f * s}), L);
   finalize_scene(scene);
   return scene;
 }
 
-// As lit_room, with a glass sphere, a mirror sphere and a tilted block of diffuse quads: every kind of
-// photon.
+// The room of lit_room with a glass sphere, a mirror sphere and a tilted parallelogram: it gives every kind
+// of photon.
 inline Scene full_room(float s = 1) {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0.7f, 0.5f, 0.6f)}, Dielectric{1.5f}, Mirror{Rgb(0.9f)},
@@ -68,8 +48,8 @@ inline Scene full_room(float s = 1) {
   scene.shapes.push_back(sphere({-0.4f * s, -0.6f * s, 0.1f * s}, 0.35f * s, 1));
   scene.shapes.push_back(sphere({0.5f * s, -0.3f * s, -0.3f * s}, 0.3f * s, 2));
   scene.shapes.push_back(
-      quad({0.1f * s, -0.2f * s, 0.2f * s}, {0.5f * s, 0.1f * s, 0}, {0, 0.2f * s, 0.5f * s}, 3));
-  add_light(scene, quad({-0.25f * s, 0.9f * s, -0.25f * s}, {0.5f * s, 0, 0}, {0, 0, 0.5f * s}),
+      parallelogram({0.1f * s, -0.2f * s, 0.2f * s}, {0.5f * s, 0.1f * s, 0}, {0, 0.2f * s, 0.5f * s}, 3));
+  add_light(scene, parallelogram({-0.25f * s, 0.9f * s, -0.25f * s}, {0.5f * s, 0, 0}, {0, 0, 0.5f * s}),
             Rgb(3, 2, 1));
   finalize_scene(scene);
   return scene;
@@ -112,4 +92,4 @@ inline glm::dvec3 total_flux(const std::vector<photon::Photon>& photons) {
   return sum;
 }
 
-}  // namespace kaustik::testing
+}  // namespace kaustik::test

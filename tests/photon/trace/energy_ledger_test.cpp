@@ -1,4 +1,4 @@
-// Where the photons' flux goes: nothing is lost, and the entries are what the scene says.
+// Tests where the photons' flux goes: nothing is lost, and the entries match the scene.
 
 #include "photon/trace/energy_ledger.h"
 
@@ -16,8 +16,8 @@
 namespace kaustik::photon {
 namespace {
 
-using testing::kAllKinds;
-using testing::settings_for;
+using test::kAllKinds;
+using test::settings_for;
 
 EnergyLedger ledger_of(const Scene& scene, const TraceSettings& settings) {
   return shoot(scene, accel::Bvh(scene), settings).counters.energy;
@@ -29,14 +29,15 @@ double lights_power(const Scene& scene) {
   return double{total.x} + double{total.y} + double{total.z};
 }
 
-// Rounding of n photons' fluxes to units, and of their float sums over three channels and lights.
+// Rounding error of n photons' fluxes to units, and of their float sums over three channels and over the
+// lights.
 double rounding(const EnergyLedger& e, uint64_t photons) {
   return 0.5 * static_cast<double>(photons) * e.watts(1) + 0x1p-20 * e.watts(e.emitted);
 }
 
-// With a wall that leaves gaps, and one of interpolated normals, which is not traced in lanes.
+// A room with a wall that leaves gaps, and one with interpolated normals, which is not traced in lanes.
 Scene open_room() {
-  Scene scene = testing::full_room();
+  Scene scene = test::full_room();
   auto& ceiling = std::get<TriangleMesh>(scene.shapes[4].geometry);
   for (Point3& p : ceiling.P) p *= 4.0f;
   auto& mesh = std::get<TriangleMesh>(scene.shapes[0].geometry);
@@ -48,7 +49,7 @@ Scene open_room() {
 }
 
 TEST(EnergyLedger, BalancesToTheLastUnit) {
-  for (const Scene& scene : {testing::lit_room(Rgb(0.5f), {1, 2, 3}), testing::full_room(), open_room()}) {
+  for (const Scene& scene : {test::lit_room(Rgb(0.5f), {1, 2, 3}), test::full_room(), open_room()}) {
     for (const KindMask kinds : {KindMask{true, false, false, false}, KindMask{false, false, true, false},
                                  KindMask{true, true, true, true}, KindMask{true, false, true, true}}) {
       for (const int bounces : {1, 2, 16, 200}) {
@@ -63,10 +64,10 @@ TEST(EnergyLedger, BalancesToTheLastUnit) {
   }
 }
 
-TEST(EnergyLedger, IsThatOfItsPhotonsOnAnyNumberOfThreads) {
+TEST(EnergyLedger, MatchesItsPhotonsOnAnyNumberOfThreads) {
   const Scene scene = open_room();
   const TraceSettings settings = settings_for(3 * kShootBlock + 77, kAllKinds);
-  const EnergyLedger one_by_one = testing::trace_all(scene, settings).counters.energy;
+  const EnergyLedger one_by_one = test::trace_all(scene, settings).counters.energy;
   EXPECT_GT(one_by_one.escaped, 0);
   EXPECT_GT(one_by_one.absorbed, 0);
   for (const int threads : {1, 2, 8}) {
@@ -78,40 +79,41 @@ TEST(EnergyLedger, IsThatOfItsPhotonsOnAnyNumberOfThreads) {
 
 TEST(EnergyLedger, ScalesExactly) {
   const TraceSettings settings = settings_for(2000, kAllKinds);
-  const EnergyLedger one = ledger_of(testing::full_room(), settings);
+  const EnergyLedger one = ledger_of(test::full_room(), settings);
   for (const int k : {-20, -1, 20}) {
-    EnergyLedger scaled = ledger_of(testing::full_room(std::ldexp(1.0f, k)), settings);
+    EnergyLedger scaled = ledger_of(test::full_room(std::ldexp(1.0f, k)), settings);
     EXPECT_EQ(scaled.unit_exponent, one.unit_exponent + 2 * k);
     scaled.unit_exponent = one.unit_exponent;
     EXPECT_EQ(scaled, one);
   }
 }
 
-// Closed rooms, where each entry is known: black walls keep all, white ones nothing, and without a kind that
-// needs the rest a path ends where it lands.
-TEST(EnergyLedger, HasTheEntriesOfAClosedRoom) {
-  const EnergyLedger black = ledger_of(testing::lit_room(Rgb(0), Rgb(1)), settings_for(10'000, kAllKinds));
+// Closed rooms, where each entry is known: black walls absorb everything, white ones nothing, and a path ends
+// where it lands when no kind needs the rest of it.
+TEST(EnergyLedger, EntriesOfAClosedRoomAreKnown) {
+  const EnergyLedger black = ledger_of(test::lit_room(Rgb(0), Rgb(1)), settings_for(10'000, kAllKinds));
   EXPECT_EQ(black.absorbed, black.emitted);
-  const EnergyLedger white = ledger_of(testing::lit_room(Rgb(1), Rgb(1)), settings_for(10'000, kAllKinds));
+  const EnergyLedger white = ledger_of(test::lit_room(Rgb(1), Rgb(1)), settings_for(10'000, kAllKinds));
   EXPECT_EQ(white.terminated, white.emitted);
   const EnergyLedger direct =
-      ledger_of(testing::lit_room(Rgb(0.5f), Rgb(1)), settings_for(10'000, {true, false, false, false}));
+      ledger_of(test::lit_room(Rgb(0.5f), Rgb(1)), settings_for(10'000, {true, false, false, false}));
   EXPECT_EQ(direct.terminated, direct.emitted);
-  Scene nothing = testing::lit_room(Rgb(0.5f), Rgb(1));
+  Scene nothing = test::lit_room(Rgb(0.5f), Rgb(1));
   nothing.shapes.erase(nothing.shapes.begin(), nothing.shapes.begin() + 6);
   nothing.shapes[0].light = 0;
   const EnergyLedger light_alone = ledger_of(nothing, settings_for(10'000, kAllKinds));
   EXPECT_EQ(light_alone.escaped, light_alone.emitted);
 }
 
-// Of reflectance rho: each of the paths' visits absorbs 1 - rho of what arrives, and there are 1 / (1 - rho)
-// of them on the mean, geometrically distributed. So emitted = absorbed + roulette, whose mean is zero: its
-// standard error over n photons of flux 1 is that of the absorbed, (1 - rho) sqrt(rho / n) / (1 - rho).
-TEST(EnergyLedger, RouletteIsNothingOnTheMean) {
+// In a closed room of reflectance rho each vertex absorbs 1 - rho of what arrives, and a path has 1 / (1 -
+// rho) vertices on average, geometrically distributed. So emitted = absorbed + roulette, where the mean of
+// roulette is zero: its standard error over n photons of flux 1 is that of the absorbed flux, (1 - rho)
+// sqrt(rho / n) / (1 - rho).
+TEST(EnergyLedger, RouletteIsZeroOnAverage) {
   const double rho = 0.75, n = 100'000;
   TraceSettings settings = settings_for(100'000, kAllKinds);
   settings.max_bounces = 1000;
-  const EnergyLedger e = ledger_of(testing::lit_room(Rgb(0.75f), Rgb(1)), settings);
+  const EnergyLedger e = ledger_of(test::lit_room(Rgb(0.75f), Rgb(1)), settings);
   EXPECT_EQ(e.terminated, 0);
   EXPECT_EQ(e.escaped, 0);
   EXPECT_NE(e.roulette, 0);
@@ -121,14 +123,15 @@ TEST(EnergyLedger, RouletteIsNothingOnTheMean) {
 TEST(EnergyLedger, InvalidFluxHasAnEntry) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.5f}) {
     const EnergyLedger e =
-        ledger_of(testing::lit_room({0.5f, 0.5f, bad}, Rgb(1)), settings_for(1000, kAllKinds));
+        ledger_of(test::lit_room({0.5f, 0.5f, bad}, Rgb(1)), settings_for(1000, kAllKinds));
     EXPECT_EQ(e.invalid, e.emitted);
     EXPECT_EQ(e.unaccounted(), 0);
   }
 }
 
-// 10^7 random paths through every kind of surface: nothing that is not a flux, nothing lost. With
-// KAUSTIK_LONG_TEST_PHOTONS=100000000 in the environment the same with 10^8: half a minute on two cores.
+// 10^7 random paths over every kind of surface: no invalid flux, and no loss. With
+// KAUSTIK_LONG_TEST_PHOTONS=100000000 in the environment the test takes 10^8 paths: half a minute on two
+// cores.
 TEST(EnergyLedger, MillionsOfPathsStayValid) {
   const char* const wish = std::getenv("KAUSTIK_LONG_TEST_PHOTONS");
   const uint64_t photons = wish ? std::strtoull(wish, nullptr, 10) : 10'000'000;
@@ -166,8 +169,8 @@ TEST(EnergyLedger, ChainsOfTotalReflectionLoseNothing) {
   Scene scene;
   const float eta = 1.5f;
   scene.materials = {Lambertian{Rgb(0)}, Dielectric{eta}};
-  testing::add_box(scene, 1, 1);
-  for (Shape& face : scene.shapes) face.flip_normal = true;  // outside is out
+  test::add_box(scene, 1, 1);
+  for (Shape& face : scene.shapes) face.flip_normal = true;  // normals point out of the cube
   scene.lights.emplace_back(PointLight{{0.1f, -0.2f, 0.3f}, Rgb(1)});
   finalize_scene(scene);
   TraceSettings settings = settings_for(100'000, kAllKinds);

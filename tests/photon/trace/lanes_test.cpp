@@ -1,7 +1,8 @@
-// What is computed in SIMD lanes against the scalar code that defines it.
+// Tests the code in SIMD lanes against the scalar code that defines its results.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "photon/record/record_sink.h"
@@ -44,7 +45,7 @@ Sphere make_ellipsoid(PhotonMaker& make) {
 }
 
 Bsdf make_bsdf(PhotonMaker& make, uint32_t k) {
-  // Some reflect nothing, some more than all.
+  // Some reflect nothing, and some have a reflectance above one.
   const Rgb reflectance = k == 7 ? Rgb(0) : Rgb(make.uniform(), make.uniform(), 1.1f * make.uniform());
   switch (k % 7) {
     case 1:
@@ -72,7 +73,7 @@ Vertices make_vertices(uint64_t seed) {
     shape.surface_group = 70000 * k;
     v.shapes.push_back(shape);
     v.materials.push_back(make_bsdf(make, k));
-    // Every eighth meets the same ellipsoid.
+    // Every eighth ray meets the same ellipsoid.
     v.hits.push_back(
         {1 + make.uniform(), k % 8 == 2 ? 10 : k, 0, {0.5f * make.uniform(), 0.5f * make.uniform()}});
     v.rays.push_back({4.0f * make.direction(), make.direction()});
@@ -92,7 +93,7 @@ void fill(const Vertices& v, VertexLanes& lanes) {
   }
 }
 
-TEST(VertexLanes, PointsAreThoseOfMakeInteraction) {
+TEST(VertexLanes, PointsMatchMakeInteraction) {
   for (uint64_t seed = 0; seed < 50; ++seed) {
     const Vertices v = make_vertices(seed);
     VertexLanes lanes{};
@@ -111,8 +112,8 @@ TEST(VertexLanes, PointsAreThoseOfMakeInteraction) {
   }
 }
 
-// Scalar: the BSDF's sample_f about n, one Newton step towards unit length, no light through the surface but
-// by refraction, Russian roulette.
+// The scalar reference: the BSDF's sample_f about n, one Newton step towards unit length, no light through
+// the surface except by refraction, Russian roulette.
 void expect_scattered(const VertexLanes& lanes, const Vertices& v, const float (&u)[4], size_t k) {
   const SurfaceInteraction si = make_interaction(v.shapes, v.rays[k], v.hits[k]);
   const Frame frame = Frame::from_z(si.n);
@@ -135,7 +136,7 @@ void expect_scattered(const VertexLanes& lanes, const Vertices& v, const float (
   ASSERT_EQ(VertexLanes::get(lanes.next_flux, k), (after < before ? before / after : 1.0f) * next);
 }
 
-TEST(VertexLanes, SegmentsAreThoseOfTheScalarCode) {
+TEST(VertexLanes, SegmentsMatchTheScalarCode) {
   for (uint64_t seed = 0; seed < 50; ++seed) {
     const Vertices v = make_vertices(seed);
     PhotonMaker make(1000 + seed);
@@ -153,10 +154,12 @@ TEST(VertexLanes, SegmentsAreThoseOfTheScalarCode) {
   }
 }
 
-TEST(VertexLanes, WhatIsNoFluxIsInvalid) {
+TEST(VertexLanes, NegativeOrNonFiniteFluxIsInvalid) {
   Vertices v = make_vertices(3);
   v.shapes[2].geometry = v.shapes[0].geometry;
   v.hits[2].shape = 2;
+  // White flux, so that roulette with 0.25 keeps the photons of reflectance 0.5 and above.
+  std::fill_n(v.flux.begin(), 4, Rgb(1));
   v.materials[0] = Lambertian{Rgb(1, kInfinity, 1)};
   v.materials[1] = Lambertian{Rgb(1, 1, -1)};
   v.materials[2] = Lambertian{Rgb(1, 1, std::numeric_limits<float>::quiet_NaN())};
@@ -171,8 +174,8 @@ TEST(VertexLanes, WhatIsNoFluxIsInvalid) {
   EXPECT_EQ(lanes.fate[3], VertexLanes::kAlive);
 }
 
-// What joins a queue, row by row or alone, is taken out as it was, in groups that need not be full.
-TEST(WalkerQueue, TakesOutWhatWasPushed) {
+// Walkers that are pushed to a queue, by rows or alone, come out unchanged, in groups that need not be full.
+TEST(WalkerQueue, ReturnsWhatWasPushed) {
   PhotonMaker make(5);
   accel::RayLanes rays{};
   VertexLanes::Column flux[3];
@@ -213,8 +216,8 @@ TEST(WalkerQueue, TakesOutWhatWasPushed) {
   }
 }
 
-// Ordinary photons and those at the ends of the formats, in numbers that are no multiple of the lanes.
-TEST(RecordPacker, RecordsAreThoseOfPack) {
+// Ordinary photons and photons at the limits of the formats, in numbers that are not multiples of the lanes.
+TEST(RecordPacker, RecordsMatchPack) {
   PhotonMaker make(77);
   constexpr float kUnit = 0x1p-20f;
   RecordPacker packer(kUnit);
@@ -236,8 +239,8 @@ TEST(RecordPacker, RecordsAreThoseOfPack) {
   EXPECT_EQ(std::memcmp(records.data(), expected.data(), records.size() * sizeof(PhotonRecord)), 0);
 }
 
-// Whole lanes and single photons end in the records that pack() makes of them.
-TEST(RecordSink, LanesAreThoseOfPack) {
+// Photons that are added in whole lanes or alone end up as the records that pack() makes.
+TEST(RecordSink, LanesMatchPack) {
   const Vertices v = make_vertices(9);
   VertexLanes lanes{};
   fill(v, lanes);

@@ -1,21 +1,20 @@
-// Shading normals on photon paths (Veach 1997, section 5.3): what photons carry must be what camera paths,
-// which weigh by |wi.ns|, would find.
+// Tests shading normals on photon paths (Veach 1997, section 5.3): photons must carry what camera paths find,
+// which weigh by |wi.ns|.
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "tests/photon/support/trace_scenes.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/statistics.h"
 
 namespace kaustik::photon {
 namespace {
 
-using testing::settings_for;
-using testing::trace_all;
-using testing::Traced;
+using namespace test;
 using enum PhotonKind;
 
-// Octahedron of radius 1 with the normals of the sphere: angles of up to 55 degrees between n and ns.
+// An octahedron of radius 1 with the normals of the sphere: angles of up to 55 degrees between n and ns.
 Shape smooth_octahedron(uint32_t material) {
   TriangleMesh mesh;
   mesh.P = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -27,29 +26,8 @@ Shape smooth_octahedron(uint32_t material) {
   return shape;
 }
 
-struct Estimate {
-  double mean = 0, error = 0;  // of the mean
-};
-
-class Accumulator {
- public:
-  void add(double x) {
-    sum_ += x;
-    squares_ += x * x;
-    ++n_;
-  }
-  Estimate estimate() const {
-    const double n = static_cast<double>(n_), mean = sum_ / n;
-    return {mean, std::sqrt(std::max(0.0, squares_ / n - mean * mean) / n)};
-  }
-
- private:
-  double sum_ = 0, squares_ = 0;
-  uint64_t n_ = 0;
-};
-
-// Flux by kind as the sum over photons, whose standard error is that of a compound sum: the square root of
-// the sum of squares.
+// The sum of the photons' flux with its standard error, which for a compound sum is the root of the sum of
+// squares.
 Estimate flux_of(const std::vector<Photon>& photons) {
   Estimate e;
   double squares = 0;
@@ -57,17 +35,17 @@ Estimate flux_of(const std::vector<Photon>& photons) {
     e.mean += static_cast<double>(p.flux.x);
     squares += static_cast<double>(p.flux.x) * static_cast<double>(p.flux.x);
   }
-  e.error = std::sqrt(squares);
+  e.standard_error = std::sqrt(squares);
   return e;
 }
 
 void expect_agree(const Estimate& a, const Estimate& b) {
-  EXPECT_NEAR(a.mean, b.mean, 4 * std::hypot(a.error, b.error));
-  EXPECT_LT(std::hypot(a.error, b.error), 0.02 * a.mean) << "too noisy to say anything";
+  EXPECT_NEAR(a.mean, b.mean, 4 * std::hypot(a.standard_error, b.standard_error));
+  EXPECT_LT(std::hypot(a.standard_error, b.standard_error), 0.02 * a.mean) << "too noisy to say anything";
 }
 
-// A point light near the octahedron, in a black room. Camera paths weigh light from wi at a surface point by
-// |wi.ns|, where wi lies on one side of n and ns.
+// A point light near the octahedron in a black room. Camera paths weigh light from wi at a surface point by
+// |wi.ns|, where wi is on the same side of n and ns.
 TEST(ShadingNormals, DepositsAndReflectionAgreeWithCameraPaths) {
   const Point3 light(0.8f, 1.0f, 0.7f);
   const float rho = 0.8f;
@@ -75,25 +53,26 @@ TEST(ShadingNormals, DepositsAndReflectionAgreeWithCameraPaths) {
   scene.materials = {Lambertian{Rgb(rho)}, Lambertian{Rgb(0)}};
   scene.shapes = {smooth_octahedron(0)};
   scene.shapes[0].surface_group = 100;
-  testing::add_box(scene, 5, 1);
+  add_box(scene, 5, 1);
   scene.lights = {PointLight{light, Rgb(1)}};
   finalize_scene(scene);
   const accel::Bvh bvh(scene);
 
-  // integral over the mesh of E_s = I |wi.ns| / d^2; then what leaves it: rho / pi times E_s times the
-  // integral of |w.n| over both hemispheres' overlap, pi (1 + n.ns) / 2, and, where n and ns disagree and
-  // camera paths shade n, times E_n = I |wi.n| / d^2 and the rest, pi (1 - n.ns) / 2.
-  Accumulator received, reflected;
-  std::mt19937_64 engine(3);
-  const auto uniform = [&] { return static_cast<float>(engine() >> 40) * 0x1p-24f; };
+  // Two integrals over the mesh. The received light is E_s = I |wi.ns| / d^2. The reflected light is rho / pi
+  // times E_s times the integral of |w.n| over the overlap of both hemispheres, pi (1 + n.ns) / 2, plus,
+  // where n and ns disagree and camera paths shade with n, rho / pi times E_n = I |wi.n| / d^2 times the
+  // rest, pi (1 - n.ns) / 2.
+  Mean received, reflected;
+  Random random(3);
   const double area = surface_area(scene.shapes[0]);
   for (int i = 0; i < 200000; ++i) {
-    const Hit at{1, 0, static_cast<uint32_t>(8 * uniform()), sample_uniform_triangle({uniform(), uniform()})};
+    const Hit at{1, 0, static_cast<uint32_t>(8 * random.uniform()),
+                 sample_uniform_triangle(random.uniform_2d())};
     const SurfaceInteraction si = make_interaction(scene.shapes, {}, at);
     const Vector3 to_light = light - si.p;
     const Vector3 wi = glm::normalize(to_light);
     const bool one_side = glm::dot(wi, si.n) * glm::dot(wi, si.ns) > 0;
-    // An octahedron is convex: what faces the light sees it, what does not is shadowed.
+    // An octahedron is convex, so exactly the points that face the light see it.
     const bool visible = glm::dot(wi, si.n) > 0;
     const double E =
         one_side && visible ? static_cast<double>(glm::dot(wi, si.ns) / length_squared(to_light)) : 0;
@@ -113,32 +92,31 @@ TEST(ShadingNormals, DepositsAndReflectionAgreeWithCameraPaths) {
   expect_agree(flux_of(t[kIndirect]), reflected.estimate());
 }
 
-// Light from a wide light by a smooth-shaded specular octahedron onto a wall. The camera's way: from a random
-// point of the wall in a cosine direction to the octahedron, by its delta lobes through ns, until it meets
-// the light.
+// Light from a wide light reaches a wall by way of a smooth-shaded specular octahedron. Camera paths go from
+// a random point of the wall in a cosine-distributed direction to the octahedron, and on by its delta lobes
+// about ns until they meet the light.
 void expect_specular_agrees(const Bsdf& bsdf) {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0)}, bsdf};
-  scene.shapes = {smooth_octahedron(1), testing::quad({-1, -3, -3}, {0, 6, 0}, {0, 0, 6})};
+  scene.shapes = {smooth_octahedron(1), parallelogram({-1, -3, -3}, {0, 6, 0}, {0, 0, 6})};
   std::get<TriangleMesh>(scene.shapes[1].geometry).P = {
       {-1.5f, -3, -4}, {-1.5f, 3, -4}, {-1.5f, 3, 4}, {-1.5f, -3, 4}};
-  testing::add_light(scene, testing::quad({-1.4f, 1.5f, -2.5f}, {4, 0, 0}, {0, 0, 5}), Rgb(1));
+  add_light(scene, parallelogram({-1.4f, 1.5f, -2.5f}, {4, 0, 0}, {0, 0, 5}), Rgb(1));
   finalize_scene(scene);
   const accel::Bvh bvh(scene);
   const uint32_t wall = 1, light = 2;
 
-  Accumulator camera;
-  std::mt19937_64 engine(4);
-  const auto uniform = [&] { return static_cast<float>(engine() >> 40) * 0x1p-24f; };
+  Mean camera;
+  Random random(4);
   const double area = surface_area(scene.shapes[wall]);
   for (int i = 0; i < 1000000; ++i) {
     SurfaceInteraction si = make_interaction(
         scene.shapes, {},
-        {1, wall, static_cast<uint32_t>(2 * uniform()), sample_uniform_triangle({uniform(), uniform()})});
+        {1, wall, static_cast<uint32_t>(2 * random.uniform()), sample_uniform_triangle(random.uniform_2d())});
     const float distance = glm::length(si.p), sine = 1 / distance;
     const float one_minus_cos = sine * sine / (1 + std::sqrt(1 - sine * sine));
     const Vector3 d =
-        Frame::from_z(-si.p / distance).to_world(sample_uniform_cone({uniform(), uniform()}, one_minus_cos));
+        Frame::from_z(-si.p / distance).to_world(sample_uniform_cone(random.uniform_2d(), one_minus_cos));
     Ray ray = si.spawn(d);
     double radiance = 0, weight = area * static_cast<double>(d.x / uniform_cone_pdf(one_minus_cos));
     bool specular = false;
@@ -151,7 +129,7 @@ void expect_specular_agrees(const Bsdf& bsdf) {
       if (glm::dot(wo, si.n) * wo_local.z <= 0) break;
       const auto sample = std::visit(
           [&](const auto& b) {
-            return b.sample_f(wo_local, uniform(), {0, 0}, TransportMode::kRadiance);
+            return b.sample_f(wo_local, random.uniform(), {0, 0}, TransportMode::kRadiance);
           },
           bsdf);
       if (!sample) break;
@@ -170,16 +148,17 @@ void expect_specular_agrees(const Bsdf& bsdf) {
   for (const Photon& p : t[kCaustic])
     if (std::abs(p.p.x + 1.5f) < 1e-4f) on_wall.push_back(p);
   const Estimate photons = flux_of(on_wall), paths = camera.estimate();
-  EXPECT_NEAR(photons.mean, paths.mean, 4 * std::hypot(photons.error, paths.error));
-  EXPECT_LT(std::hypot(photons.error, paths.error), 0.02 * paths.mean) << "too noisy to say anything";
+  EXPECT_NEAR(photons.mean, paths.mean, 4 * std::hypot(photons.standard_error, paths.standard_error));
+  EXPECT_LT(std::hypot(photons.standard_error, paths.standard_error), 0.02 * paths.mean)
+      << "too noisy to say anything";
 }
 
 TEST(ShadingNormals, MirrorAgreesWithCameraPaths) {
   expect_specular_agrees(Mirror{Rgb(0.9f)});
 }
 
-// Radiance changes by eta^2 on the camera's way into and out of glass, flux does not; shading normals change
-// both.
+// Camera paths change radiance by eta^2 on their way into and out of glass, photons do not change flux;
+// shading normals affect both.
 TEST(ShadingNormals, GlassAgreesWithCameraPaths) {
   expect_specular_agrees(Dielectric{1.5f});
 }
@@ -194,7 +173,7 @@ double cos_degrees(double a) {
   return std::cos(a * M_PI / 180);
 }
 
-// Half a square metre in the plane y = 0 whose shading normal is tilted towards +x.
+// Half a square metre in the plane y = 0, with a shading normal tilted towards +x.
 Shape tilted_triangle(double degrees, uint32_t material) {
   TriangleMesh mesh;
   mesh.P = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
@@ -206,15 +185,15 @@ Shape tilted_triangle(double degrees, uint32_t material) {
   return shape;
 }
 
-// A specular tilted triangle under parallel light of irradiance 1 from angle `from` to its left. One lobe
-// goes on at angle `to`, and two screens around catch it. All of these are angles to the geometric normal,
-// from which the true flux follows: a camera that looks along the lobe sees, by the delta lobe about ns,
-// radiance from the beam, so the area seen under |cos to| counts, and not |cos from|.
+// A specular tilted triangle under parallel light of irradiance 1 from the angle `from` to its left. One lobe
+// leaves at the angle `to`, and two screens around catch it. All of these are angles to the geometric normal,
+// which gives the true flux: a camera that looks along the lobe sees, by the delta lobe about ns, radiance of
+// the beam, so the area seen under |cos to| counts, and not |cos from|.
 void expect_lobe(const Bsdf& bsdf, double tilt, double from, double to, double expected_flux) {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0)}, bsdf};
-  scene.shapes = {tilted_triangle(tilt, 1), testing::quad({2, 0, -1}, {0, 2, 0}, {0, 0, 3}),
-                  testing::quad({-1, -1, -1}, {3, 0, 0}, {0, 0, 3})};
+  scene.shapes = {tilted_triangle(tilt, 1), parallelogram({2, 0, -1}, {0, 2, 0}, {0, 0, 3}),
+                  parallelogram({-1, -1, -1}, {3, 0, 0}, {0, 0, 3})};
   scene.lights = {DistantLight{at_degrees(-from), Rgb(1)}};
   finalize_scene(scene);
   const Traced t = trace_all(scene, settings_for(600000, {false, false, true, false}));
@@ -222,18 +201,18 @@ void expect_lobe(const Bsdf& bsdf, double tilt, double from, double to, double e
   for (const Photon& p : t[kCaustic])
     if (glm::length(p.wi + at_degrees(to)) < 1e-4f) lobe.push_back(p);
   const Estimate flux = flux_of(lobe);
-  EXPECT_NEAR(flux.mean, expected_flux, 4 * flux.error);
-  EXPECT_LT(flux.error, 0.03 * expected_flux) << "too noisy to say anything";
+  EXPECT_NEAR(flux.mean, expected_flux, 4 * flux.standard_error);
+  EXPECT_LT(flux.standard_error, 0.03 * expected_flux) << "too noisy to say anything";
 }
 
-// Equal angles about ns: |wo.ns| = |wi.ns|, so the lobe's flux is the area times |cos to|.
-TEST(ShadingNormals, MirrorOnATiltedTriangleIsTheClosedForm) {
+// With equal angles about ns, |wo.ns| = |wi.ns|, so the lobe's flux is the area times |cos to|.
+TEST(ShadingNormals, MirrorOnATiltedTriangleMatchesTheClosedForm) {
   expect_lobe(Mirror{}, 10, 45, 65, 0.5 * cos_degrees(65));
   expect_lobe(Mirror{}, -10, 65, 45, 0.5 * cos_degrees(45));
 }
 
-// Refraction about ns, with 1 - F of the light, and |wo.ns| / |wi.ns| of the two angles to ns.
-TEST(ShadingNormals, GlassOnATiltedTriangleIsTheClosedForm) {
+// Refraction about ns transmits 1 - F of the light, times |wo.ns| / |wi.ns| of the two angles to ns.
+TEST(ShadingNormals, GlassOnATiltedTriangleMatchesTheClosedForm) {
   for (double tilt : {20.0, -20.0}) {
     const double theta_i = 45 + tilt, theta_t = std::asin(std::sin(theta_i * M_PI / 180) / 1.5) * 180 / M_PI;
     const double ci = cos_degrees(theta_i), ct = cos_degrees(theta_t);
@@ -244,9 +223,9 @@ TEST(ShadingNormals, GlassOnATiltedTriangleIsTheClosedForm) {
   }
 }
 
-// Under parallel light from 45 degrees on the other side of a tilt of 30: irradiance L |wi.ns| = L cos 75,
-// where the geometric normal would give L cos 45.
-TEST(ShadingNormals, DepositOnATiltedTriangleIsTheClosedForm) {
+// Parallel light comes from 45 degrees on the other side of a tilt of 30 degrees: the irradiance is L |wi.ns|
+// = L cos 75, where the geometric normal would give L cos 45.
+TEST(ShadingNormals, DepositOnATiltedTriangleMatchesTheClosedForm) {
   Scene scene;
   scene.materials = {Lambertian{Rgb(0.5f)}};
   scene.shapes = {tilted_triangle(30, 0)};
@@ -257,13 +236,13 @@ TEST(ShadingNormals, DepositOnATiltedTriangleIsTheClosedForm) {
   const double power_per_photon = static_cast<double>(power(scene.lights[0]).x) / static_cast<double>(n);
   const double cos_ns = cos_degrees(75), cos_n = cos_degrees(45);
   for (const Photon& p : t[kDirect]) {
-    // Cosines of unit floats: a few roundings each, relative to cos 75.
+    // The cosines of unit floats are off by a few roundings, relative to cos 75.
     ASSERT_NEAR(p.flux.x / power_per_photon, cos_ns / cos_n, 1e-5);
     ASSERT_EQ(p.n, Normal3(0, 1, 0));
   }
   const Estimate flux = flux_of(t[kDirect]);
-  EXPECT_NEAR(flux.mean, 0.5 * cos_ns, 4 * flux.error);
-  // Light from below the shading horizon, yet above the geometric one, leaves nothing.
+  EXPECT_NEAR(flux.mean, 0.5 * cos_ns, 4 * flux.standard_error);
+  // Light from below the shading horizon, yet above the geometric one, leaves no photon.
   scene.lights = {DistantLight{at_degrees(-70), Rgb(1)}};
   finalize_scene(scene);
   EXPECT_TRUE(trace_all(scene, settings_for(1000, {true, true, true, true}))[kDirect].empty());

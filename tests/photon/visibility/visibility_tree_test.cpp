@@ -1,4 +1,4 @@
-// What photons predict of visibility, and how often they err.
+// Tests the visibility that photons predict, and how often the predictions are wrong.
 
 #include "photon/visibility/visibility_tree.h"
 
@@ -21,7 +21,8 @@ MortonCube unit_cube() {
   return MortonCube::around({Point3(0), Point3(1)});
 }
 
-// Observations spread evenly over the unit square of the floor; seen(p) says what each found.
+// Observations spread evenly over the unit square of the floor; seen(p) says whether the photon at p saw the
+// light.
 template <class Seen>
 std::vector<uint64_t> floor_observations(const MortonCube& cube, int count, Seen&& seen, uint32_t light = 0) {
   PhotonMaker make(5);
@@ -57,11 +58,11 @@ TEST(VisibilityTree, PredictsNothingWithoutObservations) {
   EXPECT_EQ(tree.predict(VisibilityTree::kMostLights, {0.1f, 0.1f, 0}, kUp).p, 1);
 }
 
-// A cell of which a share a is hidden has only observations for "seen" with probability (1 - a)^n, and then
-// errs in a share a of its points: a (1 - a)^n <= 1/(e n) for every a. The share of points with p = 2^-k
-// whose prediction is wrong is therefore at most 1/(e n) on average, n >= 16 4^(k-1) - 2. The same for
-// "hidden". Twice that leaves room for the scatter of what few cells decide.
-TEST(VisibilityTree, ErrsSeldom) {
+// A cell of which a share a is hidden has only observations of "seen" with probability (1 - a)^n, and is then
+// wrong in a share a of its points: a (1 - a)^n <= 1/(e n) for every a. The share of points with p = 2^-k
+// whose prediction is wrong is therefore at most 1/(e n) on average, n >= 16 4^(k-1) - 2; the same bound
+// holds for "hidden". Twice that leaves room for the scatter of results that few cells decide.
+TEST(VisibilityTree, PredictionsAreSeldomWrong) {
   const MortonCube cube = unit_cube();
   for (const int count : {3000, 30000, 300000}) {
     const VisibilityTree tree(cube, floor_observations(cube, count, in_disc));
@@ -80,14 +81,14 @@ TEST(VisibilityTree, ErrsSeldom) {
       EXPECT_LE(wrong[size_t(k)], 2 * predicted[size_t(k)] / (M_E * least) + 3)
           << count << " observations, k " << k;
     }
-    // The edge is 1.26 long. Of cells as wide as w it meets about 4/pi 1.26 / w, an area of 1.6 w; cells are
-    // divided down to 32 observations, w = sqrt(32 / count) at least and four times that at most. Those
-    // beside them have a sixteenth of the observations of a cell that was divided, at times too few.
+    // The edge is 1.26 long. Of cells of width w it meets about 4/pi 1.26 / w, an area of 1.6 w. Cells are
+    // divided down to 32 observations, so w is between sqrt(32 / count) and four times that. Cells beside
+    // them have a sixteenth of the observations of a cell that was divided, sometimes too few.
     EXPECT_LT(predicted[0], kPoints * std::min(1.0, 3 * 1.6 * 4 * std::sqrt(32.0 / count))) << count;
   }
 }
 
-TEST(VisibilityTree, TheOrderOfTheObservationsDoesNotMatter) {
+TEST(VisibilityTree, DoesNotDependOnTheOrderOfObservations) {
   const MortonCube cube = unit_cube();
   std::vector<uint64_t> observations = floor_observations(cube, 20000, in_disc);
   const VisibilityTree one(cube, observations);
@@ -101,8 +102,8 @@ TEST(VisibilityTree, TheOrderOfTheObservationsDoesNotMatter) {
   }
 }
 
-// A cell that cannot be divided any further: all observations at one point.
-TEST(VisibilityTree, ObservationsThatDifferAtOnePointPredictNothing) {
+// All observations are at one point, so the cell cannot be divided any further.
+TEST(VisibilityTree, ContradictingObservationsAtOnePointPredictNothing) {
   const MortonCube cube = unit_cube();
   std::vector<uint64_t> observations;
   for (int i = 0; i < 1000; ++i)
@@ -110,14 +111,14 @@ TEST(VisibilityTree, ObservationsThatDifferAtOnePointPredictNothing) {
   EXPECT_EQ(VisibilityTree(cube, observations).predict(0, Point3(0.3f), kUp).p, 1);
 }
 
-// The room's glass and mirror sphere hide the light, as the tilted block does.
+// In this room the glass sphere, the mirror sphere and the tilted parallelogram all hide the light.
 VisibilityTree room_tree(const Scene& scene, int threads) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, size_t(threads));
   return predict_visibility(scene, accel::Bvh(scene, threads), {.seed = 1, .photons = 100000});
 }
 
-TEST(PredictVisibility, BehindGlassAndMirrorLightsAreHidden) {
-  const Scene scene = testing::full_room();
+TEST(PredictVisibility, GlassAndMirrorsHideLights) {
+  const Scene scene = test::full_room();
   const VisibilityTree tree = room_tree(scene, 2);
   const Normal3 up(0, 1, 0);
   for (const Point3 p : {Point3(-0.65f, -1, 0.15f), Point3(0.9f, -1, -0.5f)}) {  // under the spheres
@@ -130,9 +131,9 @@ TEST(PredictVisibility, BehindGlassAndMirrorLightsAreHidden) {
   EXPECT_LT(lit.p, 1);
 }
 
-TEST(PredictVisibility, NeitherThreadsNorScaleChangeAnything) {
-  const VisibilityTree one = room_tree(testing::full_room(), 1), many = room_tree(testing::full_room(), 3),
-                       large = room_tree(testing::full_room(1024), 2);
+TEST(PredictVisibility, DoesNotDependOnThreadsOrScale) {
+  const VisibilityTree one = room_tree(test::full_room(), 1), many = room_tree(test::full_room(), 3),
+                       large = room_tree(test::full_room(1024), 2);
   PhotonMaker make(8);
   const Normal3 up(0, 1, 0);
   for (int i = 0; i < 20000; ++i) {
@@ -145,8 +146,8 @@ TEST(PredictVisibility, NeitherThreadsNorScaleChangeAnything) {
   }
 }
 
-TEST(PredictVisibility, NothingIsPredictedInTheDark) {
-  Scene dark = testing::full_room();
+TEST(PredictVisibility, PredictsNothingWithoutLights) {
+  Scene dark = test::full_room();
   dark.lights.clear();
   for (Shape& shape : dark.shapes) shape.light = kNoIndex;
   finalize_scene(dark);

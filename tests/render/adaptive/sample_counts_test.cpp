@@ -1,4 +1,5 @@
-// Samples that are spread by what the first ones say: the estimates, the shares, and that the mean stays.
+// Tests adaptive sampling: the estimates from the first samples, the numbers of further samples, and that the
+// mean stays unbiased.
 
 #include "render/adaptive/sample_counts.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 using namespace test;
 
-// Every pixel has `count` samples, value(x, y, i).
+// Every pixel has `count` samples with the values value(x, y, i).
 template <class Fn>
 BlockMoments moments_of(int count, const Fn& value) {
   BlockMoments block;
@@ -32,8 +33,9 @@ double variance_of(const BlockMoments& block, int half) {
   return spread_of(block, half).of(SampleLight::kAll).variance;
 }
 
-// What is plane over the block is no noise, however much the samples of a pixel differ; and what does not
-// differ within a pixel is none, however crooked the block.
+// Two bounds of the variance: the variance of the samples within a pixel, and the deviation of the pixels'
+// means from a plane over the block. A block whose means lie on a plane has no noise, however much the
+// samples of a pixel differ; pixels whose samples are equal have none, however crooked the block.
 TEST(SampleSpread, IsTheSmallerOfTwoBounds) {
   const auto plane = moments_of(2, [](int x, int y, int i) {
     return 8.0f + 0.5f * float(x) - 0.25f * float(y) + (i == 0 ? 1.0f : -1.0f);
@@ -48,22 +50,22 @@ TEST(SampleSpread, IsTheSmallerOfTwoBounds) {
   }
 }
 
-// Of independent samples both bounds have the mean that is asked for; the smaller of two is less, but of 4
-// samples in 8 pixels and 5 degrees of freedom of means seldom less than a half.
-TEST(SampleSpread, OfNoiseIsItsVariance) {
+// For independent samples both bounds are unbiased. The smaller of the two is less, but with 4 samples in 8
+// pixels, and 5 degrees of freedom of means, seldom less than half of the variance.
+TEST(SampleSpread, EstimatesTheVarianceOfNoise) {
   std::mt19937 random(1);
   std::normal_distribution<float> noise(5, 2);
   double sum = 0;
   constexpr int kBlocks = 400;
   for (int i = 0; i < kBlocks; ++i)
     sum += variance_of(moments_of(4, [&](int, int, int) { return noise(random); }), i % 2) / 8;
-  const double of_one = sum / kBlocks / 3;  // a channel's
+  const double of_one = sum / kBlocks / 3;  // variance of one channel
   EXPECT_LT(of_one, 4);
   EXPECT_GT(of_one, 2);
 }
 
-// Pixels beyond the window have no samples, and no plane is laid through the others.
-TEST(SampleSpread, OfABlockThatIsCutIsThatOfItsPixels) {
+// Pixels outside the window have no samples, and no plane is fitted to the others.
+TEST(SampleSpread, CutBlocksUseTheVarianceWithinPixels) {
   auto block = moments_of(2, [](int, int, int i) { return i == 0 ? 1.0f : 3.0f; });
   for (int y = 0; y < kRayBlock; ++y) block[pixel_of_block(3, y)] = {};
   for (int half = 0; half < kHalves; ++half) {
@@ -75,14 +77,14 @@ TEST(SampleSpread, OfABlockThatIsCutIsThatOfItsPixels) {
 
 constexpr int kBlocks = 12, kPixels = kBlocks * kRayBlock;
 
-// Of half a block, for each of its pixels; the mean is 1.
+// The spread of half a block, per pixel; the mean is 1.
 SampleSpread spread_by(const LightSpread& all, const LightSpread& traced = {}) {
   SampleSpread spread{{all, traced}, 1.0, 1.0}, half;
   half.add(spread, 8);
   return half;
 }
 
-// spread(x, y, half): of half of block (x, y).
+// spread(x, y, half) is the spread of a half of block (x, y).
 template <class Fn>
 SampleCounts counts_of(const Fn& spread, uint64_t first, double further_work) {
   SampleCounts counts{FilmSums(kPixels, kPixels)};
@@ -94,9 +96,9 @@ SampleCounts counts_of(const Fn& spread, uint64_t first, double further_work) {
   return counts;
 }
 
-// Variances from 1 to 2^44 from left to right: 2^11 times the samples by the fourth root, of which 2^6 are
-// allowed.
-TEST(SampleCounts, KeepToTheWorkAndFollowTheRootOfTheVariance) {
+// The variances rise from 1 to 2^44 from left to right. The fourth root asks for 2^11 times the samples, of
+// which 2^6 are allowed.
+TEST(SampleCounts, StayWithinTheWorkAndFollowTheRootOfTheVariance) {
   constexpr uint64_t kFirst = 2;
   constexpr double kFurther = 7;
   const auto spread = [](int x, int, int) { return spread_by({std::ldexp(1.0, 4 * x), 1.0}); };
@@ -115,22 +117,22 @@ TEST(SampleCounts, KeepToTheWorkAndFollowTheRootOfTheVariance) {
   }
   const double all = kFirst * (1 + kFurther) * kBlocks * kBlocks * kHalves;
   EXPECT_LE(double(sum), all);
-  EXPECT_GT(double(sum), all / 2);  // twice as many everywhere would be too many
+  EXPECT_GT(double(sum), all / 2);  // doubling every count would exceed the work
 }
 
 TEST(SampleCounts, AreEvenWhereNothingDiffers) {
   const auto even = [](double variance) { return [=](int, int, int) { return spread_by({variance, 1.0}); }; };
   const auto dark = counts_of(even(0), 4, 3), noisy = counts_of(even(0.1), 4, 3),
-             noisy_but_dear = counts_of(even(0.1), 4, 0.5);
+             noisy_but_expensive = counts_of(even(0.1), 4, 0.5);
   for (int x = 0; x < kPixels; x += kRayBlock) {
     EXPECT_EQ(dark.count(x, x, 0), 4u);
     EXPECT_EQ(noisy.count(x, x, 1), 16u);
-    EXPECT_EQ(noisy_but_dear.count(x, x, 1), 4u);
+    EXPECT_EQ(noisy_but_expensive.count(x, x, 1), 4u);
   }
 }
 
-// The number of a pixel's samples must say nothing of what they bring.
-TEST(SampleCounts, OfAPixelDoNotDependOnItself) {
+// The number of a pixel's samples must not depend on their values.
+TEST(SampleCounts, DoNotDependOnThePixelsOwnSamples) {
   const auto with_spot = [](double spot) {
     const auto spread = [=](int x, int y, int half) {
       return spread_by({x == 5 && y == 5 && half == 0 ? spot : 1.0, 1.0});
@@ -139,20 +141,20 @@ TEST(SampleCounts, OfAPixelDoNotDependOnItself) {
   };
   const auto plain = with_spot(1), bright = with_spot(1e6);
   const int at = 5 * kRayBlock;
-  EXPECT_LE(bright.count(at, at, 0), plain.count(at, at, 0));  // others take more of the work
+  EXPECT_LE(bright.count(at, at, 0), plain.count(at, at, 0));  // other pixels take more of the work
   EXPECT_GT(bright.count(at, at, 1), plain.count(at, at, 1));
   EXPECT_GT(bright.count(at + kRayBlock, at, 0), plain.count(at + kRayBlock, at, 0));
 }
 
-// Dear samples are taken less often: half as many where they cost sixteen times as much.
-TEST(SampleCounts, CountWhatSamplesCost) {
+// Expensive samples are taken less often: half as many where they cost sixteen times as much.
+TEST(SampleCounts, FallWithTheCostOfSamples) {
   const auto spread = [](int x, int, int) { return spread_by({1.0, x < kBlocks / 2 ? 1.0 : 16.0}); };
   const auto counts = counts_of(spread, 4, 3);
   EXPECT_EQ(counts.count(0, 24, 0), 2 * counts.count(kPixels - 1, 24, 0));
 }
 
-// What the maps say of two samples stands for six that asked for nothing else.
-TEST(SampleCounts, TracedSamplesLeaveWhatTheMapsSay) {
+// Of eight samples, two query the photon maps, and their result stands for the six that trace rays only.
+TEST(SampleCounts, TracedSamplesKeepTheResultOfTheMaps) {
   FilmSums film(1, 1);
   for (int i = 0; i < 8; ++i) {
     PixelResult sample;
@@ -170,9 +172,9 @@ TEST(SampleCounts, TracedSamplesLeaveWhatTheMapsSay) {
   EXPECT_EQ(clamped, 0u);
 }
 
-// Traced light, where it varies more for what it takes: at half the work of all light, 3.5 times the work of
-// the first samples buys seven times as many.
-TEST(SampleCounts, LeaveTheMapsOutWhereTheyTellLess) {
+// Traced light alone is sampled where it varies more for its cost: at half the work of all light, 3.5 times
+// the work of the first samples buys seven times as many samples.
+TEST(SampleCounts, SkipTheMapsWhereTracedLightVariesMore) {
   const auto counts_for = [](const LightSpread& all, const LightSpread& traced) {
     return counts_of([&](int, int, int) { return spread_by(all, traced); }, 4, 3.5);
   };
@@ -183,8 +185,9 @@ TEST(SampleCounts, LeaveTheMapsOutWhereTheyTellLess) {
   EXPECT_EQ(by_maps.count(0, 0, 0), 16u);
 }
 
-// The light's edges and its image in the glass ball differ most within pixels. Seeds of both ways are
-// compared by blocks of pixels: no mean is shifted, and the picture's noise is less.
+// The light's edges and its image in the glass ball differ most within pixels. Renders with many seeds, with
+// and without adaptive sampling, are compared by blocks of pixels: no mean may shift, and the picture's noise
+// must fall.
 class SpreadSamples : public ::testing::Test {
  protected:
   static constexpr int kSide = 48, kSeeds = 40, kPart = 16;
@@ -212,7 +215,7 @@ class SpreadSamples : public ::testing::Test {
     return estimate_of(means);
   }
 
-  // Of light that reaches the eye without photons, over the picture.
+  // The variance over the picture of the light that reaches the eye without photons.
   static double variance(const std::vector<Film>& films) {
     double sum = 0;
     for (int y = 0; y < kSide; ++y)
@@ -227,16 +230,17 @@ class SpreadSamples : public ::testing::Test {
   }
 };
 
-TEST_F(SpreadSamples, KeepTheMeanAndLowerTheNoise) {
+TEST_F(SpreadSamples, KeepTheMeanAndReduceTheNoise) {
   const auto even = films(0, 1), spread = films(0.75f, 1001);
   for (int y = 0; y < kSide; y += kPart)
     for (int x = 0; x < kSide; x += kPart) {
       const Estimate a = mean_of(even, x, y), b = mean_of(spread, x, y);
-      // 4.5 standard errors of 78 degrees of freedom: of nine, one in 4000 by chance.
+      // 4.5 standard errors with 78 degrees of freedom; by chance, one of nine blocks exceeds them once in
+      // 4000 runs.
       EXPECT_NEAR(b.mean, a.mean, 4.5 * std::hypot(a.standard_error, b.standard_error)) << x << " " << y;
     }
-  // Half the work more would leave 1 / 1.5 of the variance of independent samples, were it spent evenly.
-  // Edges hold most of it, and the variance of their variance from 40 seeds is large.
+  // Half as many samples again, spent evenly, would leave 1 / 1.5 of the variance of independent samples.
+  // Edges hold most of the variance, and its own variance from 40 seeds is large.
   EXPECT_LT(variance(spread), variance(even) / 1.5);
   write_if_failed(spread[0], "spread");
 }

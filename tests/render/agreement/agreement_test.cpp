@@ -1,4 +1,4 @@
-// Photons and paths compute the same light, class by class, and every path is counted once.
+// Tests that photons and paths compute the same light, class by class, and that every path is counted once.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ TEST(CornellAgreement, EachClassAgreesWithPaths) {
   for (const Method method : {Method::kPhoton, Method::kHybrid, Method::kAuto}) {
     const Comparison c(scene, by_paths, method, 0.1f);
     for (const Layer layer : {Layer::kDirect, Layer::kIndirect}) c.expect_agreement_everywhere(layer);
-    // Of the caustics a sixth is what mc's own noise takes.
+    // The noise of the paths is a sixth of the caustic light, so the tolerance may be larger.
     for (int block = -1; block < kSize / kBlock * (kSize / kBlock); ++block)
       c.expect_agreement(Layer::kCaustic, block, 1.0 / 3);
     c.write_pictures("cornell_" + std::to_string(int(method)));
@@ -33,8 +33,8 @@ void PrintTo(Eye eye, std::ostream* out) {
 }
 
 // A wide pool: water of index 1.33 over a diffuse bottom, under a wide light. Radiance scales by eta^2 along
-// the camera path and along the paths of mc, flux does not: the classes agree only if both do it right, for
-// an eye above and one below the surface.
+// camera paths, flux does not scale along photon paths: the classes agree only if both are right, for an eye
+// above and one below the surface.
 Scene pool(Eye looking_from) {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(0.6f)});
@@ -56,39 +56,34 @@ TEST_P(PoolAgreement, LightUnderWaterAgreesWithPaths) {
   const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
   const Comparison c(scene, by_paths, Method::kPhoton, 0.1f);
   c.expect_agreement_everywhere(Layer::kCaustic);
-  c.expect_agreement(Layer::kIndirect, -1, 0.5);  // few of these photons reach the part that is seen
+  c.expect_agreement(Layer::kIndirect, -1, 0.5);  // few of these photons reach the visible part
   c.write_pictures("pool_" + std::string(name_of(GetParam())));
 }
 INSTANTIATE_TEST_SUITE_P(Eyes, PoolAgreement, ::testing::Values(Eye::kAbove, Eye::kBelow));
 
-// Whichever estimators are chosen, every path is counted once: the sum of the layers stays the same. The
+// Every path is counted once, whichever estimators are chosen: the sum of the layers stays the same. The
 // kernel's bias of each class is measured once, with all classes from photons.
-TEST(OneOwner, TheSumDoesNotDependOnTheEstimators) {
+TEST(OneOwner, SumDoesNotDependOnTheEstimators) {
   const Scene scene = cornell(kSize);
-  const auto total = [](const std::vector<Film>& of) {
-    std::vector<double> means;
-    for (const Film& film : of) means.push_back(total_mean(film));
-    return estimate_of(means);
-  };
   const Estimate reference = total(films(scene, settings_of(Method::kMc, 256, 0.1f, 1)));
   const auto wide = films(scene, settings_of(Method::kPhoton, 16, 0.1f, 20));
   const auto narrow = films(scene, settings_of(Method::kPhoton, 16, 0.05f, 30));
-  double bias = kPackedFlux * reference.mean;
+  double bias = kPackedLight * reference.mean;
   for (const Layer layer : kClasses)
     bias += 2 * std::abs(block_estimate(wide, layer, -1).mean - block_estimate(narrow, layer, -1).mean);
   for (const RenderSettings& settings : with_all_estimators(settings_of(Method::kAuto, 32, 0.1f, 10))) {
     const Estimate found = total(films(scene, settings, 4));
-    // Four and six seeds, 8 degrees of freedom: 6 standard errors are 1 in 3000.
+    // With four and six seeds there are 8 degrees of freedom; 6 standard errors are exceeded once in 3000.
     const double noise = std::hypot(reference.standard_error, found.standard_error);
     EXPECT_NEAR(found.mean, reference.mean, 6 * noise + bias)
         << names_of_estimators(settings) << " noise " << noise << " bias " << bias;
-    // The smallest class is a tenth of the sum: counting it twice, or not at all, shows.
+    // The smallest class is a tenth of the sum, so counting it twice, or not at all, exceeds the tolerance.
     EXPECT_LT(6 * noise + bias, 0.1 * reference.mean);
   }
 }
 
-// Switching a class off removes that class and nothing else.
-TEST(OneOwner, OffRemovesOneClass) {
+// Switching a class off removes exactly that class.
+TEST(OneOwner, SwitchingAClassOffRemovesThatClassOnly) {
   const Scene scene = cornell(kSize);
   RenderSettings settings = settings_of(Method::kMc, 128, 0.1f, 1);
   const auto all = films(scene, settings);
@@ -104,7 +99,7 @@ TEST(OneOwner, OffRemovesOneClass) {
   EXPECT_EQ(block_estimate(films(scene, settings, 2), Layer::kIndirect, -1).mean, 0);
 }
 
-// The lecture answers each shading point once, by photons or by a fallback.
+// The lecture's estimator answers each shading point once, by photons or by a fallback.
 TEST(Lecture, CountsEveryShadingPointOnce) {
   const Scene scene = cornell_with_table(kSize);
   RenderSettings settings = settings_of(Method::kHybrid, 4, 0.05f, 1);
@@ -112,13 +107,13 @@ TEST(Lecture, CountsEveryShadingPointOnce) {
   const auto result = render_with_threads(scene, settings);
   const LectureCounters& l = result.statistics.lecture;
   const uint64_t answers = l.from_photons + l.fallback_few + l.fallback_shadow + l.fallback_face;
-  // The box is closed and no chain is longer than the limit but by total internal reflection: nearly every
-  // camera ray ends at a diffuse point; at glass each goes on by two.
+  // The box is closed, and only total internal reflection makes specular chains longer than the limit, so
+  // nearly every camera ray ends at a diffuse point; at glass each ray continues as two.
   EXPECT_LE(answers, result.statistics.rays.camera + result.statistics.rays.specular / 2);
   EXPECT_GT(answers, result.statistics.rays.camera * 99 / 100);
   EXPECT_GT(l.from_photons, 0u);
   EXPECT_GT(l.fallback_shadow, 0u);
-  // One shadow ray for each fallback at most (none where the light lies behind the surface).
+  // A fallback takes at most one shadow ray, and none where the light lies behind the surface.
   EXPECT_LE(result.statistics.rays.shadow, answers - l.from_photons);
   EXPECT_GT(result.statistics.rays.shadow, 0u);
 }

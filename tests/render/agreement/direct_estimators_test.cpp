@@ -1,5 +1,5 @@
-// Direct light whose visibility is predicted, and direct light with negative photons: right on average,
-// whatever the prediction; exact where nothing is in the way.
+// Tests direct light with predicted visibility, and direct light with negative photons: unbiased whatever the
+// prediction, and exact where nothing blocks the light.
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,14 @@
 #include "tests/render/support/class_agreement.h"
 #include "tests/render/support/closed_forms.h"
 #include "tests/render/support/scene_files.h"
+#include "tests/support/packed_flux.h"
 
 namespace kaustik::render {
 namespace {
 
 using namespace test;
 
-// A plate that casts a shadow, glass and mirror that do, the square light, and a weaker point light
+// The box with a plate that casts a shadow, glass and mirror, the square light, and a weaker point light
 // elsewhere.
 Scene two_lights(int size) {
   Scene scene = cornell_with_table(size);
@@ -29,11 +30,11 @@ Scene two_lights(int size) {
 RenderSettings direct_settings(DirectEstimator direct, int spp, uint64_t seed = 1) {
   RenderSettings settings = test::settings_of(Method::kRaytrace, spp, 0.1f, seed);
   settings.direct = direct;
-  settings.adaptive = 0;  // the same samples, whatever they bring
+  settings.adaptive = 0;  // both renders take the same samples
   return settings;
 }
 
-// Differences of films that share their camera rays and light samples, seed by seed.
+// The mean difference of films that share their camera rays and light samples, over seeds.
 Estimate paired_difference(const std::vector<Film>& a, const std::vector<Film>& b, Layer layer, int block) {
   std::vector<double> differences;
   for (size_t i = 0; i < a.size(); ++i)
@@ -41,7 +42,7 @@ Estimate paired_difference(const std::vector<Film>& a, const std::vector<Film>& 
   return estimate_of(differences);
 }
 
-// Student's t with 11 degrees of freedom: beyond 5 standard errors by chance less than once in 2000.
+// With 11 degrees of freedom Student's t exceeds 5 standard errors less than once in 2000.
 constexpr int kManySeeds = 12;
 constexpr double kManyErrors = 5;
 
@@ -59,8 +60,8 @@ TEST(Predicted, IsUnbiasedInEveryBlock) {
   write_if_failed(rays[0], "predicted_rays");
 }
 
-// Paths that leave x anyway share the direct light, and their own shadow rays are predicted, too.
-TEST(Predicted, IsUnbiasedBesidePaths) {
+// Indirect paths sample the direct light at x too, and their own shadow rays are predicted as well.
+TEST(Predicted, IsUnbiasedTogetherWithPaths) {
   const Scene scene = two_lights(kSize);
   RenderSettings settings = test::settings_of(Method::kMc, 32, 0.1f, 1);
   const auto rays = films(scene, settings, kManySeeds);
@@ -74,9 +75,9 @@ TEST(Predicted, IsUnbiasedBesidePaths) {
   }
 }
 
-// On both documents' scenes: at least 70 % less, and the difference of the pictures, which share all other
-// random numbers, is no error that counts.
-TEST(Predicted, MostShadowRaysAreNotTraced) {
+// On the scenes of both source documents at least 70 % fewer shadow rays are traced. The two pictures share
+// all other random numbers, and their difference is negligible.
+TEST(Predicted, SkipsMostShadowRays) {
   for (const char* file : {"tncg15-room/tncg15-room.pbrt", "cornell-spheres/square-light-2.pbrt"}) {
     Scene scene = scene_from(file);
     scene.camera.width = scene.camera.height = 200;
@@ -86,13 +87,13 @@ TEST(Predicted, MostShadowRaysAreNotTraced) {
     EXPECT_EQ(predicted.statistics.rays.camera, rays.statistics.rays.camera);
     EXPECT_EQ(predicted.statistics.dropped_samples, 0u);
     EXPECT_EQ(predicted.statistics.photon_bytes, 0u);
-    // 16 samples leave 0.0046 and 0.0014 (docs/accuracy.md).
+    // The noise of 16 samples is 0.0046 and 0.0014 (docs/accuracy.md).
     EXPECT_LT(compare(image_of(rays.film), image_of(predicted.film), {}).relmse, 1e-4) << file;
   }
 }
 
-// A point on the floor at which half of the light is hidden.
-class WrongForecast : public ::testing::Test {
+// A point on the floor from which half of the light is hidden.
+class WrongPrediction : public ::testing::Test {
  protected:
   static Scene half_hidden() {
     Scene scene;
@@ -105,7 +106,7 @@ class WrongForecast : public ::testing::Test {
     return scene;
   }
 
-  // Mean and standard error of the light at the origin if all photons of the floor had said so.
+  // Mean and standard error of the light at the origin if every photon on the floor had made the same record.
   Estimate light(std::optional<bool> all_said) {
     PhotonMaps maps;
     const photon::MortonCube cube = photon::MortonCube::around(scene_.bounds);
@@ -137,8 +138,9 @@ class WrongForecast : public ::testing::Test {
   TileCounters counters_;
 };
 
-// Points of a sequence scatter less than independent ones, so standard errors are upper bounds.
-TEST_F(WrongForecast, IsUnbiasedAllTheSame) {
+// Points of a low-discrepancy sequence scatter less than independent ones, so the standard errors are upper
+// bounds.
+TEST_F(WrongPrediction, IsUnbiased) {
   const Estimate rays = light({});
   const uint64_t traced = counters_.rays.shadow;
   EXPECT_EQ(traced, 20000u);
@@ -153,7 +155,7 @@ TEST_F(WrongForecast, IsUnbiasedAllTheSame) {
   }
 }
 
-// As in closed_form_test.cpp, with and without a plate above the point that is seen.
+// The plane under a point light of closed_form_test.cpp, with and without a plate above the visible point.
 constexpr float kReflectance = 0.5f;
 constexpr double kFootprint = 3 * 7e-5;
 
@@ -168,7 +170,7 @@ Scene plane_under_point_light(bool plate) {
   return scene;
 }
 
-// Where there is no shadow photon there is no noise: every pixel is the closed form.
+// Where there is no shadow photon there is no noise: every pixel matches the closed form.
 TEST(Signed, LitRegionsHaveNoNoise) {
   const double expected = kReflectance * PointLightOverPlane{3, 1}.irradiance(0.3125) / double(kPi);
   for (const auto direct : {DirectEstimator::kSigned, DirectEstimator::kPredicted}) {
@@ -179,7 +181,7 @@ TEST(Signed, LitRegionsHaveNoNoise) {
   }
 }
 
-// Files of light below zero: EXR keeps it, in the picture and in its layer, PNG shows black.
+// Negative light in files: EXR keeps it, in the picture and in its layer, and PNG shows black.
 void expect_files_show(const Film& film) {
   WriteOptions options;
   options.layers = layers_from_names({"direct"});
@@ -196,10 +198,10 @@ void expect_files_show(const Film& film) {
     }
 }
 
-// In the umbra the shadow photons must take everything away: the bounds are those of an estimate by direct
-// photons, see PointLightPhotons.WithinKernelBiasAndNoise. What is left may be negative, and is kept.
+// In the umbra the shadow photons must cancel all light. The bounds are those of an estimate by direct
+// photons, see PointLightPhotons.WithinKernelBiasAndNoise. The rest may be negative and is kept.
 TEST(Signed, ShadowsAreDarkWithinKernelBiasAndNoise) {
-  constexpr double kRadius = 0.05, kPhotons = 1e6, kPacked = 1.0 / 512;
+  constexpr double kRadius = 0.05, kPhotons = 1e6;
   const PointLightOverPlane form{3, 1};
   double lowest = 0;
   for (const uint64_t seed : {1, 2, 3, 4}) {
@@ -214,7 +216,7 @@ TEST(Signed, ShadowsAreDarkWithinKernelBiasAndNoise) {
     const double E = form.irradiance(rho * rho), flux = 4 * double(kPi) * form.I / kPhotons;
     const double in_reach = E * double(kPi) * kRadius * kRadius / flux;
     const double bound =
-        kRadius * kRadius / 8 * curvature + 4 * E / std::sqrt(in_reach) + E * (kPacked + kFootprint);
+        kRadius * kRadius / 8 * curvature + 4 * E / std::sqrt(in_reach) + E * (kPackedFluxError + kFootprint);
     const double found = total_mean(result.film);
     EXPECT_NEAR(found, 0, kReflectance * bound / double(kPi));
     if (found < 0) expect_files_show(result.film);
@@ -224,11 +226,11 @@ TEST(Signed, ShadowsAreDarkWithinKernelBiasAndNoise) {
     EXPECT_EQ(result.statistics.photons.stored[size_t(photon::PhotonKind::kDirect)], 0u);
     lowest = std::min(lowest, found);
   }
-  EXPECT_LT(lowest, 0);  // by chance all four lie above in one case of sixteen; these seeds do not
+  EXPECT_LT(lowest, 0);  // all four would be positive in one of sixteen cases; not with these seeds
 }
 
-// More lights than are summed: one is chosen, and the mean is the closed form of all.
-TEST(Signed, OneOfManyLightsIsChosen) {
+// There are more lights than are summed: one is chosen, and the mean is the closed form of all.
+TEST(Signed, ChoosingOneOfManyLightsIsUnbiased) {
   Scene scene = plane_under_point_light(false);
   scene.lights.clear();
   double expected = 0;
@@ -249,8 +251,8 @@ TEST(Signed, OneOfManyLightsIsChosen) {
   EXPECT_LT(found.standard_error, 0.01 * expected);
 }
 
-// Several lights, one of them a point; glass, mirror and a plate that block; borders of surfaces. Against
-// shadow rays in every block, within the noise and the kernel's bias.
+// Several lights, one of them a point; glass, mirror and a plate that block light; borders of surfaces.
+// Compares with shadow rays in every block, within the noise and the kernel's bias.
 TEST(Signed, AgreesWithShadowRaysInEveryBlock) {
   const Scene scene = two_lights(kSize);
   const auto rays = films(scene, direct_settings(DirectEstimator::kShadowRays, 256, 100));
@@ -267,7 +269,7 @@ TEST(Signed, AgreesWithShadowRaysInEveryBlock) {
                      half = block_estimate(narrow, Layer::kDirect, block);
       const double noise =
           std::hypot(reference.standard_error, found.standard_error, 2 * half.standard_error);
-      const double bias = 2 * std::abs(found.mean - half.mean) + kPackedFlux * reference.mean;
+      const double bias = 2 * std::abs(found.mean - half.mean) + kPackedLight * reference.mean;
       EXPECT_NEAR(found.mean, reference.mean, kErrors * noise + bias) << "block " << block;
       if (block < 0) {
         EXPECT_LT(kErrors * noise + bias, 0.1 * reference.mean);
@@ -277,7 +279,7 @@ TEST(Signed, AgreesWithShadowRaysInEveryBlock) {
   }
 }
 
-// Threads, and passes split over two calls, with the same bits and the same counts.
+// Any number of threads, and passes split over two calls, give the same bits and the same counts.
 TEST(DirectEstimators, AnyNumberOfThreadsAndAnySplitGivesTheSameBits) {
   const Scene scene = two_lights(20);
   for (const auto direct : {DirectEstimator::kPredicted, DirectEstimator::kSigned}) {

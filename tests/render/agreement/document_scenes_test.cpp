@@ -1,6 +1,6 @@
-// The two source documents' scenes: the lecture's program (hybrid) and the report's (photon) agree with the
-// reference (mc) class by class. Also light under waves, where radiance and flux scale differently and
-// normals are interpolated.
+// Tests the scenes of the two source documents: the lecture's program (hybrid) and the report's (photon)
+// agree with the reference (mc) class by class. Tests light under waves too, where radiance and flux scale
+// differently and normals are interpolated.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "tests/render/support/scene_files.h"
 #include "tests/render/support/wave_scene.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 namespace {
 
 Scene document_scene(const std::string& file) {
@@ -18,7 +18,7 @@ Scene document_scene(const std::string& file) {
   return scene;
 }
 
-// spp: of the paths, enough that their noise leaves something to compare.
+// spp: samples of the paths, enough to keep their noise small against the light.
 void expect_programs_agree_with_paths(const Scene& scene, int spp, float radius, const std::string& name) {
   const auto by_paths = films(scene, settings_of(Method::kMc, spp, radius, 100));
   for (const Method method : {Method::kHybrid, Method::kPhoton}) {
@@ -38,7 +38,7 @@ TEST(DocumentScenes, ReportSquareLightAgreesWithPaths) {
 }
 
 // Paths cannot meet a point light through glass. So the direct class is compared with shadow rays, and the
-// others of the two photon programs with each other: paths that read the caustic map against indirect
+// other classes of the two photon programs with each other: paths that query the caustic map against indirect
 // photons.
 TEST(DocumentScenes, ReportPointLightsAgree) {
   for (const char* name : {"point-light", "square-light-1"}) {
@@ -53,8 +53,8 @@ TEST(DocumentScenes, ReportPointLightsAgree) {
   }
 }
 
-// Eta 1.8 and a wide light: radiance scales by eta^2 below the water, flux does not, and photons need Veach's
-// correction for interpolated normals.
+// With eta 1.8 and a wide light radiance scales by eta^2 below the water, flux does not, and photons need
+// Veach's correction for interpolated normals.
 TEST(DocumentScenes, LightUnderWavesByPhotonsAgreesWithPaths) {
   const Scene scene = wave_scene(kSize);
   const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.06f, 100));
@@ -64,4 +64,4 @@ TEST(DocumentScenes, LightUnderWavesByPhotonsAgreesWithPaths) {
 }
 
 }  // namespace
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

@@ -1,4 +1,5 @@
-// Area lights that show images, lights with holes, and hidden ones: photons and paths give the same light.
+// Tests that photons and paths give the same light from area lights that show images, lights with holes, and
+// hidden lights.
 
 #include <cstring>
 
@@ -10,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// 4 x 3 pixels: dark but for a bright red, a green and two grey ones.
+// 4 x 3 pixels: dark except for a bright red, a green and two grey ones.
 void write_screen() {
   std::vector<uint8_t> bytes(4 * 3 * 3, 8);
   const auto set = [&](size_t x, size_t y, std::array<uint8_t, 3> c) {
@@ -33,7 +34,7 @@ std::string in_metres(double s, std::initializer_list<double> numbers) {
 constexpr const char* kScreen =
     "AreaLightSource \"diffuse\" \"string filename\" \"screen.png\" \"float scale\" 40\n";
 
-// A room, in metres times s, with a screen on its back wall, a glowing ball, and what `more` says.
+// A room, in metres times s, with a screen on its back wall, a ball, and the shapes in `more`.
 std::string room(double s, const std::string& screen, const std::string& on_screen = "",
                  const std::string& more = "") {
   const auto p = [s](std::initializer_list<double> numbers) { return in_metres(s, numbers); };
@@ -57,7 +58,7 @@ std::string with_glass(double s) {
   return "AttributeBegin Material \"dielectric\" Translate " + in_metres(s, {-0.4, 0.35, 0.1}) +
          fmt::format("Shape \"sphere\" \"float radius\" {} AttributeEnd\n", 0.35 * s);
 }
-// A ball that glows by the same image, from within.
+// A ball that shows the same image and glows.
 std::string with_ball() {
   return std::string("AttributeBegin ") + kScreen +
          "Translate -0.5 1.5 0 Shape \"sphere\" \"float radius\" 0.15 \"float zmax\" 0.1 AttributeEnd\n";
@@ -84,23 +85,24 @@ TEST(EmissionImages, PhotonsOfALightWithHolesAgreeWithPaths) {
   expect_photons_agree_with_paths(room(1, plain, "\"texture alpha\" \"holes\"", with_glass(1)), "holes");
 }
 
-TEST(EmissionImages, TheSumDoesNotDependOnTheEstimators) {
+TEST(EmissionImages, SumDoesNotDependOnTheEstimators) {
   write_screen();
   expect_the_same_sum_by_all_estimators(scene_of(room(1, kScreen, "", with_glass(1))), 0.1f);
 }
-TEST(LightsWithAlpha, TheSumDoesNotDependOnTheEstimators) {
+TEST(LightsWithAlpha, SumDoesNotDependOnTheEstimators) {
   write_screen();
   expect_the_same_sum_by_all_estimators(
       scene_of(room(1, kScreen, "\"texture alpha\" \"holes\"", with_glass(1))), 0.1f);
 }
-// Without glass: like a point light, a hidden one is not met by paths behind it.
-TEST(HiddenLights, TheSumDoesNotDependOnTheEstimators) {
+// There is no glass here: paths behind glass cannot meet a hidden light, as they cannot meet a point light.
+TEST(HiddenLights, SumDoesNotDependOnTheEstimators) {
   write_screen();
   expect_the_same_sum_by_all_estimators(scene_of(room(1, kScreen, "\"float alpha\" 0")), 0.1f);
 }
 
-// Seen straight on: (0, 0) of uv is the lower left corner, and the image's last row. A pixel of the picture
-// is a twelfth of the screen; its centre is that of a pixel of the image.
+// The camera looks at the screen straight on: uv (0, 0) is the lower left corner, in the image's last row. A
+// pixel of the picture is a twelfth of the screen, and the centre of every third one is the centre of a pixel
+// of the image.
 TEST(EmissionImages, ShowTheirImageUpright) {
   write_screen();
   const Scene scene = scene_of(std::string(R"(Scale -1 1 1 LookAt 0 0 1  0 0 0  0 1 0
@@ -115,7 +117,8 @@ TEST(EmissionImages, ShowTheirImageUpright) {
       const double encoded = double(c[k]) / 255;
       const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
       EXPECT_NEAR(light.image->value({(x + 0.5f) / 4, 1 - (y + 0.5f) / 3})[k], linear, 1e-5) << x << y;
-      // A third of an image's pixel about its centre: the neighbours' share is a twelfth on each of two axes.
+      // The picture's pixel covers a third of the image's pixel about its centre, where the neighbours' share
+      // is a twelfth on each of two axes.
       EXPECT_NEAR(film.at(3 * x + 1, 3 * y + 1).emitted[k], 40 * linear, 40 * (0.17 * linear + 0.17))
           << x << y;
     }
@@ -158,8 +161,8 @@ TEST(EmissionImages, ScalingByAPowerOfTwoChangesNothing) {
   }
 }
 
-// A hidden light gives the light of the one that is seen, and the camera looks through it at the wall.
-TEST(HiddenLights, ShineLikeOthersButAreNotSeen) {
+// A hidden light illuminates like a visible one, and the camera looks through it at the wall.
+TEST(HiddenLights, IlluminateButAreInvisible) {
   write_screen();
   const auto by_rays = [&](const std::string& on_screen) {
     return films(scene_of(room(1, kScreen, on_screen)), settings_of(Method::kRaytrace, 64, 0.1f, 1));
@@ -167,7 +170,8 @@ TEST(HiddenLights, ShineLikeOthersButAreNotSeen) {
   const auto seen = by_rays(""), hidden = by_rays("\"float alpha\" 0");
   EXPECT_GT(block_estimate(seen, Layer::kEmitted, -1).mean, 0);
   EXPECT_EQ(block_estimate(hidden, Layer::kEmitted, -1).mean, 0);
-  // Pixels of the floor: the wall behind the light is lit by nothing, the light's own front is nearly black.
+  // The blocks show the floor only: the hidden light's own surface is nearly black, and the wall behind it is
+  // unlit.
   for (const int block : {6, 7, 8}) {
     const Estimate a = block_estimate(seen, Layer::kDirect, block),
                    b = block_estimate(hidden, Layer::kDirect, block);
@@ -176,9 +180,9 @@ TEST(HiddenLights, ShineLikeOthersButAreNotSeen) {
   }
 }
 
-// Of a light of one colour: half of it cut out by an image, or a constant alpha of a half, is half of the
-// light.
-TEST(LightsWithAlpha, ShineByTheirShare) {
+// A light of one colour gives half of its light when an image cuts half of it out, or with a constant alpha
+// of 0.5.
+TEST(LightsWithAlpha, EmitInProportionToAlpha) {
   write_screen();
   const std::string plain = "AreaLightSource \"diffuse\" \"rgb L\" [8 4 2]\n";
   for (const Method method : {Method::kRaytrace, Method::kMc, Method::kPhoton}) {

@@ -1,5 +1,5 @@
-// Lights that emit images, portals, and very many lights: photons and paths give the same light, and closed
-// forms.
+// Tests lights that emit images, portals, and very many lights: photons against paths, and both against
+// closed forms.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ std::shared_ptr<const LightImage> image_of(int width, int height,
   return std::make_shared<const LightImage>(std::move(image));
 }
 
-// A sky with a small sun at z, +y up.
+// A sky with a small sun at z; +y is up.
 std::shared_ptr<const DirectionMap> sky_map() {
   const auto colour = [](int x, int y) {
     return x == 9 && y == 7 ? Rgb(90, 80, 60) : Rgb(0.3f, 0.4f + 0.02f * float(y), 0.6f);
@@ -27,7 +27,7 @@ std::shared_ptr<const DirectionMap> sky_map() {
   return std::make_shared<const DirectionMap>(image_of(16, 16, colour), DirectionMap::Layout::kEqualArea);
 }
 
-// From the map's space: its +z is +y.
+// From the map's space to the world's: the map's +z is +y.
 const glm::mat3 kUpright(1, 0, 0, 0, 0, -1, 0, 1, 0);
 
 Scene floor_and_ball(const Light& light) {
@@ -67,7 +67,7 @@ TEST(ImageLights, PhotonsOfAGoniometricLightAgreeWithPaths) {
   expect_photons_agree_with_paths(floor_and_ball(light), 64, "goniometric");
 }
 
-// In the plane x = -1, the sky on the side of -x.
+// The window is in the plane x = -1, and the sky on the side of -x.
 PortalInfiniteLight window() {
   PortalInfiniteLight light;
   light.corner = {-1, 0.2f, -0.6f};
@@ -77,7 +77,7 @@ PortalInfiniteLight window() {
   return light;
 }
 
-// Outside a plate hides a part of the sky from it.
+// A plate outside hides a part of the sky from the window.
 Scene behind_a_window() {
   PortalInfiniteLight light = window();
   light.sky = std::make_shared<const PortalSky>(*sky_map(), glm::transpose(kUpright) * light.to_world);
@@ -91,8 +91,8 @@ TEST(ImageLights, PhotonsThroughAPortalAgreeWithPaths) {
   expect_photons_agree_with_paths(behind_a_window(), 128, "portal");
 }
 
-// E = L times the solid angle's projection, Lambert's formula for the window.
-TEST(ImageLights, ConstantSkyThroughAPortalIsLambertsFormula) {
+// E = L times the projected solid angle of the window, by Lambert's formula.
+TEST(ImageLights, ConstantSkyThroughAPortalMatchesLambertsFormula) {
   const Point3 seen(0.3f, 0, 0.1f);
   for (const Method method : {Method::kRaytrace, Method::kMc}) {
     Scene scene;
@@ -116,7 +116,7 @@ TEST(ImageLights, ConstantSkyThroughAPortalIsLambertsFormula) {
   }
 }
 
-// A projector straight above a plane lights a rectangle: E = I cos^3 / h^2 inside, nothing outside.
+// A projector straight above a plane lights a rectangle: E = I cos^3 / h^2 inside and zero outside.
 TEST(ImageLights, ProjectorLightsARectangle) {
   const auto white_slide = image_of(2, 1, [](int, int) { return Rgb(5); });
   const double h = 1.5, half = h * std::tan(glm::radians(20.0));
@@ -138,7 +138,7 @@ TEST(ImageLights, ProjectorLightsARectangle) {
   }
 }
 
-// A hall whose ceiling has columns x rows small square lights of different colours and powers.
+// A hall whose ceiling holds columns x rows small square lights of different colours and powers.
 Scene hall(int columns, int rows) {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(0.6f)});
@@ -165,7 +165,7 @@ TEST(ManyLights, PhotonsOfTenThousandAgreeWithPaths) {
   expect_photons_agree_with_paths(scene, 256, "many_lights");
 }
 
-// Of the pixels' first channel, over seeds.
+// The mean over the pixels of the variance of the first channel over seeds.
 double mean_variance(const std::vector<Film>& of) {
   double sum = 0;
   for (int y = 0; y < kSize; ++y)
@@ -177,7 +177,8 @@ double mean_variance(const std::vector<Film>& of) {
   return sum / (kSize * kSize);
 }
 
-// One light chosen by the tree: alone, and sharing with BSDF samples that must know the same probabilities.
+// The tree chooses one light, for light samples alone, and for light samples beside BSDF samples, which must
+// use the same probabilities.
 TEST(ManyLights, SharedAndUnsharedShadowRaysAgree) {
   const Scene scene = hall(4, 25);
   const auto alone = films(scene, settings_of(Method::kRaytrace, 256, 0.1f, 1));
@@ -187,14 +188,14 @@ TEST(ManyLights, SharedAndUnsharedShadowRaysAgree) {
                    b = block_estimate(shared, Layer::kDirect, block);
     EXPECT_NEAR(a.mean, b.mean, kErrors * std::hypot(a.standard_error, b.standard_error)) << block;
   }
-  // By power alone the variance of a pixel is much larger.
+  // If lights are chosen by power alone the variance of a pixel is much larger.
   Scene by_power = scene;
   by_power.light_sampler = LightSampler(scene.lights, scene.lights.size());
   EXPECT_LT(4 * mean_variance(alone),
             mean_variance(films(by_power, settings_of(Method::kRaytrace, 256, 0.1f, 1))));
 }
 
-// The same bits by any number of threads.
+// Any number of threads gives the same bits.
 TEST(ManyLights, AnyNumberOfThreadsGivesTheSameBits) {
   const Scene scene = hall(4, 25);
   for (const Method method : {Method::kMc, Method::kPhoton}) {

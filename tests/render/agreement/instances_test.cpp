@@ -1,23 +1,25 @@
-// Instances that share a mesh against copies of it.
+// Tests instances that share a mesh against copies of the mesh.
 
 #include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "core/geometry/boundary_edges.h"
 #include "core/scene/shapes/shape_source.h"
 #include "photon/shoot/shoot.h"
-#include "tests/accel/random_scenes.h"
+#include "tests/accel/support/random_scenes.h"
 #include "tests/render/support/test_scenes.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 namespace {
 
 enum class Placing { kShared, kCopied };
 
-// A box under a light with bumpy balls in it, as instances or copies of one mesh; one is mirrored, one
-// uneven.
+// A box under a light with bumpy balls in it, as instances or as copies of one mesh; one is mirrored, one
+// scaled unevenly.
 Scene balls(Placing placing, double scale = 1) {
   Scene scene = cornell(32, float(scale));
-  TriangleMesh mesh = testing::icosphere(3);
+  TriangleMesh mesh = test::icosphere(3);
   for (const Point3& p : mesh.P) mesh.N.push_back(p);
   const uint32_t glass = add_material(scene, Dielectric{1.5f});
   const glm::dvec3 places[] = {{-0.5, 0.3, 0.4}, {0.1, 0.9, -0.3}, {0.5, 1.2, -0.4}};
@@ -36,10 +38,10 @@ Scene balls(Placing placing, double scale = 1) {
   return scene;
 }
 
-// Rays meet the same points but for rounding, and rounding sends few onto other ways: at silhouettes, and
-// where a choice between reflection and refraction is close. Errors of p_error, 1e-5 of the box, move a
-// silhouette by 1e-4 of a pixel of 1/16 of it.
-TEST(Instances, ShowWhatCopiesShow) {
+// Rays meet the same points up to rounding, which sends only a few of them elsewhere: at silhouettes, and
+// where the choice between reflection and refraction is close. Errors of p_error, 1e-5 of the box, move a
+// silhouette by 1e-4 of a pixel, whose size is 1/16 of the box.
+TEST(Instances, RenderLikeCopies) {
   RenderSettings settings;
   settings.method = Method::kMc;
   settings.spp = 4;
@@ -54,7 +56,7 @@ TEST(Instances, ShowWhatCopiesShow) {
   EXPECT_GT(same, pixels * 97 / 100);
 }
 
-TEST(Instances, HoldAsManyPhotonsAsCopies) {
+TEST(Instances, StoreThePhotonsOfCopies) {
   std::vector<std::vector<uint64_t>> of_group;
   for (const Placing placing : {Placing::kShared, Placing::kCopied}) {
     const Scene scene = balls(placing);
@@ -74,10 +76,10 @@ TEST(Instances, HoldAsManyPhotonsAsCopies) {
     apart += uint64_t(std::abs(int64_t(of_group[0][g]) - int64_t(of_group[1][g])));
   }
   EXPECT_GT(of_group[0][of_group[0].size() - 3], 100u);
-  EXPECT_LT(apart, total / 1000);  // those at silhouettes
+  EXPECT_LT(apart, total / 1000);  // photons at silhouettes
 }
 
-TEST(Instances, ScaleByPowersOfTwoToTheBit) {
+TEST(Instances, ScaleByPowersOfTwoExactly) {
   RenderSettings settings;
   settings.method = Method::kPhoton;
   settings.spp = 1;
@@ -88,7 +90,7 @@ TEST(Instances, ScaleByPowersOfTwoToTheBit) {
     for (int x = 0; x < a.width(); ++x) ASSERT_EQ(a.at(x, y).radiance(), b.at(x, y).radiance());
 }
 
-// Edges of an instance are its own, in the world.
+// The boundary edges of an instance lie in the world.
 TEST(Instances, HaveTheEdgesOfCopies) {
   TriangleMesh sheet;
   sheet.P = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -111,4 +113,4 @@ TEST(Instances, HaveTheEdgesOfCopies) {
 }
 
 }  // namespace
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

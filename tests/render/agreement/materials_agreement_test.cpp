@@ -1,4 +1,5 @@
-// Photons and paths compute the same light from materials whose lobes are followed, gathered under, or both.
+// Tests that photons and paths compute the same light from materials with diffuse lobes, specular lobes, or
+// both.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +13,8 @@ using namespace test;
 const Rgb kCopperEta(0.2f, 0.92f, 1.1f), kCopperK(3.9f, 2.45f, 2.14f);
 constexpr std::array<Layer, 4> kLayers = {Layer::kEmitted, Layer::kDirect, Layer::kCaustic, Layer::kIndirect};
 
-// A closed box with a light below its ceiling; of the material are a plate in its middle, with light on both
-// sides, and a ball.
+// A closed box with a light below its ceiling. A plate in its middle, lit from both sides, and a ball have
+// the tested material.
 Scene box_with(const Bsdf& bsdf) {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(0.6f)});
@@ -42,25 +43,25 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 const Case kCases[] = {
-    {"broad_conductor", Conductor{kCopperEta, kCopperK, {0.6f, 0.6f}}},
+    {"rough_conductor", Conductor{kCopperEta, kCopperK, {0.6f, 0.6f}}},
     {"glossy_conductor", Conductor{kCopperEta, kCopperK, {0.15f, 0.15f}}},
-    {"broad_brushed_conductor", Conductor{kCopperEta, kCopperK, {0.7f, 0.2f}}},
+    {"rough_brushed_conductor", Conductor{kCopperEta, kCopperK, {0.7f, 0.2f}}},
     {"glossy_brushed_conductor", Conductor{kCopperEta, kCopperK, {0.05f, 0.5f}}},
-    {"broad_dielectric", Dielectric{1.5f, {0.5f, 0.5f}}},
+    {"rough_dielectric", Dielectric{1.5f, {0.5f, 0.5f}}},
     {"glossy_dielectric", Dielectric{1.5f, {0.2f, 0.2f}}},
     {"thin_dielectric", ThinDielectric{1.5f}},
     {"diffuse_transmission", DiffuseTransmission{Rgb(0.3f), Rgb(0.5f)}},
     {"coated_diffuse", CoatedDiffuse::from_reflectance(Rgb(0.7f), 1.5f)},
     {"glossy_coat", CoatedDiffuse::from_reflectance(Rgb(0.7f), 1.5f, {0.15f, 0.15f})},
-    {"broad_coat", CoatedDiffuse::from_reflectance(Rgb(0.7f), 1.5f, {0.6f, 0.6f})},
+    {"rough_coat", CoatedDiffuse::from_reflectance(Rgb(0.7f), 1.5f, {0.6f, 0.6f})},
 };
 
 class Materials : public ::testing::TestWithParam<Case> {};
 
-// Some classes are small here: the sum must be known well, they need not.
+// Some classes are small here. The sum must be precise, but they need not be.
 constexpr double kAnyNoise = 1e9;
 
-// Class by class, and the sum.
+// Compares class by class, and the sum.
 TEST_P(Materials, PhotonsAgreeWithPaths) {
   const Scene scene = box_with(GetParam().bsdf);
   const auto by_paths = films(scene, settings_of(Method::kMc, 128, 0.08f, 100));
@@ -75,23 +76,23 @@ TEST_P(Materials, PhotonsAgreeWithPaths) {
     }
     const Estimate mc = total(c.mc), found = total(c.photons), smaller = total(c.half);
     const double noise = std::hypot(mc.standard_error, found.standard_error, 2 * smaller.standard_error);
-    const double bias = 2 * std::abs(found.mean - smaller.mean) + kPackedFlux * mc.mean;
+    const double bias = 2 * std::abs(found.mean - smaller.mean) + kPackedLight * mc.mean;
     EXPECT_NEAR(found.mean, mc.mean, kErrors * noise + bias) << int(method);
     EXPECT_LT(kErrors * noise + bias, 0.1 * mc.mean);
     c.write_pictures(std::string(GetParam().name) + std::to_string(int(method)));
   }
 }
 
-TEST_P(Materials, TheSumDoesNotDependOnTheEstimators) {
+TEST_P(Materials, SumDoesNotDependOnTheEstimators) {
   expect_the_same_sum_by_all_estimators(box_with(GetParam().bsdf), 0.08f);
 }
 INSTANTIATE_TEST_SUITE_P(All, Materials, ::testing::ValuesIn(kCases),
                          [](const auto& tested) { return tested.param.name; });
 
-// Roughness that grows through the threshold: lobes are followed below it and gathered under above, and the
-// picture goes on as it was. The two materials differ by a thousandth in alpha, their pictures by less than
-// that times a few: lobes of width alpha change by 2 of a thousandth at any direction's density.
-TEST(RoughnessThreshold, TheSumDoesNotJump) {
+// At the threshold of roughness lobes turn from specular to diffuse, and the picture must not change. The two
+// materials differ by 1e-3 in alpha. The density of a lobe of width alpha changes by 2e-3 at any direction,
+// and the pictures by a few times that.
+TEST(RoughnessThreshold, SumIsContinuous) {
   for (const Method method : {Method::kMc, Method::kPhoton, Method::kHybrid, Method::kAuto}) {
     Estimate sums[2][2];
     for (const int above : {0, 1}) {
@@ -113,8 +114,8 @@ TEST(RoughnessThreshold, TheSumDoesNotJump) {
   }
 }
 
-// A point light has no size: a ray never meets it, yet it shows in metal that is nearly smooth. By shadow
-// rays both sides of the threshold are the same integral, without noise but for the pixel's.
+// A ray never meets a point light, yet its highlight shows in nearly smooth metal. By shadow rays both sides
+// of the threshold are the same integral, without noise except for the sampling of the pixel.
 TEST(RoughnessThreshold, PointLightsShowInGlossyMetal) {
   double sums[2];
   for (const int above : {0, 1}) {

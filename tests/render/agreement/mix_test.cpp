@@ -1,4 +1,4 @@
-// Mixtures are the mean of what they are mixed from.
+// Tests that a mixture is the mean of its materials.
 
 #include <gtest/gtest.h>
 
@@ -31,19 +31,19 @@ Scene plane_under_point_light(float scale = 1) {
   return scene;
 }
 
-TEST(Mix, DirectLightIsTheMean) {
+TEST(Mix, DirectLightIsTheMeanOfTheMaterials) {
   Scene mixed = plane_under_point_light(), plain = plane_under_point_light();
   plain.materials[2] = Lambertian{Rgb(0.6f)};
   const RenderSettings settings = settings_of(Method::kRaytrace, 64, 0.1f, 1);
   const double found = total_mean(render_with_threads(mixed, settings).film);
   const double expected = total_mean(render_with_threads(plain, settings).film);
-  // A share of 0.75 of n samples: relative standard deviation sqrt(1 / (3 n)); the light varies by less than
-  // the factor 2 over the picture. Five of them.
+  // A share of 0.75 of n samples has the relative standard deviation sqrt(1 / (3 n)), and the light varies by
+  // less than a factor of 2 over the picture. The tolerance is five standard deviations.
   const double n = 64.0 * kSize * kSize;
   EXPECT_NEAR(found, expected, 5 * 2 * std::sqrt(1 / (3 * n)) * expected);
 }
 
-// The choice is a function of mantissas.
+// The choice depends on the mantissas of the position only.
 TEST(Mix, PowersOfTwoGiveTheSamePicture) {
   const RenderSettings settings = settings_of(Method::kRaytrace, 4, 0.1f, 1);
   const Film one = render_with_threads(plane_under_point_light(), settings).film;
@@ -52,7 +52,8 @@ TEST(Mix, PowersOfTwoGiveTheSamePicture) {
     for (int x = 0; x < kSize; ++x) ASSERT_EQ(one.at(x, y).direct, large.at(x, y).direct);
 }
 
-// Mirror and paint at one place: photons are kept wherever paint can be chosen, and seen where it is.
+// With mirror and paint at one place, photons are kept wherever paint can be chosen, and gathered where it is
+// chosen.
 TEST(Mix, PhotonsAgreeWithPaths) {
   Scene scene;
   add_mixture(scene, Lambertian{Rgb(0.7f)}, Mirror{Rgb(0.8f)}, 0.4f);

@@ -1,5 +1,5 @@
-// Materials whose kind of lobe differs from point to point: textured roughness, textured mixtures; and lobes
-// that follow the surface's uv.
+// Tests materials whose lobes are diffuse in some points and specular in others (textured roughness, textured
+// mixtures), and lobes that follow the surface's uv.
 
 #include <cstring>
 
@@ -11,8 +11,7 @@ namespace {
 
 using namespace test;
 
-// A room with a light; of the material "tested" are a plate in its middle, with light on both sides, and a
-// ball.
+// A room with a light. A plate in its middle, lit from both sides, and a ball have the material "tested".
 std::string room(const std::string& tested) {
   return "LookAt 0 1.5 0.95  0 0.6 -0.2  0 1 0 Camera \"perspective\" \"float fov\" 75\n" +
          fmt::format("Film \"rgb\" \"integer xresolution\" {0} \"integer yresolution\" {0}\nWorldBegin\n",
@@ -31,7 +30,7 @@ std::string named(const std::string& material) {
   return "MakeNamedMaterial \"tested\" \"string type\" " + material + "\n";
 }
 
-// Smooth in one corner, through narrow lobes that are followed, to wide ones that are gathered under.
+// The roughness rises from zero in one corner through narrow, specular lobes to wide, diffuse ones.
 constexpr const char* kRamp =
     "Texture \"ramp\" \"float\" \"bilerp\" \"float v00\" 0 \"float v10\" 0.25 \"float v01\" 0.35 \"float "
     "v11\" 0.7\n";
@@ -50,22 +49,21 @@ constexpr const char* kAlpha = " \"bool remaproughness\" false ";
 
 class TexturedRoughness : public ::testing::TestWithParam<Case> {};
 
-TEST_P(TexturedRoughness, TheSumDoesNotDependOnTheEstimators) {
+TEST_P(TexturedRoughness, SumDoesNotDependOnTheEstimators) {
   const std::string ramp = std::string(GetParam().material) + "\"texture roughness\" \"ramp\"" + kAlpha;
   expect_the_same_sum_by_all_estimators(scene_of(room(kRamp + named(ramp))), 0.08f);
 }
 
-TEST_P(TexturedRoughness, UAndVHaveTexturesOfTheirOwn) {
+TEST_P(TexturedRoughness, SumDoesNotDependOnTheEstimatorsForAnisotropicRoughness) {
   const std::string ramp =
       std::string(GetParam().material) + "\"texture uroughness\" \"ramp\" \"float vroughness\" 0.2" + kAlpha;
   expect_the_same_sum_by_all_estimators(scene_of(room(kRamp + named(ramp))), 0.08f);
 }
 
-// A texture that is the same everywhere is the parameter: by paths to the bit, for smooth surfaces, followed
-// and gathered lobes, just below and just above the threshold. Photons are kept where a texture might be
-// rough, so blocks of photons begin elsewhere, and sums are rounded differently: of some hundred photons of
-// 24 bits.
-TEST_P(TexturedRoughness, AConstantTextureIsTheNumber) {
+// A constant texture equals the parameter: by paths to the bit, for smooth surfaces, specular and diffuse
+// lobes, just below and just above the threshold. Photons are stored where a texture might be rough, so
+// blocks of photons begin elsewhere and sums of some hundred photons of 24 bits are rounded differently.
+TEST_P(TexturedRoughness, ConstantTextureEqualsTheNumber) {
   for (const char* roughness : {"0", "0.0005", "0.1", "0.2999", "0.3001", "0.8"}) {
     const auto scene_with = [&](const std::string& definition, const std::string& value) {
       return scene_of(room(definition + named(GetParam().material + value + kAlpha)));
@@ -77,7 +75,7 @@ TEST_P(TexturedRoughness, AConstantTextureIsTheNumber) {
     for (const Method method : {Method::kMc, Method::kPhoton}) {
       RenderSettings settings = settings_of(method, 4, 0.1f, 7);
       settings.photons = 20'000;
-      settings.guide = Guide::kOff;  // on, it learns from what photons leave: it may start other ones
+      settings.guide = Guide::kOff;  // a guide learns from stored photons, so it may start other ones
       const Film a = render_with_threads(number, settings).film,
                  b = render_with_threads(texture, settings).film;
       if (method == Method::kMc) {
@@ -91,9 +89,9 @@ TEST_P(TexturedRoughness, AConstantTextureIsTheNumber) {
 INSTANTIATE_TEST_SUITE_P(All, TexturedRoughness, ::testing::ValuesIn(kRough),
                          [](const auto& tested) { return tested.param.name; });
 
-// Roughness that varies a little about the threshold: the picture is that of the threshold itself, whichever
-// points are followed and whichever gathered under.
-TEST(TexturedRoughnessThreshold, TheSumDoesNotJump) {
+// With a roughness that varies a little about the threshold the picture is that of the threshold itself,
+// although some points are specular and others diffuse.
+TEST(TexturedRoughnessThreshold, SumIsContinuous) {
   const std::string metal = kRough[0].material;
   const auto sums = [&](const std::string& low, const std::string& high, Method method, float radius) {
     const std::string board =
@@ -107,8 +105,8 @@ TEST(TexturedRoughnessThreshold, TheSumDoesNotJump) {
     const Estimate mixed = sums("0.2985", "0.3015", method, 0.08f),
                    half = sums("0.2985", "0.3015", method, 0.04f);
     const Estimate above = sums("0.3001", "0.3001", Method::kMc, 0.08f);
-    // Half of the points differ by half a hundredth in alpha either way; what is left is of second order.
-    double bias = 4e-3 * above.mean + kPackedFlux * above.mean;
+    // Half of the points differ by half a hundredth in alpha either way; what remains is of second order.
+    double bias = 4e-3 * above.mean + kPackedLight * above.mean;
     if (method != Method::kMc)
       bias += 2 * std::abs(mixed.mean - half.mean) +
               kErrors * 2 * std::hypot(mixed.standard_error, half.standard_error);
@@ -125,12 +123,12 @@ std::string mixture(const std::string& amount) {
   return named("\"mix\" \"string materials\" [\"paint\" \"metal\"] " + amount);
 }
 
-TEST(TexturedMix, TheSumDoesNotDependOnTheEstimators) {
+TEST(TexturedMix, SumDoesNotDependOnTheEstimators) {
   expect_the_same_sum_by_all_estimators(scene_of(room(kRamp + kTwo + mixture("\"texture amount\" \"ramp\""))),
                                         0.08f);
 }
 
-TEST(TexturedMix, AConstantTextureIsTheNumber) {
+TEST(TexturedMix, ConstantTextureEqualsTheNumber) {
   const std::string quarter = "Texture \"q\" \"float\" \"constant\" \"float value\" 0.25\n";
   const Scene number = scene_of(room(kTwo + mixture("\"float amount\" 0.25")));
   const Scene texture = scene_of(room(quarter + kTwo + mixture("\"texture amount\" \"q\"")));
@@ -143,8 +141,8 @@ TEST(TexturedMix, AConstantTextureIsTheNumber) {
   }
 }
 
-// From above, by rays: where the amount is 0 the picture is that of the first material, where 1 of the
-// second; what is beyond is clamped.
+// Seen from above by rays, the picture is that of the first material where the amount is 0 and that of the
+// second where it is 1; amounts beyond are clamped.
 TEST(TexturedMix, FollowsItsTexture) {
   write_png("halves.png", 2, 1, {0, 255});
   const auto picture = [](const std::string& material) {
@@ -169,9 +167,10 @@ TEST(TexturedMix, FollowsItsTexture) {
       EXPECT_EQ(both.at(x, y).radiance(), (x < 8 ? red : blue).at(x, y).radiance()) << x << " " << y;
 }
 
-// A disk of brushed metal under a light and a camera that both stand on its axis: normals half way lean along
-// the radius, which is v. So the picture is the same all around, and where facets lean far along v it shines
-// out to the rim; where they lean along u, that is around the axis, in the middle alone. By the BSDF itself.
+// A disk of brushed metal under a light and a camera that are both on its axis: half vectors lean along the
+// radius, which is v. So the picture is the same all around. Where the facets lean far along v the highlight
+// reaches the rim; where they lean along u, around the axis, it stays in the middle. The expected values are
+// those of the BSDF.
 TEST(Anisotropy, HighlightsFollowUvOnADisk) {
   constexpr int kPixels = 32;
   constexpr double kHeight = 1.5;
@@ -189,12 +188,13 @@ TEST(Anisotropy, HighlightsFollowUvOnADisk) {
     for (int y = 0; y < kPixels; ++y) {
       for (int x = 0; x < kPixels; ++x) {
         const double px = (x + 0.5) / 16 - 1, py = (y + 0.5) / 16 - 1, r2 = px * px + py * py;
-        if (r2 < 0.1 || r2 > 0.8) continue;  // beside the peak and the rim
+        if (r2 < 0.1 || r2 > 0.8) continue;  // only between the peak and the rim
         const double d2 = kHeight * kHeight + r2, cosine = kHeight / std::sqrt(d2);
         const Vector3 wi(0, float(std::sqrt(r2 / d2)), float(cosine));
         const Rgb f = metal.f_glossy({0, 0, 1}, wi);
         const double expected = double(f.x) * cosine / d2;
-        // Over a pixel of 1/16 the lobe changes by up to a third; the mean of its middle is of second order.
+        // Over a pixel of 1/16 the lobe changes by up to a third; the mean over a pixel differs from the
+        // value in its middle to second order only.
         EXPECT_NEAR(film.at(x, y).radiance().x, expected, 0.1 * expected + 1e-6) << x << " " << y;
       }
     }
@@ -203,7 +203,7 @@ TEST(Anisotropy, HighlightsFollowUvOnADisk) {
   EXPECT_GT(at_rim[0], 100 * at_rim[1]);
 }
 
-// Turning uv by a right angle turns the streak.
+// Turning uv by a right angle turns the highlight's streak.
 TEST(Anisotropy, HighlightsTurnWithUv) {
   const auto picture = [](const std::string& uv) {
     const Scene scene = scene_of(

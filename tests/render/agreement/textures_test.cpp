@@ -1,4 +1,4 @@
-// Textures, bump maps and alpha in every estimator.
+// Tests textures, bump maps and alpha in every estimator.
 
 #include <cstring>
 
@@ -14,10 +14,10 @@ constexpr const char* kFromAbove =
     "LookAt 0 0 1  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 90\n"
     "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\nWorldBegin\n";
 
-// A plane under the same radiance L from everywhere: Lo = rho L. The image shows 4 x 4 fields, so its mean is
-// that of the two reflectances. One image's noise is that of 16 x 16 x 16 samples of the sky; six of them
-// measure it.
-TEST(Textures, MeanOfACheckerboardIsClosedForm) {
+// A plane under the radiance L from every direction shows Lo = rho L. The image shows 4 x 4 fields, so its
+// mean is that of the two reflectances. The noise of one picture is that of 16 x 16 x 16 samples of the sky;
+// six pictures measure it.
+TEST(Textures, MeanOfACheckerboardMatchesTheClosedForm) {
   const Scene scene = scene_of(std::string(kFromAbove) + R"(
     LightSource "infinite" "rgb L" [1 1 1]
     Texture "t" "spectrum" "checkerboard" "float uscale" 4 "float vscale" 4 "rgb tex1" [.9 .9 .9] "rgb tex2" [.2 .2 .2]
@@ -78,8 +78,8 @@ TEST(TextureAgreement, PhotonsCarryTheColourOfImages) {
   expect_photons_agree_with_paths(kTiled, kPlain, "tiled_box");
 }
 
-// The bumps turn normals by up to 30 degrees: photons are weighted for them, as for interpolated normals.
-TEST(TextureAgreement, PhotonsSeeBumps) {
+// The bumps turn normals by up to 30 degrees; photons are weighted for them as for interpolated normals.
+TEST(TextureAgreement, PhotonsAgreeWithPathsOnBumps) {
   expect_photons_agree_with_paths(kBumped, kTiled, "bumped_box");
 }
 
@@ -101,7 +101,7 @@ TEST(Textures, AnyNumberOfThreadsGivesTheSameBits) {
     EXPECT_TRUE(same_pixels(one, render_with_threads(scene, quick(0.1f), threads).film));
 }
 
-// Depth grows with the scene; light does not change a bit.
+// Depth scales with the scene; the light keeps its bits.
 TEST(Textures, ScalingByAPowerOfTwoChangesNothing) {
   write_images();
   const Film one = render_with_threads(scene_of(tiled_box(1, kTiled, kBumped)), quick(0.125f)).film;
@@ -113,7 +113,7 @@ TEST(Textures, ScalingByAPowerOfTwoChangesNothing) {
   }
 }
 
-// A screen half way between light and floor. The camera stands between them and looks down.
+// A screen half way between the light and the floor. The camera is between them and looks down.
 Scene screened(const std::string& screen) {
   return scene_of(std::string(kFromAbove) +
                   "LightSource \"point\" \"point3 from\" [0 0 4] \"rgb I\" [9 9 9]\n" +
@@ -122,12 +122,13 @@ Scene screened(const std::string& screen) {
                   rectangle("-2 -2 0 2 -2 0 2 2 0 -2 2 0") + screen);
 }
 
-// Left half cut out: there the floor is lit as without the screen, to the bit; the rest lies in the dark.
-TEST(Alpha, CutsAShadowInHalf) {
+// The left half of the screen is cut out: the floor below it is lit exactly as without the screen, and the
+// rest is dark.
+TEST(Alpha, CutOutHalfCastsNoShadow) {
   write_png("halves.png", 2, 1, {0, 255});
   const std::string screen = "-2 -2 2 2 -2 2 2 2 2 -2 2 2";
   RenderSettings settings = settings_of(Method::kRaytrace, 1, 0.1f, 3);
-  settings.adaptive = 0;  // the same samples of both
+  settings.adaptive = 0;  // both renders take the same samples
   const Film lit = render_with_threads(screened(""), settings).film;
   const Film cut =
       render_with_threads(screened(rectangle(screen, "\"texture alpha\" \"halves\"")), settings).film;
@@ -143,9 +144,10 @@ TEST(Alpha, CutsAShadowInHalf) {
   EXPECT_EQ(dark, 16 * 16 / 2);
 }
 
-// A constant alpha lets through a random share of rays and of photons, the same on average: here 1/4 of 3/4.
-// Binomial: of 200,000 photons, 16 x 16 x 64 shadow rays: below 1 % together at five standard errors.
-TEST(Alpha, LetsThroughItsShareOfRaysAndPhotons) {
+// A constant alpha lets a random share of rays and photons through, the same on average: here 1/4 of 3/4. By
+// the binomial errors of 200,000 photons and 16 x 16 x 64 shadow rays, five standard errors of both together
+// are below 1 %.
+TEST(Alpha, TransmitsTheSameShareOfRaysAndPhotons) {
   write_png("halves.png", 2, 1, {0, 255});
   const std::string sheets = rectangle("-2 -2 2 2 -2 2 2 2 2 -2 2 2", "\"float alpha\" 0.25") +
                              rectangle("-2 -2 3 2 -2 3 2 2 3 -2 2 3", "\"float alpha\" 0.75");

@@ -1,4 +1,4 @@
-// Camera rays in packets against camera rays one by one.
+// Tests camera rays in packets against single camera rays.
 
 #include "render/camera/camera_rays.h"
 
@@ -15,10 +15,10 @@ struct Pixel {
   int x, y;
 };
 
-// The last block is cut by the image's border.
+// The image's border cuts the last block.
 constexpr int kSide = 10;
 
-TEST(CameraRays, AreTheRaysAndHitsOfEachSampleByItself) {
+TEST(CameraRays, MatchTheRaysAndHitsOfSingleSamples) {
   const Scene scene = cornell(kSide);
   const accel::Bvh bvh(scene);
   CameraRays rays;
@@ -47,8 +47,8 @@ TEST(CameraRays, AreTheRaysAndHitsOfEachSampleByItself) {
   EXPECT_GT(met, 0u);
 }
 
-// Any pixel stands for its block: what a pixel sees does not depend on where the window begins.
-TEST(CameraRays, EveryPixelOfABlockNamesIt) {
+// Any pixel of a block identifies the block: what a pixel sees does not depend on where the window begins.
+TEST(CameraRays, EveryPixelOfABlockIdentifiesIt) {
   const Scene scene = cornell(kSide);
   const accel::Bvh bvh(scene);
   constexpr uint64_t kSamples = CameraRays::most_samples(BlockPart::kWhole);
@@ -66,8 +66,8 @@ TEST(CameraRays, EveryPixelOfABlockNamesIt) {
   }
 }
 
-// The two halves of a block are its rays, each once, with more samples of each at a time.
-TEST(CameraRays, HalvesMakeTheBlock) {
+// The two halves of a block contain each of its rays once, with more samples of each pixel at a time.
+TEST(CameraRays, HalvesAddUpToTheBlock) {
   const Scene scene = cornell(kSide);
   const accel::Bvh bvh(scene);
   constexpr uint64_t kSamples = CameraRays::most_samples(BlockPart::kEven);
@@ -86,8 +86,9 @@ TEST(CameraRays, HalvesMakeTheBlock) {
   }
 }
 
-// A sampler that begins behind the ray goes on as one that drew it, and no two pixels share their points.
-TEST(CameraRays, SamplersGoOnBehindTheRay) {
+// A sampler that skips the numbers of the camera ray continues like one that drew them, and no two pixels
+// share their points.
+TEST(CameraRays, SamplersContinueAfterTheRaysNumbers) {
   const Camera camera;
   const uint64_t stream = pixel_stream(7, camera, 2, 3);
   Sampler whole(stream, 11), rest(stream, 11, ray_dimensions(camera));

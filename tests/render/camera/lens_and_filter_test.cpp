@@ -1,10 +1,12 @@
-// Pictures through lenses and pixel filters against closed forms.
+// Tests pictures through lenses and pixel filters against closed forms.
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "tests/render/support/test_scenes.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 namespace {
 
 constexpr int kSide = 64;
@@ -35,8 +37,8 @@ Scene bright_disk(float z, float radius, const Projection& projection) {
 
 struct Blur {
   double light = 0;      // sum over the pixels
-  double mean_r2 = 0;    // pixels^2, about the image's middle
-  double farthest2 = 0;  // of a pixel's middle that sees any
+  double mean_r2 = 0;    // pixels^2, from the image's middle
+  double farthest2 = 0;  // of the middles of lit pixels
 };
 
 Blur blur_of(const Film& film) {
@@ -52,9 +54,10 @@ Blur blur_of(const Film& film) {
   return blur;
 }
 
-// A point at z is seen as a disk of the lens' radius times |z - f| / z on the plane of focus, which a pixel
-// of side 2 f tan(fov / 2) / width there measures; evenly bright, so that its mean squared radius is half.
-TEST(DepthOfField, APointIsTheCircleOfConfusion) {
+// A point at z is seen as a disk of radius lens * |z - f| / z on the plane of focus, where a pixel measures 2
+// f tan(fov / 2) / width. The disk is evenly bright, so its mean squared radius is half of its squared
+// radius.
+TEST(DepthOfField, PointShowsTheCircleOfConfusion) {
   constexpr float kLens = 0.2f, kFocal = 4, kDot = 0.02f;
   for (const float z : {2.0f, 8.0f}) {
     SCOPED_TRACE(z);
@@ -65,9 +68,9 @@ TEST(DepthOfField, APointIsTheCircleOfConfusion) {
     const double circle = double(kLens) * std::abs(double(z - kFocal)) / double(z) / pixel;
     const double dot = double(kDot) * double(kFocal) / double(z) / pixel;
     const Blur blur = blur_of(film);
-    // Pixels add the variance of their own square, 1/12 per axis. The noise: about circle^2 pi * 256 dot^2 /
-    // circle^2 samples meet the dot, r^2 / 2 has a spread of circle^2 / sqrt(12): below 2 % of it; 5 of
-    // those.
+    // Pixels add the variance of their own square, 1/12 per axis. About circle^2 pi * 256 dot^2 / circle^2
+    // samples meet the dot, and r^2 / 2 has a spread of circle^2 / sqrt(12): a noise below 2 % of the value,
+    // of which the tolerance is 5.
     const double met = std::numbers::pi * dot * dot * 256;
     EXPECT_NEAR(blur.mean_r2, 0.5 * (circle * circle + dot * dot) + 2 / 12.0,
                 5 * circle * circle / std::sqrt(12 * met));
@@ -76,7 +79,7 @@ TEST(DepthOfField, APointIsTheCircleOfConfusion) {
   }
 }
 
-TEST(DepthOfField, WhatIsInFocusIsSharp) {
+TEST(DepthOfField, ObjectsInFocusAreSharp) {
   const Film film =
       render_with_threads(bright_disk(4, 0.2f, PerspectiveProjection{40, {0.5f, 4}}), plain(16)).film;
   const double pixel = 2 * 4 * std::tan(glm::radians(20.0)) / kSide;
@@ -95,8 +98,8 @@ std::vector<FilterAxis> filters() {
           {FilterKind::kSinc, 4}};
 }
 
-// What is the same everywhere is so through every filter, whatever the signs of its samples.
-TEST(PixelFilters, AnEvenSkyStaysEven) {
+// A uniform picture stays uniform through every filter, whatever the signs of its samples.
+TEST(PixelFilters, UniformSkyStaysUniform) {
   for (const FilterAxis& axis : filters()) {
     Scene scene;
     const uint32_t black = add_material(scene, Lambertian{{0, 0, 0}});
@@ -106,20 +109,20 @@ TEST(PixelFilters, AnEvenSkyStaysEven) {
     scene.lights.push_back(sky);
     scene.camera.width = scene.camera.height = 8;
     finalize_scene(scene);
-    // So many samples that the weights of none of the pixels cancel.
+    // With this many samples the weights of no pixel cancel.
     const Film film = render_with_threads(with_filter(scene, axis), plain(64)).film;
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x) ASSERT_EQ(film.at(x, y).radiance(), sky.L);
   }
 }
 
-// Seen across a straight edge, a pixel is the filter's integral up to it.
-TEST(PixelFilters, AnEdgeIsTheFiltersIntegral) {
+// At a straight edge a pixel is the filter's integral up to the edge.
+TEST(PixelFilters, EdgeShowsTheFiltersIntegral) {
   constexpr int kRows = 16, kSpp = 1024;
   for (const FilterAxis& axis : filters()) {
     Scene scene;
     const uint32_t black = add_material(scene, Lambertian{{0, 0, 0}});
-    // Bright below the image's middle line.
+    // The area below the image's middle line is bright.
     make_light(scene, add_shape(scene, quad({-9, -9, 5}, {-9, 0, 5}, {9, 0, 5}, {9, -9, 5}, black)),
                {1, 1, 1}, true);
     scene.camera.width = scene.camera.height = kRows;
@@ -134,15 +137,16 @@ TEST(PixelFilters, AnEdgeIsTheFiltersIntegral) {
         if (y + 0.5 + t > kRows / 2) below += f;
       }
       for (int x = 1; x < kRows - 1; ++x) {
-        // Stratified samples: below 1 / sqrt(kSpp) of a sample's spread, which sinc's signs raise to 2.
+        // The samples are stratified, so the error is below 1 / sqrt(kSpp) of a sample's spread, which sinc's
+        // signs raise to 2.
         ASSERT_NEAR(film.at(x, y).radiance().x, below / whole, 2 / std::sqrt(double(kSpp))) << y;
       }
     }
   }
 }
 
-// Pixels do not depend on each other: a crop is the picture's part, in any number of passes.
-TEST(PixelFilters, ACropIsAPartOfThePicture) {
+// Pixels do not depend on each other: a crop equals that part of the picture, in any number of passes.
+TEST(PixelFilters, CropEqualsThatPartOfThePicture) {
   const Scene scene = with_filter(cornell(12), {FilterKind::kMitchell, 2});
   RenderSettings settings = plain(8);
   settings.passes = 2;
@@ -155,4 +159,4 @@ TEST(PixelFilters, ACropIsAPartOfThePicture) {
 }
 
 }  // namespace
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

@@ -1,4 +1,4 @@
-// Standard error, bias and relative error from sums that are known.
+// Tests standard error, bias and relative error on known sums.
 
 #include "render/film/error_estimate.h"
 
@@ -13,7 +13,7 @@ using namespace test;
 
 constexpr ExactUnits kUnits{.radiance = -60, .square = -60, .depth = -60};
 
-// A film of one pixel value per pass, everywhere.
+// A film in which all pixels have the same value, one for each pass.
 FilmTotals totals_of(int size, const std::vector<double>& radiance, const std::vector<double>& bias) {
   FilmTotals totals(PixelWindow<PixelTotals>(size, size), kUnits);
   for (size_t i = 0; i < radiance.size(); ++i) {
@@ -30,7 +30,7 @@ FilmTotals totals_of(int size, const std::vector<double>& radiance, const std::v
   return totals;
 }
 
-// int of Student's density over [-t, t], by Simpson's rule.
+// The integral of Student's density over [-t, t], by Simpson's rule.
 double probability_within(double t, double n) {
   const double norm = std::exp(std::lgamma((n + 1) / 2) - std::lgamma(n / 2)) / std::sqrt(n * M_PI);
   const auto density = [&](double x) { return norm * std::pow(1 + x * x / n, -(n + 1) / 2); };
@@ -40,17 +40,18 @@ double probability_within(double t, double n) {
   return 2 * sum * t / kSteps / 3;
 }
 
-TEST(ErrorEstimate, ConfidenceFactorIsStudents) {
+TEST(ErrorEstimate, ConfidenceFactorMatchesStudentsT) {
   for (const uint64_t passes : {2, 3, 4, 5, 8, 16, 100, 100000}) {
     const double t = confidence_factor(passes);
-    // 0.5 % of t changes the probability by at most 0.005 * 2 t density(t) < 0.002.
+    // A change of t by 0.5 % changes the probability by at most 0.005 * 2 t density(t) < 0.002.
     EXPECT_NEAR(probability_within(t, double(passes - 1)), 0.9, 0.002) << passes;
   }
   EXPECT_EQ(confidence_factor(1), kInfinity);
   EXPECT_EQ(confidence_factor(0), kInfinity);
 }
 
-// Values 1, 2, 3, 6: mean 3, sample variance 14 / 3, of the mean 14 / 12.
+// The values 1, 2, 3, 6 have the mean 3 and the sample variance 14 / 3, so the variance of the mean is 14 /
+// 12.
 TEST(ErrorEstimate, StandardErrorOfTheMean) {
   const ErrorMap errors = estimate_errors(totals_of(3, {1, 2, 3, 6}, {0, 0, 0, 0}));
   const PixelError& p = errors.at(1, 1);
@@ -62,19 +63,19 @@ TEST(ErrorEstimate, StandardErrorOfTheMean) {
   }
 }
 
-// Mean bias 0.5, variance of its mean (4 / 16) / 12 = 1/48: of nine pixels that count as three 1/144, of the
-// four about a corner 1/64.
-TEST(ErrorEstimate, BiasIsWhatTheNoiseDoesNotExplain) {
+// The mean bias is 0.5 and the variance of its mean is (4 / 16) / 12 = 1/48. Averaged over nine pixels, which
+// count as three, it is 1/144; over the four about a corner 1/64.
+TEST(ErrorEstimate, BiasExcludesWhatNoiseExplains) {
   const ErrorMap errors = estimate_errors(totals_of(3, {1, 1, 1, 1}, {0.25, 0.75, 0.25, 0.75}));
   const float middle = std::sqrt(0.25f - 1 / 144.0f), corner = std::sqrt(0.25f - 1 / 64.0f);
   EXPECT_FLOAT_EQ(errors.at(1, 1).bias.x, middle);
   EXPECT_EQ(errors.at(1, 1).bias.y, 0);
   EXPECT_FLOAT_EQ(errors.at(0, 0).bias.z, -corner);
-  // Of a mean of 1/8 the noise of +-3 leaves nothing.
+  // For a mean of 1/8 the noise of +-3 explains all of it.
   EXPECT_EQ(estimate_errors(totals_of(3, {1, 1}, {3.125, -2.875})).at(1, 1).bias.x, 0);
 }
 
-TEST(ErrorEstimate, OnePassKnowsNothing) {
+TEST(ErrorEstimate, OnePassGivesNoEstimate) {
   const FilmTotals totals = totals_of(2, {1}, {0});
   const ErrorMap errors = estimate_errors(totals);
   EXPECT_EQ(errors.at(0, 0).error.x, kInfinity);
@@ -92,7 +93,8 @@ TEST(ErrorEstimate, RelativeErrorIsMeanOrQuantile) {
   EXPECT_NEAR(relative_error(errors, 8, 1e-9), t * 0.01, 1e-6);
 }
 
-// A black pixel is judged by a tenth of the mean; noise and bias add as squares; scaling changes nothing.
+// The error of a black pixel is relative to a tenth of the mean; noise and bias add as squares; scaling
+// changes nothing.
 TEST(ErrorEstimate, RelativeErrorOfDarkAndBiasedPixels) {
   for (const float scale : {1.0f, 0x1p-40f}) {
     ErrorMap errors(2, 1);
@@ -103,8 +105,8 @@ TEST(ErrorEstimate, RelativeErrorOfDarkAndBiasedPixels) {
   }
 }
 
-// Light that is subtracted leaves noise below zero.
-TEST(ErrorEstimate, NegativeMeansAreJudgedByTheirSize) {
+// Estimates that subtract light leave noise below zero.
+TEST(ErrorEstimate, NegativeMeansCountByTheirMagnitude) {
   ErrorMap errors(1, 1);
   errors.at(0, 0) = {Rgb(-2), Rgb(0.1f), Rgb(0)};
   EXPECT_NEAR(relative_error(errors, 8), confidence_factor(8) * 0.05, 1e-6);

@@ -1,4 +1,4 @@
-// Sums whose bits do not depend on order or split.
+// Tests sums whose bits do not depend on order or split.
 
 #include "render/film/exact_sum.h"
 
@@ -14,7 +14,7 @@
 namespace kaustik::render {
 namespace {
 
-// Magnitudes over 40 binary orders, both signs.
+// Random terms with magnitudes over 40 binary orders and both signs.
 std::vector<double> random_terms(size_t count, std::mt19937_64& random) {
   std::uniform_real_distribution<double> mantissa(-1, 1);
   std::uniform_int_distribution<int> exponent(-20, 20);
@@ -40,8 +40,8 @@ TEST(ExactSum, AnyOrderAndAnySplitGiveTheSameBits) {
   }
 }
 
-// Each term is rounded to half a unit at most, the sum of these terms to a double.
-TEST(ExactSum, IsTheSum) {
+// Each term is rounded by at most half a unit, and the sum to a double.
+TEST(ExactSum, EqualsTheSumUpToRounding) {
   std::mt19937_64 random(2);
   const std::vector<double> terms = random_terms(1000, random);
   ExactSum sum;
@@ -56,13 +56,13 @@ TEST(ExactSum, IsTheSum) {
   whole.add(3, 1);
   whole.add(-5, 1);
   EXPECT_EQ(whole.value(1), -2.0);
-  ExactSum ties;  // to even
+  ExactSum ties;  // are rounded to even
   ties.add(0.5, 1);
   ties.add(1.5, 1);
   EXPECT_EQ(ties.value(1), 2.0);
 }
 
-TEST(ExactSum, ClampsAndSaysSo) {
+TEST(ExactSum, ClampsAndReportsIt) {
   ExactSum sum;
   EXPECT_TRUE(sum.add(0x1p95, 1));
   EXPECT_FALSE(sum.add(0x1p96, 1));
@@ -112,7 +112,7 @@ TEST(FilmTotals, AnyOrderAndAnySplitGiveTheSameBits) {
 }
 
 // Means are over samples, squares over passes: a pass without a valid sample counts in neither.
-TEST(FilmTotals, HoldMeansAndSquares) {
+TEST(FilmTotals, StoreMeansAndSquares) {
   FilmSums pass(1, 1);
   FilmTotals totals(window_of<PixelTotals>(pass), {-60, -60, -60});
   pass.at(0, 0).direct = {2, 4, 6};
@@ -138,7 +138,7 @@ TEST(FilmTotals, HoldMeansAndSquares) {
   EXPECT_EQ(p.sums[kBiasSum].value(0x1p-60), -3);
 }
 
-TEST(FilmTotals, OtherWindowsAndUnitsAreRefused) {
+TEST(FilmTotals, RefuseOtherWindowsAndUnits) {
   using Window = PixelWindow<PixelTotals>;
   FilmTotals a(Window(2, 2), {}), b(Window(2, 3), {}), c(Window(2, 2), {1, 0, 0});
   EXPECT_THROW(a.add(b), std::invalid_argument);

@@ -1,4 +1,4 @@
-// How wide the discs are that the maps are read with.
+// Tests the radii that are chosen for gathers in the photon maps.
 
 #include "render/maps/radius.h"
 
@@ -10,8 +10,9 @@
 namespace kaustik::render {
 namespace {
 
-// Half of the photons lie in a spot and hardly shine, as guided ones do; the light is in the others.
-TEST(CausticRadius, IsThatOfTheLight) {
+// Half of the photons lie in a small spot and carry hardly any flux, as guided photons may; the other half
+// carry the light.
+TEST(CausticRadius, FollowsTheFluxNotTheCount) {
   constexpr int kEach = 20'000;
   constexpr float kSide = 1.8f, kSpot = 0.02f;
   photon::PhotonMaker make(3);
@@ -26,11 +27,11 @@ TEST(CausticRadius, IsThatOfTheLight) {
   }
   PhotonMaps maps;
   maps.caustic.map = photon::PhotonMap::build(photon::make_buffer(photons, 1));
-  const Scene scene = testing::lit_room(Rgb(0.5f), Rgb(1));
+  const Scene scene = test::lit_room(Rgb(0.5f), Rgb(1));
   const GatherRadii radii = choose_radii(scene, accel::Bvh(scene), {}, {}, maps);
-  // k photons of the even density reach half so far. The distance to the k-th has a relative deviation of
-  // 1/(2 sqrt k), the median of 1024 of them one of 1.25/32 of that; 1 in 20 points lies so near the border
-  // that its disc is wider.
+  // At the even density k photons lie within half that radius. The distance to the k-th photon has the
+  // relative deviation 1/(2 sqrt k), and the median of 1024 of them 1.25/32 of that; 1 in 20 points is so
+  // near the border that its disc is wider.
   const double k = 232 * std::pow(2 * kEach / 1e6, 2 / 3.0);
   const double expected = 2 * std::sqrt(k * double(kSide * kSide) / (double(kPi) * kEach));
   EXPECT_NEAR(double(radii.caustic), expected, 0.05 * expected);

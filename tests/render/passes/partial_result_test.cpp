@@ -1,4 +1,4 @@
-// Partial results on disk: nothing is lost, nothing damaged is taken.
+// Tests partial results on disk: everything is stored, and damaged files are refused.
 
 #include "render/passes/partial_result.h"
 
@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 using ::testing::HasSubstr;
 
-// A folder of its own, empty.
+// The test has an empty folder of its own.
 class PartialFile : public ::testing::Test {
  protected:
   PartialFile() {
@@ -61,7 +61,7 @@ class PartialFile : public ::testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
   void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
-  // What is said of the file; empty when it is read.
+  // The error message for the file; empty when it can be read.
   std::string complaint() const {
     try {
       read_partial(file_);
@@ -75,7 +75,7 @@ class PartialFile : public ::testing::Test {
   std::string folder_, file_;
 };
 
-TEST_F(PartialFile, HoldsEverything) {
+TEST_F(PartialFile, KeepsEverything) {
   const PartialResult part = example();
   write_partial(file_, part.manifest, part.sums);
   const PartialResult back = read_partial(file_);
@@ -104,7 +104,7 @@ TEST_F(PartialFile, HoldsEverything) {
   EXPECT_EQ(back.sums.statistics.radius, 3e10f);
 }
 
-// In the head, the manifest, the sums and the checksum.
+// Flips bytes in the header, the manifest, the sums and the checksum.
 TEST_F(PartialFile, EveryFlippedByteIsFound) {
   const PartialResult part = example();
   write_partial(file_, part.manifest, part.sums);
@@ -119,7 +119,7 @@ TEST_F(PartialFile, EveryFlippedByteIsFound) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(PartialFile, TruncatedAndForeignFilesAreNamed) {
+TEST_F(PartialFile, TruncatedAndForeignFilesAreRefusedByName) {
   const PartialResult part = example();
   write_partial(file_, part.manifest, part.sums);
   const std::string whole = bytes();
@@ -143,15 +143,15 @@ TEST_F(PartialFile, TruncatedAndForeignFilesAreNamed) {
   EXPECT_NE(complaint(), "");
 }
 
-// A manifest that claims the largest image, in a file whose checksum fits: refused by the file's size, before
-// memory is taken.
+// A manifest that claims the largest image, in a file with a valid checksum, is refused by the file's size
+// before memory is allocated.
 TEST_F(PartialFile, ClaimsAreCheckedAgainstTheFilesSize) {
   PartialResult part = example();
   part.sums.totals =
       FilmTotals(PixelWindow<PixelTotals>(10000, 1, 0, 0, 65535, 65535), part.sums.totals.units());
   write_partial(file_, part.manifest, part.sums);
   std::string forged = bytes();
-  const std::string honest = "\"width\": 10000,", claim = "\"width\": 65535,";  // equally long
+  const std::string honest = "\"width\": 10000,", claim = "\"width\": 65535,";  // of equal length
   ASSERT_NE(forged.find(honest), std::string::npos);
   forged.replace(forged.find(honest), honest.size(), claim);
   ContentHash hash;
@@ -162,9 +162,9 @@ TEST_F(PartialFile, ClaimsAreCheckedAgainstTheFilesSize) {
   EXPECT_THAT(complaint(), HasSubstr("size"));
 }
 
-// What a kill during the write leaves: half a temporary file. The last complete file is untouched by it, and
-// the next write is too.
-TEST_F(PartialFile, AnUnfinishedWriteCostsNothing) {
+// A kill during the write leaves half of a temporary file. It does not affect the last complete file, nor the
+// next write.
+TEST_F(PartialFile, UnfinishedWriteLosesNothing) {
   PartialResult part = example();
   write_partial(file_, part.manifest, part.sums);
   const std::string whole = bytes();
@@ -178,16 +178,16 @@ TEST_F(PartialFile, AnUnfinishedWriteCostsNothing) {
   EXPECT_EQ(read_partial(file_).sums.passes, part.sums.passes);
 }
 
-TEST_F(PartialFile, AFailedWriteLeavesThePreviousFile) {
+TEST_F(PartialFile, FailedWriteKeepsThePreviousFile) {
   const PartialResult part = example();
   write_partial(file_, part.manifest, part.sums);
-  std::filesystem::create_directory(folder_ + "/.a.kpart.partial");  // where the temporary file should be
+  std::filesystem::create_directory(folder_ + "/.a.kpart.partial");  // takes the name of the temporary file
   EXPECT_THROW(write_partial(file_, part.manifest, part.sums), PartialError);
   EXPECT_EQ(complaint(), "");
   EXPECT_THROW(write_partial(folder_ + "/none/a.kpart", part.manifest, part.sums), PartialError);
 }
 
-TEST(PartialDifference, NamesWhatDiffers) {
+TEST(PartialDifference, NamesTheSettingsThatDiffer) {
   PartialResult a;
   a.manifest.settings = {{"seed", {"0"}}};
   const auto differing = [&](auto change) {

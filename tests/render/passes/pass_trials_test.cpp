@@ -1,4 +1,4 @@
-// What a pass is found to take, and photons that are shot before the render.
+// Tests the measured cost of a pass, and renders that use photons shot before them.
 
 #include "render/passes/pass_trials.h"
 
@@ -28,17 +28,17 @@ class PassTrials : public ::testing::Test {
   EstimatorPlan plan_;
 };
 
-// 20 ms, and two microseconds each.
-TEST(PassCosts, OfPhotonsAreALine) {
+// The shoot takes 20 ms and two microseconds per photon.
+TEST(PassCosts, CostOfPhotonsIsLinear) {
   const auto seconds = [](double photons) { return 0.02 + 2e-6 * photons; };
   const PhotonCost cost = photon_cost(seconds(16384), seconds(65536));
   EXPECT_NEAR(cost.fixed, 0.02, 1e-9);
   EXPECT_NEAR(cost.each, 2e-6, 1e-15);
-  // More took no longer: half of what they took.
+  // When more photons take no longer, the cost is half of the time over their number.
   EXPECT_NEAR(photon_cost(1, 1).each, 0.5 / 65536, 1e-15);
 }
 
-TEST(PassCosts, OfSamplesAreAPlane) {
+TEST(PassCosts, CostOfSamplesIsLinearInBothCounts) {
   const auto seconds = [](double spp, double adaptive) { return 0.25 + spp * (0.5 + 0.125 * adaptive); };
   const SampleCost cost = sample_cost(seconds(1, 0.75), seconds(4, 0), seconds(4, 0.75), 0.75);
   EXPECT_NEAR(cost.fixed, 0.25, 1e-12);
@@ -50,17 +50,17 @@ TEST(PassCosts, OfSamplesAreAPlane) {
   EXPECT_EQ(without.further, 0);
 }
 
-TEST_F(PassTrials, LeaveWhatIsRead) {
+TEST_F(PassTrials, KeepThePhotonsThatTheRenderUses) {
   PhotonTrial trial = try_photons(scene_, bvh_, settings_, plan_, 1, {});
   ASSERT_TRUE(trial.photons.radii);
   EXPECT_GT(trial.photons.radii->indirect, 0);
   try_samples(scene_, bvh_, settings_, plan_, 1, &trial.photons);
   EXPECT_GT(trial.photons.maps.indirect.map.size(), 0u);
-  EXPECT_EQ(trial.photons.maps.visibility, nullptr);  // it would be of another number of samples
+  EXPECT_EQ(trial.photons.maps.visibility, nullptr);  // it depends on the number of samples
 }
 
-// Where even the first takes too long, there is no second.
-TEST_F(PassTrials, AreFewWhereTheyTakeTooLong) {
+// When the first trial takes too long there is no second.
+TEST_F(PassTrials, StopEarlyWhenTheyTakeTooLong) {
   PhotonTrial few = try_photons(scene_, bvh_, settings_, plan_, 0, {});
   EXPECT_EQ(few.cost.fixed, 0);
   EXPECT_GT(few.photons.maps.indirect.map.size(), 0u);
@@ -70,15 +70,15 @@ TEST_F(PassTrials, AreFewWhereTheyTakeTooLong) {
   EXPECT_EQ(cost.each, cost.further);
 }
 
-// Windows are chosen by squares of the whole image, of which a crop may hold none.
-TEST_F(PassTrials, TakeTheSmallestCrop) {
+// Windows are chosen by squares of the whole image; a crop may contain none of them.
+TEST_F(PassTrials, WorkOnTheSmallestCrop) {
   settings_.crop = {39, 40, 17, 18};
   PhotonTrial trial = try_photons(scene_, bvh_, settings_, plan_, 1, {});
   const double each = try_samples(scene_, bvh_, settings_, plan_, 1, &trial.photons).each;
   EXPECT_TRUE(std::isfinite(each)) << each;
 }
 
-// Also where the number of samples is chosen when the photons are there, and tried.
+// The photons stay valid when the number of samples is chosen after the shoot, and after trials.
 TEST_F(PassTrials, PhotonsShotBeforeGiveTheSamePicture) {
   const RenderResult whole = render(scene_, bvh_, settings_);
   RenderSettings before = settings_;
@@ -94,7 +94,7 @@ TEST_F(PassTrials, PhotonsShotBeforeGiveTheSamePicture) {
   write_if_failed(result.film, "photons_before");
 }
 
-TEST_F(PassTrials, PhotonsShotBeforeAreThoseOfASinglePass) {
+TEST_F(PassTrials, PhotonsShotBeforeAreForASinglePass) {
   auto photons = std::make_shared<FirstPhotons>(shoot_first(scene_, bvh_, settings_, plan_, {}));
   settings_.passes = 2;
   EXPECT_THROW(render(scene_, bvh_, settings_, {}, {.photons = photons}), std::invalid_argument);

@@ -1,4 +1,5 @@
-// Passes: shares, the same light in any number of them, the same bits for any number of threads.
+// Tests passes: their shares of photons and samples, the same light for any number of them, the same bits for
+// any number of threads.
 
 #include "render/passes/passes.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 using namespace test;
 
-TEST(Passes, AreEqualAndHoldAllThatWasAskedFor) {
+TEST(Passes, AreEqualAndCoverTheRequest) {
   for (const uint64_t shares : {uint64_t{1}, uint64_t{2}, uint64_t{7}, uint64_t{64}}) {
     for (const uint64_t photons : {uint64_t{64}, uint64_t{1'000'003}, ~uint64_t{0}}) {
       for (const int spp : {1, 16, 1000}) {
@@ -53,7 +54,7 @@ TEST(Passes, RadiiFollowTheClosedForm) {
 }
 
 // With a given radius the estimate is linear in the photons, so passes have the same expectation in every
-// class of paths and block of pixels: what is left is noise.
+// class of paths and block of pixels, and only noise differs.
 TEST(Passes, GiveTheSameLight) {
   const Scene scene = cornell(kSize);
   for (const Method method : {Method::kPhoton, Method::kHybrid}) {
@@ -73,17 +74,17 @@ TEST(Passes, GiveTheSameLight) {
   }
 }
 
-TEST(Passes, AreAsManyAsMemoryAsksFor) {
+TEST(Passes, FollowTheMemoryLimit) {
   const Scene scene = cornell(kSize);
   RenderSettings settings = settings_of(Method::kPhoton, 8, 0.15f, 1);
-  settings.adaptive = 0;  // one pass alone would take further samples
+  settings.adaptive = 0;  // a single pass would take further samples
   const auto one = render_with_threads(scene, settings);
   EXPECT_EQ(one.statistics.passes, 1u);
   settings.photon_memory = one.statistics.photon_bytes / 2;
   const auto several = render_with_threads(scene, settings);
-  EXPECT_GE(several.statistics.passes, 3u);  // maps and what their build needs
+  EXPECT_GE(several.statistics.passes, 3u);  // the limit includes the maps and the memory of their build
   EXPECT_LE(several.statistics.photon_bytes, settings.photon_memory);
-  // Rounded up to the same for each pass.
+  // The numbers per pass are rounded up and equal for all passes.
   const uint64_t passes = several.statistics.passes;
   EXPECT_GE(several.statistics.photons.emitted, settings.photons);
   EXPECT_LT(several.statistics.photons.emitted, settings.photons + passes);
@@ -104,29 +105,29 @@ TEST(Passes, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.statistics.photons.stored, many.statistics.photons.stored);
 }
 
-// The radius that is chosen is that of all photons, not of one pass's: fewer neighbours stand for as many.
-TEST(Passes, ChosenRadiiAreThoseOfAllPhotons) {
+// The chosen radius is that of all photons, not of one pass's: k is divided by the number of passes.
+TEST(Passes, ChosenRadiiAreForAllPhotons) {
   const Scene scene = cornell(kSize);
   RenderSettings settings = settings_of(Method::kPhoton, 8, 0, 1);
   settings.radius.reset();
   const auto one = render_with_threads(scene, settings);
   settings.passes = 4;
   const auto four = render_with_threads(scene, settings);
-  // The distance to the k-th of 1/4 of the photons, k = 16 and 64: its median over the image varies by about
-  // 1 / (2 sqrt(k)), 13 and 6 %, at one point, and less over 1024.
+  // The distance to the k-th of 1/4 of the photons, k = 16 and 64: at one point it varies by about 1 / (2
+  // sqrt(k)), 13 and 6 %, and its median over 1024 points varies less.
   EXPECT_NEAR(four.statistics.direct_radius / one.statistics.direct_radius, 1, 0.13);
   EXPECT_NEAR(four.statistics.indirect_radius / one.statistics.indirect_radius, 1, 0.06);
 }
 
-TEST(Passes, MoreThanPhotonsAreRefused) {
+TEST(Passes, RefuseMorePassesThanPhotons) {
   RenderSettings settings = settings_of(Method::kPhoton, 1, 0.15f, 1);
   settings.photons = 3;
   settings.passes = 4;
   EXPECT_THROW(render_with_threads(cornell(8), settings), std::invalid_argument);
 }
 
-// A number of passes that is asked for is not raised.
-TEST(Passes, MapsThatDoNotFitAreRefused) {
+// A requested number of passes is not raised.
+TEST(Passes, RefuseMapsThatDoNotFit) {
   const Scene scene = cornell(8);
   const accel::Bvh bvh(scene);
   RenderSettings settings = settings_of(Method::kPhoton, 1, 0.15f, 1);
@@ -141,7 +142,8 @@ TEST(Passes, MapsThatDoNotFitAreRefused) {
   settings.passes = 0;
   settings.photons = ~uint64_t{0};
   settings.photon_memory = 10'000;
-  EXPECT_THROW(choose_passes(scene, bvh, settings, &plan), std::runtime_error);  // above 10^15 passes
+  EXPECT_THROW(choose_passes(scene, bvh, settings, &plan),
+               std::runtime_error);  // would need more than 10^15 passes
 }
 
 }  // namespace

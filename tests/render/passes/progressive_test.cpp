@@ -1,4 +1,4 @@
-// Passes that are split, joined, extended; radii that shrink.
+// Tests passes that are split, joined and extended, and radii that shrink.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,7 @@
 #include "render/statistics_json.h"
 #include "tests/render/support/closed_forms.h"
 #include "tests/render/support/image_statistics.h"
+#include "tests/support/packed_flux.h"
 
 namespace kaustik::render {
 namespace {
@@ -43,7 +44,7 @@ void expect_same(const PassSums& a, const PassSums& b) {
       ASSERT_EQ(a.totals.pixels().at(x, y), b.totals.pixels().at(x, y)) << x << " " << y;
 }
 
-// Radii are chosen, so that parts without the first pass must shoot its photons for them.
+// The radii are chosen automatically, so parts without the first pass must shoot its photons for them.
 TEST(Progressive, AnySplitGivesTheSameBits) {
   const Scene scene = cornell(20);
   for (const Method method : {Method::kAuto, Method::kHybrid, Method::kMc}) {
@@ -64,8 +65,8 @@ TEST(Progressive, AnySplitGivesTheSameBits) {
   }
 }
 
-// With a gap in the middle, and beyond the passes of the settings.
-TEST(Progressive, GoesOnFromWhatIsThere) {
+// The sums have a gap in the middle, and the new passes go beyond those of the settings.
+TEST(Progressive, ContinuesFromExistingSums) {
   const Scene scene = cornell(20);
   const RenderSettings settings = split_settings();
   const PassSums whole = sums_of(scene, settings, {.passes = PassSet(0, 8)});
@@ -80,8 +81,8 @@ TEST(Progressive, GoesOnFromWhatIsThere) {
   EXPECT_EQ(seen, (std::vector<std::string>{"0:3,4:5", "0:5", "0:6", "0:7", "0:8"}));
 }
 
-// What says that they are enough ends a render, which is complete then.
-TEST(Progressive, StopsWhenThePassesAreEnough) {
+// A callback may end the render after a pass; the render is then complete.
+TEST(Progressive, StopsWhenTheCallbackSaysSo) {
   const Scene scene = cornell(20);
   const RenderSettings settings = split_settings();
   const RenderTask task{.passes = PassSet(0, kMostPasses),
@@ -89,8 +90,8 @@ TEST(Progressive, StopsWhenThePassesAreEnough) {
   expect_same(sums_of(scene, settings, task), sums_of(scene, settings, {.passes = PassSet(0, 3)}));
 }
 
-// The units scale with the scene, so the multiples stay: depth and lights that are points, too.
-TEST(Progressive, AScaledSceneHasTheSameMultiples) {
+// The units scale with the scene, so the multiples stay the same, for depth and point lights too.
+TEST(Progressive, ScaledSceneHasTheSameMultiples) {
   const auto sums = [](float scale) {
     Scene scene = cornell(12, scale);
     scene.lights.push_back(PointLight{{0.3f * scale, 1.5f * scale, 0}, Rgb(0.7f * scale * scale)});
@@ -111,8 +112,8 @@ TEST(Progressive, AScaledSceneHasTheSameMultiples) {
   }
 }
 
-// The same picture without keeping the totals.
-TEST(Progressive, ASinglePassNeedsNoTotals) {
+// The picture is the same without the totals.
+TEST(Progressive, SinglePassNeedsNoTotals) {
   const Scene scene = cornell(20);
   RenderSettings settings = split_settings();
   settings.passes = 1;
@@ -127,7 +128,7 @@ TEST(Progressive, ASinglePassNeedsNoTotals) {
   EXPECT_EQ(render(scene, bvh, settings, {}, {.keep_sums = false}).sums.totals.pixels().width(), 20);
 }
 
-TEST(Progressive, ThePassesOfTwoSumsMustDiffer) {
+TEST(Progressive, RefusesToJoinSumsThatShareAPass) {
   const Scene scene = cornell(8);
   RenderSettings settings = split_settings();
   PassSums a = sums_of(scene, settings, {.passes = PassSet(0, 2)});
@@ -140,7 +141,7 @@ TEST(Progressive, ThePassesOfTwoSumsMustDiffer) {
   EXPECT_THROW(sums_of(scene, settings, {.passes = PassSet(0, 2)}), std::invalid_argument);
 }
 
-TEST(PassSets, AreSetsOfRanges) {
+TEST(PassSets, StoreRangesOfPasses) {
   PassSet set(0, 16);
   set.add(PassSet(32, 48));
   EXPECT_EQ(set.text(), "0:16,32:48");
@@ -158,10 +159,10 @@ TEST(PassSets, AreSetsOfRanges) {
   EXPECT_TRUE(PassSet::parse("0:2147483647"));
 }
 
-// A point light at height 1 over a plane, seen below the light. The estimate of radius r is the mean of
-// E = I h / (rho^2 + h^2)^(3/2) over the disc of radius r: 2 I h / r^2 (1 / h - 1 / sqrt(r^2 + h^2)), so with
-// r = 0.5 it is 16 % low, in every pass. With alpha = 2/3 it is what the mean over the passes' radii says,
-// and goes to zero.
+// A point light at height 1 over a plane, seen below the light. The estimate of radius r is the mean of E = I
+// h / (rho^2 + h^2)^(3/2) over the disc of radius r: 2 I h / r^2 (1 / h - 1 / sqrt(r^2 + h^2)), so with r =
+// 0.5 it is 16 % too low in every pass. With alpha = 2/3 the bias is the mean over the passes' radii, and
+// goes to zero.
 struct ShrinkingDisc {
   double bias(float alpha, uint64_t passes) const {
     double sum = 0;
@@ -171,7 +172,7 @@ struct ShrinkingDisc {
     }
     return sum / double(passes) - 1;  // relative to E = I / h^2
   }
-  // Poisson at most: the M photons in reach of a pass, of N over the sphere, have M = N r^2 / (4 h^2).
+  // The scatter is Poisson at most: of N photons over the sphere M = N r^2 / (4 h^2) are in reach of a pass.
   double standard_error(float alpha, uint64_t passes) const {
     double sum = 0;
     for (uint64_t p = 0; p < passes; ++p)
@@ -195,11 +196,11 @@ struct ShrinkingDisc {
     return total_mean(render_with_threads(scene, settings).film) * double(kPi) / (0.5 * 3) - 1;
   }
   static constexpr double kRadius = 0.5;
-  static constexpr uint64_t kPhotons = 20'000;  // of a pass
+  static constexpr uint64_t kPhotons = 20'000;  // per pass
 };
 
-// Where the radius is that of the K-th nearest photon, it shrinks because K does: in proportion to r^2, down
-// to eight. The K-th photon itself does not count, so that of one there would be no light.
+// Where the radius is that of the K-th nearest photon it shrinks because K does: in proportion to r^2, down
+// to eight. The K-th photon itself does not count, so K = 1 would give no light.
 TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
   const Scene scene = cornell(8);
   const accel::Bvh bvh(scene);
@@ -226,13 +227,13 @@ TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
   }
 }
 
-TEST(Progressive, ShrinkingRadiiTakeTheBiasAway) {
+TEST(Progressive, ShrinkingRadiiRemoveTheBias) {
   const ShrinkingDisc disc;
   constexpr float kShrinking = 2.0f / 3;
   for (const float alpha : {1.0f, kShrinking}) {
     for (const uint64_t passes : {uint64_t{4}, uint64_t{64}}) {
-      // 1/512: all photons have the same flux, stored with 9 bits.
-      const double bound = 4 * disc.standard_error(alpha, passes) + 1.0 / 512;
+      // All photons have the same flux, so packing may shift the mean by kPackedFluxError.
+      const double bound = 4 * disc.standard_error(alpha, passes) + kPackedFluxError;
       EXPECT_NEAR(disc.measured(alpha, passes), disc.bias(alpha, passes), bound) << alpha << " " << passes;
     }
   }
@@ -243,8 +244,8 @@ TEST(Progressive, ShrinkingRadiiTakeTheBiasAway) {
             8 * (disc.standard_error(kShrinking, 64) + disc.standard_error(1, 64)));
 }
 
-// However the photons are shared out, a pass that searches for the nearest finds light.
-TEST(Progressive, TheNearestPhotonsOfManyPassesAreNeverTooFew) {
+// Even with few photons per pass, a nearest search finds light.
+TEST(Progressive, NearestPhotonsStayAtLeastEight) {
   const Scene scene = cornell(8);
   const accel::Bvh bvh(scene);
   RenderSettings settings;

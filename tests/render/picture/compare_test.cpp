@@ -1,4 +1,4 @@
-// The metrics against values worked out by hand.
+// Tests the metrics against values worked out by hand.
 
 #include "render/picture/compare.h"
 
@@ -9,8 +9,8 @@
 namespace kaustik::render {
 namespace {
 
-// Two pixels: reference (1,1,1) and (0,2,0), image (1,1,1.5) and (0.1,2,0).
-TEST(Compare, HandComputed) {
+// Two pixels: the reference is (1,1,1) and (0,2,0), the image (1,1,1.5) and (0.1,2,0).
+TEST(Compare, MatchesValuesByHand) {
   Image reference(2, 1), image(2, 1);
   reference.at(0, 0) = {1, 1, 1}, reference.at(1, 0) = {0, 2, 0};
   image.at(0, 0) = {1, 1, 1.5f}, image.at(1, 0) = {0.1f, 2, 0};
@@ -33,11 +33,11 @@ TEST(Compare, EqualImagesHaveNoError) {
   EXPECT_EQ(r.relmse, 0);
   EXPECT_TRUE(std::isinf(r.psnr));
   EXPECT_EQ(r.max_difference, 0);
-  const Image black(2, 2);  // its peak is 0 too
+  const Image black(2, 2);  // its peak is zero, too
   EXPECT_EQ(compare(black, black).psnr, kInfinity);
 }
 
-// A bright pixel hides the 5 x 5 square about it, cut at the border: a corner hides 3 x 3.
+// A bright pixel masks the 5 x 5 square about it, cut at the border: in a corner it masks 3 x 3 pixels.
 TEST(Compare, MaskLeavesOutTwoPixelsAroundBrightOnes) {
   Image reference(8, 8, Rgb(1)), image(8, 8, Rgb(1));
   reference.at(3, 3) = {0, 5, 0};
@@ -55,7 +55,7 @@ TEST(Compare, MaskLeavesOutTwoPixelsAroundBrightOnes) {
   Image corner(8, 8, Rgb(1));
   corner.at(0, 0) = Rgb(5);
   EXPECT_EQ(compare(corner, corner, {4.0f}).masked, 9u);
-  EXPECT_EQ(compare(corner, corner, {5.0f}).masked, 0u);  // only above the limit
+  EXPECT_EQ(compare(corner, corner, {5.0f}).masked, 0u);  // pixels at the limit are not masked
 }
 
 TEST(Compare, NanPixelsAreCountedAndLeftOut) {
@@ -75,7 +75,7 @@ TEST(Compare, SizesMustAgree) {
   EXPECT_THROW(compare(Image(), Image()), std::invalid_argument);
 }
 
-TEST(Heatmap, BlackWhereEqualWhiteWhereFarMagentaForNan) {
+TEST(Heatmap, IsBlackWhereEqualWhiteWhereFarMagentaForNan) {
   Image reference(3, 1, Rgb(1)), image(3, 1, Rgb(1));
   image.at(1, 0) = Rgb(100);
   image.at(2, 0) = Rgb(std::nanf(""));

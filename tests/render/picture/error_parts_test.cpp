@@ -1,4 +1,4 @@
-// Bias and variance against closed forms on synthetic images.
+// Tests bias and variance against closed forms on synthetic images.
 
 #include "render/picture/error_parts.h"
 
@@ -20,9 +20,9 @@ ErrorParts parts_of(const Image& reference, const std::vector<Image>& images,
   return sum.parts();
 }
 
-// Two images at R + b - d and R + b + d: s^2 = 2 d^2, (m - R)^2 - s^2 / 2 = b^2 - d^2. All numbers are exact
-// in float and double; the sums round a few times in double.
-TEST(ErrorParts, TwoImagesByHand) {
+// For two images at R + b - d and R + b + d, s^2 = 2 d^2 and (m - R)^2 - s^2 / 2 = b^2 - d^2. All numbers are
+// exact in float and double; the sums round a few times in double.
+TEST(ErrorParts, TwoImagesMatchValuesByHand) {
   const Image reference(4, 3, Rgb(0.5f));
   const double b = 0.25, d = 0.125, scale = 0.25 + 0.01;
   const ErrorParts parts =
@@ -43,10 +43,10 @@ Image noisy(const Image& mean, double bias, double sigma, unsigned seed) {
   return image;
 }
 
-// Bias b and Gaussian noise of sigma in n images of C channels. The mean of s^2 over channels has the
-// standard deviation sigma^2 sqrt(2 / (n - 1) / C); that of (m - R)^2 - s^2 / n, whose two terms are
-// independent, sqrt((2 sigma^4 / n^2 + 4 b^2 sigma^2 / n + 2 sigma^4 / (n^2 (n - 1))) / C). Five of them are
-// exceeded once in 1.7 million; the seeds are fixed.
+// The n images have the bias b and Gaussian noise of sigma in C channels. The mean of s^2 over channels has
+// the standard deviation sigma^2 sqrt(2 / (n - 1) / C); that of (m - R)^2 - s^2 / n, whose two terms are
+// independent, is sqrt((2 sigma^4 / n^2 + 4 b^2 sigma^2 / n + 2 sigma^4 / (n^2 (n - 1))) / C). Five of them
+// are exceeded once in 1.7 million; the seeds are fixed.
 TEST(ErrorParts, EstimatesAreUnbiased) {
   const Image reference(64, 64, Rgb(1));
   const double sigma = 0.2, C = 3 * 64 * 64, n = 5, scale = 1.01;
@@ -62,8 +62,8 @@ TEST(ErrorParts, EstimatesAreUnbiased) {
   }
 }
 
-// Whatever the images: relmse is the mean of compare's, and the parts add up to it. 1e-12: sums of 768
-// doubles.
+// For any images relmse is the mean of compare's, and the parts add up to it. The sums of 768 doubles round
+// by 1e-12.
 TEST(ErrorParts, AddUpToTheMeanOfRelMse) {
   const Image reference = noisy(Image(16, 16, Rgb(0.3f)), 0, 0.1, 1);
   std::vector<Image> images;
@@ -85,10 +85,10 @@ TEST(ErrorParts, OneImageHasNoVariance) {
   EXPECT_EQ(parts.bias2, std::nullopt);
 }
 
-// A pixel that is not finite in one image counts in none; a masked one neither.
-TEST(ErrorParts, LeavesOutWhatCompareLeavesOut) {
+// A pixel that is not finite in one image counts in none; nor does a masked pixel.
+TEST(ErrorParts, ExcludesThePixelsThatCompareExcludes) {
   Image reference(8, 8, Rgb(1));
-  reference.at(7, 7) = Rgb(100);  // hides 3 x 3 pixels
+  reference.at(7, 7) = Rgb(100);  // masks 3 x 3 pixels
   std::vector<Image> images(3, reference);
   images[1].at(0, 0).y = std::numeric_limits<float>::quiet_NaN();
   images[2].at(0, 0) = Rgb(5);
@@ -107,8 +107,8 @@ TEST(ErrorParts, RefusesAnotherSize) {
   EXPECT_THROW(sum.add(Image(4, 5)), std::invalid_argument);
 }
 
-// Three passes of radiance 1, 2 and 3 in every channel: mean 2, variance of the mean 1 / 3.
-TEST(RelativeNoise, IsTheVarianceOfTheMeanOverPasses) {
+// Three passes have the radiance 1, 2 and 3 in every channel: mean 2, variance of the mean 1 / 3.
+TEST(RelativeNoise, EqualsTheVarianceOfTheMeanOverPasses) {
   FilmSums film(2, 2);
   FilmTotals totals(window_of<PixelTotals>(film), {-40, -40, -40});
   for (const double radiance : {1.0, 2.0, 3.0}) {
@@ -116,10 +116,10 @@ TEST(RelativeNoise, IsTheVarianceOfTheMeanOverPasses) {
       for (int x = 0; x < 2; ++x) film.at(x, y) = {.direct = glm::dvec3(radiance), .count = 1};
     totals.add(film);
     if (radiance == 1) {
-      EXPECT_EQ(relative_noise(totals), std::nullopt);  // one pass says nothing
+      EXPECT_EQ(relative_noise(totals), std::nullopt);  // one pass has no variance
     }
   }
-  // Units of 2^-40 are exact here; double rounds the rest.
+  // The units of 2^-40 are exact here; double rounds the rest.
   EXPECT_NEAR(relative_noise(totals).value(), 1.0 / 3 / (4 + 0.01), 1e-12);
 }
 
@@ -127,12 +127,12 @@ TEST(Shrunk, PixelsAreMeansOverTheirArea) {
   Image image(6, 3);
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 6; ++x) image.at(x, y) = Rgb(float(x), float(y), 1);
-  const Image half = shrunk(image, 2);  // of 3 x 3 pixels each
+  const Image half = shrunk(image, 2);  // each pixel is the mean of 3 x 3
   ASSERT_EQ(half.width, 2);
   ASSERT_EQ(half.height, 1);
   EXPECT_EQ(half.at(0, 0), Rgb(1, 1, 1));
   EXPECT_EQ(half.at(1, 0), Rgb(4, 1, 1));
-  // 1.5 pixels each: (0 + 1 / 2) / 1.5 = 1 / 3 first. Float rounds once.
+  // Each pixel covers 1.5 pixels: the first is (0 + 1 / 2) / 1.5 = 1 / 3. Float rounds once.
   EXPECT_NEAR(shrunk(image, 4).at(0, 0).x, 1.0 / 3, 1e-7);
   EXPECT_EQ(shrunk(image, 6).pixels, image.pixels);
 }

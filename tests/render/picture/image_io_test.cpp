@@ -1,4 +1,4 @@
-// Files: round trips, layers, crops, errors; tone mapping against published values.
+// Tests image files: round trips, layers, crops, errors; and tone mapping against published values.
 
 #include "render/picture/image_io.h"
 
@@ -117,7 +117,7 @@ TEST(ImageIo, EqualPicturesAreEqualBytes) {
   EXPECT_EQ(bytes(first), bytes(second));
 }
 
-// A small file meets the end of the disk only when it is closed.
+// For a small file a full disk is noticed only when the file is closed.
 TEST(ImageIo, FullDiskIsNoticed) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const std::vector<float> grey(4 * 4, 0.5f);
@@ -143,7 +143,7 @@ TEST(ImageIo, JpegAndPfmAreRead) {
   write_image(jpeg, Image(16, 16, Rgb(0.2f)));
   EXPECT_NEAR(read_image(jpeg).at(8, 8).x, 0.2, 0.01);  // three levels of quantisation
 
-  // PFM: rows from bottom to top, little-endian for a negative scale.
+  // PFM stores rows from bottom to top, little-endian if the scale is negative.
   const std::string pfm = output_file("two.pfm");
   std::ofstream out(pfm, std::ios::binary);
   out << "PF\n1 2\n-1.0\n";
@@ -165,7 +165,7 @@ TEST(ImageIo, FailureNamesThePathAndLeavesNothing) {
     EXPECT_EQ(std::string(e.what()).rfind(path + ": ", 0), 0u) << e.what();
     EXPECT_EQ(e.path(), path);
   }
-  // The final name is a folder: the file can be written but not renamed.
+  // The final name is a folder, so the file can be written but not renamed.
   fs::create_directories(folder + "/taken.exr/full");
   EXPECT_THROW(write_film(folder + "/taken.exr", numbered_film()), ImageError);
   size_t entries = 0;
@@ -175,7 +175,7 @@ TEST(ImageIo, FailureNamesThePathAndLeavesNothing) {
   EXPECT_THROW(write_film(output_file("a.tiff"), numbered_film()), std::invalid_argument);
 }
 
-TEST(ImageIo, LayerNames) {
+TEST(ImageIo, ParsesLayerNames) {
   EXPECT_TRUE(layers_from_names({}).empty());
   EXPECT_EQ(layers_from_names({"all"}).size(), size_t(kLayers));
   EXPECT_EQ(layers_from_names({"depth", "caustic", "depth"}),
@@ -189,8 +189,8 @@ TEST(ImageIo, LayerNames) {
   }
 }
 
-// IEC 61966-2-1: 0.5 linear is 187.5 of 255; 0.0031308 is 0.04045; mid grey 0.2140 is 0.5.
-TEST(Tonemap, SrgbCurve) {
+// IEC 61966-2-1: 0.5 linear is level 187.5 of 255; 0.0031308 is 0.04045; 0.2140, mid grey, is 0.5.
+TEST(Tonemap, SrgbCurveMatchesTheStandard) {
   EXPECT_NEAR(srgb_from_linear(0.0031308f), 0.0404499f, 1e-6);
   EXPECT_NEAR(srgb_from_linear(0.2140411f), 0.5f, 1e-6);
   EXPECT_EQ(to_srgb8(Rgb(0, 0.5f, 1), {}), (std::array<uint8_t, 3>{0, 188, 255}));
@@ -202,17 +202,17 @@ TEST(Tonemap, SrgbCurve) {
     EXPECT_EQ(to_srgb8(Rgb(linear_from_srgb(float(level) / 255)), {})[0], level);
 }
 
-TEST(Tonemap, ExposureCountsStops) {
+TEST(Tonemap, ExposureIsInStops) {
   EXPECT_EQ(tonemap(Rgb(0.125f), {2, Tonemap::kSrgb}), Rgb(0.5f));
   EXPECT_EQ(tonemap(Rgb(0.5f), {-1, Tonemap::kSrgb}), Rgb(0.25f));
 }
 
-TEST(Tonemap, Operators) {
-  // Grey of luminance 1 halves; hue is kept.
+TEST(Tonemap, OperatorsMatchTheirFormulas) {
+  // A grey of luminance 1 becomes 0.5; the hue stays.
   EXPECT_NEAR(tonemap(Rgb(1), {0, Tonemap::kReinhard}).x, 0.5f, 1e-6);
   const Rgb c = tonemap(Rgb(0.6f, 0.3f, 0), {0, Tonemap::kReinhard});
   EXPECT_NEAR(c.x / c.y, 2, 1e-5);
-  // (1 (2.51 + 0.03)) / (1 (2.43 + 0.59) + 0.14)
+  // The filmic curve at 1 is (1 (2.51 + 0.03)) / (1 (2.43 + 0.59) + 0.14).
   EXPECT_NEAR(tonemap(Rgb(1), {0, Tonemap::kFilmic}).x, 2.54f / 3.16f, 1e-6);
   for (const Tonemap op : {Tonemap::kSrgb, Tonemap::kReinhard, Tonemap::kFilmic})
     EXPECT_EQ(tonemap(Rgb(kInfinity), {0, op}), Rgb(1)) << int(op);

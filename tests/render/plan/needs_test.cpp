@@ -1,4 +1,4 @@
-// Only what the scene and the estimators require is traced and stored: exact counters.
+// Tests, by exact counters, that only what the scene and the estimators require is traced and stored.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ Scene diffuse_room() {
 
 const Method kMethods[] = {Method::kRaytrace, Method::kMc, Method::kHybrid, Method::kPhoton, Method::kAuto};
 
-TEST(Needs, NoSpecularSurfaceNoCausticRays) {
+TEST(Needs, NoCausticRaysWithoutSpecularSurfaces) {
   for (const Method method : kMethods) {
     RenderSettings settings;
     settings.method = method;
@@ -39,7 +39,8 @@ TEST(Needs, NoSpecularSurfaceNoCausticRays) {
     EXPECT_EQ(s.rays.specular, 0u) << name_of(method);
     EXPECT_EQ(s.caustic_radius, 0) << name_of(method);
   }
-  // Even asked for: a photon ends at its first, diffuse, surface, so there is a ray for each and no more.
+  // Caustic photons are requested, but a photon ends at its first, diffuse, surface: there is one ray for
+  // each photon and no more.
   RenderSettings settings;
   settings.method = Method::kRaytrace;
   settings.caustics = CausticEstimator::kPhotons;
@@ -48,7 +49,7 @@ TEST(Needs, NoSpecularSurfaceNoCausticRays) {
   EXPECT_EQ(stored(s, PhotonKind::kCaustic), 0u);
 }
 
-TEST(Needs, ShadowPhotonsOnlyForAnEstimatorThatReadsThem) {
+TEST(Needs, ShadowPhotonsOnlyForEstimatorsThatUseThem) {
   for (const Method method : kMethods) {
     RenderSettings settings;
     settings.method = method;
@@ -64,12 +65,12 @@ TEST(Needs, IndirectOffTracesNoBounce) {
     RenderSettings settings;
     settings.method = method;
     settings.indirect = IndirectEstimator::kOff;
-    if (method == Method::kMc) settings.caustics = CausticEstimator::kOff;  // its paths bounce, too
+    if (method == Method::kMc) settings.caustics = CausticEstimator::kOff;  // its caustic paths bounce, too
     const RenderStatistics s = statistics_of(cornell(16), settings);
     EXPECT_EQ(s.rays.bounce, 0u) << name_of(method);
     EXPECT_EQ(stored(s, PhotonKind::kIndirect), 0u) << name_of(method);
   }
-  // Photons neither: in a diffuse room each has one ray.
+  // Photons do not bounce either: in a diffuse room each has one ray.
   RenderSettings settings;
   settings.method = Method::kPhoton;
   settings.indirect = IndirectEstimator::kOff;
@@ -78,7 +79,7 @@ TEST(Needs, IndirectOffTracesNoBounce) {
   EXPECT_EQ(stored(s, PhotonKind::kDirect), s.photons.emitted);
 }
 
-TEST(Needs, NoReaderNoPhotons) {
+TEST(Needs, NoPhotonsWithoutAnEstimatorThatUsesThem) {
   for (const Method method : {Method::kRaytrace, Method::kMc}) {
     RenderSettings settings;
     settings.method = method;
@@ -90,7 +91,7 @@ TEST(Needs, NoReaderNoPhotons) {
   }
 }
 
-TEST(Needs, NotesSayWhatThatSaves) {
+TEST(Needs, NotesNameWhatIsLeftOut) {
   for (const Method method : {Method::kMc, Method::kHybrid, Method::kAuto}) {
     RenderSettings settings;
     settings.method = method;

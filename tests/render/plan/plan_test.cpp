@@ -1,4 +1,4 @@
-// Which estimators a render uses.
+// Tests which estimators a render uses.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ struct Row {
   Indirect indirect;
 };
 
-TEST(Plan, PresetsOfASceneThatNeedsEverything) {
+TEST(Plan, PresetsForASceneThatNeedsEverything) {
   const Row table[] = {
       {Method::kRaytrace, Direct::kShadowRays, Caustic::kOff, Indirect::kOff},
       {Method::kMc, Direct::kShadowRays, Caustic::kPaths, Indirect::kPaths},
@@ -53,7 +53,7 @@ TEST(Plan, PresetsOfASceneThatNeedsEverything) {
   }
 }
 
-TEST(Plan, AutoPredictsVisibilityUnlessTheSkyIsAlone) {
+TEST(Plan, AutoPredictsVisibilityUnlessTheSkyIsTheOnlyLight) {
   SceneNeeds needs = needs_of(true);
   needs.infinite_light = true;
   EXPECT_EQ(make_plan({}, needs).direct, Direct::kPredicted);
@@ -63,7 +63,7 @@ TEST(Plan, AutoPredictsVisibilityUnlessTheSkyIsAlone) {
   EXPECT_EQ(make_plan({}, needs_of(true)).direct, Direct::kPredicted);
 }
 
-TEST(Plan, NoSpecularSurfaceNoCausticPass) {
+TEST(Plan, NoCausticPassWithoutSpecularSurfaces) {
   for (const Method method : {Method::kMc, Method::kHybrid, Method::kPhoton, Method::kAuto}) {
     RenderSettings settings;
     settings.method = method;
@@ -73,7 +73,7 @@ TEST(Plan, NoSpecularSurfaceNoCausticPass) {
   }
 }
 
-TEST(Plan, OverridesWin) {
+TEST(Plan, ExplicitChoicesOverrideThePreset) {
   RenderSettings settings;
   settings.method = Method::kPhoton;
   settings.direct = Direct::kShadowRays;
@@ -86,8 +86,8 @@ TEST(Plan, OverridesWin) {
   EXPECT_TRUE(mentions(plan, "no photon pass"));
 }
 
-// Each direct estimator has stored what it reads, and nothing else.
-TEST(Plan, OnlyWhatIsReadIsStored) {
+// Each direct estimator has exactly the photons stored that it uses.
+TEST(Plan, StoresOnlyThePhotonsThatAreUsed) {
   struct Reads {
     Direct direct;
     bool direct_photons, shadow_photons;
@@ -106,7 +106,7 @@ TEST(Plan, OnlyWhatIsReadIsStored) {
   }
 }
 
-TEST(Plan, NotesNameWhatIsMissing) {
+TEST(Plan, NotesNameWhatTheImageLacks) {
   RenderSettings settings;
   settings.method = Method::kMc;
   EXPECT_TRUE(mentions(make_plan(settings, needs_of(true, true)), "their caustics are missing"));

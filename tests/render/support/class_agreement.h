@@ -1,5 +1,5 @@
 #pragma once
-// Do photons and paths give the same light, class by class? Differences are held against the measured noise
+// Compares the light of photons and paths, class by class. Differences are compared with the measured noise
 // of several seeds and a kernel bias measured by halving the radius: an estimate whose bias falls at least
 // linearly with r has |bias(r)| <= 2 |estimate(r) - estimate(r/2)|.
 
@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "tests/render/support/image_statistics.h"
+#include "tests/support/packed_flux.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 
 inline constexpr int kSeeds = 6;
-// 5 standard errors of a difference, of 10 degrees of freedom: less than 1 in 1000 by chance.
+// With 10 degrees of freedom a difference exceeds 5 standard errors less than once in 1000.
 inline constexpr double kErrors = 5;
 inline constexpr int kSize = 24, kBlock = 8;
 inline constexpr std::array<Layer, 3> kClasses = {Layer::kDirect, Layer::kCaustic, Layer::kIndirect};
@@ -55,12 +56,12 @@ inline RenderSettings settings_of(Method method, int spp, float radius, uint64_t
   return settings;
 }
 
-// Powers are stored with 9 bits of mantissa shared by the three channels: a channel is off by at most 1/1022
-// of the largest one. The light of the box is (17, 12, 4), so means over channels of light on the coloured
-// walls are off by at most 17/4 of that, where only blue counts.
-inline constexpr double kPackedFlux = 17.0 / 4 / 1022;
+// Largest relative error of a mean over channels that packed fluxes cause here: each channel is off by up to
+// kPackedFluxError of the largest one. The light of the box is (17, 12, 4), so this is at most 17/4 of that,
+// on a surface that reflects blue only.
+inline constexpr double kPackedLight = 17.0 / 4 * kPackedFluxError;
 
-// Films of a scene by paths, and by a photon method at the full and at half the radius.
+// The films of a scene by paths, and by a photon method at the full and at half the radius.
 struct Comparison {
   const std::vector<Film>& mc;
   std::vector<Film> photons, half;
@@ -76,11 +77,11 @@ struct Comparison {
     const Estimate smaller = block_estimate(half, layer, block);
     const double noise =
         std::hypot(reference.standard_error, found.standard_error, 2 * smaller.standard_error);
-    const double bias = 2 * std::abs(found.mean - smaller.mean) + kPackedFlux * reference.mean;
+    const double bias = 2 * std::abs(found.mean - smaller.mean) + kPackedLight * reference.mean;
     EXPECT_NEAR(found.mean, reference.mean, kErrors * noise + bias)
         << kLayerNames[size_t(layer)] << " block " << block << " noise " << noise << " bias " << bias;
     if (block < 0) {
-      // The test can fail: noise and bias are small against what is measured.
+      // The test is sensitive: noise and bias are small against the light.
       EXPECT_LT(kErrors * noise + bias, meaningful * reference.mean) << kLayerNames[size_t(layer)];
     }
   }
@@ -95,14 +96,14 @@ struct Comparison {
   }
 };
 
-// Of whole pictures.
+// The mean over whole pictures and all classes.
 inline Estimate total(const std::vector<Film>& of) {
   std::vector<double> means;
   for (const Film& film : of) means.push_back(total_mean(film));
   return estimate_of(means);
 }
 
-// The settings with every way to estimate direct, caustic and indirect light.
+// The settings combined with every way to estimate direct, caustic and indirect light.
 inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) {
   settings.photons = 100'000;
   std::vector<RenderSettings> all;
@@ -121,13 +122,13 @@ inline std::string names_of_estimators(const RenderSettings& s) {
   return std::to_string(int(*s.direct)) + std::to_string(int(*s.caustics)) + std::to_string(int(*s.indirect));
 }
 
-// Whichever estimators are chosen, every path is counted once: the pictures' means are those of paths, but
+// Every path is counted once, whichever estimators are chosen: the pictures' means are those of paths, but
 // for noise and the kernels' bias.
 inline void expect_the_same_sum_by_all_estimators(const Scene& scene, float radius) {
   const Estimate reference = total(films(scene, settings_of(Method::kMc, 128, radius, 1)));
   const auto wide = total(films(scene, settings_of(Method::kPhoton, 16, radius, 20)));
   const auto narrow = total(films(scene, settings_of(Method::kPhoton, 16, radius / 2, 30)));
-  const double bias = kPackedFlux * reference.mean + 2 * std::abs(wide.mean - narrow.mean) +
+  const double bias = kPackedLight * reference.mean + 2 * std::abs(wide.mean - narrow.mean) +
                       kErrors * std::hypot(wide.standard_error, narrow.standard_error);
   for (const RenderSettings& settings : with_all_estimators(settings_of(Method::kAuto, 16, radius, 10))) {
     const Estimate found = total(films(scene, settings, 4));
@@ -138,4 +139,4 @@ inline void expect_the_same_sum_by_all_estimators(const Scene& scene, float radi
   }
 }
 
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

@@ -1,14 +1,14 @@
 #pragma once
-// Irradiance in closed form.
+// Irradiance in closed forms.
 
 #include <cmath>
 #include <glm/glm.hpp>
 #include <vector>
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 
-// E(rho) = I h / (rho^2 + h^2)^(3/2) under a point light at height h, and bounds of its Laplacian by
-// sampling.
+// Irradiance E(rho) = I h / (rho^2 + h^2)^(3/2) under a point light of intensity I at height h, at the
+// distance rho from the point below it.
 struct PointLightOverPlane {
   double I = 1, h = 1;
   double irradiance(double rho2) const { return I * h / std::pow(rho2 + h * h, 1.5); }
@@ -28,4 +28,4 @@ inline double lambert_polygon(const std::vector<glm::dvec3>& polygon, const glm:
   return std::abs(L / 2 * sum);
 }
 
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

@@ -3,25 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
 #include "render/picture/image_io.h"
 #include "tests/render/support/test_scenes.h"
+#include "tests/support/output_folder.h"
+#include "tests/support/statistics.h"
 
-namespace kaustik::render::test {
-
-struct Estimate {
-  double mean = 0, standard_error = 0;
-};
-
-inline Estimate estimate_of(const std::vector<double>& values) {
-  double sum = 0, squares = 0;
-  for (const double v : values) sum += v;
-  const double mean = sum / double(values.size());
-  for (const double v : values) squares += (v - mean) * (v - mean);
-  return {mean, std::sqrt(squares / double(values.size() - 1) / double(values.size()))};
-}
+namespace kaustik::test {
 
 // Mean over all pixels and channels of one class of paths (Layer::kEmitted to kIndirect).
 inline double layer_mean(const Film& film, Layer layer) {
@@ -45,15 +34,9 @@ inline double total_mean(const Film& film) {
   return sum;
 }
 
-// Where a failing test leaves its picture.
-// In a folder of the test's own: tests run side by side.
+// A file in the test's own folder.
 inline std::string output_file(const std::string& name) {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  std::string folder = std::string(test->test_suite_name()) + "." + test->name();
-  std::replace(folder.begin(), folder.end(), '/', '_');
-  const auto path = std::filesystem::path(KAUSTIK_TEST_OUTPUT_DIR) / folder;
-  std::filesystem::create_directories(path);
-  return (path / name).string();
+  return (output_folder() / name).string();
 }
 
 inline void write_if_failed(const Film& film, const std::string& name) {
@@ -64,4 +47,4 @@ inline void write_if_failed(const Film& film, const std::string& name) {
   write_film(output_file(name + ".png"), film);
 }
 
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

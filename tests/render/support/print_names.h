@@ -1,5 +1,5 @@
 #pragma once
-// GoogleTest prints the choices of RenderSettings by their names: in the names of tests and in failures.
+// Lets GoogleTest print the choices of RenderSettings by their names, in the names of tests and in failures.
 
 #include <concepts>
 #include <ostream>

@@ -1,5 +1,5 @@
 #pragma once
-// The scenes of the scenes/ folder.
+// Loads scenes from the scenes/ folder.
 
 #include <filesystem>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 #include "apps/import/import_scene.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 
 // file: relative to scenes/. Throws when it does not load.
 inline Scene scene_from(const std::string& file) {
@@ -17,4 +17,4 @@ inline Scene scene_from(const std::string& file) {
   return std::move(loaded->scene);
 }
 
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

@@ -4,14 +4,13 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <glm/gtc/matrix_transform.hpp>
-#include <stdexcept>
-
-#include "core/scene/scene.h"
 #include "render/renderer.h"
 #include "tests/render/support/print_names.h"
+#include "tests/support/shapes.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
+
+using namespace render;  // the helpers of tests/render/support are about renders
 
 inline uint32_t add_material(Scene& scene, const Bsdf& bsdf) {
   scene.materials.push_back(bsdf);
@@ -27,44 +26,6 @@ inline Shape& add_shape(Scene& scene, Shape shape) {
   return scene.shapes.back();
 }
 
-inline void make_light(Scene& scene, Shape& shape, const Rgb& L, bool twosided = false) {
-  auto light = DiffuseAreaLight::make(shape, L, twosided);
-  if (!light) throw std::logic_error("this shape cannot emit");
-  shape.light = uint32_t(scene.lights.size());
-  scene.lights.push_back(*light);
-}
-
-// Outside is the side of (p1 - p0) x (p2 - p0).
-inline Shape quad(const Point3& p0, const Point3& p1, const Point3& p2, const Point3& p3, uint32_t material) {
-  TriangleMesh mesh;
-  mesh.P = {p0, p1, p2, p3};
-  mesh.indices = {{0, 1, 2}, {0, 2, 3}};
-  Shape shape;
-  shape.geometry = std::move(mesh);
-  shape.material = material;
-  return shape;
-}
-
-inline Shape triangle(const Point3& p0, const Point3& p1, const Point3& p2, uint32_t material) {
-  TriangleMesh mesh;
-  mesh.P = {p0, p1, p2};
-  mesh.indices = {{0, 1, 2}};
-  Shape shape;
-  shape.geometry = std::move(mesh);
-  shape.material = material;
-  return shape;
-}
-
-inline Shape sphere(const Point3& center, float radius, uint32_t material, bool inward = false) {
-  Shape shape;
-  const glm::dmat4 m =
-      glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(center)), glm::dvec3(double(radius)));
-  shape.geometry = Sphere{Transform::from_matrix(m)};
-  shape.material = material;
-  shape.flip_normal = inward;
-  return shape;
-}
-
 // A horizontal rectangle about (x, y, z), facing up or down.
 inline Shape horizontal(const Point3& c, float half_x, float half_z, bool up, uint32_t material) {
   const Point3 a = c + Vector3(-half_x, 0, -half_z), b = c + Vector3(-half_x, 0, half_z);
@@ -72,7 +33,8 @@ inline Shape horizontal(const Point3& c, float half_x, float half_z, bool up, ui
   return up ? quad(a, b, d, e, material) : quad(a, e, d, b, material);
 }
 
-// Camera at eye towards target: +x of the image to the right of a viewer in a right-handed world.
+// Puts the camera at eye, looking towards target; +x of the image is to the right of a viewer in a
+// right-handed world.
 inline void look_at(Scene& scene, const Point3& eye, const Point3& target, const Vector3& up, float fov,
                     int width, int height) {
   const glm::dvec3 forward = glm::normalize(glm::dvec3(target) - glm::dvec3(eye));
@@ -87,7 +49,7 @@ inline void look_at(Scene& scene, const Point3& eye, const Point3& target, const
 }
 
 // A closed box [-1, 1] x [0, 2] x [-1, 1] with a red and a green wall, a light of side 0.5 just below the
-// ceiling, a glass sphere and a mirror sphere. No front wall's back is seen: the camera stands inside.
+// ceiling, a glass sphere and a mirror sphere. The camera is inside.
 inline Scene cornell(int size, float scale = 1) {
   const float s = scale;
   Scene scene;
@@ -113,8 +75,7 @@ inline Scene cornell(int size, float scale = 1) {
   return scene;
 }
 
-// The box with a diffuse plate under the light: something that casts shadow photons, which mirror and glass
-// do not.
+// The box with a diffuse plate under the light, which casts shadow photons; mirror and glass do not.
 inline Scene cornell_with_table(int size) {
   Scene scene = cornell(size);
   add_shape(scene, horizontal({-0.3f, 1.2f, 0}, 0.3f, 0.3f, true, 0));
@@ -129,9 +90,9 @@ inline RenderResult render_with_threads(const Scene& scene, const RenderSettings
   RenderResult result;
   arena.execute([&] {
     const accel::Bvh bvh(scene, threads);
-    result = render(scene, bvh, settings);
+    result = render::render(scene, bvh, settings);
   });
   return result;
 }
 
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes with textures, written as files beside their images.
+// Writes scenes with textures as files beside their images.
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -9,9 +9,9 @@
 #include "apps/import/import_scene.h"
 #include "tests/render/support/image_statistics.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 
-// Bytes of one or three channels, rows from the top.
+// bytes: one or three channels, rows from the top.
 inline void write_png(const std::string& name, int width, int channels, const std::vector<uint8_t>& bytes) {
   const int height = int(bytes.size()) / width / channels;
   const std::string path = output_file(name);
@@ -37,4 +37,4 @@ inline std::string rectangle(const std::string& corners, const std::string& more
          corners + "] " + more + "\n";
 }
 
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

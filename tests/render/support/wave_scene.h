@@ -1,14 +1,14 @@
 #pragma once
-// A box half full of waving water: the floor is seen, and lit, only through a refracting surface with smooth
-// normals.
+// A box half full of water with waves: the floor is seen, and lit, only through a refracting surface with
+// smooth normals.
 
 #include <cmath>
 
 #include "tests/render/support/test_scenes.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 
-// Height field y = 0.6 + waves over [-1, 1]^2 with its exact normals, outside up.
+// A height field y = 0.6 + waves over [-1, 1]^2 with its exact normals, outside up.
 inline TriangleMesh waves(int cells) {
   TriangleMesh mesh;
   const auto at = [cells](int i) { return -1 + 2 * float(i) / float(cells); };
@@ -55,4 +55,4 @@ inline Scene wave_scene(int size) {
   return scene;
 }
 
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

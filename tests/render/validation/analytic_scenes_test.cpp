@@ -1,26 +1,26 @@
-// The analytic scenes of the scenes/ folder, as files: every pixel against the closed form that the file
-// states.
+// Tests the analytic scenes of the scenes/ folder: every pixel against the closed form that the file states.
 
 #include <gtest/gtest.h>
 
 #include "tests/render/support/closed_forms.h"
 #include "tests/render/support/image_statistics.h"
 #include "tests/render/support/scene_files.h"
+#include "tests/support/packed_flux.h"
 
-namespace kaustik::render::test {
+namespace kaustik::test {
 namespace {
 
 constexpr double kRho = 0.5;
 
-// Point of the plane y = 0 that a raster position shows.
+// The point of the plane y = 0 that a raster position shows.
 glm::dvec3 on_plane(const Camera& camera, double x, double y) {
   const Ray ray = camera.generate_ray({float(x), float(y)});
   const glm::dvec3 o(ray.o), d(ray.d);
   return o - d * (o.y / d.y);
 }
 
-// Least and largest value of a form of the plane's points over a pixel, from a grid that includes its
-// corners.
+// The least and the largest value of a form over the points of the plane in a pixel, from a grid that
+// includes the pixel's corners.
 template <class Form>
 std::pair<double, double> over_pixel(const Camera& camera, int x, int y, Form&& form) {
   constexpr int kGrid = 4;
@@ -46,7 +46,7 @@ Film render_file(const Scene& scene, Method method, int spp, uint64_t seed = 1) 
 }
 
 // A point light has no noise: each sample of a pixel lies between the least and the largest radiance on the
-// pixel, but for the grid's resolution (a sixteenth of the range, generously for a smooth form) and float
+// pixel, up to the grid's resolution (a sixteenth of the range, generous for a smooth form) and float
 // rounding.
 TEST(AnalyticScenes, PointOverPlaneHoldsInEveryPixel) {
   const Scene scene = scene_from("point-over-plane/point-over-plane.pbrt");
@@ -67,9 +67,9 @@ TEST(AnalyticScenes, PointOverPlaneHoldsInEveryPixel) {
   }
 }
 
-// Noise of one image: the samples of neighbouring pixels are independent, so blocks of 8 x 8 pixels tell the
-// standard error of their mean themselves (the variation of the closed form within a block only makes it
-// larger). 256 blocks: 5 standard errors of 63 degrees of freedom are 1 in 1000 over all of them.
+// The samples of neighbouring pixels are independent, so blocks of 8 x 8 pixels measure the standard error of
+// their own mean (the variation of the closed form within a block only makes it larger). Over 256 blocks 5
+// standard errors with 63 degrees of freedom are exceeded once in 1000.
 TEST(AnalyticScenes, PolygonOverPlaneHoldsInEveryBlock) {
   const Scene scene = scene_from("polygon-over-plane/polygon-over-plane.pbrt");
   const std::vector<glm::dvec3> light = {{-0.3, 1, -0.2}, {0.4, 1, -0.1}, {-0.1, 1, 0.3}};
@@ -82,7 +82,7 @@ TEST(AnalyticScenes, PolygonOverPlaneHoldsInEveryBlock) {
       double mean = 0;
       for (int y = by; y < by + kBlock; ++y)
         for (int x = bx; x < bx + kBlock; ++x) {
-          // Pixels that show the light's back, in part or whole, are left out.
+          // Pixels that show the light's back, fully or partly, are left out.
           if (film.at(x, y).albedo.x != float(kRho)) continue;
           const glm::dvec3 p = on_plane(scene.camera, x + 0.5, y + 0.5);
           const double expected = kRho / double(kPi) * lambert_polygon(light, p, {0, 1, 0}, 10);
@@ -92,7 +92,8 @@ TEST(AnalyticScenes, PolygonOverPlaneHoldsInEveryBlock) {
       if (differences.size() < size_t(kBlock * kBlock)) continue;
       ++blocks;
       const Estimate d = estimate_of(differences);
-      // The pixel's mean differs from its centre's value by its curvature: 1e-3 of it at these 0.02 m pixels.
+      // A pixel's mean differs from its centre's value by the curvature: 1e-3 of the value at pixels of 0.02
+      // m.
       EXPECT_NEAR(d.mean, 0, 5 * d.standard_error + 1e-3 * mean / (kBlock * kBlock))
           << "block at " << bx << " " << by;
     }
@@ -100,8 +101,8 @@ TEST(AnalyticScenes, PolygonOverPlaneHoldsInEveryBlock) {
   write_if_failed(film, "polygon_over_plane");
 }
 
-// Le / (1 - rho) = 2. The photon estimate has no kernel bias on a sphere (a cap of chord r has the area pi
-// r^2); its power's rounding is below 2^-9. Eight seeds: 5 standard errors.
+// The radiance is Le / (1 - rho) = 2. The photon estimate has no kernel bias on a sphere (a cap of chord r
+// has the area pi r^2), so only the rounding of packed fluxes remains. Eight seeds: 5 standard errors.
 TEST(AnalyticScenes, FurnaceIsTwoEverywhere) {
   const Scene scene = scene_from("furnace/furnace.pbrt");
   for (const Method method : {Method::kMc, Method::kHybrid, Method::kPhoton, Method::kAuto}) {
@@ -109,10 +110,10 @@ TEST(AnalyticScenes, FurnaceIsTwoEverywhere) {
     for (uint64_t seed = 1; seed <= 8; ++seed)
       means.push_back(total_mean(render_file(scene, method, 1, seed)));
     const Estimate found = estimate_of(means);
-    EXPECT_NEAR(found.mean, 2, 5 * found.standard_error + 2.0 / 512) << int(method);
+    EXPECT_NEAR(found.mean, 2, 5 * found.standard_error + 2 * kPackedFluxError) << int(method);
     EXPECT_LT(found.standard_error, 0.02) << int(method);
   }
 }
 
 }  // namespace
-}  // namespace kaustik::render::test
+}  // namespace kaustik::test

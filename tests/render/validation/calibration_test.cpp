@@ -1,4 +1,4 @@
-// Is what a render says about its own error true?
+// Tests whether a render's statement of its own error is true.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,8 @@ RenderResult render_all(const Scene& scene, const RenderSettings& settings) {
   return result;
 }
 
-// 80 times the photons and 64 times the samples of what is judged: a ninth of its noise; a shrinking radius.
+// 80 times the photons and 64 times the samples of the tested render, so a ninth of its noise, with a
+// shrinking radius.
 Film converged(const Scene& scene) {
   RenderSettings settings;
   settings.photons = 8'000'000;
@@ -63,8 +64,8 @@ struct Case {
 
 class Calibration : public ::testing::TestWithParam<Case> {};
 
-// 85 to 97 % of pixels within a bound that is stated for 90 %: an estimate of the error from eight passes is
-// itself rough, and light that few passes saw has long tails.
+// Between 85 and 97 % of the pixels must lie within a bound that is stated for 90 %: an error estimate from
+// eight passes is itself rough, and light that few passes saw has long tails.
 TEST_P(Calibration, NinetyPercentBoundHolds) {
   const Scene scene = GetParam().scene();
   const Film reference = converged(scene);

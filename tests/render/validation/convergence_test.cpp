@@ -1,5 +1,5 @@
-// Method auto with all that it chooses by itself (estimators, radii, guides) goes to what paths say, and what
-// it says of its bias is the rest.
+// Tests that method auto, with everything it chooses by itself (estimators, radii, guides), converges to the
+// result of paths, and that its stated bias explains the difference.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ using namespace test;
 
 constexpr int kBlocks = kSize / kBlock * (kSize / kBlock);
 
-// A room seen from inside, under a sky that comes in by a window alone, through a pane. On a plain that is
-// seven times as wide, so that one photon in some hundreds comes in.
+// A room seen from inside. The sky's light enters only by a window with a glass pane. The room stands on a
+// plain seven times as wide, so one photon in some hundreds gets in.
 Scene room_with_window() {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(0.7f)});
@@ -40,7 +40,7 @@ Scene room_with_window() {
   return scene;
 }
 
-// The only light is inside a ball of glass: all light is caustic at first.
+// The only light is inside a ball of glass, so all light starts as caustic light.
 Scene room_with_bulb() {
   Scene scene = cornell(kSize);
   scene.shapes.pop_back();  // the light
@@ -51,7 +51,7 @@ Scene room_with_bulb() {
   return scene;
 }
 
-// Nothing specular.
+// A room without specular surfaces.
 Scene diffuse_room() {
   Scene scene = cornell(kSize);
   for (Material& material : scene.materials)
@@ -81,8 +81,8 @@ RenderSettings settings_for(Method method, int spp, uint64_t photons, uint64_t s
   return settings;
 }
 
-// Means over a block, channels and pixels: of the picture less what lights show by themselves, and of the
-// bias that is stated.
+// Means over a block's pixels and channels: of the picture without directly visible lights, and of the stated
+// bias.
 struct BlockMeans {
   std::vector<double> light, bias;
 };
@@ -104,8 +104,8 @@ BlockMeans means_of(const std::vector<Film>& films, int block) {
 
 class AutoConverges : public ::testing::TestWithParam<Case> {};
 
-// The bias that is stated is 4/3 of what half the radius changes: for kernels whose bias falls at least in
-// proportion to r the whole is at most 3/2 of that.
+// The stated bias is 4/3 of the change by halving the radius. For kernels whose bias falls at least in
+// proportion to r the true bias is at most 3/2 of the stated one.
 TEST_P(AutoConverges, ToPathsBlockByBlock) {
   const Scene scene = GetParam().scene();
   const auto by_paths = films(scene, settings_for(Method::kMc, 512, 1, 100));
@@ -114,7 +114,7 @@ TEST_P(AutoConverges, ToPathsBlockByBlock) {
     const BlockMeans mc = means_of(by_paths, block), found = means_of(by_photons, block);
     const Estimate a = estimate_of(mc.light), b = estimate_of(found.light), bias = estimate_of(found.bias);
     const double noise = kErrors * std::hypot(a.standard_error, b.standard_error, 1.5 * bias.standard_error);
-    const double bound = noise + 1.5 * std::abs(bias.mean) + kPackedFlux * a.mean;
+    const double bound = noise + 1.5 * std::abs(bias.mean) + kPackedLight * a.mean;
     EXPECT_NEAR(b.mean, a.mean, bound) << "block " << block << " noise " << noise << " bias " << bias.mean;
     EXPECT_LT(bound, 0.5 * a.mean) << "the test could not fail";
   }
@@ -125,9 +125,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AutoConverges,
                          ::testing::Values(Case{"box", box}, Case{"diffuse", diffuse_room},
                                            Case{"bulb", room_with_bulb}, Case{"window", room_with_window}));
 
-// With 16 times the photons the discs that auto chooses shrink to a tenth of their area (at the fewer photons
-// 200 are in reach, the least), so a bias in proportion to r falls to a third, others to less.
-TEST(AutoConverges, ItsBiasFallsWithThePhotons) {
+// With 16 times the photons the discs that auto chooses shrink to a tenth of their area (with few photons 200
+// are in reach, the minimum), so a bias in proportion to r falls to a third, and other biases to less.
+TEST(AutoConverges, BiasFallsWithMorePhotons) {
   const Scene scene = diffuse_room();
   const auto stated = [&](uint64_t photons) {
     const auto of_seeds = films(scene, settings_for(Method::kAuto, 4, photons, 300), 24);
@@ -136,8 +136,8 @@ TEST(AutoConverges, ItsBiasFallsWithThePhotons) {
       const Estimate bias = estimate_of(means_of(of_seeds, block).bias);
       squares += bias.mean * bias.mean, noise += bias.standard_error * bias.standard_error;
     }
-    // The mean of the squares less that of their noise; the root of it varies by a kBlocks-th of a block's
-    // variance.
+    // The mean of the squares minus that of their noise; the variance of the root is a kBlocks-th of a
+    // block's variance.
     return Estimate{std::sqrt(std::max(0.0, squares - noise) / kBlocks), std::sqrt(noise) / kBlocks};
   };
   const Estimate few = stated(20'000), many = stated(320'000);

@@ -1,4 +1,4 @@
-// Scenes and settings at the ends of what numbers can say.
+// Tests scenes and settings at the limits of the numbers.
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 
 #include "tests/render/support/image_statistics.h"
 #include "tests/render/support/scene_files.h"
+#include "tests/support/packed_flux.h"
 
 namespace kaustik::render {
 namespace {
@@ -40,7 +41,7 @@ void expect_sound(const RenderResult& result) {
     }
 }
 
-// Every scale from 2^-20 to 2^20: the radiance of every pixel has the same bits.
+// At every scale from 2^-20 to 2^20 the radiance of every pixel has the same bits.
 TEST(Extremes, EveryPowerOfTwoGivesTheSamePicture) {
   for (const Method method : {Method::kHybrid, Method::kPhoton}) {
     const auto one = render_with_threads(cornell(12), settings_of(method, 2, 5000));
@@ -56,7 +57,7 @@ TEST(Extremes, EveryPowerOfTwoGivesTheSamePicture) {
   }
 }
 
-// A closed box whose walls emit 1 and reflect half; the camera stands in its middle.
+// A closed box whose walls emit 1 and reflect half; the camera is in its middle.
 Scene furnace_box(float rho = 0.5f) {
   Scene scene;
   const uint32_t wall = add_material(scene, Lambertian{Rgb(rho)});
@@ -71,7 +72,7 @@ Scene furnace_box(float rho = 0.5f) {
   return scene;
 }
 
-// A plate of 1 m under a square light of half side a at height h, seen in its middle.
+// A plate of 1 m under a square light of half side a at height h; the camera sees the plate's middle.
 Scene plate_under_light(float a, float h, float L) {
   Scene scene;
   const uint32_t wall = add_material(scene, Lambertian{Rgb(0.5f)});
@@ -82,10 +83,11 @@ Scene plate_under_light(float a, float h, float L) {
   return scene;
 }
 
-// Irradiance in the middle under a parallel square, in closed form; the radiance is half of it over pi. The
-// light is sampled by its area, so samples vary by cos^4 over it: for a = h between 1 and 1/9, that is a
-// standard deviation below one mean. Seen points lie within 1e-3 of the middle: below 1e-5.
-TEST(Extremes, LightsOfAMillionthAndAMillionScenes) {
+// The irradiance in the middle under a parallel square has a closed form, and the radiance is half of it over
+// pi. The light is sampled by area, so samples vary by cos^4 over it: for a = h between 1 and 1/9 the
+// standard deviation is below one mean. The visible points lie within 1e-3 of the middle: an error below
+// 1e-5.
+TEST(Extremes, LightsOfAMillionthAndAMillionSceneSizes) {
   for (const auto& [a, h] : {std::pair{1e-6f, 1.0f}, {1e6f, 1e6f}}) {
     const float L = a < 1 ? 1e12f : 1.0f;
     const auto result = render_with_threads(plate_under_light(a, h, L), settings_of(Method::kRaytrace, 4096));
@@ -97,14 +99,15 @@ TEST(Extremes, LightsOfAMillionthAndAMillionScenes) {
   }
 }
 
-// The same with photons of the tiny light: all is finite. Of the huge light hardly a photon meets the plate.
-TEST(Extremes, PhotonsOfLightsOfAMillionthAndAMillionScenes) {
+// With photons all results must be finite for the tiny light. Hardly any photon of the huge light meets the
+// plate.
+TEST(Extremes, PhotonsOfLightsOfAMillionthAndAMillionSceneSizes) {
   for (const auto& [a, h] : {std::pair{1e-6f, 1.0f}, {1e6f, 1e6f}})
     for (const Method method : kAllMethods)
       expect_sound(render_with_threads(plate_under_light(a, h, 1), settings_of(method)));
 }
 
-// r0 of 1e-7 to 1e3 scene sizes. At 1e3 every query reads all photons of its surface.
+// r0 goes from 1e-7 to 1e3 scene sizes. At 1e3 every query reads all photons of its surface.
 TEST(Extremes, RadiiOverTenDecades) {
   const Scene scene = cornell(12);
   for (const float radius : {2e-7f, 2e-5f, 2e-3f, 20.0f, 2e3f}) {
@@ -129,8 +132,8 @@ TEST(Extremes, OneAndTwoPhotons) {
 }
 
 // White walls: each scattering adds Le again, 1 + 200 in all, without a loss over 200 bounces. Roulette never
-// ends a path of weight one, so what varies is only the light sampled at each vertex, whose sum has less
-// variance than 200 independent ones; measured over seeds.
+// ends a path of weight one, so only the light sampled at each vertex varies, and the variance of its sum is
+// less than that of 200 independent ones; it is measured over seeds.
 TEST(Extremes, WhiteFurnaceOf200Bounces) {
   const Scene scene = furnace_box(1);
   RenderSettings settings = settings_of(Method::kMc, 1);
@@ -146,7 +149,7 @@ TEST(Extremes, WhiteFurnaceOf200Bounces) {
   EXPECT_LT(found.standard_error, 1);
 }
 
-// A glass sphere changes nothing in a furnace, whatever its index. Paths end after 64 scatterings.
+// A glass sphere changes nothing in a furnace, whatever its index. Paths end after 64 scattering events.
 TEST(Extremes, GlassOfAnyIndexInAFurnace) {
   for (const float eta : {1.0f, 1 + 1e-6f, 4.0f}) {
     Scene scene = furnace_box();
@@ -163,17 +166,18 @@ TEST(Extremes, GlassOfAnyIndexInAFurnace) {
         means.push_back(total_mean(result.film));
       }
       const Estimate found = estimate_of(means);
-      // 3 degrees of freedom; packed flux 2^-9.
-      EXPECT_NEAR(found.mean, 2, 10 * found.standard_error + 2.0 / 512) << eta;
+      // Four seeds have 3 degrees of freedom.
+      EXPECT_NEAR(found.mean, 2, 10 * found.standard_error + 2 * kPackedFluxError) << eta;
       EXPECT_LT(found.standard_error, 0.02);
     }
   }
 }
 
-// Needles, triangles without area, duplicate and coplanar faces beside the sound ones. Faces that coincide
+// Needles, triangles without area, and duplicate and coplanar faces beside valid ones. Faces that coincide
 // share a surface group, as the builder joins duplicates and a scene file can join the rest: a photon lands
-// on either. Paths to the floor are other paths than without: noise of the direct light, 1 %.
-TEST(Extremes, DegenerateAndDuplicateFaces) {
+// on either. Paths to the floor differ from those in the scene without these faces: noise of the direct
+// light, 1 %.
+TEST(Extremes, DegenerateAndDuplicateFacesAreHarmless) {
   Scene scene = cornell(24);
   const uint32_t white = 0, floor_group = scene.shapes[0].surface_group;
   std::vector<RenderResult> references;
@@ -199,7 +203,7 @@ TEST(Extremes, DegenerateAndDuplicateFaces) {
   }
 }
 
-TEST(Extremes, RoughnessAndAlbedoAtTheirEnds) {
+TEST(Extremes, RoughnessAndAlbedoAtTheirLimits) {
   for (const float sigma : {0.0f, 90.0f}) {
     for (const float rho : {0.0f, 1.0f}) {
       Scene scene = cornell(12);
@@ -218,12 +222,12 @@ TEST(Extremes, RoughnessAndAlbedoAtTheirEnds) {
   }
 }
 
-// The ledger of every scene that comes with the program: emitted = absorbed + escaped + terminated + roulette
-// to the last unit, and emitted is the lights' power up to the rounding of each photon by half a unit, and of
-// float sums. In the gallery lights have many colours, and photons start in proportion to luminance: the sum
-// over channels has noise. Its spread from photon to photon is below its mean there, so that four standard
-// errors are at most its mean times 4 / sqrt(photons). Guided photons are not in the ledger.
-TEST(Extremes, EnergyLedgerOfEveryScene) {
+// The ledger of every scene that comes with the program balances exactly: emitted = absorbed + escaped +
+// terminated + roulette. The emitted flux is the lights' power up to the rounding of each photon by half a
+// unit and of float sums. In the gallery lights have many colours and photons start in proportion to
+// luminance, so the sum over channels has noise. Its spread from photon to photon is below its mean there, so
+// four standard errors are at most the mean times 4 / sqrt(photons). Guided photons are not in the ledger.
+TEST(Extremes, EnergyLedgerOfEverySceneBalances) {
   int scenes = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(KAUSTIK_SCENES_DIR)) {
     if (entry.path().extension() != ".pbrt" || entry.path().stem() == "geometry") continue;
@@ -238,7 +242,7 @@ TEST(Extremes, EnergyLedgerOfEveryScene) {
     const double power = double(power_sum.x) + double(power_sum.y) + double(power_sum.z);
     for (const Method method : {Method::kHybrid, Method::kPhoton}) {
       RenderSettings settings = settings_of(method, 1);
-      if (method == Method::kHybrid) settings.guide = Guide::kOff;  // its only photons make caustics
+      if (method == Method::kHybrid) settings.guide = Guide::kOff;  // it shoots only caustic photons
       const auto result = render_with_threads(scene, settings);
       expect_sound(result);
       const photon::EnergyLedger& e = result.statistics.photons.energy;

@@ -1,4 +1,5 @@
-// Scenes far from the world's origin render like their likes at the origin (core/scene/build/local_origin.h).
+// Tests that scenes far from the world's origin render like copies at the origin
+// (core/scene/build/local_origin.h).
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 using namespace test;
 
-// By transforms, or by the coordinates of the vertices of shapes without one.
+// How the scene is moved: by transforms, or by the coordinates of the vertices of shapes without a transform.
 enum class Way { kTransforms, kCoordinates };
 
 void move_shape(const glm::dvec3& move, Way way, ShapeDescription& shape) {
@@ -46,7 +47,7 @@ SceneDescription imported(const std::filesystem::path& path) {
   return std::move(*description);
 }
 
-// A closed box whose walls emit 1 and reflect half, each wall a mesh of its own.
+// A closed box whose walls emit 1 and reflect half; each wall is a mesh of its own.
 SceneDescription furnace_box() {
   const std::string path = output_file("furnace-box.pbrt");
   std::ofstream file(path);
@@ -76,26 +77,27 @@ void expect_sound(const RenderResult& result) {
   EXPECT_EQ(result.statistics.photons.energy.unaccounted(), 0);
 }
 
-// The scenes are 2 m in size and moved by so many of their sizes, in directions and by numbers that are no
-// multiples of anything. At the first the scene is still built in the world's coordinates.
+// The scenes are 2 m in size and moved by this many of their sizes, in irregular directions and by irregular
+// numbers. At the smallest number the scene is still built in the world's coordinates.
 constexpr double kNear = 25;
 constexpr double kMoves[] = {kNear, 1e3, 1e4, 1e5, 1e6, 1e9};
 glm::dvec3 move_of(double sizes) {
   return 2 * sizes * glm::dvec3(1.1, -0.53, 0.77) + glm::dvec3(0.37, 0.71, -0.23);
 }
 
-// How far points may lie from where they belong, in sizes. Coordinates are written and moved in double, each
-// of at most 1.1 `sizes`: half a spacing, 2^-53, for each of the two roundings. Then they are rounded to
-// float where they, the eye too, are at most 4 sizes, or 1.1 kNear + 1, from the origin; so are computed
-// surface points: two roundings of 2^-24.
+// How far points may be displaced, in sizes. Coordinates are written and moved in double, each at most 1.1
+// `sizes`: half a spacing, 2^-53, for each of the two roundings. Then they are rounded to float where they,
+// including the eye, are at most 4 sizes, or 1.1 kNear + 1, from the origin, as are computed surface points:
+// two roundings of 2^-24.
 double displacement(double sizes) {
   const double from_origin = sizes == kNear ? 1.1 * kNear + 1 : 4;
   return 2 * 0x1p-24 * from_origin + 2 * 0x1p-53 * 1.1 * sizes;
 }
 
-// Points that are wrong by v sideways: half of those within v of an edge come to lie behind the neighbouring
-// wall. Each wall has four edges: 1/2 * 4 * v of its points are lost, and that share of the radiance. Noise:
-// 32^2 pixels of 16 samples; a sample's standard deviation is below 1: 4 of 1/128.
+// If points are displaced sideways by v, half of those within v of an edge come to lie behind the
+// neighbouring wall. Each wall has four edges: 1/2 * 4 * v of its points are lost, and that share of the
+// radiance. The noise is that of 32^2 pixels of 16 samples; a sample's standard deviation is below 1, so the
+// tolerance is 4 of 1/128.
 TEST(FarScenes, FurnaceHasNoHoles) {
   for (const Method method : {Method::kMc, Method::kPhoton})
     for (const Way way : {Way::kTransforms, Way::kCoordinates})
@@ -114,8 +116,8 @@ TEST(FarScenes, FurnaceHasNoHoles) {
 }
 
 // The distance that each pixel sees is that at the origin, up to the displacements of both pictures' eye and
-// point, 16 times as much where the surface is seen at a slant of 1/16. Only pixels on outlines may differ:
-// 1 %. A surface with holes would fail at every other pixel.
+// point, 16 times as much where the surface is seen at a slant of 1/16. Only pixels on outlines may differ: 1
+// %. A surface with holes would fail at every second pixel.
 void expect_same_depth(const Film& film, const Film& reference, double sizes) {
   const double tolerance = 16 * 2 * 2 * (displacement(sizes) + displacement(0));
   int different = 0;
@@ -127,10 +129,10 @@ void expect_same_depth(const Film& film, const Film& reference, double sizes) {
   EXPECT_LE(different, film.width() * film.height() / 100);
 }
 
-// Displacements move the smallest things, light and spheres of a quarter of the scene's size, and so change
-// their solid angles by up to 4 * 2 of them; seen points are lost as in the furnace, 4 at most: 12 in all, in
-// both pictures. The random numbers are the same, so noise shows only where a path meets something else:
-// 0.1 %, and 1 % of the classes whose paths have fireflies.
+// Displacements move the smallest objects, the light and spheres of a quarter of the scene's size, and so
+// change their solid angles by up to 4 * 2 displacements; visible points are lost as in the furnace, at most
+// 4: 12 in all, in both pictures. The random numbers are the same, so noise shows only where a path meets
+// something else: 0.1 %, and 1 % of the classes whose paths have fireflies.
 TEST(FarScenes, BoxWithSpheresKeepsItsLight) {
   const SceneDescription cornell =
       imported(std::filesystem::path(KAUSTIK_SCENES_DIR) / "cornell-spheres/square-light-2.pbrt");
@@ -154,7 +156,7 @@ TEST(FarScenes, BoxWithSpheresKeepsItsLight) {
   }
 }
 
-// A ball of triangles whose corners are the floats next to their places at `move`.
+// A ball of triangles whose corners are rounded to the nearest floats at `move`.
 TriangleMesh rounded_ball(const Vector3& move) {
   constexpr uint32_t kRings = 8, kSectors = 16;
   TriangleMesh mesh;
@@ -173,8 +175,8 @@ TriangleMesh rounded_ball(const Vector3& move) {
   return mesh;
 }
 
-// At 1e5 sizes floats are 1/64 m apart: the ball is rough, but closed, so it is a furnace of radiance 2. Of
-// its 32 triangles at the poles half have no area. Noise as above.
+// At 1e5 sizes floats are 1/64 m apart: the ball is rough but closed, so it is a furnace of radiance 2. Half
+// of its 32 triangles at the poles have no area. The noise is that of FurnaceHasNoHoles.
 TEST(FarScenes, BallOfRoundedVerticesHasNoHoles) {
   const Vector3 move(1.1e5f, -0.53e5f, 2e5f);
   const std::string path = output_file("furnace-ball.pbrt");
@@ -183,7 +185,7 @@ TEST(FarScenes, BallOfRoundedVerticesHasNoHoles) {
                          "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
                          "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n"
                          "Shape \"plymesh\" \"string filename\" \"ball\"\n";
-  Diagnostics diagnostics;  // the scene's warnings name its file
+  Diagnostics diagnostics;  // receives the scene's warnings
   const auto description = pbrt::import_scene(path, diagnostics);
   ASSERT_TRUE(description);
   auto scene = build_scene(

@@ -1,9 +1,10 @@
-// Closed furnaces: inside a surface of emission Le and reflectance rho, radiance is Le / (1 - rho)
+// Tests closed furnaces: inside a surface of emission Le and reflectance rho the radiance is Le / (1 - rho)
 // everywhere.
 
 #include <gtest/gtest.h>
 
 #include "tests/render/support/image_statistics.h"
+#include "tests/support/packed_flux.h"
 
 namespace kaustik::render {
 namespace {
@@ -12,7 +13,7 @@ using namespace test;
 
 constexpr float kRho = 0.5f;
 constexpr double kExpected = 1 / (1 - double(kRho));
-// Paths end after 16 scattering events: the sum lacks rho^17 / (1 - rho).
+// Paths end after 16 scattering events, so the sum lacks rho^17 / (1 - rho).
 const double kTruncated = std::pow(double(kRho), 17) / (1 - double(kRho));
 
 void finish(Scene& scene) {
@@ -28,7 +29,8 @@ Scene sphere_furnace() {
   return scene;
 }
 
-// With a glass and a mirror sphere of reflectance one inside: they change nothing in equilibrium.
+// The furnace with a glass and a mirror sphere of reflectance one inside, which change nothing in
+// equilibrium.
 Scene furnace_with_glass() {
   Scene scene = sphere_furnace();
   const uint32_t glass = add_material(scene, Dielectric{1.5f});
@@ -56,26 +58,27 @@ Estimate furnace_mean(const Scene& scene, Method method) {
 
 class Furnace : public ::testing::TestWithParam<Method> {};
 
-// A sphere's cap of chord r has area pi r^2 exactly, so the photon estimate has no kernel bias here; what
-// stays is the rounding of the packed flux, 2^-9. Eight seeds: 5 standard errors of a t distribution of 7
-// degrees of freedom.
-TEST_P(Furnace, SphereHoldsLeOverOneMinusRho) {
+// A sphere's cap of chord r has exactly the area pi r^2, so the photon estimate has no kernel bias here; only
+// the rounding of packed fluxes remains. With eight seeds the tolerance is 5 standard errors of a t
+// distribution with 7 degrees of freedom.
+TEST_P(Furnace, SphereHasRadianceLeOverOneMinusRho) {
   const Estimate found = furnace_mean(sphere_furnace(), GetParam());
-  EXPECT_NEAR(found.mean, kExpected, 5 * found.standard_error + kTruncated + kExpected / 512);
+  EXPECT_NEAR(found.mean, kExpected, 5 * found.standard_error + kTruncated + kExpected * kPackedFluxError);
   EXPECT_LT(found.standard_error, 0.01);
 }
 
-// Glass and mirror cut the discs of photons near them by nothing (they do not touch the wall).
+// Glass and mirror do not touch the wall, so they cut no photon discs.
 TEST_P(Furnace, GlassAndMirrorChangeNothing) {
   const Estimate found = furnace_mean(furnace_with_glass(), GetParam());
-  // Specular events use up events too. Only rays whose Fresnel reflectance exceeds 0.9 stay in a glass sphere
-  // for long: beyond 85 degrees, cos^2(85) = 0.8 % of those that meet the spheres, which fill less than 10 %
-  // of the view from any wall point. What the limit of 16 cuts off there is below 1e-3.
-  EXPECT_NEAR(found.mean, kExpected, 5 * found.standard_error + kTruncated + kExpected / 512 + 1e-3);
+  // Specular events count towards the limit, too. Only rays whose Fresnel reflectance exceeds 0.9 stay in a
+  // glass sphere for long: beyond 85 degrees, cos^2(85) = 0.8 % of those that meet the spheres, which fill
+  // less than 10 % of the view from any wall point. What the limit of 16 cuts off there is below 1e-3.
+  EXPECT_NEAR(found.mean, kExpected,
+              5 * found.standard_error + kTruncated + kExpected * kPackedFluxError + 1e-3);
   EXPECT_LT(found.standard_error, 0.02);
 }
-// A hollow ball that lets light through, under a sky of one: its photons lie on the inside, and the nearest
-// with the outside's normal on the far wall. Inside L = rho + rho L, outside rho + rho L, which is the same.
+// A hollow ball of transmitting material under a sky of radiance 1: its photons lie on the inside, and the
+// nearest photons with the outside's normal are on the far wall. Inside and outside L = rho + rho L.
 TEST(TransmittingFurnace, RadiusIsChosenOnTheSideOfThePhotons) {
   constexpr double kShare = 0.4;
   Scene scene;
@@ -92,7 +95,7 @@ TEST(TransmittingFurnace, RadiusIsChosenOnTheSideOfThePhotons) {
     means.push_back(total_mean(render_with_threads(scene, settings).film));
   const Estimate found = estimate_of(means);
   const double expected = kShare / (1 - kShare);
-  EXPECT_NEAR(found.mean, expected, 5 * found.standard_error + expected / 512);
+  EXPECT_NEAR(found.mean, expected, 5 * found.standard_error + expected * kPackedFluxError);
   EXPECT_LT(found.standard_error, 0.02 * expected);
 }
 

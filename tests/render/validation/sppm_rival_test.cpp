@@ -1,5 +1,5 @@
-// The rival of the benchmarks in a closed furnace, where it has to find Le / (1 - rho) everywhere: so what it
-// is slower than is the same light.
+// Tests the benchmarks' SPPM rival in a closed furnace, where it must find Le / (1 - rho) everywhere: the
+// benchmarks then compare times for the same light.
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 namespace kaustik::benchmarks {
 namespace {
 
-using namespace render::test;
+using namespace test;
 
 constexpr float kRho = 0.5f;
 constexpr double kExpected = 1 / (1 - double(kRho));
 
-// The inside of a sphere, with one of glass and one of a perfect mirror that do not touch it.
+// The inside of a sphere, with a glass sphere and a perfect mirror sphere that do not touch it.
 Scene furnace() {
   Scene scene;
   const uint32_t white = add_material(scene, Lambertian{Rgb(kRho)});
@@ -33,8 +33,8 @@ double mean(const render::Image& image) {
 }
 
 // Hachisuka's shrinking radius depends on earlier iterations only, and the cap of a sphere of chord r has the
-// area pi r^2: no bias. Eight seeds: 5 standard errors of a t distribution of 7 degrees of freedom. Limit of
-// 16 bounces: as in furnace_test.
+// area pi r^2, so there is no bias. With eight seeds the tolerance is 5 standard errors of a t distribution
+// with 7 degrees of freedom. The limit of 16 bounces is that of furnace_test.
 TEST(SppmRival, FindsTheFurnacesRadiance) {
   const Scene scene = furnace();
   const accel::Bvh bvh(scene);

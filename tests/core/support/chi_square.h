@@ -1,56 +1,19 @@
 #pragma once
-// Statistics for tests of random quantities: running mean with its standard error, Pearson's chi-square test.
+// Pearson's chi-square test of a sampler against the density that it claims.
 
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "core/math/vec.h"
+#include "tests/support/random.h"
 
 namespace kaustik::test {
 
-// Independent uniform floats in [0, 1): tests of significance assume independence, which Sobol points lack.
-class IndependentRandom {
- public:
-  explicit IndependentRandom(uint64_t seed) : engine_(seed) {}
-  float next() { return static_cast<float>(engine_() >> 40) * 0x1p-24f; }
-  Point2 next_2d() {
-    const float x = next();
-    return {x, next()};
-  }
-  float between(float a, float b) { return a + (b - a) * next(); }
-  Vector3 direction() {
-    const float z = between(-1, 1);
-    const float r = std::sqrt(std::max(0.0f, 1 - z * z));
-    const float phi = 2 * kPi * next();
-    return glm::normalize(Vector3(r * std::cos(phi), r * std::sin(phi), z));
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-// Welford's mean and variance.
-struct Mean {
-  double mean = 0, m2 = 0;
-  int64_t count = 0;
-
-  void add(double x) {
-    ++count;
-    const double delta = x - mean;
-    mean += delta / static_cast<double>(count);
-    m2 += delta * (x - mean);
-  }
-  double standard_error() const {
-    return std::sqrt(m2 / (static_cast<double>(count) * static_cast<double>(count - 1)));
-  }
-};
-
-// Upper tail of the chi-square distribution, by Wilson and Hilferty's (1931) cube-root normal approximation;
-// its error is far below the significance used here for 10 and more degrees of freedom.
+// Upper tail of the chi-square distribution by Wilson and Hilferty's (1931) cube-root normal approximation.
+// Its error is far below the significance used here for 10 and more degrees of freedom.
 inline double chi_square_p_value(double statistic, int degrees) {
   const double k = 2.0 / (9 * degrees);
   const double z = (std::cbrt(statistic / degrees) - (1 - k)) / std::sqrt(k);
@@ -63,38 +26,39 @@ inline double sidak_significance(size_t tests) {
   return 1 - std::pow(1 - 0.01, 1.0 / static_cast<double>(tests));
 }
 
-// A sampler with values in the unit square and the density that it claims. Samples that yield nothing are
+// A sampler with values in the unit square, and the density that it claims. Samples without a value are
 // counted in a bin of their own.
 struct SquareCase {
   std::string name;
-  std::function<bool(IndependentRandom&, Point2*)> sample;
+  std::function<bool(Random&, Point2*)> sample;
   std::function<double(double x, double y)> density;
-  int subdivisions = 4;  // of each bin per axis, to integrate; more where the density jumps inside a bin
+  int subdivisions = 4;  // per axis and bin, to integrate the density; more where it jumps inside a bin
 };
 
 struct ChiSquareResult {
   double p_value = 0;
   double expected_mass = 0;  // integral of the density: at most one
-  int64_t outside = 0;       // samples beyond the square
+  int64_t outside = 0;       // samples outside the square
 };
 
-// One point in each of subdivisions^2 cells of a bin: its middle for smooth densities; a random place where
-// there are many, since outlines that run along the cells would else bias every bin that they cross.
-inline double integrate_bin(const SquareCase& c, int x, int y, int bins, IndependentRandom& random) {
+// Evaluates the density at one point in each of subdivisions^2 cells of a bin: at its middle for smooth
+// densities, at a random place where there are many cells, since an outline that runs along the cells would
+// bias every bin that it crosses.
+inline double integrate_bin(const SquareCase& c, int x, int y, int bins, Random& random) {
   const bool jitter = c.subdivisions > 8;
   const double h = 1.0 / (bins * c.subdivisions);
   double sum = 0;
   for (int j = 0; j < c.subdivisions; ++j) {
     for (int i = 0; i < c.subdivisions; ++i) {
-      const double dx = jitter ? random.next() : 0.5;
-      const double dy = jitter ? random.next() : 0.5;
+      const double dx = jitter ? random.uniform() : 0.5;
+      const double dy = jitter ? random.uniform() : 0.5;
       sum += c.density((x * c.subdivisions + i + dx) * h, (y * c.subdivisions + j + dy) * h) * h * h;
     }
   }
   return sum;
 }
 
-// Pools bins of fewer than `kLeast` expected samples, as the test's approximation demands.
+// Pools bins with fewer than `kLeast` expected samples, as the test's approximation demands.
 inline double pooled_p_value(const std::vector<double>& expected, const std::vector<int64_t>& observed) {
   constexpr double kLeast = 10;
   double statistic = 0, pooled_expected = 0;
@@ -116,7 +80,7 @@ inline double pooled_p_value(const std::vector<double>& expected, const std::vec
   if (pooled_expected >= kLeast) {
     add(pooled_expected, pooled_observed);
   } else if (static_cast<double>(pooled_observed) > pooled_expected + 8 * std::sqrt(pooled_expected + 1)) {
-    return 0;  // many samples where the density has next to none
+    return 0;  // many samples where the density is next to zero
   }
   return chi_square_p_value(statistic, used - 1);
 }
@@ -125,7 +89,7 @@ inline ChiSquareResult chi_square_test(const SquareCase& c, int64_t samples, uin
   ChiSquareResult result;
   std::vector<int64_t> observed(static_cast<size_t>(bins) * bins + 1, 0);
   std::vector<double> expected(observed.size(), 0);
-  IndependentRandom random(seed);
+  Random random(seed);
   for (int y = 0; y < bins; ++y) {
     for (int x = 0; x < bins; ++x) {
       const double mass = integrate_bin(c, x, y, bins, random);
@@ -152,13 +116,13 @@ inline ChiSquareResult chi_square_test(const SquareCase& c, int64_t samples, uin
   return result;
 }
 
-// Runs every case and expects that none is rejected, that none leaves its square, and that every density
+// Runs every case and expects that none is rejected, that no sample leaves the square, and that every density
 // integrates to least_mass..1 up to the quadrature's error.
 void expect_all_accepted(const std::vector<SquareCase>& cases, int64_t samples, double mass_tolerance,
                          double least_mass = 1);
 
-// Directions on the unit square: x = (z - z_min) / (1 - z_min), y = azimuth / (2 pi). 1 - z comes from the
-// sine, which keeps its precision in thin cones.
+// Maps directions to the unit square: x = (z - z_min) / (1 - z_min), y = azimuth / (2 pi). 1 - z comes from
+// the sine, which keeps its precision in thin cones.
 inline Point2 direction_to_square(const Vector3& local, double z_min) {
   const glm::dvec3 w(local);
   const double one_minus_z = w.z > 0 ? (w.x * w.x + w.y * w.y) / (1 + w.z) : 1 - w.z;
@@ -171,7 +135,7 @@ inline Vector3 square_to_direction(double x, double y, double z_min) {
   const double phi = 2 * std::numbers::pi * y;
   return Vector3(glm::dvec3(r * std::cos(phi), r * std::sin(phi), z));
 }
-// Solid angle of the whole square.
+// Solid angle that the whole square stands for.
 inline double square_solid_angle(double z_min) {
   return 2 * std::numbers::pi * (1 - z_min);
 }

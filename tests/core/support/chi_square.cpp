@@ -1,4 +1,4 @@
-#include "tests/core/support/statistics.h"
+#include "tests/core/support/chi_square.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// The tests' oracle: intersects every ray with every primitive, in double precision, by textbook formulas
-// that share no code with the BVH or with core's intersectors. Slow by design.
+// An oracle for the BVH: tests every ray against every primitive, in double, by textbook formulas that share
+// no code with the BVH or with core's intersectors. Slow by design.
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 
 #include "core/scene/scene.h"
 
-namespace kaustik::accel {
+namespace kaustik::test {
 
 class BruteForce {
  public:
@@ -22,7 +22,7 @@ class BruteForce {
     bool valid() const { return shape != kNoIndex; }
   };
 
-  // Nearest hit with 0 < t < t_max along o + t d; t counts in lengths of d.
+  // Nearest hit with 0 < t < t_max along o + t d; t is in units of |d|.
   Nearest intersect(const glm::dvec3& o, const glm::dvec3& d,
                     double t_max = std::numeric_limits<double>::infinity()) const {
     Nearest best;
@@ -40,7 +40,7 @@ class BruteForce {
     if (t > 0 && t < best->t) *best = {t, shape, primitive};
   }
 
-  // Intersects in the instance's own space, where t is the same as in the world.
+  // Intersects in the instance's own space, where t is the same.
   static void intersect_shape(const InstancedMesh& instance, uint32_t shape, const glm::dvec3& o,
                               const glm::dvec3& d, Nearest* best) {
     const LocalRay r = to_local(instance.to_world, o, d);
@@ -67,7 +67,7 @@ class BruteForce {
   struct LocalRay {
     glm::dvec3 o, d;
   };
-  // Inverts the linear map in double, because the stored inverse is float.
+  // Inverts in double: the stored inverse is float.
   static LocalRay to_local(const Transform& to_world, const glm::dvec3& o, const glm::dvec3& d) {
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(to_world.linear));
     return {inverse * (o - glm::dvec3(to_world.translation)), inverse * d};
@@ -122,4 +122,4 @@ class BruteForce {
   const Scene* scene_;
 };
 
-}  // namespace kaustik::accel
+}  // namespace kaustik::test

@@ -1,30 +1,10 @@
 #pragma once
 // Scenes of random primitives in [-1, 1]^3, moved and scaled, for the ray tests.
 
-#include <random>
-
 #include "core/scene/scene.h"
+#include "tests/support/random.h"
 
-namespace kaustik::testing {
-
-class Random {
- public:
-  explicit Random(uint64_t seed) : engine_(seed) {}
-  // By hand and not by a standard distribution: those differ between libraries.
-  float uniform() { return static_cast<float>(engine_() >> 40) * 0x1p-24f; }
-  float uniform(float a, float b) { return a + (b - a) * uniform(); }
-  Vector3 in_cube() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
-  Vector3 direction() {
-    for (;;) {
-      const Vector3 v = in_cube();
-      const float l = glm::length(v);
-      if (l > 0.01f && l <= 1) return v / l;
-    }
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+namespace kaustik::test {
 
 // to_world = translation(center + offset) * rotation * diagonal(radii), all times scale.
 struct Placement {
@@ -94,8 +74,8 @@ inline void add_quadrics(Scene& scene, Random& random, const Placement& place, i
   }
 }
 
-// Instances of one mesh of `triangles` triangles in [-1, 1]^3 times `size`, turned, mirrored now and then,
-// and scaled unevenly.
+// Instances of one mesh of `triangles` triangles in [-size, size]^3, turned, sometimes mirrored, and scaled
+// unevenly.
 inline void add_instances(Scene& scene, Random& random, const Placement& place, int count, int triangles,
                           float size) {
   Scene own;
@@ -117,7 +97,7 @@ inline void finish(Scene& scene) {
   finalize_scene(scene);
 }
 
-// Regular icosahedron, each triangle split into four `levels` times, on the unit sphere.
+// A regular icosahedron on the unit sphere whose triangles are split into four, `levels` times.
 inline TriangleMesh icosphere(int levels) {
   const float g = 0.5f * (1 + std::sqrt(5.0f));
   TriangleMesh mesh;
@@ -147,4 +127,4 @@ inline TriangleMesh icosphere(int levels) {
   return mesh;
 }
 
-}  // namespace kaustik::testing
+}  // namespace kaustik::test

@@ -1,0 +1,51 @@
+#pragma once
+// Shapes and lights made in code.
+
+#include <stdexcept>
+
+#include "core/scene/scene.h"
+
+namespace kaustik::test {
+
+inline glm::dmat4 affine(const glm::dmat3& linear, const glm::dvec3& translation) {
+  glm::dmat4 m(linear);
+  m[3] = glm::dvec4(translation, 1);
+  return m;
+}
+
+inline Shape mesh_shape(TriangleMesh mesh, uint32_t material = 0) {
+  Shape shape;
+  shape.geometry = std::move(mesh);
+  shape.material = material;
+  return shape;
+}
+
+// The outside of a triangle or quad is the side of (p1 - p0) x (p2 - p0).
+inline Shape triangle(const Point3& p0, const Point3& p1, const Point3& p2, uint32_t material = 0) {
+  return mesh_shape(TriangleMesh{{p0, p1, p2}, {}, {}, {{0, 1, 2}}}, material);
+}
+inline Shape quad(const Point3& p0, const Point3& p1, const Point3& p2, const Point3& p3, uint32_t material) {
+  return mesh_shape(TriangleMesh{{p0, p1, p2, p3}, {}, {}, {{0, 1, 2}, {0, 2, 3}}}, material);
+}
+// Outside is the side of a x b.
+inline Shape parallelogram(const Point3& corner, const Vector3& a, const Vector3& b, uint32_t material = 0) {
+  return quad(corner, corner + a, corner + a + b, corner + b, material);
+}
+
+inline Shape sphere(const Point3& center, float radius, uint32_t material = 0, bool inward = false) {
+  Shape shape;
+  shape.geometry = Sphere{Transform::from_matrix(affine(glm::dmat3(double(radius)), glm::dvec3(center)))};
+  shape.material = material;
+  shape.flip_normal = inward;
+  return shape;
+}
+
+// Makes `shape` emit radiance L. It must become a shape of the scene.
+inline void make_light(Scene& scene, Shape& shape, const Rgb& L, bool twosided = false) {
+  auto light = DiffuseAreaLight::make(shape, L, twosided);
+  if (!light) throw std::logic_error("this shape cannot emit");
+  shape.light = static_cast<uint32_t>(scene.lights.size());
+  scene.lights.push_back(*light);
+}
+
+}  // namespace kaustik::test
