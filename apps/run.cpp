@@ -11,6 +11,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
+#include "apps/reference/exit_codes.h"
 #include "core/diagnostics/nearest_name.h"
 #include "core/version.h"
 
@@ -39,6 +40,13 @@ class WrappingFormatter : public CLI::Formatter {
   }
 };
 
+std::string exit_codes() {
+  std::string text;
+  for (const ExitCodeRow& row : kExitCodes)
+    text += fmt::format("{} {} {}", text.empty() ? "Exit codes:" : ",", int(row.code), row.summary);
+  return text + ".";
+}
+
 struct Program {
   CLI::App parser{"Photon-mapping renderer: caustics, direct and indirect light from the command line",
                   "kaustik"};
@@ -48,10 +56,7 @@ struct Program {
     parser.set_version_flag("--version", fmt::format("kaustik {} ({})", version(), build_id()));
     parser.formatter(std::make_shared<WrappingFormatter>());  // the commands inherit it
     parser.require_subcommand(1);
-    parser.footer(
-        "Exit codes: 0 success, 1 failure while rendering or writing, or a limit exceeded, 2 bad command "
-        "line, "
-        "3 bad scene, 130 interrupted.\n`kaustik COMMAND --help` explains a command.");
+    parser.footer(exit_codes() + "\n`kaustik COMMAND --help` explains a command.");
     commands.push_back(make_render_command(parser));
     commands.push_back(make_resume_command(parser));
     commands.push_back(make_merge_command(parser));
@@ -61,6 +66,7 @@ struct Program {
     commands.push_back(make_convert_command(parser));
     commands.push_back(make_bench_command(parser));
     commands.push_back(make_sweep_command(parser));
+    commands.push_back(make_reference_command(parser));
   }
 
   // The command that was given; null before parsing and when there is none.
@@ -97,7 +103,8 @@ std::string describe_extras(const Program& program, const Command* command) {
   }
   if (command) return fmt::format("unexpected argument {}", extras.front());
   std::vector<std::string_view> names;
-  for (const Command& c : program.commands) names.push_back(c.parser->get_name());
+  for (const Command& c : program.commands)
+    if (!c.parser->get_group().empty()) names.push_back(c.parser->get_name());
   return fmt::format("unknown command {}{}", extras.front(), name_hint(extras.front(), names));
 }
 

@@ -100,32 +100,6 @@ uint64_t peak_memory_bytes() {
   return 0;
 }
 
-Json settings_json(const RenderSettings& s, const EstimatorPlan& plan) {
-  Json out;
-  out["method"] = name_of(s.method);
-  out["direct"] = name_of(plan.direct);
-  out["caustics"] = name_of(plan.caustics);
-  out["indirect"] = name_of(plan.indirect);
-  out["photons"] = s.photons;
-  out["radius"] = s.radius               ? Json(*s.radius)
-                  : s.radius_factor != 1 ? Json(fmt::format("{}x", s.radius_factor))
-                                         : Json("auto");
-  out["alpha"] = s.alpha.value_or(1);
-  out["nearest"] = s.nearest;
-  out["kernel"] = name_of(s.kernel);
-  out["cone_k"] = s.cone_k;
-  out["min_photons"] = s.min_photons;
-  out["node_photons"] = s.node_photons;
-  out["lookup"] = name_of(s.lookup);
-  out["emission"] = name_of(s.emission);
-  out["guide"] = name_of(s.guide);
-  out["max_bounces"] = s.max_bounces;
-  out["spp"] = s.spp;
-  out["adaptive"] = s.adaptive;
-  out["seed"] = s.seed;
-  return out;
-}
-
 // The estimated error, or null where it is unknown.
 Json error_json(const RenderResult& result, const RenderSettings& settings) {
   if (!std::isfinite(result.error)) return nullptr;
@@ -143,7 +117,7 @@ Json counters_json(const RenderStatistics& s) {
       {"clamped_sums", s.clamped_sums}};
 }
 
-std::string statistics_json(const RenderResult& result, const RenderSettings& settings,
+std::string statistics_json(const RenderResult& result, const RenderSettings& settings, const Json& shown,
                             const SceneNeeds& needs, const OuterTimes& times) {
   const RenderStatistics& s = result.statistics;
   Json out;
@@ -155,7 +129,7 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
   out["cancelled"] = result.cancelled;
   out["pass_ranges"] = result.sums.passes.text();
   out["passes_of_settings"] = result.sums.shares;
-  out["settings"] = settings_json(settings, result.plan);
+  out["settings"] = shown;
   out.update(counters_json(s));
   out["error"] = error_json(result, settings);
   out["energy"] = energy_json(s);
@@ -171,10 +145,9 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
   return out.dump(2) + "\n";
 }
 
-Metadata metadata_of(const RenderResult& result, const RenderSettings& settings) {
+Metadata metadata_of(const RenderResult& result, const RenderSettings& settings, const Json& shown) {
   Metadata out = {{"Software", fmt::format("kaustik {} ({})", version(), build_id())}};
-  const Json json = settings_json(settings, result.plan);
-  for (const auto& [key, value] : json.items())
+  for (const auto& [key, value] : shown.items())
     out.emplace_back("kaustik:" + key, value.is_string() ? value.get<std::string>() : value.dump());
   const RenderStatistics& s = result.statistics;
   out.emplace_back("kaustik:passes", fmt::format("{}", s.passes));

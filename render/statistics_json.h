@@ -18,21 +18,20 @@ struct OuterTimes {
 // Peak resident memory of this process in bytes (VmHWM of /proc/self/status); 0 if it cannot be read.
 uint64_t peak_memory_bytes();
 
-// The settings that decide what is computed, with the plan's estimators in place of unset choices. The image
-// size is not included.
-nlohmann::ordered_json settings_json(const RenderSettings& settings, const EstimatorPlan& plan);
-
 // All counters of a render: photons, rays, gathers, the lecture's fallbacks, dropped samples, sizes of the
 // maps. Integers only, equal in every run of the same program on any number of threads.
 nlohmann::ordered_json counters_json(const RenderStatistics& statistics);
 
 // The JSON text (UTF-8, indented, ends in a newline): version, seed, settings, plan, counters, seconds per
 // phase, peak memory, radii, the scene's needs and what was left out. 64-bit counts are exact.
+// shown: the settings to list, by name.
 std::string statistics_json(const RenderResult& result, const RenderSettings& settings,
-                            const SceneNeeds& needs, const OuterTimes& times);
+                            const nlohmann::ordered_json& shown, const SceneNeeds& needs,
+                            const OuterTimes& times);
 
 // Settings, version, seed and counts for write_film(). Contains nothing that differs between equal renders,
 // so that equal renders give equal files.
-Metadata metadata_of(const RenderResult& result, const RenderSettings& settings);
+Metadata metadata_of(const RenderResult& result, const RenderSettings& settings,
+                     const nlohmann::ordered_json& shown);
 
 }  // namespace kaustik::render

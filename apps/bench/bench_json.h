@@ -1,5 +1,6 @@
 #pragma once
-// Writes and reads a benchmark's result as the JSON file of `kaustik bench`. docs/cli.md explains its fields.
+// Writes and reads a benchmark's result as the JSON file of `kaustik bench`. docs/reference/command_line.md
+// explains its fields.
 
 #include "apps/bench/bench_result.h"
 

@@ -22,8 +22,8 @@
 #include "apps/session/output_files.h"
 #include "apps/session/scene_loading.h"
 #include "apps/settings/list_options.h"
+#include "apps/settings/settings_json.h"
 #include "core/version.h"
-#include "render/statistics_json.h"
 
 namespace kaustik::app {
 
@@ -39,13 +39,6 @@ struct Options {
 };
 
 constexpr int kMostThreads = 65535;  // as for `render --threads`
-
-// The render settings that bench takes: all but photons and threads, which are lists here, and those that
-// only affect output files, which bench does not write.
-constexpr std::string_view kSettings[] = {"method",      "passes",       "direct",  "caustics", "indirect",
-                                          "radius",      "alpha",        "nearest", "kernel",   "cone-k",
-                                          "min-photons", "node-photons", "lookup",  "emission", "max-bounces",
-                                          "spp",         "seed",         "width",   "height",   "crop"};
 
 // 1, 2, 4 ... and the number of usable cores.
 std::vector<int> doubling_threads(int usable) {
@@ -81,14 +74,10 @@ void check_options(const Options& options) {
   if (!options.plot.empty()) check_plot_folder(options.plot);
 }
 
-Json settings_of(const render::RenderSettings& settings, const render::EstimatorPlan& plan) {
-  Json out = render::settings_json(settings, plan);
-  out.erase("photons");  // each point has its own
-  out["width"] = settings.width;
-  out["height"] = settings.height;
-  const render::CropWindow& crop = settings.crop;
-  if (!crop.empty()) out["crop"] = {crop.x0, crop.x1, crop.y0, crop.y1};
-  return out;
+// The settings that all points have in common; each point has its own photons and threads.
+Json settings_of(const Settings& settings, const render::EstimatorPlan& plan) {
+  return settings_json(settings, plan,
+                       [](const Setting& setting) { return setting.commands.has(SettingsCommand::kBench); });
 }
 
 void warn_of_noise(const BenchPlan& plan, const CoreLimits& cores, const Console& console) {
@@ -128,7 +117,7 @@ BenchResult run_scene(const Options& options, const Console& console) {
                      .version = std::string(version()),
                      .build = std::string(build_id()),
                      .machine = machine_json(),
-                     .settings = settings_of(job.settings.render, estimators),
+                     .settings = settings_of(job.settings, estimators),
                      .repeat = plan.repeat,
                      .points = {}};
   result.points = measure_job(job, plan, interrupt, console);
@@ -184,7 +173,7 @@ void add_options(CLI::App& parser, Options& options) {
   CLI::Option* from =
       parser.add_option("--from", options.from, "Read the JSON of an earlier run instead of measuring")
           ->option_text("FILE");
-  add_setting_options(parser, options.overrides, kSettings);
+  add_setting_options(parser, options.overrides, SettingsCommand::kBench);
   for (CLI::Option* option : parser.get_options())
     if (option != from && option->get_name() != "--help" && option->get_name() != "--plot" &&
         option->get_name() != "SCENE")

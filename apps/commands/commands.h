@@ -32,5 +32,6 @@ Command make_info_command(CLI::App& program);
 Command make_convert_command(CLI::App& program);
 Command make_bench_command(CLI::App& program);
 Command make_sweep_command(CLI::App& program);
+Command make_reference_command(CLI::App& program);
 
 }  // namespace kaustik::app

@@ -21,8 +21,6 @@ struct MergeOptions {
   SettingOverrides overrides;
 };
 
-constexpr std::string_view kSettings[] = {"aov", "exposure", "tonemap"};
-
 // A file whose sums have been added to the total.
 struct MergedPart {
   std::string path;
@@ -105,7 +103,7 @@ Command make_merge_command(CLI::App& program) {
   add_output_options(parser, options->outputs, "none");
   parser.add_flag("--allow-gaps", options->allow_gaps, "Merge even if passes are missing");
   parser.add_flag("-q,--quiet", *command.quiet, "Suppress the log, but not warnings and errors");
-  add_setting_options(parser, options->overrides, kSettings);
+  add_setting_options(parser, options->overrides, SettingsCommand::kMerge);
   command.run = [options](const Console& console) { return run_merge(*options, console); };
   return command;
 }

@@ -12,6 +12,7 @@
 #include "apps/session/interrupt.h"
 #include "apps/session/output_files.h"
 #include "apps/session/scene_loading.h"
+#include "apps/settings/list_options.h"
 #include "core/diagnostics/nearest_name.h"
 #include "photon/record/ply_export.h"
 #include "photon/shoot/memory_estimate.h"
@@ -30,9 +31,6 @@ struct Options {
   std::vector<std::string> kinds;
   SettingOverrides overrides;
 };
-
-constexpr std::string_view kSettings[] = {"photons", "emission", "max-bounces", "seed",
-                                          "threads", "width",    "height"};
 
 photon::KindMask mask_of(const std::vector<std::string>& kinds) {
   if (kinds.empty()) return {true, true, true, true};
@@ -141,15 +139,12 @@ Command make_photons_command(CLI::App& program) {
   parser
       .add_option("--image", options->image, "Picture to write: the same points seen by the scene's camera")
       ->option_text("FILE");
-  parser
-      .add_option("--kinds", options->kinds,
-                  "Kinds of photons, separated by commas: direct, shadow, caustic, indirect. Default: all")
-      ->option_text("NAMES")
-      ->delimiter(',')
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::Option* kinds = add_list_option(
+      parser, "--kinds", options->kinds, "NAMES",
+      "Kinds of photons, separated by commas: direct, shadow, caustic, indirect. Default: all");
+  offer_choices(*kinds, photon::kPhotonKindNames);
   parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
-  add_setting_options(parser, options->overrides, kSettings);
+  add_setting_options(parser, options->overrides, SettingsCommand::kPhotons);
   command.run = [options](const Console& console) { return run_photons(*options, console); };
   return command;
 }

@@ -121,7 +121,7 @@ Command make_render_command(CLI::App& program) {
                      "the scene's Film \"filename\", else the scene's name with .exr");
   add_pass_options(parser, *options);
   parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
-  add_setting_options(parser, options->overrides);
+  add_setting_options(parser, options->overrides, SettingsCommand::kRender);
   command.run = [options](const Console& console) { return run_render(*options, console); };
   return command;
 }

@@ -25,9 +25,6 @@ struct ResumeOptions {
   SettingOverrides overrides;
 };
 
-constexpr std::string_view kSettings[] = {"threads",         "aov", "exposure", "tonemap", "target-error",
-                                          "target-quantile", "time"};
-
 // The passes that exist at the end.
 render::PassSet goal_of(const ResumeOptions& options, const render::PartialResult& part) {
   const render::PassSet& goal = part.manifest.goal;
@@ -138,7 +135,7 @@ Command make_resume_command(CLI::App& program) {
                   "stored in PART")
       ->option_text("FILE");
   parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
-  add_setting_options(parser, options->overrides, kSettings);
+  add_setting_options(parser, options->overrides, SettingsCommand::kResume);
   command.run = [options](const Console& console) { return run_resume(*options, console); };
   return command;
 }

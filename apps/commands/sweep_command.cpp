@@ -44,32 +44,25 @@ struct Options {
   SettingOverrides overrides;
 };
 
-// The render settings that sweep takes: all but those that are lists here, and those that only affect files
-// which sweep does not write.
-constexpr std::string_view kSettings[] = {"direct",  "caustics", "indirect",    "passes",      "alpha",
-                                          "nearest", "kernel",   "cone-k",      "min-photons", "node-photons",
-                                          "lookup",  "emission", "max-bounces", "seed",        "threads",
-                                          "width",   "height",   "crop",        "exposure",    "tonemap"};
-
 // Settings that differ from cell to cell.
 constexpr std::string_view kVaried[] = {"method",  "direct", "caustics", "indirect",
                                         "photons", "radius", "spp"};
-
-// Settings that are not common to the cells: threads are stored separately, and layers and stop rules have no
-// effect on a sweep.
-constexpr std::string_view kIdle[] = {"threads", "aov", "target-error", "target-quantile", "time"};
 
 template <size_t Size>
 bool among(const std::string_view (&names)[Size], std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-// The settings that all cells share, as texts by name.
+// The settings that all cells have in common: those that decide their pixels or that the command takes. The
+// number of threads is stored separately.
 Json common_settings(const Settings& settings) {
   Json out = Json::object();
-  for (const bool sums : {true, false})
-    for (const auto& [name, texts] : setting_texts(settings, sums))
-      if (!among(kVaried, name) && !among(kIdle, name)) out[name] = fmt::format("{}", fmt::join(texts, " "));
+  for (const Setting& setting : settings_table()) {
+    const bool counts = setting.decides_sums || setting.commands.has(SettingsCommand::kSweep);
+    const std::vector<std::string> texts = setting.show(settings);
+    if (counts && !texts.empty() && !among(kVaried, setting.name) && setting.name != "threads")
+      out[std::string(setting.name)] = fmt::format("{}", fmt::join(texts, " "));
+  }
   return out;
 }
 
@@ -235,14 +228,13 @@ void add_reference_options(CLI::App& parser, Options& options) {
           "Time for rendering the reference, like 90s or 10m. Default: 60s")
       ->option_text("TIME")
       ->excludes(file);
-  parser
-      .add_option_function<std::string>(
-          "--reference-method",
-          [&options](const std::string& text) { options.reference.method = method_named(text); },
-          "Method of the reference: mc, auto ... Default: mc for scenes without mirrors and glass, else "
-          "auto")
-      ->option_text("NAME")
-      ->excludes(file);
+  CLI::Option* method = parser.add_option_function<std::string>(
+      "--reference-method",
+      [&options](const std::string& text) { options.reference.method = method_named(text); },
+      "Method of the reference: mc, auto ... Default: mc for scenes without mirrors and glass, else "
+      "auto");
+  method->option_text("NAME")->excludes(file);
+  offer_choices(*method, render::kMethodNames);
   parser
       .add_option(
           "--mask-bright", options.mask_bright,
@@ -258,8 +250,10 @@ void add_grid_options(CLI::App& parser, GridTexts& grid) {
   add_list_option(
       parser, "--radius", grid.radii, "RADII",
       "Gather radii, separated by commas: auto, multiples of it like 0.5x, or metres. Default: 0.5x,auto,2x");
-  add_list_option(parser, "--methods", grid.methods, "NAMES",
-                  "Methods, separated by commas; see `render --method`. Default: the scene's");
+  CLI::Option* methods =
+      add_list_option(parser, "--methods", grid.methods, "NAMES",
+                      "Methods, separated by commas; see `render --method`. Default: the scene's");
+  offer_choices(*methods, render::kMethodNames);
   add_list_option(parser, "--spp", grid.spp, "COUNTS",
                   "Samples per pixel, separated by commas. Default: the scene's");
   parser
@@ -284,7 +278,7 @@ Command make_sweep_command(CLI::App& program) {
       ->option_text("FOLDER");
   add_grid_options(parser, options->grid);
   add_reference_options(parser, *options);
-  add_setting_options(parser, options->overrides, kSettings);
+  add_setting_options(parser, options->overrides, SettingsCommand::kSweep);
   parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
   command.run = [options](const Console& console) { return run_sweep(*options, console); };
   return command;

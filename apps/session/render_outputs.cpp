@@ -4,10 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <nlohmann/json.hpp>
 
 #include "apps/session/output_files.h"
 #include "apps/session/scene_loading.h"
 #include "apps/session/stop_rules.h"
+#include "apps/settings/settings_json.h"
 #include "core/stopwatch.h"
 #include "render/picture/image_io.h"
 
@@ -116,9 +118,10 @@ void write_outputs(const OutputOptions& options, const Outcome& outcome, render:
                    const Console& console) {
   const Stopwatch watch;
   const render::RenderResult& result = outcome.result;
+  const nlohmann::ordered_json settings = statistics_settings(outcome.settings, result.plan);
   render::WriteOptions write;
   write.layers = layers_of(outcome, console);
-  write.metadata = render::metadata_of(result, outcome.settings.render);
+  write.metadata = render::metadata_of(result, outcome.settings.render, settings);
   if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
     write.metadata.emplace_back("kaustik:stopped_by", rule);
   write.tone = outcome.settings.tone;
@@ -140,8 +143,8 @@ void write_outputs(const OutputOptions& options, const Outcome& outcome, render:
   times.write = watch.seconds();
   times.total += times.write;
   if (!options.statistics.empty()) {
-    write_text_file(options.statistics,
-                    render::statistics_json(result, outcome.settings.render, outcome.manifest.needs, times));
+    write_text_file(options.statistics, render::statistics_json(result, outcome.settings.render, settings,
+                                                                outcome.manifest.needs, times));
     written.push_back(options.statistics);
   }
   report(result, times, console);

@@ -1,6 +1,7 @@
 #include "apps/settings/list_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <set>
@@ -10,13 +11,23 @@
 
 namespace kaustik::app {
 
-void add_list_option(CLI::App& parser, const std::string& name, std::vector<std::string>& texts,
-                     const std::string& value_name, const std::string& description) {
-  parser.add_option(name, texts, description)
+CLI::Option* add_list_option(CLI::App& parser, const std::string& name, std::vector<std::string>& texts,
+                             const std::string& value_name, const std::string& description) {
+  return parser.add_option(name, texts, description)
       ->option_text(value_name)
       ->delimiter(',')
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void offer_choices(CLI::Option& option, std::span<const std::string_view> choices) {
+  option.type_name(fmt::format("{{{}}}", fmt::join(choices, ",")));
+}
+
+std::vector<std::string> offered_choices(const CLI::Option& option) {
+  const std::string text = option.get_type_name();
+  if (!text.starts_with('{') || !text.ends_with('}')) return {};
+  return CLI::detail::split(text.substr(1, text.size() - 2), ',');
 }
 
 uint64_t whole_number(std::string_view option, const std::string& text, uint64_t most) {

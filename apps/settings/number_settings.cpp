@@ -42,6 +42,7 @@ std::string RadiusChoice::text() const {
 Setting radius_setting() {
   Setting s{
       .name = "radius",
+      .commands = SettingsCommand::kRender | SettingsCommand::kBench,
       .kind = ValueKind::kNumber,
       .value_name = "R",
       .unit = "m",
@@ -65,6 +66,7 @@ Setting radius_setting() {
 
 Setting alpha_setting() {
   Setting s{.name = "alpha",
+            .commands = kRenderingCommands,
             .kind = ValueKind::kNumber,
             .value_name = "A",
             .range = "above 0, at most 1",
@@ -87,6 +89,7 @@ Setting adaptive_setting() {
   constexpr float kMost = 100;
   const float usual = RenderSettings{}.adaptive;
   Setting s{.name = "adaptive",
+            .commands = kRenderingCommands,
             .kind = ValueKind::kNumber,
             .value_name = "W",
             .range = "0 to 100, off, on",
@@ -114,6 +117,7 @@ Setting adaptive_setting() {
 
 Setting cone_k_setting() {
   Setting s{.name = "cone-k",
+            .commands = kRenderingCommands,
             .kind = ValueKind::kNumber,
             .value_name = "K",
             .range = "1 or more",
@@ -134,6 +138,8 @@ Setting cone_k_setting() {
 
 Setting exposure_setting() {
   Setting s{.name = "exposure",
+            .commands = SettingsCommand::kRender | SettingsCommand::kResume | SettingsCommand::kMerge |
+                        SettingsCommand::kSweep,
             .kind = ValueKind::kNumber,
             .value_name = "STOPS",
             .unit = "stops",

@@ -30,6 +30,7 @@ std::string explanation() {
 Setting quality_setting() {
   static const std::string doc = explanation();
   Setting s{.name = "quality",
+            .commands = SettingsCommand::kRender,
             .kind = ValueKind::kChoice,
             .value_name = "NAME",
             .default_text = "the defaults of these settings",

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/settings/list_options.h"
+
 namespace kaustik::app {
 
 void SettingOverrides::add(const Setting& setting, std::vector<std::string> texts) {
@@ -58,15 +60,17 @@ std::string help_text(const Setting& setting) {
 
 }  // namespace
 
-void add_setting_options(CLI::App& command, SettingOverrides& overrides,
-                         std::span<const std::string_view> names) {
+void add_setting_options(CLI::App& parser, SettingOverrides& overrides, SettingsCommand command) {
   for (const Setting& setting : settings_table()) {
-    if (!names.empty() && std::find(names.begin(), names.end(), setting.name) == names.end()) continue;
-    CLI::Option* option = command.add_option_function<std::vector<std::string>>(
+    if (!setting.commands.has(command)) continue;
+    CLI::Option* option = parser.add_option_function<std::vector<std::string>>(
         fmt::format("--{}", setting.name),
         [&overrides, &setting](const std::vector<std::string>& texts) { overrides.add(setting, texts); },
         help_text(setting));
-    option->option_text(std::string(setting.value_name))->expected(setting.values)->group("Settings");
+    option->option_text(std::string(setting.value_name))
+        ->expected(setting.values)
+        ->group(std::string(kSettingsGroup));
+    if (!setting.choices.empty()) offer_choices(*option, setting.choices);
     option->multi_option_policy(setting.kind == ValueKind::kNames ? CLI::MultiOptionPolicy::TakeAll
                                                                   : CLI::MultiOptionPolicy::TakeLast);
   }

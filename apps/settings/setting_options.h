@@ -1,7 +1,6 @@
 #pragma once
 // Adds rows of the settings table as options to a subcommand.
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,9 +33,10 @@ class SettingOverrides {
   std::vector<std::pair<const Setting*, std::vector<std::string>>> given_;
 };
 
-// Adds an option --name for each setting of the table, or only for those in `names` if it is not empty.
-// `overrides` must outlive `command`.
-void add_setting_options(CLI::App& command, SettingOverrides& overrides,
-                         std::span<const std::string_view> names = {});
+// The heading of these options in the help.
+inline constexpr std::string_view kSettingsGroup = "Settings";
+
+// Adds --name for each setting of the table that names `command`. overrides must outlive parser.
+void add_setting_options(CLI::App& parser, SettingOverrides& overrides, SettingsCommand command);
 
 }  // namespace kaustik::app

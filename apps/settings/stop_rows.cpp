@@ -8,6 +8,8 @@ namespace kaustik::app {
 
 namespace {
 
+constexpr CommandSet kStopped = SettingsCommand::kRender | SettingsCommand::kResume;
+
 // The values that a rule accepts: above 0 and at most `most`. "none" removes a rule that the scene file or a
 // partial result sets.
 struct RuleValue {
@@ -38,6 +40,7 @@ Setting rule(Setting s, const RuleValue& rule) {
 Setting target_error_row() {
   return rule(
       {.name = "target-error",
+       .commands = kStopped,
        .value_name = "E",
        .range = "above 0, like 1% or 0.01; none",
        .default_text = "none",
@@ -51,6 +54,7 @@ Setting target_error_row() {
 Setting target_quantile_row() {
   return rule(
       {.name = "target-quantile",
+       .commands = kStopped,
        .value_name = "Q",
        .range = "above 0, at most 1, like 95% or 0.95; none",
        .default_text = "none (the mean)",
@@ -61,6 +65,7 @@ Setting target_quantile_row() {
 Setting time_row() {
   return rule(
       {.name = "time",
+       .commands = kStopped,
        .value_name = "TIME",
        .range = "like 60s, 10m or 1.5h; none",
        .default_text = "none",
@@ -77,6 +82,7 @@ Setting time_row() {
 Setting estimate_bias_row() {
   constexpr std::array<std::string_view, 2> kOffOn = {"off", "on"};
   Setting s{.name = "estimate-bias",
+            .commands = kRenderingCommands,
             .kind = ValueKind::kChoice,
             .value_name = "NAME",
             .range = "off, on",

@@ -20,6 +20,19 @@ namespace {
 
 using render::RenderSettings;
 
+constexpr uint64_t kMaxInt = std::numeric_limits<int>::max();
+constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
+constexpr uint64_t kMaxUint64 = std::numeric_limits<uint64_t>::max();
+constexpr std::string_view kByMethod = "set by --method";
+
+// Sets of commands that several rows name. A command that is missing has a list of values instead of the
+// setting, or has no use for it.
+constexpr SettingsCommand kRender = SettingsCommand::kRender;
+constexpr CommandSet kRenderAndBench = kRender | SettingsCommand::kBench;
+constexpr CommandSet kRenderAndPhotons = kRender | SettingsCommand::kPhotons;
+constexpr CommandSet kAllThatTrace = kRenderingCommands | SettingsCommand::kPhotons;
+constexpr CommandSet kThatWritePictures = kRender | SettingsCommand::kResume | SettingsCommand::kMerge;
+
 template <class T>
 std::optional<T> whole_in_range(std::string_view text, uint64_t least, uint64_t most) {
   const std::optional<uint64_t> value = parse_count(text);
@@ -29,9 +42,14 @@ std::optional<T> whole_in_range(std::string_view text, uint64_t least, uint64_t 
 
 // A row for an integer, with suffixes. `zero`: how the table describes 0, if 0 has a special meaning.
 template <class T>
-Setting count(std::string_view name, std::string_view unit, T RenderSettings::*field, uint64_t least,
-              uint64_t most, std::string_view zero, std::string_view doc) {
-  Setting s{.name = name, .kind = ValueKind::kCount, .value_name = "COUNT", .unit = unit, .doc = doc};
+Setting count(std::string_view name, CommandSet commands, std::string_view unit, T RenderSettings::*field,
+              uint64_t least, uint64_t most, std::string_view zero, std::string_view doc) {
+  Setting s{.name = name,
+            .commands = commands,
+            .kind = ValueKind::kCount,
+            .value_name = "COUNT",
+            .unit = unit,
+            .doc = doc};
   const uint64_t preset = static_cast<uint64_t>(RenderSettings{}.*field);
   s.default_text = preset == 0 && !zero.empty() ? std::string(zero) : count_text(preset);
   const bool any_size = most == std::numeric_limits<uint64_t>::max();
@@ -55,9 +73,9 @@ Complaint not_a_choice(const std::string& text, const std::array<std::string_vie
 // A row for one of several names. Field is an enum, or an optional enum, which the method sets if it is
 // unset.
 template <class Enum, class Field, size_t N>
-Setting choice(std::string_view name, Field RenderSettings::*field,
+Setting choice(std::string_view name, CommandSet commands, Field RenderSettings::*field,
                const std::array<std::string_view, N>& names, std::string default_text, std::string_view doc) {
-  Setting s{.name = name, .kind = ValueKind::kChoice, .value_name = "NAME", .doc = doc};
+  Setting s{.name = name, .commands = commands, .kind = ValueKind::kChoice, .value_name = "NAME", .doc = doc};
   s.choices.assign(names.begin(), names.end());
   s.range = fmt::format("{}", fmt::join(names, ", "));
   s.default_text = std::move(default_text);
@@ -76,14 +94,15 @@ Setting choice(std::string_view name, Field RenderSettings::*field,
 }
 
 template <class Enum, size_t N>
-Setting choice(std::string_view name, Enum RenderSettings::*field,
+Setting choice(std::string_view name, CommandSet commands, Enum RenderSettings::*field,
                const std::array<std::string_view, N>& names, std::string_view doc) {
-  return choice<Enum>(name, field, names, std::string(names[static_cast<size_t>(RenderSettings{}.*field)]),
-                      doc);
+  return choice<Enum>(name, commands, field, names,
+                      std::string(names[static_cast<size_t>(RenderSettings{}.*field)]), doc);
 }
 
 Setting crop_setting() {
   Setting s{.name = "crop",
+            .commands = kRenderingCommands,
             .kind = ValueKind::kInteger,
             .value_name = "X0 X1 Y0 Y1",
             .unit = "pixels",
@@ -129,6 +148,7 @@ std::vector<std::string> split_at_commas(Texts texts) {
 
 Setting aov_setting() {
   Setting s{.name = "aov",
+            .commands = kThatWritePictures,
             .kind = ValueKind::kNames,
             .value_name = "NAMES",
             .range = fmt::format("{}, all, none", fmt::join(render::kLayerNames, ", ")),
@@ -157,6 +177,7 @@ Setting aov_setting() {
 Setting tonemap_setting() {
   Setting s{
       .name = "tonemap",
+      .commands = kThatWritePictures | SettingsCommand::kSweep,
       .kind = ValueKind::kChoice,
       .value_name = "NAME",
       .range = fmt::format("{}", fmt::join(render::kTonemapNames, ", ")),
@@ -176,15 +197,10 @@ Setting tonemap_setting() {
   return s;
 }
 
-constexpr uint64_t kMaxInt = std::numeric_limits<int>::max();
-constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
-constexpr uint64_t kMaxUint64 = std::numeric_limits<uint64_t>::max();
-constexpr std::string_view kByMethod = "set by --method";
-
 // The rows that choose the estimators.
 void add_methods(std::vector<Setting>& table) {
   table.push_back(
-      choice("method", &RenderSettings::method, render::kMethodNames,
+      choice("method", kRenderAndBench, &RenderSettings::method, render::kMethodNames,
              "Preset of the estimators --direct, --caustics and --indirect. raytrace: direct light by shadow "
              "rays, and "
              "what mirrors and glass show; no caustics and no indirect light. mc: unbiased path tracing, for "
@@ -192,75 +208,81 @@ void add_methods(std::vector<Setting>& table) {
              "by paths. "
              "photon: everything from photons. auto: the fastest mix for the scene."));
   table.push_back(choice<render::DirectEstimator>(
-      "direct", &RenderSettings::direct, render::kDirectNames, std::string(kByMethod),
+      "direct", kRenderingCommands, &RenderSettings::direct, render::kDirectNames, std::string(kByMethod),
       "Estimator of direct light. shadow-rays: sample a light and trace a ray to it. photons: the density of "
       "direct photons. lecture: photons where they suffice, else shadow rays. predicted: like shadow-rays, "
       "but "
       "where photons predict the visibility only few rays are traced, without bias. signed: the unoccluded "
       "light "
       "minus the flux of shadow photons."));
-  table.push_back(choice<render::CausticEstimator>("caustics", &RenderSettings::caustics,
+  table.push_back(choice<render::CausticEstimator>("caustics", kRenderingCommands, &RenderSettings::caustics,
                                                    render::kCausticNames, std::string(kByMethod),
                                                    "Estimator of caustics, the light that reaches a diffuse "
                                                    "surface by way of mirrors and glass only. photons: "
                                                    "from photon maps. paths: by path tracing. off: none."));
   table.push_back(choice<render::IndirectEstimator>(
-      "indirect", &RenderSettings::indirect, render::kIndirectNames, std::string(kByMethod),
+      "indirect", kRenderingCommands, &RenderSettings::indirect, render::kIndirectNames,
+      std::string(kByMethod),
       "Estimator of indirect light, which reaches the visible surface after a diffuse reflection elsewhere. "
       "paths: by path tracing. photons: from photon maps. off: none."));
 }
 
 void add_photons(std::vector<Setting>& table) {
-  table.push_back(
-      count("photons", "photons", &RenderSettings::photons, 1, kMaxUint64, {}, "Number of photons to emit."));
+  table.push_back(count("photons", kRenderAndPhotons, "photons", &RenderSettings::photons, 1, kMaxUint64, {},
+                        "Number of photons to emit."));
   table.push_back(count(
-      "passes", "passes", &RenderSettings::passes, 0, kMaxInt, "0 (as memory allows)",
+      "passes", kRenderingCommands, "passes", &RenderSettings::passes, 0, kMaxInt, "0 (as memory allows)",
       "Number of equal passes among which photons and samples are divided; both are rounded up. Each pass "
       "has "
       "photon maps of its own, so that only those of one pass are in memory. 0: one pass, or as many as "
       "needed for the maps to fit into memory."));
   table.push_back(radius_setting());
   table.push_back(alpha_setting());
-  table.push_back(count("nearest", "photons", &RenderSettings::nearest, 0, kMaxUint32, "0 (off)",
+  table.push_back(count("nearest", kRenderingCommands, "photons", &RenderSettings::nearest, 0, kMaxUint32,
+                        "0 (off)",
                         "Shrink the radius to the COUNT-th nearest photon where more photons are in reach."));
   table.push_back(
-      choice("kernel", &RenderSettings::kernel, render::kKernelNames,
+      choice("kernel", kRenderingCommands, &RenderSettings::kernel, render::kKernelNames,
              "Weight of a photon as a function of its distance, normalised over the disc of radius r0."));
   table.push_back(cone_k_setting());
   table.push_back(
-      count("min-photons", "photons", &RenderSettings::min_photons, 0, kMaxUint32, {},
+      count("min-photons", kRenderingCommands, "photons", &RenderSettings::min_photons, 0, kMaxUint32, {},
             "M0 of the lecture's test: an octree node decides only if it holds more photons than this."));
-  table.push_back(count("node-photons", "photons", &RenderSettings::node_photons, 1, kMaxUint32, {},
+  table.push_back(count("node-photons", kRenderingCommands, "photons", &RenderSettings::node_photons, 1,
+                        kMaxUint32, {},
                         "N0 of the lecture: an octree node with at most this many photons is not divided."));
   table.push_back(choice(
-      "lookup", &RenderSettings::lookup, render::kLookupNames,
+      "lookup", kRenderingCommands, &RenderSettings::lookup, render::kLookupNames,
       "Which photons a gather uses. exact: all within the radius. leaf: those of one octree node, as in the "
       "lecture."));
-  table.push_back(choice("emission", &RenderSettings::emission, render::kEmissionNames,
+  table.push_back(choice("emission", kAllThatTrace, &RenderSettings::emission, render::kEmissionNames,
                          "Distribution of photon directions at area lights. cosine: photons of equal flux. "
                          "uniform-angle: uniform in "
                          "angle and weighted, as in the lecture."));
-  table.push_back(choice("guide", &RenderSettings::guide, render::kGuideNames,
+  table.push_back(choice("guide", kRenderingCommands, &RenderSettings::guide, render::kGuideNames,
                          "Guided emission. on: caustic photons are emitted where earlier photons reached a "
                          "diffuse surface by way of "
                          "mirrors and glass, and indirect photons where earlier photons reached visible "
                          "surfaces. off: all kinds "
                          "come from the same photons."));
-  table.push_back(count("max-bounces", "bounces", &RenderSettings::max_bounces, 1, 65535, {},
+  table.push_back(count("max-bounces", kAllThatTrace, "bounces", &RenderSettings::max_bounces, 1, 65535, {},
                         "Most reflections and refractions of a photon or path."));
 }
 
 void add_image(std::vector<Setting>& table) {
-  table.push_back(count("spp", "samples", &RenderSettings::spp, 1, kMaxInt, {}, "Camera samples per pixel."));
+  table.push_back(count("spp", kRenderAndBench, "samples", &RenderSettings::spp, 1, kMaxInt, {},
+                        "Camera samples per pixel."));
   table.push_back(adaptive_setting());
-  table.push_back(count("seed", {}, &RenderSettings::seed, 0, kMaxUint64, {},
+  table.push_back(count("seed", kAllThatTrace, {}, &RenderSettings::seed, 0, kMaxUint64, {},
                         "Random seed. The same seed gives a bit-identical image."));
-  table.push_back(count("threads", "threads", &RenderSettings::threads, 0, 65535, "0 (all usable cores)",
+  table.push_back(count("threads", kRenderAndPhotons | SettingsCommand::kResume | SettingsCommand::kSweep,
+                        "threads", &RenderSettings::threads, 0, 65535, "0 (all usable cores)",
                         "Most threads that the process uses. The image does not depend on it."));
   table.back().decides_sums = false;
-  table.push_back(count("width", "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
+  table.push_back(count("width", kAllThatTrace, "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
                         "Image width. If it is given alone, the height keeps the aspect ratio."));
-  table.push_back(count("height", "pixels", &RenderSettings::height, 0, 65535, "0 (the scene's)",
+  table.push_back(count("height", kAllThatTrace, "pixels", &RenderSettings::height, 0, 65535,
+                        "0 (the scene's)",
                         "Image height. If it is given alone, the width keeps the aspect ratio."));
   table.push_back(crop_setting());
   table.push_back(aov_setting());

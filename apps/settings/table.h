@@ -1,6 +1,8 @@
 #pragma once
-// The table of all render settings. It defines the options of `kaustik render`, the parameters of Integrator
-// "photonmap" in scene files, and the reference in docs/cli.md.
+// The one table of every render setting. From it come the options of every command that renders or traces,
+// the parameters of the scene file's Integrator "photonmap" line, the names in JSON files and partial
+// results, and the tables of docs/reference/command_line.md. A new setting is a row here and the code that
+// uses it.
 
 #include <functional>
 #include <optional>
@@ -13,10 +15,36 @@
 
 namespace kaustik::app {
 
+// The commands that take settings as options.
+enum class SettingsCommand : unsigned { kRender, kResume, kMerge, kPhotons, kBench, kSweep };
+
+// A set of them. There is no empty one: a row of the table that names no command does not compile.
+class CommandSet {
+ public:
+  constexpr CommandSet(SettingsCommand command) : bits_(1u << static_cast<unsigned>(command)) {}
+  constexpr bool has(SettingsCommand command) const { return (bits_ & CommandSet(command).bits_) != 0; }
+  friend constexpr CommandSet operator|(CommandSet a, CommandSet b) {
+    a.bits_ |= b.bits_;
+    return a;
+  }
+
+ private:
+  unsigned bits_;
+};
+constexpr CommandSet operator|(SettingsCommand a, SettingsCommand b) {
+  return CommandSet(a) | CommandSet(b);
+}
+
+// Commands that make pictures of a scene, which take every setting that decides what is computed. A command
+// that has a list of values in place of a setting, such as `bench --photons`, does not take that setting.
+inline constexpr CommandSet kRenderingCommands =
+    SettingsCommand::kRender | SettingsCommand::kBench | SettingsCommand::kSweep;
+
 enum class ValueKind { kCount, kInteger, kNumber, kChoice, kNames };
 
 struct Setting {
   std::string_view name{};  // as on the command line, without the leading dashes: "cone-k"
+  CommandSet commands;      // that have it as an option
   ValueKind kind = ValueKind::kChoice;
   std::string_view value_name{};            // placeholder in the help: "COUNT"
   std::string_view unit{};                  // "m", "pixels"; empty for choices and pure numbers
@@ -40,7 +68,7 @@ const std::vector<Setting>& settings_table();
 // The setting of this name, ignoring dashes, so that "conek" finds "cone-k"; null when there is none.
 const Setting* find_setting(std::string_view name);
 
-// The table in Markdown, as docs/cli.md shows it.
+// The table in Markdown, as docs/reference/command_line.md shows it.
 std::string settings_markdown();
 
 }  // namespace kaustik::app

@@ -1,6 +1,6 @@
 #pragma once
 // Writes a sweep's result as JSON and CSV, and single cells as JSON, from which a later run reads them.
-// docs/cli.md explains the fields.
+// docs/reference/command_line.md explains the fields.
 
 #include "apps/sweep/sweep_result.h"
 

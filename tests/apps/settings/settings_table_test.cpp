@@ -1,9 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "apps/settings/table.h"
 
@@ -129,18 +127,6 @@ TEST(SettingsTable, ErrorsNameTheNearestValueAndChangeNothing) {
   EXPECT_EQ(s.render.radius, untouched.render.radius);
   EXPECT_TRUE(s.render.crop.empty());
   EXPECT_TRUE(s.render.aov.empty());
-}
-
-// On failure the correct table is written to the tests' output folder.
-TEST(SettingsTable, MatchesTheManual) {
-  std::ifstream file(std::string(KAUSTIK_SOURCE_DIR) + "/docs/cli.md");
-  std::stringstream manual;
-  manual << file.rdbuf();
-  const std::string expected = settings_markdown();
-  if (manual.str().find(expected) == std::string::npos) {
-    std::ofstream(std::string(KAUSTIK_TEST_OUTPUT_DIR) + "/settings.md") << expected;
-    FAIL() << "docs/cli.md lacks the table in " << KAUSTIK_TEST_OUTPUT_DIR << "/settings.md";
-  }
 }
 
 }  // namespace

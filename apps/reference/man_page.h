@@ -1,0 +1,12 @@
+#pragma once
+// The manual page kaustik(1), in the man macros that groff and mandoc both read.
+
+#include <string>
+
+#include "apps/reference/command_model.h"
+
+namespace kaustik::app {
+
+std::string man_page(const ProgramModel& program);
+
+}  // namespace kaustik::app
