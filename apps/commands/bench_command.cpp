@@ -11,13 +11,13 @@
 #include "apps/bench/bench_table.h"
 #include "apps/bench/machine.h"
 #include "apps/bench/measure.h"
-#include "apps/bench/scaling_figures.h"
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
 #include "apps/machine/peak_memory.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/machine/usable_cores.h"
+#include "apps/report/bench_report.h"
 #include "apps/session/interrupt.h"
 #include "apps/session/output_files.h"
 #include "apps/session/scene_loading.h"
@@ -38,6 +38,7 @@ struct Options {
   SettingOverrides overrides;
 };
 
+constexpr std::string_view kReportName = "scaling.html";
 constexpr int kMostThreads = 65535;  // as for `render --threads`
 
 // 1, 2, 4 ... and the number of usable cores.
@@ -61,7 +62,7 @@ BenchPlan plan_of(const Options& options, const CoreLimits& cores) {
 // Checks that figures can be written. The folder need not exist yet, but its parent must.
 void check_plot_folder(const std::string& path) {
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) return check_writable((fs::path(path) / "figure.svg").string());
+  if (fs::is_directory(path, ignored)) return check_writable((fs::path(path) / kReportName).string());
   if (fs::exists(path, ignored))
     throw ExitError(kBadCommandLine, fmt::format("cannot write {}: it is not a folder", path));
   check_writable(path.substr(0, path.find_last_not_of('/') + 1));
@@ -137,13 +138,11 @@ BenchResult read_result(const std::string& path) {
   }
 }
 
-void write_figures(const BenchResult& result, const std::string& folder, const Console& console) {
+void write_report(const BenchResult& result, const std::string& folder, const Console& console) {
   fs::create_directory(folder);
-  for (const Figure& figure : scaling_figures(result)) {
-    const std::string path = (fs::path(folder) / figure.file_name).string();
-    write_text_file(path, draw_svg(figure.chart));
-    console.note("wrote " + path);
-  }
+  const std::string path = (fs::path(folder) / kReportName).string();
+  write_text_file(path, bench_report(result));
+  console.note("wrote " + path);
 }
 
 int run_bench(const Options& options, const Console& console) {
@@ -154,7 +153,7 @@ int run_bench(const Options& options, const Console& console) {
     write_text_file(options.json, bench_json(result));
     console.note("wrote " + options.json);
   }
-  if (!options.plot.empty()) write_figures(result, options.plot, console);
+  if (!options.plot.empty()) write_report(result, options.plot, console);
   return kDone;
 }
 
@@ -168,7 +167,10 @@ void add_options(CLI::App& parser, Options& options) {
       "to the usable cores");
   parser.add_option("--repeat", options.repeat, "Runs per point. Default: 5")->option_text("COUNT");
   parser.add_option("--json", options.json, "Write the result to this JSON file")->option_text("FILE");
-  parser.add_option("--plot", options.plot, "Draw scaling curves into this folder, as SVG")
+  parser
+      .add_option(
+          "--plot", options.plot,
+          "Write charts of the scaling to the page scaling.html in this folder, which is created if missing")
       ->option_text("FOLDER");
   CLI::Option* from =
       parser.add_option("--from", options.from, "Read the JSON of an earlier run instead of measuring")

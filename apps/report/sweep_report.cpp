@@ -105,17 +105,18 @@ std::string sweep_report(const SweepResult& result, const std::string& folder) {
   Json data = sweep_json(result);
   data["pictures"] = pictures_json(result, folder);
   const std::string name = html_escaped(std::filesystem::path(result.scene).filename().string());
-  return filled(assets::page, {{"title", name + " - kaustik sweep"},
-                               {"style", std::string(assets::style)},
-                               {"scene", name},
-                               {"facts", facts_html(result)},
-                               {"advice", advice_html(result)},
-                               {"table", table_html(result)},
-                               {"settings", settings_html(result)},
-                               {"data", script_json(data.dump())},
-                               {"chart_library", std::string(assets::chart_library)},
-                               {"chart_licence", html_escaped(assets::chart_licence)},
-                               {"script", std::string(assets::script)}});
+  return filled(assets::sweep_page, {{"title", name + " - kaustik sweep"},
+                                     {"style", std::string(assets::style)},
+                                     {"scene", name},
+                                     {"facts", facts_html(result)},
+                                     {"advice", advice_html(result)},
+                                     {"table", table_html(result)},
+                                     {"settings", settings_html(result)},
+                                     {"data", script_json(data.dump())},
+                                     {"chart_library", std::string(assets::chart_library)},
+                                     {"chart_licence", html_escaped(assets::chart_licence)},
+                                     {"charts", std::string(assets::charts)},
+                                     {"script", std::string(assets::sweep_script)}});
 }
 
 }  // namespace kaustik::app

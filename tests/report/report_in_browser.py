@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Opens the report of `kaustik sweep` in headless Chromium: every point of the CSV is in charts and table, the slider
+"""Opens the reports of `kaustik sweep` and `kaustik bench` in headless Chromium: every point of the CSV is in charts and table, the slider
 moves, nothing is fetched, no error reaches the console, a phone need not scroll sideways. Leaves screenshots.
 
 report_in_browser.py KAUSTIK OUT_DIR      (packages chromium chromium-driver python3-selenium)
@@ -124,6 +124,35 @@ def check_zeros(browser, kaustik, out):
     assert "the lowest points are 0" in browser.execute_script("return Chart.getChart('error-time').scales.y.options.title.text")
 
 
+def check_bench(browser, kaustik, out):
+    """The charts of `kaustik bench --plot` hold the medians of its JSON file, and ideal lines from the first point."""
+    scene = out / SCENE_NAME
+    result, folder = out / "bench.json", out / "bench"
+    subprocess.run([kaustik, "bench", str(scene), "--photons", "2k,8k", "--threads", "1,2", "--repeat", "2", "--width", "24",
+                    "--json", str(result), "--plot", str(folder), "--quiet"], check=True, stdout=subprocess.DEVNULL)
+    points = json.loads(result.read_text())["points"]
+    browser.get((folder / "scaling.html").resolve().as_uri())
+
+    def chart(name):
+        """{label: [[x, y], ...]} of a chart."""
+        sets = browser.execute_script(
+            "return Chart.getChart(arguments[0]).data.datasets.map(d => [d.label, d.data.map(p => [p.x, p.y])])", name)
+        return dict(sets)
+
+    for photons, name in ((2000, "2k"), (8000, "8k")):
+        same = [p for p in points if p["photons"] == photons]
+        shown = chart(f"speed-up-{name}")
+        assert shown["total"] == [[p["threads"], p["speed_up"]["total"]] for p in same], (shown, same)
+        assert shown["ideal"] == [[1, 1], [2, 2]], shown
+        rates = [[p["threads"], p["per_second"]["photons"]["median"]] for p in same]
+        assert chart("photons-per-second")[f"{name} photons"] == rates
+    seconds = [[p["photons"], p["seconds"]["total"]["median"]] for p in points if p["threads"] == 2]
+    assert chart("seconds-over-photons")["total"] == seconds
+    for name in ("speed-up-2k", "speed-up-8k", "photons-per-second", "seconds-over-photons"):
+        assert colours_in(browser, name) > 8, name
+    check_quiet(browser)
+
+
 def check_table(browser, rows):
     lines = browser.find_elements(By.CSS_SELECTOR, "#points tbody tr")
     assert len(lines) == len(rows)
@@ -225,6 +254,7 @@ def main():
         for width, name in ((1280, "desk"), (360, "phone")):
             screenshot(browser, width, out / f"report-{name}.png")
         check_quiet(browser)
+        check_bench(browser, sys.argv[1], out)
         check_zeros(browser, sys.argv[1], out)
     finally:
         browser.quit()

@@ -43,7 +43,8 @@ TEST(Html, ValuesAreNotExpandedAsTemplates) {
 
 // Text that is embedded in script elements must not end them.
 TEST(Html, EmbeddedScriptsCannotEndTheirElement) {
-  for (const std::string_view script : {assets::chart_library, assets::script}) {
+  for (const std::string_view script :
+       {assets::chart_library, assets::charts, assets::sweep_script, assets::bench_script}) {
     EXPECT_THAT(std::string(script), Not(HasSubstr("</script")));
     EXPECT_THAT(std::string(script), Not(HasSubstr("<!--")));
   }

@@ -1,0 +1,51 @@
+// The page of kaustik bench --plot, and the JSON file of --json.
+
+#include <gmock/gmock.h>
+
+#include "apps/bench/bench_json.h"
+#include "apps/bench/bench_table.h"
+#include "apps/report/bench_report.h"
+#include "apps/report/html.h"
+
+namespace kaustik::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+BenchPoint point(uint64_t photons, int threads, double seconds) {
+  BenchPoint p;
+  p.photons = photons;
+  p.threads = threads;
+  p.seconds.fill({seconds, seconds, 1.5 * seconds});
+  p.seconds[static_cast<size_t>(Phase::kBvh)] = {};
+  p.per_second.fill({1 / seconds, 0.6 / seconds, 1 / seconds});
+  return p;
+}
+
+BenchResult some_result() {
+  BenchResult r;
+  r.scene = "a<b>&c.pbrt";
+  r.points = {point(1000, 1, 4), point(1000, 2, 2), point(2000, 1, 8), point(2000, 2, 4)};
+  return r;
+}
+
+TEST(BenchReport, HoldsEveryNumberAndNamesAreEscaped) {
+  BenchResult result = some_result();
+  result.scene = result.version = result.build = "</script><img src=x onerror=alert(1)>.pbrt";
+  result.machine["cpu"] = result.scene;
+  const std::string page = bench_report(result);
+  EXPECT_THAT(page, Not(HasSubstr("<img src=x")));
+  EXPECT_THAT(page, HasSubstr("&lt;img src=x"));
+  EXPECT_THAT(page, HasSubstr(script_json(bench_json(result))));
+  EXPECT_THAT(page, HasSubstr(html_escaped(bench_table(result))));
+}
+
+TEST(BenchJson, ReadsWhatItWrites) {
+  const BenchResult r = some_result();
+  const std::string text = bench_json(r);
+  EXPECT_EQ(bench_json(bench_from_json(text)), text);
+}
+
+}  // namespace
+}  // namespace kaustik::app
