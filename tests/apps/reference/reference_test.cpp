@@ -13,9 +13,9 @@
 namespace kaustik::app {
 namespace {
 
+using test::run_kaustik;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using test::run_kaustik;
 using Names = std::set<std::string>;
 
 constexpr const char* kCommands[] = {"render", "resume",  "merge", "photons", "compare",
