@@ -31,11 +31,8 @@ glm::dvec3 in_world(const Scene& scene, const Point3& p) {
   return scene.origin + glm::dvec3(p);
 }
 
-std::string_view type_name(const Bsdf& bsdf) {
-  return std::visit([](const auto& b) { return std::decay_t<decltype(b)>::kName; }, bsdf);
-}
 std::string_view type_name(const Material& material) {
-  return material.mixed() ? "mix" : type_name(material.typical());
+  return material.mixed() ? "mix" : name_of(material.typical());
 }
 std::string_view type_name(const Light& light) {
   return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kName; }, light);

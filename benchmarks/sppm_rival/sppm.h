@@ -156,8 +156,8 @@ class Renderer {
       const render::ShadingPoint& x = *pixel.point;
       const Vector3 local = x.frame.to_local(wi);
       if (!(glm::dot(wi, x.si.n) * local.z > 0)) return;
-      const Rgb f = render::detail::f(*x.bsdf, x.wo_local, local, render::LobePart::kBroad);
-      if (!is_black(f)) pixel.add(f * arriving);
+      const Rgb value = f(*x.bsdf, x.wo_local, local, LobePart::kDiffuse);
+      if (!is_black(value)) pixel.add(value * arriving);
     });
   }
 
@@ -169,8 +169,7 @@ class Renderer {
     const float survival = sampler.next_1d();
     const Frame frame = Frame::from_z(si.ns);
     const Vector3 wo = -ray->d, wo_local = frame.to_local(wo);
-    const auto s = std::visit(
-        [&](const auto& b) { return b.sample_f(wo_local, uc, u, TransportMode::kImportance); }, bsdf);
+    const auto s = sample_f(bsdf, wo_local, uc, u, TransportMode::kImportance);
     if (!s) return false;
     const Vector3 wi = glm::normalize(frame.to_world(s->wi));
     const float c_in = photon::detail::shading_correction(si, wo, wo_local.z),

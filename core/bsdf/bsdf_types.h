@@ -1,33 +1,51 @@
 #pragma once
-// The interface of BSDFs.
+// The interface that all BSDFs share.
 //
-// A BSDF has up to two parts. The diffuse part (`broad`) consists of all lobes that are wide enough to gather
-// photons under, such as Lambertian ones and those of rough metal. The specular part is followed by photons
-// and camera paths: delta lobes, and glossy lobes, whose width is finite but too small to gather under
-// (Ggx::is_narrow). The part that scatters a path decides its class
-// (docs/decisions/020-one-owner-per-path.md).
+// The lobes of a BSDF belong to one of two parts:
+//   diffuse lobes    photons are gathered under them. They are wide; a rough metal's lobe may be one.
+//   specular lobes   photons and camera paths follow them by sampling. They are delta lobes, or glossy lobes,
+//                    whose width is finite but too small to gather under (Ggx::is_narrow).
+// The part that scatters a path decides its class (docs/decisions/020-one-owner-per-path.md). A value can have diffuse
+// lobes, specular lobes, or both.
 //
-// A BSDF is a value type with these members. Directions are in the local shading frame (z = ns); wo and wi
-// have unit length and point away from the surface, and wo.z < 0 means the back side:
+// The concept BsdfType below lists what a BSDF must have. Directions are in the local shading frame (z = ns);
+// wo and wi have unit length and point away from the surface, and wo.z < 0 means the back side:
+//   static constexpr std::string_view kName
+//     name of the type in messages and in `kaustik info`
+//   static constexpr bool kTransmits
+//     diffuse lobes can let light through the surface
+//   static constexpr bool kLitFromOneSide
+//     only light on wo's side matters. The choice of a light uses it; false is correct for every BSDF
+//   static constexpr bool kDrawsLobe
+//     photons draw the number uc for sample_f, which is 0 otherwise
+//   static constexpr bool kScattersAboutN
+//     where ns and n disagree about the side of a direction, photons are scattered about n
+//     (photon/trace/shading_correction.h); only for lobes so wide that f about n and about ns are alike
+//   bool anisotropic() const
+//     f changes when the surface turns about its normal
 //   Lobes lobes() const
-//     parts that this value has
+//     the lobes that this value has
 //   Rgb f(wo, wi) const
-//     value of the diffuse part in 1/sr, without the cosine, for radiance that leaves towards wo
+//     value of the diffuse lobes in 1/sr, without the cosine, for radiance that leaves towards wo
 //   float pdf(wo, wi) const
 //     density per solid angle of the diffuse samples of sample_f
 //   std::optional<BsdfSample> sample_f(wo, uc, u, mode) const
 //     uc in [0, 1) chooses the lobe, u in [0, 1)^2 the direction; nothing if no light is scattered
 //   Rgb albedo() const
 //     hemispherical reflectance, for the AOV
-//   static constexpr std::string_view kName
-// and, where they apply:
+// These members come in pairs, for types that have values which need them:
 //   f_glossy, pdf_glossy
-//     like f and pdf, for the glossy lobes
-//   sample_broad, sample_specular
-//     like sample_f, for one part alone, if a value can have both
-//   static constexpr bool kTransmits
-//     the diffuse part transmits light
+//     like f and pdf, for the glossy lobes; required where lobes().glossy
+//   sample_diffuse, sample_specular
+//     like sample_f, for one part alone; required where lobes() has both parts
+// These members are optional and make gathering faster:
+//   Rgb pi_f(transmitted) const
+//     pi f, where f is the same for all wi on a side
+//   seen_from(wo)
+//     an object whose f(wi) equals f(wo, wi), for many wi
+// tests/core/support/bsdf_examples.h holds the values of each BSDF that all tests of BSDFs run over.
 
+#include <concepts>
 #include <optional>
 #include <string_view>
 
@@ -40,12 +58,18 @@ namespace kaustik {
 enum class TransportMode { kRadiance, kImportance };
 
 struct Lobes {
-  bool broad = false;
+  bool diffuse = false;
   bool specular = false;
   bool glossy = false;  // the specular part has finite width, so lights can be sampled there
 };
-inline constexpr Lobes kBroadLobes{true, false, false}, kDeltaLobes{false, true, false},
+inline constexpr Lobes kDiffuseLobes{true, false, false}, kDeltaLobes{false, true, false},
     kGlossyLobes{false, true, true};
+
+// The lobes whose value is asked for: those under which photons are gathered, or those of finite width that
+// are followed.
+enum class LobePart { kDiffuse, kGlossy };
+// The part of a BSDF that scatters: either one by chance, or one alone.
+enum class Scatter { kEither, kDiffuse, kSpecular };
 
 struct BsdfSample {
   Vector3 wi{0};  // local frame
@@ -71,5 +95,43 @@ inline float abs_cos_theta(const Vector3& w) {
 inline bool same_hemisphere(const Vector3& a, const Vector3& b) {
   return a.z * b.z > 0;
 }
+
+template <class B>
+concept HasGlossyValue = requires(const B& b, const Vector3& w) {
+  { b.f_glossy(w, w) } -> std::same_as<Rgb>;
+  { b.pdf_glossy(w, w) } -> std::same_as<float>;
+};
+template <class B>
+concept SamplesParts = requires(const B& b, const Vector3& w, float uc, const Point2& u, TransportMode mode) {
+  { b.sample_diffuse(w, uc, u, mode) } -> std::same_as<std::optional<BsdfSample>>;
+  { b.sample_specular(w, uc, u, mode) } -> std::same_as<std::optional<BsdfSample>>;
+};
+template <class B>
+concept HasConstantValue = requires(const B& b) {
+  { b.pi_f(true) } -> std::same_as<Rgb>;
+};
+
+// What every BSDF must have; the meanings are at the top of this file.
+template <class B>
+concept BsdfType = requires(const B& b, const Vector3& w, float uc, const Point2& u, TransportMode mode) {
+  { B::kName } -> std::convertible_to<std::string_view>;
+  { B::kTransmits } -> std::convertible_to<bool>;
+  { B::kLitFromOneSide } -> std::convertible_to<bool>;
+  { B::kDrawsLobe } -> std::convertible_to<bool>;
+  { B::kScattersAboutN } -> std::convertible_to<bool>;
+  { b.anisotropic() } -> std::same_as<bool>;
+  { b.lobes() } -> std::same_as<Lobes>;
+  { b.f(w, w) } -> std::same_as<Rgb>;
+  { b.pdf(w, w) } -> std::same_as<float>;
+  { b.sample_f(w, uc, u, mode) } -> std::same_as<std::optional<BsdfSample>>;
+  { b.albedo() } -> std::same_as<Rgb>;
+  requires !(B::kTransmits && B::kLitFromOneSide);
+  requires !(B::kTransmits && B::kScattersAboutN);
+  // Members that come in pairs: both or neither.
+  requires HasGlossyValue<B> || !(
+      requires { b.f_glossy(w, w); } || requires { b.pdf_glossy(w, w); });
+  requires SamplesParts<B> || !(
+      requires { b.sample_diffuse(w, uc, u, mode); } || requires { b.sample_specular(w, uc, u, mode); });
+};
 
 }  // namespace kaustik

@@ -43,7 +43,7 @@ float CoatedDiffuse::transmittance(const Vector3& w) const {
 Rgb CoatedDiffuse::f(const Vector3& wo, const Vector3& wi) const {
   if (!same_hemisphere(wo, wi)) return Rgb(0);
   const Rgb from_base = base * (kInvPi * (transmittance(wo) * transmittance(wi)));
-  return coat_is_broad() ? from_base + f_coat(wo, wi) : from_base;
+  return coat_is_diffuse() ? from_base + f_coat(wo, wi) : from_base;
 }
 
 CoatedDiffuse::Seen::Seen(const CoatedDiffuse& bsdf, const Vector3& wo)
@@ -54,7 +54,7 @@ CoatedDiffuse::Seen::Seen(const CoatedDiffuse& bsdf, const Vector3& wo)
 float CoatedDiffuse::pdf(const Vector3& wo, const Vector3& wi) const {
   if (!same_hemisphere(wo, wi)) return 0;
   const float of_base = cosine_hemisphere_pdf(abs_cos_theta(wi));
-  if (!coat_is_broad()) return of_base;
+  if (!coat_is_diffuse()) return of_base;
   const float p = share_of_coat(wo);
   return p * pdf_coat(wo, wi) + (1 - p) * of_base;
 }
@@ -108,9 +108,9 @@ std::optional<BsdfSample> CoatedDiffuse::sample_specular(const Vector3& wo, floa
   return sample_coat(wo, u);
 }
 
-std::optional<BsdfSample> CoatedDiffuse::sample_broad(const Vector3& wo, float uc, const Point2& u,
-                                                      TransportMode /*mode*/) const {
-  if (!coat_is_broad()) return sample_base(wo, u);
+std::optional<BsdfSample> CoatedDiffuse::sample_diffuse(const Vector3& wo, float uc, const Point2& u,
+                                                        TransportMode /*mode*/) const {
+  if (!coat_is_diffuse()) return sample_base(wo, u);
   // The directions of both lobes overlap, so the sample has a common density.
   const auto s = uc < share_of_coat(wo) ? sample_coat(wo, u) : sample_base(wo, u);
   if (!s) return std::nullopt;
@@ -120,7 +120,7 @@ std::optional<BsdfSample> CoatedDiffuse::sample_broad(const Vector3& wo, float u
 
 std::optional<BsdfSample> CoatedDiffuse::sample_f(const Vector3& wo, float uc, const Point2& u,
                                                   TransportMode mode) const {
-  if (coat_is_broad()) return sample_broad(wo, uc, u, mode);
+  if (coat_is_diffuse()) return sample_diffuse(wo, uc, u, mode);
   const float p = share_of_coat(wo);
   auto s = uc < p ? sample_coat(wo, u) : sample_base(wo, u);
   if (s) s->weight /= uc < p ? p : 1 - p;

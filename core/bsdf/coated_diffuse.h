@@ -18,6 +18,10 @@ namespace kaustik {
 // by several facets, whose light is lost.
 struct CoatedDiffuse {
   static constexpr std::string_view kName = "coateddiffuse";
+  static constexpr bool kTransmits = false;
+  static constexpr bool kLitFromOneSide = false;
+  static constexpr bool kDrawsLobe = true;
+  static constexpr bool kScattersAboutN = true;
 
   float eta = 1.5f;  // of the coat relative to the outside; at least one if the coat is rough
   Ggx facets{};
@@ -27,7 +31,8 @@ struct CoatedDiffuse {
   // Without a coat (eta = 1) the facets are smooth.
   static CoatedDiffuse from_reflectance(const Rgb& rho, float eta, const Ggx& facets = {});
 
-  Lobes lobes() const { return {true, !coat_is_broad(), !facets.smooth() && !coat_is_broad()}; }
+  bool anisotropic() const { return facets.anisotropic(); }
+  Lobes lobes() const { return {true, !coat_is_diffuse(), !facets.smooth() && !coat_is_diffuse()}; }
   Rgb f(const Vector3& wo, const Vector3& wi) const;
   // Evaluates f for one wo and many wi.
   class Seen {
@@ -37,7 +42,7 @@ struct CoatedDiffuse {
       if (!same_hemisphere(wo_, wi)) return Rgb(0);
       const float z = abs_cos_theta(wi);
       const float T = bsdf_->facets.smooth() ? 1 - fresnel_dielectric(z, bsdf_->eta) : through_(z);
-      return bsdf_->coat_is_broad() ? from_base_ * T + bsdf_->f_coat(wo_, wi) : from_base_ * T;
+      return bsdf_->coat_is_diffuse() ? from_base_ * T + bsdf_->f_coat(wo_, wi) : from_base_ * T;
     }
 
    private:
@@ -52,15 +57,15 @@ struct CoatedDiffuse {
   float pdf_glossy(const Vector3& wo, const Vector3& wi) const;
   // Chooses the coat or the base with a probability according to their shares of the scattered light.
   std::optional<BsdfSample> sample_f(const Vector3& wo, float uc, const Point2& u, TransportMode mode) const;
-  std::optional<BsdfSample> sample_broad(const Vector3& wo, float uc, const Point2& u,
-                                         TransportMode mode) const;
+  std::optional<BsdfSample> sample_diffuse(const Vector3& wo, float uc, const Point2& u,
+                                           TransportMode mode) const;
   std::optional<BsdfSample> sample_specular(const Vector3& wo, float uc, const Point2& u,
                                             TransportMode mode) const;
   // Albedo with a smooth coat.
   Rgb albedo() const;
 
  private:
-  bool coat_is_broad() const { return !facets.smooth() && !facets.is_narrow(); }
+  bool coat_is_diffuse() const { return !facets.smooth() && !facets.is_narrow(); }
   float transmittance(const Vector3& w) const;
   float share_of_coat(const Vector3& wo) const;
   // The rough coat.

@@ -9,15 +9,20 @@ namespace kaustik {
 // microfacets (Pharr 2023, sections 9.4 and 9.7).
 struct Conductor {
   static constexpr std::string_view kName = "conductor";
+  static constexpr bool kTransmits = false;
+  static constexpr bool kLitFromOneSide = false;
+  static constexpr bool kDrawsLobe = true;
+  static constexpr bool kScattersAboutN = false;
 
   Rgb eta{1}, k{1};
   Ggx facets{};
 
+  bool anisotropic() const { return facets.anisotropic(); }
   Lobes lobes() const {
-    return facets.smooth() ? kDeltaLobes : facets.is_narrow() ? kGlossyLobes : kBroadLobes;
+    return facets.smooth() ? kDeltaLobes : facets.is_narrow() ? kGlossyLobes : kDiffuseLobes;
   }
-  Rgb f(const Vector3& wo, const Vector3& wi) const { return lobes().broad ? f_rough(wo, wi) : Rgb(0); }
-  float pdf(const Vector3& wo, const Vector3& wi) const { return lobes().broad ? pdf_rough(wo, wi) : 0; }
+  Rgb f(const Vector3& wo, const Vector3& wi) const { return lobes().diffuse ? f_rough(wo, wi) : Rgb(0); }
+  float pdf(const Vector3& wo, const Vector3& wi) const { return lobes().diffuse ? pdf_rough(wo, wi) : 0; }
   Rgb f_glossy(const Vector3& wo, const Vector3& wi) const {
     return lobes().glossy ? f_rough(wo, wi) : Rgb(0);
   }

@@ -12,16 +12,20 @@ namespace kaustik {
 struct Dielectric {
   static constexpr std::string_view kName = "dielectric";
   static constexpr bool kTransmits = true;
+  static constexpr bool kLitFromOneSide = false;
+  static constexpr bool kDrawsLobe = true;
+  static constexpr bool kScattersAboutN = false;
 
   float eta = 1.5f;  // of the inside (below the surface) relative to the outside
   Ggx facets{};      // smooth if eta is one, where there is no boundary
 
+  bool anisotropic() const { return facets.anisotropic(); }
   Lobes lobes() const {
     if (facets.smooth()) return kDeltaLobes;
-    return facets.is_narrow() ? kGlossyLobes : kBroadLobes;
+    return facets.is_narrow() ? kGlossyLobes : kDiffuseLobes;
   }
-  Rgb f(const Vector3& wo, const Vector3& wi) const { return lobes().broad ? f_rough(wo, wi) : Rgb(0); }
-  float pdf(const Vector3& wo, const Vector3& wi) const { return lobes().broad ? pdf_rough(wo, wi) : 0; }
+  Rgb f(const Vector3& wo, const Vector3& wi) const { return lobes().diffuse ? f_rough(wo, wi) : Rgb(0); }
+  float pdf(const Vector3& wo, const Vector3& wi) const { return lobes().diffuse ? pdf_rough(wo, wi) : 0; }
   Rgb f_glossy(const Vector3& wo, const Vector3& wi) const {
     return lobes().glossy ? f_rough(wo, wi) : Rgb(0);
   }

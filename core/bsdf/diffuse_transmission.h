@@ -10,10 +10,14 @@ namespace kaustik {
 struct DiffuseTransmission {
   static constexpr std::string_view kName = "diffusetransmission";
   static constexpr bool kTransmits = true;
+  static constexpr bool kLitFromOneSide = false;
+  static constexpr bool kDrawsLobe = true;
+  static constexpr bool kScattersAboutN = false;
 
   Rgb reflectance{0.25f}, transmittance{0.25f};  // their sum at most one
 
-  static constexpr Lobes lobes() { return kBroadLobes; }
+  static constexpr bool anisotropic() { return false; }
+  static constexpr Lobes lobes() { return kDiffuseLobes; }
   Rgb f(const Vector3& wo, const Vector3& wi) const {
     const float product = wo.z * wi.z;
     return product == 0 ? Rgb(0) : (product > 0 ? reflectance : transmittance) * kInvPi;
@@ -32,6 +36,7 @@ struct DiffuseTransmission {
     wi->z = -wi->z;
     return BsdfSample{*wi, transmittance / (1 - r), (1 - r) * density, false, true};
   }
+  Rgb pi_f(bool transmitted) const { return transmitted ? transmittance : reflectance; }
   Rgb albedo() const { return reflectance; }
 
  private:

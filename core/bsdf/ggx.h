@@ -18,6 +18,7 @@ struct Ggx {
   static Ggx from_roughness(float u, float v, bool remap);
 
   bool smooth() const { return alpha_x == 0; }
+  bool anisotropic() const { return alpha_x != alpha_y; }
   // Whether the lobe is glossy: so narrow that following it beats gathering photons under it
   // (docs/decisions/021-narrow-lobes-are-followed.md).
   bool is_narrow() const { return alpha_x * alpha_y < kNarrowAlpha * kNarrowAlpha; }

@@ -18,10 +18,15 @@ inline std::optional<Vector3> sample_cosine_side_of(const Vector3& wo, const Poi
 // Ideal diffuse reflection on both sides: f = reflectance / pi.
 struct Lambertian {
   static constexpr std::string_view kName = "diffuse";
+  static constexpr bool kTransmits = false;
+  static constexpr bool kLitFromOneSide = true;
+  static constexpr bool kDrawsLobe = false;
+  static constexpr bool kScattersAboutN = true;
 
   Rgb reflectance{0.5f};
 
-  static constexpr Lobes lobes() { return kBroadLobes; }
+  static constexpr bool anisotropic() { return false; }
+  static constexpr Lobes lobes() { return kDiffuseLobes; }
   Rgb f(const Vector3& wo, const Vector3& wi) const {
     return same_hemisphere(wo, wi) ? reflectance * kInvPi : Rgb(0);
   }
@@ -34,6 +39,7 @@ struct Lambertian {
     if (!wi) return std::nullopt;
     return BsdfSample{*wi, reflectance, cosine_hemisphere_pdf(abs_cos_theta(*wi)), false, false};
   }
+  Rgb pi_f(bool transmitted) const { return transmitted ? Rgb(0) : reflectance; }
   Rgb albedo() const { return reflectance; }
 };
 

@@ -8,9 +8,14 @@ namespace kaustik {
 // Ideal mirror with constant reflectance on both sides.
 struct Mirror {
   static constexpr std::string_view kName = "mirror";
+  static constexpr bool kTransmits = false;
+  static constexpr bool kLitFromOneSide = false;
+  static constexpr bool kDrawsLobe = true;
+  static constexpr bool kScattersAboutN = false;
 
   Rgb reflectance{1};
 
+  static constexpr bool anisotropic() { return false; }
   static constexpr Lobes lobes() { return kDeltaLobes; }
   Rgb f(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return Rgb(0); }
   float pdf(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return 0; }

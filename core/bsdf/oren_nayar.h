@@ -10,6 +10,10 @@ namespace kaustik {
 // is the larger and beta the smaller of the two polar angles. Not modelled: interreflection between facets.
 struct OrenNayar {
   static constexpr std::string_view kName = "orennayar";
+  static constexpr bool kTransmits = false;
+  static constexpr bool kLitFromOneSide = true;
+  static constexpr bool kDrawsLobe = false;
+  static constexpr bool kScattersAboutN = true;
 
   Rgb reflectance{0.5f};
   float A = 1, B = 0;  // computed from sigma, the standard deviation of the facets' slope angle
@@ -18,7 +22,8 @@ struct OrenNayar {
   // surfaces with small sigma (by at most 1.5 %). Such reflectances are lowered so that no energy is created.
   static OrenNayar from_sigma_degrees(const Rgb& reflectance, float sigma_degrees);
 
-  static constexpr Lobes lobes() { return kBroadLobes; }
+  static constexpr bool anisotropic() { return false; }
+  static constexpr Lobes lobes() { return kDiffuseLobes; }
   Rgb f(const Vector3& wo, const Vector3& wi) const {
     return same_hemisphere(wo, wi) ? reflectance * (shape_factor(wo, wi) * kInvPi) : Rgb(0);
   }

@@ -10,9 +10,14 @@ namespace kaustik {
 // inner reflections (Pharr 2023, section 9.5.4).
 struct ThinDielectric {
   static constexpr std::string_view kName = "thindielectric";
+  static constexpr bool kTransmits = false;
+  static constexpr bool kLitFromOneSide = false;
+  static constexpr bool kDrawsLobe = true;
+  static constexpr bool kScattersAboutN = false;
 
   float eta = 1.5f;  // of the pane relative to its surroundings
 
+  static constexpr bool anisotropic() { return false; }
   static constexpr Lobes lobes() { return kDeltaLobes; }
   Rgb f(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return Rgb(0); }
   float pdf(const Vector3& /*wo*/, const Vector3& /*wi*/) const { return 0; }

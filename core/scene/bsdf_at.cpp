@@ -58,7 +58,7 @@ TexturePoint texture_point(const Scene& scene, const SurfaceInteraction& si, con
 void BsdfAt::make(const Scene& scene, const Vector3& wo, const Footprint& footprint, SurfaceInteraction& si) {
   const Material& material = chosen(scene, si, wo, footprint);
   bsdf_ = &material.typical();
-  if (material.plain()) return;
+  if (material.constant_and_isotropic()) return;
   const SurfaceParameters s = surface_parameters(scene.shapes[si.shape], si);
   if (const TexturedMaterial* textured = material.textured()) {
     const TexturePoint x = point_of(si, s, footprint);

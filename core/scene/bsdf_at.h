@@ -23,7 +23,7 @@ class BsdfAt {
   BsdfAt(const Scene& scene, SurfaceInteraction& si, const Vector3& wo, const Footprint& footprint = {}) {
     const Material& material = scene.materials[si.material];
     bsdf_ = &material.typical();
-    if (!material.plain()) make(scene, wo, footprint, si);
+    if (!material.constant_and_isotropic()) make(scene, wo, footprint, si);
   }
   BsdfAt(const BsdfAt&) = delete;
   BsdfAt& operator=(const BsdfAt&) = delete;

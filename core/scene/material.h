@@ -39,7 +39,7 @@ class Material {
 
   bool constant() const { return !textured_ && !mixed_; }
   // Whether the material is constant and isotropic, so that its BSDF needs nothing but the shading frame.
-  bool plain() const { return constant() && !anisotropic_; }
+  bool constant_and_isotropic() const { return constant() && !anisotropic_; }
   // The BSDF of a constant material; for other materials that of one point, to be used in summaries.
   const Bsdf& typical() const { return bsdf_; }
   // Null unless the material is textured.

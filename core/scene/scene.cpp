@@ -29,7 +29,7 @@ SceneNeeds needs_of(const Scene& scene) {
     const Lobes parts = scene.materials[shape.material].lobes();
     needs.specular |= parts.specular;
     needs.delta |= parts.specular && !parts.glossy;
-    needs.diffuse |= parts.broad;
+    needs.diffuse |= parts.diffuse;
   }
   needs.any_light = !scene.lights.empty();
   needs.infinite_light = !scene.infinite_lights.empty();

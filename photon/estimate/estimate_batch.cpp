@@ -18,12 +18,12 @@ bool EstimateBatch::add(const PhotonMap& map, const SurfaceInteraction& si, cons
                         const Bsdf& bsdf, const EstimateSettings& settings, const Rgb& weight, Rgb* radiance,
                         float* photons) {
   if (map.empty()) return true;
-  const auto* const lambertian = std::get_if<Lambertian>(&bsdf);
-  if (!lambertian || settings.leaf) return false;
+  const std::optional<Rgb> pi_f = constant_pi_f(bsdf);
+  if (!pi_f || settings.leaf) return false;
   const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
   uint32_t reading = reading_near(map, si, n);
   if (reading == kNone) reading = new_reading(map, settings, si, n);
-  waiting_.push_back({reading, weight * lambertian->reflectance * kInvPi, radiance, photons});
+  waiting_.push_back({reading, weight * *pi_f * kInvPi, radiance, photons});
   return true;
 }
 

@@ -27,8 +27,8 @@ class EstimateBatch {
 
   // True when the estimate waits: then flush() adds weight times estimate_radiance(), at this point or at one
   // of the same pixel nearby, to *radiance, and to *photons how many counted. False, and nothing is done, for
-  // BSDFs other than Lambertian, whose value differs from photon to photon, and for the leaf lookup. map and
-  // settings must live as long.
+  // BSDFs without a constant_pi_f(), whose value differs from photon to photon, and for the leaf lookup. map
+  // and settings must live as long.
   bool add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
            const EstimateSettings& settings, const Rgb& weight, Rgb* radiance, float* photons);
 

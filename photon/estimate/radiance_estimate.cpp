@@ -34,19 +34,15 @@ struct ReflectedRadiance {
   const Vector3& wo;  // local
   GatherCounters& counters;
 
-  Rgb operator()(const Lambertian& bsdf) const {
-    return bsdf.reflectance * kInvPi * map.gather_flux(query, kernel, counters);
-  }
-
-  Rgb operator()(const DiffuseTransmission& bsdf) const {
-    const bool through = glm::dot(query.n, frame.z) * wo.z < 0;
-    return (through ? bsdf.transmittance : bsdf.reflectance) * kInvPi *
-           map.gather_flux(query, kernel, counters);
+  template <HasConstantValue ConstantBsdf>
+  Rgb operator()(const ConstantBsdf& bsdf) const {
+    const bool transmitted = glm::dot(query.n, frame.z) * wo.z < 0;
+    return bsdf.pi_f(transmitted) * kInvPi * map.gather_flux(query, kernel, counters);
   }
 
   template <class AnyBsdf>
   Rgb operator()(const AnyBsdf& bsdf) const {
-    if (!bsdf.lobes().broad) return Rgb(0);
+    if (!bsdf.lobes().diffuse) return Rgb(0);
     const KernelTerms terms = kernel_terms(kernel, query.radius);
     const auto seen = seen_from(bsdf, wo);
     Rgb Lr(0);

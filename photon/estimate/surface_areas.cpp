@@ -146,7 +146,7 @@ std::vector<bool> curved_groups(const Scene& scene, const std::vector<SurfaceBen
   std::vector<bool> curved(bends.size());
   for (const Shape& shape : scene.shapes) {
     pieces[shape.surface_group] += double(primitive_count(shape));
-    if (scene.materials[shape.material].lobes().broad) curved[shape.surface_group] = true;
+    if (scene.materials[shape.material].lobes().diffuse) curved[shape.surface_group] = true;
   }
   const double voxel = double(radius) / SurfaceAreas::kFineness;
   double total = 0;

@@ -1,8 +1,6 @@
 #pragma once
 // Validity of a flux, and Veach's correction of photon flux for shading normals.
 
-#include <type_traits>
-
 #include "core/bsdf/bsdf.h"
 #include "core/geometry/interaction.h"
 
@@ -20,8 +18,8 @@ inline bool is_valid_flux(const Rgb& flux) {
 // so a deposit is multiplied by c(wi). A photon that continues towards wi carries Lo(wi) |wi.n| dwi dA: with
 // sample_f's weight f |wi.ns| / pdf, the remaining factor is c(wo) / c(wi), where wo points back to where the
 // photon came from. Both hold for delta lobes too, whose f contains 1/|wi.ns|. Directions on different sides
-// of n and ns carry nothing (no light leaks), as on camera paths. The exception is light that leaves diffuse
-// surfaces in such directions: see kIsMatt.
+// of n and ns carry nothing (no light leaks), as on camera paths. The exception is light that leaves
+// BSDFs whose kScattersAboutN is true in such directions: see below.
 //
 // cos_ns = w.ns. Returns c(w): zero when the sides differ, exactly one when ns equals n.
 inline float shading_correction(const SurfaceInteraction& si, const Vector3& w, float cos_ns) {
@@ -30,13 +28,10 @@ inline float shading_correction(const SurfaceInteraction& si, const Vector3& w, 
   return si.n == si.ns ? 1.0f : cos_ns / cos_n;
 }
 
-// Whether a BSDF's diffuse reflection is shaded by n instead of ns when it is seen from a direction on
-// different sides of the two (as render/estimators/shading_point.h does on camera paths). Towards such
-// directions Lo(w) = 1/dA sum f_n(w, wi) dPhi, without the factor c, for all photons that cross the geometric
-// surface.
-template <class B>
-inline constexpr bool kIsMatt =
-    std::is_same_v<B, Lambertian> || std::is_same_v<B, OrenNayar> || std::is_same_v<B, CoatedDiffuse>;
+// Camera paths shade non-specular surfaces by n when they see them from a direction on different sides of n and
+// ns (render/estimators/shading_point.h). Towards such directions Lo(w) = 1/dA sum f_n(w, wi) dPhi, without the
+// factor c, for all photons that cross the geometric surface. Photons do the same at BSDFs whose
+// kScattersAboutN is true.
 
 inline bool sides_differ(const SurfaceInteraction& si, const Vector3& w) {
   return !(glm::dot(w, si.n) * glm::dot(w, si.ns) > 0);
@@ -46,7 +41,7 @@ inline bool sides_differ(const SurfaceInteraction& si, const Vector3& w) {
 // its direction must be sampled about n.
 template <class B>
 bool scatters_about_n(const SurfaceInteraction& si, const Vector3& wo) {
-  return kIsMatt<B> && si.n != si.ns && sides_differ(si, wo);
+  return B::kScattersAboutN && si.n != si.ns && sides_differ(si, wo);
 }
 
 inline Frame geometric_frame(SurfaceInteraction si) {
@@ -85,7 +80,7 @@ Onward onward(const B& bsdf, const SurfaceInteraction& si, const Frame& frame, c
   if (scatters_about_n<B>(si, wo)) return {wi, sides_differ(si, wi) ? sample.weight : Rgb(0)};
   const float c_out = shading_correction(si, wi, sample.wi.z);
   if (c_out != 0) return {wi, sample.weight * (shading_correction(si, wo, wo_local.z) / c_out)};
-  if constexpr (kIsMatt<B>) {
+  if constexpr (B::kScattersAboutN) {
     if (!sample.specular && si.n != si.ns) return mirrored(bsdf, si, wo, wi, wo_local, sample);
   }
   return {wi};

@@ -21,10 +21,6 @@ namespace kaustik::photon {
 
 namespace detail {
 
-// True if sample_f needs a random number to choose among lobes; diffuse reflection has only one.
-template <class B>
-inline constexpr bool kChoosesLobe = !std::is_same_v<B, Lambertian> && !std::is_same_v<B, OrenNayar>;
-
 // One Newton step towards length 1, for directions whose length is off by rounding only. It keeps long
 // specular chains from drifting and needs no division.
 inline Vector3 unit(const Vector3& w) {
@@ -230,7 +226,7 @@ class Tracer {
     std::visit(
         [&](const auto& bsdf) {
           const Lobes lobes = bsdf.lobes();
-          leave_photon(k, si, photon, !(lobes.broad || scene_.materials[si.material].lobes().broad));
+          leave_photon(k, si, photon, !(lobes.diffuse || scene_.materials[si.material].lobes().diffuse));
           if (walkers_.state[k].is_straight()) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
           const bool wanted = settings_.kinds.indirect || (lobes.specular && settings_.kinds.caustic);
           if (wanted && !is_last(k)) scatter_alone(k, bsdf, si, photon);
@@ -342,7 +338,7 @@ class Tracer {
 
   // Samples the next direction and plays Russian roulette. False when the photon is absorbed, or when no
   // requested kind needs what this lobe scatters. The vertex's random numbers are: direction (0 and 1), lobe
-  // if kChoosesLobe, roulette.
+  // if B::kDrawsLobe, roulette.
   template <class B>
   bool scatter(size_t k, const B& bsdf, const SurfaceInteraction& si, const Arrival& photon) {
     const auto u = [&](int dimension) { return numbers_.u[dimension][k]; };
@@ -350,7 +346,7 @@ class Tracer {
     const Frame frame = scatters_about_n<B>(si, wo) ? geometric_frame(si) : si.shading_frame();
     const Vector3 wo_local = frame.to_local(wo);
     const auto sample =
-        bsdf.sample_f(wo_local, kChoosesLobe<B> ? u(2) : 0, {u(0), u(1)}, TransportMode::kImportance);
+        bsdf.sample_f(wo_local, B::kDrawsLobe ? u(2) : 0, {u(0), u(1)}, TransportMode::kImportance);
     if (!sample) return false;
     scatters_[k] = sample->specular || settings_.kinds.indirect;
     if (!scatters_[k]) return false;
@@ -360,7 +356,7 @@ class Tracer {
     const Rgb next = on.weight * photon.flux;
     if (is_black(next) || !valid(next)) return false;
     lanes_.scattered_energy[k] = energy_of(next, units_per_watt_);
-    const float scale = roulette(photon.flux, next, u(kChoosesLobe<B> ? 3 : 2));
+    const float scale = roulette(photon.flux, next, u(B::kDrawsLobe ? 3 : 2));
     if (scale == 0) return false;
     lanes_.set_next(k, si.spawn(unit(on.wi)), scale * next);
     lanes_.next_energy[k] = energy_of(scale * next, units_per_watt_);

@@ -109,7 +109,7 @@ Rgb sample_each_light(const RenderContext& ctx, const ShadingPoint& x, LightWeig
 
 // Returns f Li / pdf of one sample of the light, as if nothing were in the way.
 Rgb unoccluded_from(const Scene& scene, uint32_t light, const ShadingPoint& x, const Point2& u) {
-  const auto s = sample_light(scene, light, 1, x, LightWeight::kAlone, LobePart::kBroad, u);
+  const auto s = sample_light(scene, light, 1, x, LightWeight::kAlone, LobePart::kDiffuse, u);
   return s ? s->contribution : Rgb(0);
 }
 

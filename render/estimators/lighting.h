@@ -21,7 +21,7 @@ enum class LightWeight {
 // estimate that may be negative (photon/visibility/visibility_tree.h). Always draws three dimensions. part:
 // the lobes of f that count.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
-                  TileCounters& counters, LobePart part = LobePart::kBroad);
+                  TileCounters& counters, LobePart part = LobePart::kDiffuse);
 
 // Direct light as if nothing were in the way (V = 1). Sums all lights, so that noise comes only from their
 // extent; of more than kMostLightsSummed lights one is chosen. Always draws three dimensions.

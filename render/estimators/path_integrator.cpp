@@ -95,7 +95,7 @@ bool survives(PathState* path, Sampler& sampler) {
 bool visit(const RenderContext& ctx, const ShadingPoint& y, PathState* path, PathLight* light,
            Sampler& sampler, TileCounters& counters) {
   const Lobes parts = lobes(*y.bsdf);
-  if (parts.broad) {
+  if (parts.diffuse) {
     if (follows_indirect(ctx))
       light->indirect += path->beta * arriving(ctx, y, sampler, counters);
     else if (!parts.specular)
@@ -105,7 +105,7 @@ bool visit(const RenderContext& ctx, const ShadingPoint& y, PathState* path, Pat
     if (Rgb* owner = owner_of_light(ctx, *path, true, light))
       *owner += path->beta * sample_direct(ctx, y, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
   }
-  return !parts.broad || survives(path, sampler);
+  return !parts.diffuse || survives(path, sampler);
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& s
   PathLight light;
   PathState path;
   Ray ray;
-  if (!continue_path(x, Scatter::kBroad, &path, &ray, sampler)) return light;
+  if (!continue_path(x, Scatter::kDiffuse, &path, &ray, sampler)) return light;
   const Scatter part = follows_indirect(ctx) ? Scatter::kEither : Scatter::kSpecular;
   while (true) {
     ++counters.rays.bounce;

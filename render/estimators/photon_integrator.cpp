@@ -186,25 +186,25 @@ class CameraPath {
     const SurfaceInteraction si = make_interaction(ctx_.scene.shapes, branch.ray, hit);
     result_->emitted += branch.beta * emission_seen(ctx_.scene, branch.last, si, branch.ray.d);
     const RayCone cone = branch.cone.after(hit.t);
-    const bool plain = ctx_.scene.materials[si.material].constant();
-    const ShadingPoint x(ctx_.scene, si, wo, plain ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
+    const bool constant = ctx_.scene.materials[si.material].constant();
+    const ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
     if (branch.events == 0) set_features(x, branch.ray.o, result_);
     const Lobes parts = lobes(*x.bsdf);
-    if (parts.broad)
+    if (parts.diffuse)
       if (const float weight = gather_weight(branch.share, sampler_); weight > 0)
         add_reflected(ctx_, x, weight * branch.beta, sampler_, maps_);
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy)
       result_->emitted +=
           branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
-    if (parts.glossy || parts.broad || !split(branch, cone, x)) continue_specular(branch, cone, x);
+    if (parts.glossy || parts.diffuse || !split(branch, cone, x)) continue_specular(branch, cone, x);
   }
 
   void continue_specular(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
     const auto s = scatter(x, sampler_, Scatter::kSpecular);
     if (!s) return;
     Rgb beta = from.beta * s->weight;
-    if (lobes(*x.bsdf).broad && !survives_coats(&beta, sampler_)) return;
+    if (lobes(*x.bsdf).diffuse && !survives_coats(&beta, sampler_)) return;
     push({x.si.spawn(s->wi), cone, beta, from.share, from.events + 1,
           LastScatter{s->glossy, x.receiver(), s->pdf}});
   }

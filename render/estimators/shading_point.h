@@ -27,53 +27,24 @@ struct ShadingPoint {
 
   bool specular() const { return is_specular(*bsdf); }
 
-  // The point as LightSampler sees it: diffuse surfaces receive light on the viewer's side only.
+  // The point as LightSampler sees it.
   LightReceiver receiver() const {
-    const bool diffuse =
-        std::holds_alternative<Lambertian>(*bsdf) || std::holds_alternative<OrenNayar>(*bsdf);
-    return {si.p, wo_local.z < 0 ? -si.ns : si.ns, !diffuse};
+    return {si.p, wo_local.z < 0 ? -si.ns : si.ns, !lit_from_one_side(*bsdf)};
   }
 };
 
-// The lobes to evaluate: those under which light is gathered, or those of finite width that are followed.
-enum class LobePart { kBroad, kGlossy };
-
-namespace detail {
-inline Rgb f(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, LobePart part) {
-  return std::visit(
-      [&](const auto& b) {
-        if (part == LobePart::kBroad) return b.f(wo, wi);
-        if constexpr (requires { b.f_glossy(wo, wi); }) return b.f_glossy(wo, wi);
-        return Rgb(0);
-      },
-      bsdf);
-}
-inline float pdf(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, LobePart part) {
-  return std::visit(
-      [&](const auto& b) {
-        if (part == LobePart::kBroad) return b.pdf(wo, wi);
-        if constexpr (requires { b.pdf_glossy(wo, wi); }) return b.pdf_glossy(wo, wi);
-        return 0.0f;
-      },
-      bsdf);
-}
-}  // namespace detail
-
 // f(wo, wi) |wi . ns| in 1/sr. Zero where wi lies on different sides of the geometric and the shading
 // surface, so that no light leaks through (Veach 1997, section 5.3).
-inline Rgb f_cos(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kBroad) {
+inline Rgb f_cos(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kDiffuse) {
   const Vector3 local = x.frame.to_local(wi);
   if (!(glm::dot(wi, x.si.n) * local.z > 0)) return Rgb(0);
-  return detail::f(*x.bsdf, x.wo_local, local, part) * std::abs(local.z);
+  return f(*x.bsdf, x.wo_local, local, part) * std::abs(local.z);
 }
 
 // Density of scatter() per solid angle, given the lobes that were chosen.
-inline float scatter_pdf(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kBroad) {
-  return detail::pdf(*x.bsdf, x.wo_local, x.frame.to_local(wi), part);
+inline float scatter_pdf(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kDiffuse) {
+  return pdf(*x.bsdf, x.wo_local, x.frame.to_local(wi), part);
 }
-
-// Which lobes of a BSDF that has both kinds scatter: either at random, or one kind only.
-enum class Scatter { kEither, kBroad, kSpecular };
 
 namespace detail {
 // Transforms wi to world space; nothing if the geometric surface has it on another side than the shading
@@ -92,27 +63,12 @@ inline std::optional<BsdfSample> scatter(const ShadingPoint& x, Sampler& sampler
                                          Scatter part = Scatter::kEither) {
   const float uc = sampler.next_1d();
   const Point2 u = sampler.next_2d();
-  constexpr TransportMode kMode = TransportMode::kRadiance;
-  return detail::in_world(x, std::visit(
-                                 [&]<class B>(const B& b) {
-                                   if constexpr (requires { b.sample_broad(x.wo_local, uc, u, kMode); }) {
-                                     if (part == Scatter::kBroad)
-                                       return b.sample_broad(x.wo_local, uc, u, kMode);
-                                     if (part == Scatter::kSpecular)
-                                       return b.sample_specular(x.wo_local, uc, u, kMode);
-                                   }
-                                   return b.sample_f(x.wo_local, uc, u, kMode);
-                                 },
-                                 *x.bsdf));
+  return detail::in_world(x, sample_f(*x.bsdf, x.wo_local, uc, u, TransportMode::kRadiance, part));
 }
 
 // For a BSDF that has only delta lobes: the lobe that uc chooses, with its probability as pdf.
 inline std::optional<BsdfSample> scatter_delta(const ShadingPoint& x, float uc) {
-  return detail::in_world(x, std::visit(
-                                 [&](const auto& b) {
-                                   return b.sample_f(x.wo_local, uc, {0, 0}, TransportMode::kRadiance);
-                                 },
-                                 *x.bsdf));
+  return detail::in_world(x, sample_f(*x.bsdf, x.wo_local, uc, {0, 0}, TransportMode::kRadiance));
 }
 
 }  // namespace kaustik::render

@@ -105,7 +105,7 @@ uint32_t MaterialTable::mix(const MaterialDescription& material, const TypeSpec&
   } else {
     mixed.amount = static_cast<float>(ParameterReader(material, spec).number("amount"));
   }
-  mixed.lobes.broad |= second.lobes().broad;
+  mixed.lobes.diffuse |= second.lobes().diffuse;
   mixed.lobes.specular |= second.lobes().specular;
   mixed.lobes.glossy &= second.lobes().glossy;
   return add(Material(mixed, first.typical()), material.name.empty() ? material.type : material.name);

@@ -1,11 +1,10 @@
-// Tests the properties that every BSDF must have, on instances of all types.
+// Properties that every BSDF must have, run over the examples of all of them.
 
 #include "core/bsdf/bsdf.h"
 
 #include <gtest/gtest.h>
 
-#include <set>
-
+#include "tests/core/support/bsdf_examples.h"
 #include "tests/core/support/chi_square.h"
 #include "tests/support/random.h"
 #include "tests/support/statistics.h"
@@ -13,70 +12,14 @@
 namespace kaustik {
 namespace {
 
+using test::bsdf_examples, test::rounding_of;
 using test::Random;
 
-const Rgb kCopperEta(0.2f, 0.92f, 1.1f), kCopperK(3.9f, 2.45f, 2.14f);
-
-const std::vector<Bsdf>& instances() {
-  static const std::vector<Bsdf> all = {
-      Lambertian{Rgb(0.2f, 0.5f, 1)},
-      OrenNayar::from_sigma_degrees(Rgb(1), 0),
-      OrenNayar::from_sigma_degrees(Rgb(1), 12),
-      OrenNayar::from_sigma_degrees(Rgb(0.9f, 0.5f, 0.1f), 40),
-      OrenNayar::from_sigma_degrees(Rgb(1), 90),
-      Dielectric{1.5f},
-      Dielectric{1 / 1.33f},
-      Dielectric{1},
-      Dielectric{1.5f, {0.2f, 0.2f}},
-      Dielectric{1.5f, {0.9f, 0.9f}},
-      Dielectric{1 / 1.33f, {0.3f, 0.15f}},
-      Dielectric{2.4f, {0.7f, 0.7f}},
-      Conductor{kCopperEta, kCopperK},
-      Conductor{kCopperEta, kCopperK, {0.1f, 0.1f}},
-      Conductor{kCopperEta, kCopperK, {0.25f, 0.6f}},
-      Conductor{kCopperEta, kCopperK, {1, 1}},
-      Mirror{Rgb(0.9f)},
-      ThinDielectric{1.5f},
-      ThinDielectric{1},
-      DiffuseTransmission{Rgb(0.2f, 0.5f, 0), Rgb(0.7f, 0.5f, 0.1f)},
-      DiffuseTransmission{Rgb(0.5f), Rgb(0)},
-      DiffuseTransmission{Rgb(0), Rgb(1)},
-      CoatedDiffuse::from_reflectance(Rgb(0.9f, 0.5f, 0), 1.5f),
-      CoatedDiffuse::from_reflectance(Rgb(1), 2.5f),
-      CoatedDiffuse::from_reflectance(Rgb(0.5f), 1),
-      CoatedDiffuse::from_reflectance(Rgb(0.9f, 0.5f, 0), 1.5f, {0.2f, 0.2f}),
-      CoatedDiffuse::from_reflectance(Rgb(0.9f, 0.5f, 0), 1.5f, {0.7f, 0.5f}),
-  };
-  return all;
-}
-
-std::string name_of(const Bsdf& bsdf) {
-  return std::visit([](const auto& b) { return std::string(b.kName); }, bsdf);
-}
-// The value of the diffuse lobes, or of the glossy ones.
-Rgb f(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, bool glossy = false) {
-  return std::visit(
-      [&](const auto& b) {
-        if (!glossy) return b.f(wo, wi);
-        if constexpr (requires { b.f_glossy(wo, wi); }) return b.f_glossy(wo, wi);
-        return Rgb(0);
-      },
-      bsdf);
-}
-float pdf(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi, bool glossy = false) {
-  return std::visit(
-      [&](const auto& b) {
-        if (!glossy) return b.pdf(wo, wi);
-        if constexpr (requires { b.pdf_glossy(wo, wi); }) return b.pdf_glossy(wo, wi);
-        return 0.0f;
-      },
-      bsdf);
-}
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vector3& wo, Random& random,
                                  TransportMode mode = TransportMode::kImportance) {
   const float uc = random.uniform();
   const Point2 u = random.uniform_2d();
-  return std::visit([&](const auto& b) { return b.sample_f(wo, uc, u, mode); }, bsdf);
+  return sample_f(bsdf, wo, uc, u, mode);
 }
 
 const Vector3 kDirections[] = {{0, 0, 1},
@@ -85,43 +28,31 @@ const Vector3 kDirections[] = {{0, 0, 1},
                                glm::normalize(Vector3(-1, 0.2f, -0.3f)),
                                glm::normalize(Vector3(0.3f, -1, 0.01f))};
 
-TEST(Bsdf, InstancesCoverEveryType) {
-  std::set<size_t> seen;
-  for (const Bsdf& b : instances()) seen.insert(b.index());
-  EXPECT_EQ(seen.size(), std::variant_size_v<Bsdf>);
-}
-
-// Samples one part alone where the BSDF has two.
-std::optional<BsdfSample> sample_part(const Bsdf& bsdf, bool glossy, const Vector3& wo, Random& random) {
+// A sample of one part alone, where there are two.
+std::optional<BsdfSample> sample_part(const Bsdf& bsdf, LobePart part, const Vector3& wo,
+                                      Random& random) {
   const float uc = random.uniform();
   const Point2 u = random.uniform_2d();
-  constexpr TransportMode kMode = TransportMode::kRadiance;
-  return std::visit(
-      [&](const auto& b) {
-        if constexpr (requires { b.sample_broad(wo, uc, u, kMode); }) {
-          if (!glossy) return b.sample_broad(wo, uc, u, kMode);
-          return b.sample_specular(wo, uc, u, kMode);
-        }
-        return b.sample_f(wo, uc, u, kMode);
-      },
-      bsdf);
+  return sample_f(bsdf, wo, uc, u, TransportMode::kRadiance,
+                  part == LobePart::kDiffuse ? Scatter::kDiffuse : Scatter::kSpecular);
 }
 
-// Calls fn(bsdf, glossy) for each part that has a density.
+// Calls fn(bsdf, part) for the parts that have densities.
 template <class Fn>
 void for_each_part(const Fn& fn) {
-  for (const Bsdf& b : instances()) {
-    if (lobes(b).broad) fn(b, false);
-    if (lobes(b).glossy) fn(b, true);
+  for (const Bsdf& b : bsdf_examples()) {
+    if (lobes(b).diffuse) fn(b, LobePart::kDiffuse);
+    if (lobes(b).glossy) fn(b, LobePart::kGlossy);
   }
 }
 
 const Ggx* facets_of(const Bsdf& bsdf) {
-  const Ggx* facets = nullptr;
-  if (const auto* c = std::get_if<Conductor>(&bsdf)) facets = &c->facets;
-  if (const auto* d = std::get_if<Dielectric>(&bsdf)) facets = &d->facets;
-  if (const auto* c = std::get_if<CoatedDiffuse>(&bsdf)) facets = &c->facets;
-  return facets && !facets->smooth() ? facets : nullptr;
+  return std::visit(
+      [](const auto& b) -> const Ggx* {
+        if constexpr (requires { b.facets; }) return b.facets.smooth() ? nullptr : &b.facets;
+        return nullptr;
+      },
+      bsdf);
 }
 
 // The narrow peaks of microfacets need more points in each bin, and must not be narrower than the distance
@@ -129,20 +60,20 @@ const Ggx* facets_of(const Bsdf& bsdf) {
 // microfacets has no lower bound; the test counts the lost samples in a bin of their own.
 TEST(Bsdf, SamplesFollowTheirDensity) {
   std::vector<test::SquareCase> cases, of_facets;
-  for_each_part([&](const Bsdf& b, bool glossy) {
+  for_each_part([&](const Bsdf& b, LobePart part) {
     const Ggx* facets = facets_of(b);
     if (facets && facets->alpha_x < (std::holds_alternative<Dielectric>(b) ? 0.6f : 0.2f)) return;
     for (const Vector3& wo : kDirections) {
       test::SquareCase c;
-      c.name = name_of(b) + " " + std::to_string(b.index()) + " wo.z " + std::to_string(wo.z);
+      c.name = std::string(name_of(b)) + " " + std::to_string(b.index()) + " wo.z " + std::to_string(wo.z);
       c.sample = [=](Random& random, Point2* p) {
-        const auto s = sample_part(b, glossy, wo, random);
+        const auto s = sample_part(b, part, wo, random);
         if (!s) return false;
         *p = test::direction_to_square(s->wi, -1);
         return true;
       };
       c.density = [=](double x, double y) {
-        return pdf(b, wo, test::square_to_direction(x, y, -1), glossy) * test::square_solid_angle(-1);
+        return pdf(b, wo, test::square_to_direction(x, y, -1), part) * test::square_solid_angle(-1);
       };
       if (facets) c.subdivisions = 64;
       (facets ? of_facets : cases).push_back(std::move(c));
@@ -154,11 +85,11 @@ TEST(Bsdf, SamplesFollowTheirDensity) {
 
 // For delta lobes, compares how often each lobe is chosen with the probability that its samples report.
 TEST(Bsdf, SpecularLobesFollowTheirProbability) {
-  for (const Bsdf& b : instances()) {
+  for (const Bsdf& b : bsdf_examples()) {
     const Lobes parts = lobes(b);
-    if (parts.broad || parts.glossy) continue;
+    if (parts.diffuse || parts.glossy) continue;
     for (const Vector3& wo : kDirections) {
-      SCOPED_TRACE(name_of(b) + " wo.z " + std::to_string(wo.z));
+      SCOPED_TRACE(std::string(name_of(b)) + " wo.z " + std::to_string(wo.z));
       Random random(8);
       constexpr int kSamples = 20000;
       int64_t count[2] = {0, 0};
@@ -178,36 +109,24 @@ TEST(Bsdf, SpecularLobesFollowTheirProbability) {
   }
 }
 
-// Relative rounding error of a value. Both sides of a comparison chain three float roundings. For microfacets
-// the half vector is computed anew from the two directions: its slope is off by a few roundings divided by
-// the cosines, so near-grazing directions are left out, and D changes by 4 / alpha for each unit of slope.
-// The half vector of refraction and its Jacobian contain differences that may be small, which costs up to
-// 1e-3.
-double rounding_of(const Bsdf& bsdf) {
-  const double plain = 8 * 0x1p-24;
-  const Ggx* facets = facets_of(bsdf);
-  if (!facets) return plain;
-  if (std::holds_alternative<Dielectric>(bsdf)) return 1e-3;
-  return plain + 64 * 0x1p-24 * 4 / double(std::min(facets->alpha_x, facets->alpha_y));
-}
 bool near_edge(const Bsdf& bsdf, const Vector3& wo, const Vector3& wi) {
   return facets_of(bsdf) && (std::abs(wo.z) < 0.05f || std::abs(wi.z) < 0.05f);
 }
 
 TEST(Bsdf, WeightIsValueTimesCosineOverDensity) {
   Random random(1);
-  for_each_part([&](const Bsdf& b, bool glossy) {
+  for_each_part([&](const Bsdf& b, LobePart part) {
     const double tolerance = rounding_of(b);
     for (int i = 0; i < 2000; ++i) {
       const Vector3 wo = random.direction();
-      const auto s = sample_part(b, glossy, wo, random);
+      const auto s = sample_part(b, part, wo, random);
       if (!s || near_edge(b, wo, s->wi)) continue;
-      EXPECT_EQ(s->specular, glossy);
-      EXPECT_EQ(s->glossy, glossy);
+      EXPECT_EQ(s->specular, part == LobePart::kGlossy);
+      EXPECT_EQ(s->glossy, part == LobePart::kGlossy);
       EXPECT_EQ(s->transmission, !same_hemisphere(wo, s->wi));
-      const float density = pdf(b, wo, s->wi, glossy);
-      EXPECT_NEAR(s->pdf, density, tolerance * double(density)) << name_of(b);
-      const Rgb expected = f(b, wo, s->wi, glossy) * std::abs(s->wi.z) / density;
+      const float density = pdf(b, wo, s->wi, part);
+      EXPECT_NEAR(s->pdf, density, tolerance * double(density)) << std::string(name_of(b));
+      const Rgb expected = f(b, wo, s->wi, part) * std::abs(s->wi.z) / density;
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(s->weight[c], expected[c], tolerance * double(expected[c]));
     }
   });
@@ -220,25 +139,25 @@ float squared_index(const Bsdf& bsdf, const Vector3& w) {
 
 TEST(Bsdf, IsReciprocal) {
   Random random(2);
-  for (const Bsdf& b : instances()) {
+  for (const Bsdf& b : bsdf_examples()) {
     for (int i = 0; i < 2000; ++i) {
       const Vector3 wo = random.direction();
       const Vector3 wi = random.direction();
       if (near_edge(b, wo, wi)) continue;
-      for (const bool glossy : {false, true}) {
-        // f divided by eta^2 of the side that radiance leaves to is symmetric (Veach 1997, equation 5.14).
-        const Rgb there = f(b, wo, wi, glossy) / squared_index(b, wo);
-        const Rgb back = f(b, wi, wo, glossy) / squared_index(b, wi);
+      for (const LobePart part : {LobePart::kDiffuse, LobePart::kGlossy}) {
+        // f over eta^2 of the side that radiance leaves to is symmetric (Veach 1997, equation 5.14).
+        const Rgb there = f(b, wo, wi, part) / squared_index(b, wo);
+        const Rgb back = f(b, wi, wo, part) / squared_index(b, wi);
         const bool through = !same_hemisphere(wo, wi);
         // The two directions add the same terms in another order. The half vectors of refraction have
         // different lengths in the two directions; far from the peak, where f is small, their rounding
         // dominates D.
         const double tolerance = through ? 1e-2 * double(there.x) + 1e-5 : 1e-4 * double(there.x);
         if (rounding_of(b) < 1e-6) {
-          EXPECT_EQ(there, back) << name_of(b);
+          EXPECT_EQ(there, back) << std::string(name_of(b));
         } else {
           for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(there[c], back[c], tolerance) << name_of(b) << wo.z << " " << wi.z;
+            EXPECT_NEAR(there[c], back[c], tolerance) << std::string(name_of(b)) << wo.z << " " << wi.z;
         }
       }
     }
@@ -249,9 +168,9 @@ TEST(Bsdf, IsReciprocal) {
 // surface it is the reflectance.
 TEST(Bsdf, CreatesNoEnergy) {
   const float cosines[] = {1, 0.7f, 0.3f, 0.05f, 0.001f, -0.5f, -0.01f};
-  for (const Bsdf& b : instances()) {
+  for (const Bsdf& b : bsdf_examples()) {
     for (const float z : cosines) {
-      SCOPED_TRACE(name_of(b) + " wo.z " + std::to_string(z));
+      SCOPED_TRACE(std::string(name_of(b)) + " wo.z " + std::to_string(z));
       const Vector3 wo(std::sqrt(1 - z * z), 0, z);
       Random random(6);
       test::Mean albedo[3];
@@ -276,8 +195,8 @@ TEST(Bsdf, CreatesNoEnergy) {
 
 // Compares the stated hemispherical albedo with the mean weight over cosine-distributed wo.
 TEST(Bsdf, AlbedoIsTheMeanOverTheHemisphere) {
-  for (const Bsdf& b : instances()) {
-    // The albedo of these types counts transmission, so it is one by definition.
+  for (const Bsdf& b : bsdf_examples()) {
+    // These count transmission: one by definition.
     if (std::holds_alternative<Dielectric>(b) || std::holds_alternative<ThinDielectric>(b)) continue;
     if (facets_of(b)) continue;  // the albedo is stated for the smooth surface
     Random random(12);
@@ -286,21 +205,82 @@ TEST(Bsdf, AlbedoIsTheMeanOverTheHemisphere) {
       const auto s = sample(b, sample_cosine_hemisphere(random.uniform_2d()), random);
       if (s) mean.add(s->transmission ? 0 : s->weight.y);
     }
-    // The albedo of a conductor is an integral by eight quadrature points over a smooth curve: 1e-3.
-    EXPECT_NEAR(albedo(b).y, mean.mean, 4.5 * mean.standard_error() + 1e-3) << name_of(b);
+    // Eight quadrature points of the conductor's smooth curve: 1e-3.
+    EXPECT_NEAR(albedo(b).y, mean.mean, 4.5 * mean.standard_error() + 1e-3) << std::string(name_of(b));
+  }
+}
+
+// What the traits of a type say holds for all its examples: random directions find no contradiction.
+TEST(Bsdf, TraitsHold) {
+  for (const Bsdf& b : bsdf_examples()) {
+    SCOPED_TRACE(std::string(name_of(b)));
+    const bool draws_lobe = std::visit([]<class B>(const B&) { return B::kDrawsLobe; }, b);
+    Random random(31);
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3 wo = random.direction(), wi = random.direction();
+      const Rgb value = f(b, wo, wi, LobePart::kDiffuse);
+      if (!same_hemisphere(wo, wi) && !is_black(value)) {
+        EXPECT_TRUE(transmits(b));
+        EXPECT_FALSE(lit_from_one_side(b));
+      }
+      if (!lobes(b).diffuse) EXPECT_TRUE(is_black(value));
+      if (!lobes(b).glossy) EXPECT_TRUE(is_black(f(b, wo, wi, LobePart::kGlossy)));
+      const Point2 u = random.uniform_2d();
+      const auto s = sample_f(b, wo, random.uniform(), u, TransportMode::kImportance);
+      if (!draws_lobe && s) EXPECT_EQ(s->wi, sample_f(b, wo, 0, u, TransportMode::kImportance)->wi);
+      if (s && !s->specular && s->transmission) EXPECT_TRUE(transmits(b));
+      if (s) EXPECT_TRUE(s->specular ? lobes(b).specular : lobes(b).diffuse);
+    }
+  }
+}
+
+// f of isotropic BSDFs depends on the angle between the azimuths alone. Turning rounds both directions once
+// more.
+TEST(Bsdf, IsotropicValuesDoNotTurn) {
+  const float c = std::cos(0.7f), s = std::sin(0.7f);
+  const auto turned = [&](const Vector3& w) { return Vector3(c * w.x - s * w.y, s * w.x + c * w.y, w.z); };
+  for (const Bsdf& b : bsdf_examples()) {
+    Random random(32);
+    for (int i = 0; i < 1000 && !is_anisotropic(b); ++i) {
+      const Vector3 wo = random.direction(), wi = random.direction();
+      if (near_edge(b, wo, wi)) continue;
+      for (const LobePart part : {LobePart::kDiffuse, LobePart::kGlossy}) {
+        const double value = double(f(b, wo, wi, part).x);
+        EXPECT_NEAR(double(f(b, turned(wo), turned(wi), part).x), value, 4 * rounding_of(b) * value + 1e-5)
+            << name_of(b);
+      }
+    }
+  }
+}
+
+TEST(Bsdf, ConstantValuesAreThoseOfPiF) {
+  Random random(33);
+  for (const Bsdf& b : bsdf_examples()) {
+    std::visit(
+        [&]<class B>(const B& bsdf) {
+          if constexpr (HasConstantValue<B>) {
+            for (int i = 0; i < 100; ++i) {
+              const Vector3 wo = random.direction(), wi = random.direction();
+              EXPECT_EQ(bsdf.f(wo, wi), bsdf.pi_f(!same_hemisphere(wo, wi)) * kInvPi);
+            }
+          }
+        },
+        b);
   }
 }
 
 TEST(Bsdf, GrazingAndExtremeInputStayFinite) {
   Random random(3);
-  for (const Bsdf& b : instances()) {
+  for (const Bsdf& b : bsdf_examples()) {
     for (const float z : {0.0f, -0.0f, 1e-38f, -1e-30f, 1e-20f, 1e-7f, 1.0f, 0x1.000002p0f}) {
       const Vector3 wo(std::sqrt(std::max(0.0f, 1 - z * z)), 0, z);
       for (int i = 0; i < 100; ++i) {
         const auto s = sample(b, wo, random, TransportMode::kRadiance);
         if (!s) continue;
-        EXPECT_TRUE(is_finite(s->weight) && is_finite(s->wi) && s->pdf > 0) << name_of(b) << " " << z;
-        EXPECT_TRUE(is_finite(f(b, wo, s->wi)) && is_finite(f(b, wo, s->wi, true)));
+        EXPECT_TRUE(is_finite(s->weight) && is_finite(s->wi) && s->pdf > 0)
+            << std::string(name_of(b)) << " " << z;
+        EXPECT_TRUE(is_finite(f(b, wo, s->wi, LobePart::kDiffuse)) &&
+                    is_finite(f(b, wo, s->wi, LobePart::kGlossy)));
       }
     }
   }

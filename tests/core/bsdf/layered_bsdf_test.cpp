@@ -4,6 +4,7 @@
 
 #include "core/bsdf/bsdf.h"
 #include "core/bsdf/rough_coat.h"
+#include "tests/core/support/bsdf_examples.h"
 #include "tests/core/support/chi_square.h"
 #include "tests/support/random.h"
 #include "tests/support/statistics.h"
@@ -12,8 +13,8 @@ namespace kaustik {
 namespace {
 
 using test::Random;
+using test::kCopperEta, test::kCopperK;
 
-const Rgb kCopperEta(0.2f, 0.92f, 1.1f), kCopperK(3.9f, 2.45f, 2.14f);
 const Vector3 kDirections[] = {{0, 0, 1},
                                {0, 0, -1},
                                glm::normalize(Vector3(1, 0.5f, 1)),
@@ -63,12 +64,13 @@ TEST(Ggx, FacetsProjectToTheSurface) {
 TEST(Ggx, WidthDecidesWhetherALobeIsSpecular) {
   const Vector3 wo = kDirections[2], wi = glm::normalize(Vector3(-0.8f, -0.7f, 1));
   const float a = Ggx::kNarrowAlpha;
-  const Conductor narrow{kCopperEta, kCopperK, {0.999f * a, a}}, broad{kCopperEta, kCopperK, {1.001f * a, a}};
-  EXPECT_TRUE(narrow.lobes().glossy && narrow.lobes().specular && !narrow.lobes().broad);
-  EXPECT_TRUE(broad.lobes().broad && !broad.lobes().glossy && !broad.lobes().specular);
+  const Conductor narrow{kCopperEta, kCopperK, {0.999f * a, a}},
+      diffuse{kCopperEta, kCopperK, {1.001f * a, a}};
+  EXPECT_TRUE(narrow.lobes().glossy && narrow.lobes().specular && !narrow.lobes().diffuse);
+  EXPECT_TRUE(diffuse.lobes().diffuse && !diffuse.lobes().glossy && !diffuse.lobes().specular);
   EXPECT_EQ(narrow.f(wo, wi), Rgb(0));
-  EXPECT_EQ(broad.f_glossy(wo, wi), Rgb(0));
-  EXPECT_NEAR(narrow.f_glossy(wo, wi).x, broad.f(wo, wi).x, 0.01f * broad.f(wo, wi).x);
+  EXPECT_EQ(diffuse.f_glossy(wo, wi), Rgb(0));
+  EXPECT_NEAR(narrow.f_glossy(wo, wi).x, diffuse.f(wo, wi).x, 0.01f * diffuse.f(wo, wi).x);
 }
 
 // A white base under a coat that absorbs nothing loses no energy: for every direction, what the coat reflects
@@ -97,17 +99,17 @@ TEST(CoatedDiffuse, NoSampleOutweighsTheWholeSurface) {
   const CoatedDiffuse b = CoatedDiffuse::from_reflectance(Rgb(0.5f, 0.2f, 0.8f), 1.5f);
   Random random(9);
   for (const Vector3& wo : kDirections) {
-    test::Mean either, broad, specular;
+    test::Mean either, diffuse, specular;
     for (int i = 0; i < 50000; ++i) {
       const Point2 u = random.uniform_2d();
       const float uc = random.uniform();
       constexpr TransportMode kMode = TransportMode::kRadiance;
       if (const auto s = b.sample_f(wo, uc, u, kMode)) either.add(double(s->weight.x));
-      if (const auto s = b.sample_broad(wo, uc, u, kMode)) broad.add(double(s->weight.x));
+      if (const auto s = b.sample_diffuse(wo, uc, u, kMode)) diffuse.add(double(s->weight.x));
       if (const auto s = b.sample_specular(wo, uc, u, kMode)) specular.add(double(s->weight.x));
     }
-    EXPECT_NEAR(either.mean, broad.mean + specular.mean,
-                4.5 * std::hypot(either.standard_error(), broad.standard_error()) + 1e-6);
+    EXPECT_NEAR(either.mean, diffuse.mean + specular.mean,
+                4.5 * std::hypot(either.standard_error(), diffuse.standard_error()) + 1e-6);
   }
 }
 

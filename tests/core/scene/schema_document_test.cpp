@@ -44,5 +44,38 @@ TEST(SchemaDocument, ListsEveryMaterialAndLight) {
   EXPECT_TRUE(has_row("AreaLightSource", DiffuseAreaLight::kName));
 }
 
+// A material keeps photons at all points when a texture decides which lobes it has there (Material::lobes).
+// It knows such parameters by names that end with "roughness"; no other parameter may change the lobes.
+TEST(MaterialRows, OnlyRoughnessDecidesTheLobes) {
+  for (const MaterialRow& row : material_rows()) {
+    if (!row.make) continue;
+    const Directive nothing;
+    for (const double roughness : {0.0, 0.5}) {
+      std::vector<MaterialInput> inputs = material_inputs(ParameterReader(nothing, row.spec));
+      const auto is_roughness = [](const MaterialInput& i) { return i.name.ends_with("roughness"); };
+      for (MaterialInput& input : inputs)
+        if (is_roughness(input) && input.name != "remaproughness") input.numbers = {roughness};
+      const Lobes usual = lobes(row.make(MaterialInputs(inputs)));
+      for (MaterialInput& input : inputs) {
+        const ParameterSpec& spec = *row.spec.find(input.name);
+        const bool takes_texture = std::ranges::count(spec.types, ParameterType::kTexture) > 0;
+        if (is_roughness(input) || !takes_texture) continue;
+        const MaterialInput before = input;
+        for (const float value : {0.3f, 0.9f, 1.7f, 3.3f}) {
+          const float clamped = input.in_range(value, value);
+          input.given = true;
+          input.rgb = Rgb(clamped);
+          input.numbers = {double(clamped), double(clamped), double(clamped)};
+          const Lobes changed = lobes(row.make(MaterialInputs(inputs)));
+          EXPECT_EQ(changed.diffuse, usual.diffuse) << row.spec.name << " " << input.name << " " << value;
+          EXPECT_EQ(changed.specular, usual.specular) << row.spec.name << " " << input.name << " " << value;
+          EXPECT_EQ(changed.glossy, usual.glossy) << row.spec.name << " " << input.name << " " << value;
+        }
+        input = before;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kaustik

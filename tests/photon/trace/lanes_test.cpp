@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "photon/record/record_sink.h"
 #include "photon/trace/vertex_lanes.h"
 #include "photon/trace/walker_queue.h"
+#include "tests/core/support/bsdf_examples.h"
 #include "tests/photon/support/photon_sets.h"
 
 namespace kaustik::photon {
@@ -118,17 +120,16 @@ void expect_scattered(const VertexLanes& lanes, const Vertices& v, const float (
   const SurfaceInteraction si = make_interaction(v.shapes, v.rays[k], v.hits[k]);
   const Frame frame = Frame::from_z(si.n);
   const bool specular = is_specular(v.bsdf(k));
-  const auto sample = std::visit(
-      [&](const auto& bsdf) {
-        return bsdf.sample_f(frame.to_local(-v.rays[k].d), u[2], {u[0], u[1]}, TransportMode::kImportance);
-      },
-      v.bsdf(k));
+  const auto sample =
+      sample_f(v.bsdf(k), frame.to_local(-v.rays[k].d), u[2], {u[0], u[1]}, TransportMode::kImportance);
   const Rgb next = sample ? sample->weight * v.flux[k] : Rgb(0);
   const float before = max_component(v.flux[k]), after = max_component(next);
   const Vector3 w = sample ? frame.to_world(sample->wi) : Vector3(0);
   const Vector3 wi = (1.5f - 0.5f * length_squared(w)) * w;
   const bool same_sides = sample && glm::dot(wi, si.n) * sample->wi.z > 0;
   const bool alive = same_sides && after > 0 && (after >= before || u[specular ? 3 : 2] * before < after);
+  const bool draws_lobe = std::visit([]<class B>(const B&) { return B::kDrawsLobe; }, v.bsdf(k));
+  ASSERT_EQ(draws_lobe, specular) << "lanes take the number for roulette behind that for the lobe";
   ASSERT_EQ(lanes.fate[k], alive ? VertexLanes::kAlive : VertexLanes::kAbsorbed) << k;
   if (!alive) return;
   ASSERT_EQ(VertexLanes::get(lanes.next.d, k), wi) << k;
@@ -136,22 +137,40 @@ void expect_scattered(const VertexLanes& lanes, const Vertices& v, const float (
   ASSERT_EQ(VertexLanes::get(lanes.next_flux, k), (after < before ? before / after : 1.0f) * next);
 }
 
-TEST(VertexLanes, SegmentsMatchTheScalarCode) {
-  for (uint64_t seed = 0; seed < 50; ++seed) {
-    const Vertices v = make_vertices(seed);
-    PhotonMaker make(1000 + seed);
-    VertexLanes lanes{};
-    fill(v, lanes);
-    SobolLanes numbers{};
-    for (auto& column : numbers.u) {
-      for (float& u : column) u = make.uniform();
-    }
-    locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
-    scatter_lanes(lanes, numbers, 1, VertexLanes::kLanes);
-    for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
-      expect_scattered(lanes, v, {numbers.u[0][k], numbers.u[1][k], numbers.u[2][k], numbers.u[3][k]}, k);
+void expect_scattered(const Vertices& v, uint64_t seed) {
+  PhotonMaker make(seed);
+  VertexLanes lanes{};
+  fill(v, lanes);
+  SobolLanes numbers{};
+  for (auto& column : numbers.u) {
+    for (float& u : column) u = make.uniform();
+  }
+  locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
+  scatter_lanes(lanes, numbers, 1, VertexLanes::kLanes);
+  for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
+    if (lanes.traits[k] & kScalarTrait) continue;
+    expect_scattered(lanes, v, {numbers.u[0][k], numbers.u[1][k], numbers.u[2][k], numbers.u[3][k]}, k);
+  }
+}
+
+TEST(VertexLanes, SegmentsAreThoseOfTheScalarCode) {
+  for (uint64_t seed = 0; seed < 50; ++seed) expect_scattered(make_vertices(seed), 1000 + seed);
+}
+
+// Every example of every BSDF, so that none can be computed in lanes without being compared.
+TEST(VertexLanes, ExamplesOfAllBsdfsScatterAsInScalarCode) {
+  std::set<size_t> in_lanes;
+  for (const Bsdf& bsdf : kaustik::test::bsdf_examples()) {
+    SCOPED_TRACE(std::string(name_of(bsdf)));
+    for (uint64_t seed = 0; seed < 8; ++seed) {
+      Vertices v = make_vertices(seed);
+      for (Material& material : v.materials) material = bsdf;
+      const SurfaceTable surfaces(v.shapes, v.materials);
+      if (!(surfaces.row(0).traits & kScalarTrait)) in_lanes.insert(bsdf.index());
+      expect_scattered(v, 2000 + seed);
     }
   }
+  EXPECT_EQ(in_lanes.size(), 4u) << "types in lanes: diffuse, orennayar, mirror, smooth dielectric";
 }
 
 TEST(VertexLanes, NegativeOrNonFiniteFluxIsInvalid) {

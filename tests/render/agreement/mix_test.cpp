@@ -13,7 +13,7 @@ using namespace test;
 void add_mixture(Scene& scene, const Bsdf& first, const Bsdf& second, float amount) {
   const uint32_t a = add_material(scene, first), b = add_material(scene, second);
   Lobes parts = lobes(first);
-  parts.broad |= lobes(second).broad;
+  parts.diffuse |= lobes(second).diffuse;
   parts.specular |= lobes(second).specular;
   parts.glossy &= lobes(second).glossy;
   scene.materials.push_back(Material(MixedMaterial{a, b, amount, parts}, first));
