@@ -34,9 +34,6 @@ glm::dvec3 in_world(const Scene& scene, const Point3& p) {
 std::string_view type_name(const Material& material) {
   return material.mixed() ? "mix" : name_of(material.typical());
 }
-std::string_view type_name(const Light& light) {
-  return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kName; }, light);
-}
 std::string_view type_name(const Shape& shape) {
   constexpr std::string_view kNames[] = {"trianglemesh", "sphere", "disk", "instance", "quadric"};
   return kNames[shape.geometry.index()];
@@ -82,7 +79,7 @@ Json materials_json(const Scene& scene) {
 Json lights_json(const Scene& scene) {
   Json out = Json::array();
   for (const Light& light : scene.lights)
-    out.push_back({{"type", type_name(light)}, {"power", triple(power(light))}});
+    out.push_back({{"type", name_of(light)}, {"power", triple(power(light))}});
   return out;
 }
 
@@ -156,7 +153,7 @@ std::string info_text(const std::string& path, const Job& job) {
                         type_name(scene.materials[i]), triple_text(albedo(scene.materials[i].typical())));
   }
   for (const Light& light : scene.lights) {
-    text += fmt::format("light      {}, power {} W\n", type_name(light), triple_text(power(light)));
+    text += fmt::format("light      {}, power {} W\n", name_of(light), triple_text(power(light)));
   }
   for (const Json& g : groups_json(scene)) {
     const uint64_t shapes = g["shapes"].get<uint64_t>();

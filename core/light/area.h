@@ -6,7 +6,7 @@
 
 #include "core/geometry/interaction.h"
 #include "core/light/image/emission_image.h"
-#include "core/light/light_types.h"
+#include "core/light/light_bounds.h"
 #include "core/sampling/discrete.h"
 #include "core/texture/texture.h"
 
@@ -51,7 +51,6 @@ struct EmitterAlpha {
 
 // Lambertian emitter with radiance L (W/(m^2 sr)), or L times an image, on its outside or on both sides.
 struct DiffuseAreaLight {
-  static constexpr bool kDelta = false;
   static constexpr std::string_view kName = "diffuse";
 
   std::variant<TriangleEmitter, SphereEmitter, DiskEmitter, QuadricEmitter> surface;
@@ -67,6 +66,7 @@ struct DiffuseAreaLight {
   static std::optional<DiffuseAreaLight> make(const Shape& shape, const Rgb& L, bool twosided,
                                               std::shared_ptr<const LightImage> image = nullptr);
 
+  bool is_delta() const { return invisible; }
   // Radiance that leaves a point on the light in direction w (unit).
   Rgb Le(const SurfaceInteraction& on_light, const Vector3& w) const {
     if (!twosided && !(glm::dot(on_light.n, w) > 0)) return Rgb(0);
@@ -79,6 +79,8 @@ struct DiffuseAreaLight {
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
   // Power of the light, as if alpha were one everywhere.
   Rgb power() const { return flux_of(area, image ? L * image->mean() : L); }
+  std::optional<LightBounds> bounds() const;
+  double brightness(double scene_size) const;
   // Flux that an area a with radiance Le emits.
   Rgb flux_of(float a, const Rgb& Le) const { return (twosided ? 2.0f : 1.0f) * kPi * a * Le; }
 };

@@ -1,6 +1,7 @@
 #pragma once
-// The variant of all light types. To add a light: (1) write a header with the struct, (2) add its name here,
-// (3) add its row in core/scene/schema/light_rows.cpp.
+// The list of all lights. To add one: (1) write a header with the struct (core/light/light_types.h says what
+// it must have), (2) add its name here, (3) add its row to core/scene/schema/light_rows.cpp. The tests then
+// ask for example values of it in tests/core/light/light_cases.cpp.
 
 #include <variant>
 #include <vector>
@@ -17,17 +18,29 @@
 
 namespace kaustik {
 
-using Light = std::variant<PointLight, SpotLight, GoniometricLight, ProjectionLight, DistantLight,
-                           InfiniteLight, ImageInfiniteLight, PortalInfiniteLight, DiffuseAreaLight>;
+// Does not compile when a type lacks a member that LightType requires.
+template <LightType... L>
+using VariantOfLights = std::variant<L...>;
 
+using Light = VariantOfLights<PointLight, SpotLight, GoniometricLight, ProjectionLight, DistantLight,
+                              InfiniteLight, ImageInfiniteLight, PortalInfiniteLight, DiffuseAreaLight>;
+
+inline std::string_view name_of(const Light& light) {
+  return std::visit([]<class L>(const L&) -> std::string_view { return L::kName; }, light);
+}
 inline Rgb power(const Light& light) {
   return std::visit([](const auto& l) { return l.power(); }, light);
 }
 // Whether no ray can hit the light.
 inline bool is_delta(const Light& light) {
-  const auto* area = std::get_if<DiffuseAreaLight>(&light);
-  if (area && area->invisible) return true;
-  return std::visit([](const auto& l) { return std::decay_t<decltype(l)>::kDelta; }, light);
+  return std::visit([](const auto& l) { return l.is_delta(); }, light);
+}
+// Nothing for lights without a place.
+inline std::optional<LightBounds> bounds_of(const Light& light) {
+  return std::visit([](const auto& l) { return l.bounds(); }, light);
+}
+inline double brightness(const Light& light, double scene_size) {
+  return std::visit([&](const auto& l) { return l.brightness(scene_size); }, light);
 }
 // Lights that are seen by rays leaving the scene.
 template <class L>
@@ -50,8 +63,8 @@ inline Rgb escaped_radiance(const Light& light, const Ray& ray) {
 // receiver.
 inline std::optional<LightSample> sample_Li(const Light& light, const LightReceiver& x, const Point2& u) {
   return std::visit(
-      [&](const auto& l) {
-        if constexpr (requires { l.sample_Li(x, u); })
+      [&]<class L>(const L& l) {
+        if constexpr (SamplesReceivers<L>)
           return l.sample_Li(x, u);
         else
           return l.sample_Li(x.p, u);

@@ -1,17 +1,31 @@
 #pragma once
-// The interface of lights. A light is a value type with these members:
-//   std::optional<LightSample> sample_Li(ref, u) const
-//     light arriving at a point (or at a LightReceiver); nothing if none can arrive
+// The interface of lights. A light is a value type; the concept LightType below lists what it must have:
+//   static constexpr std::string_view kName
+//     name of the type in `kaustik info`
+//   bool is_delta() const
+//     no ray can hit it (point, spot, distant)
+//   std::optional<LightSample> sample_Li(x, u) const
+//     light arriving at x, a point or a LightReceiver, before visibility; nothing if none can arrive
 //   std::optional<EmissionSample> sample_Le(u_pos, u_dir, mode) const
 //     start of a photon path
 //   Rgb power() const
 //     watts per channel
-//   static constexpr bool kDelta
-//     no ray can hit it (point, spot, distant)
-//   static constexpr std::string_view kName
-// Area and infinite lights also have Le, the radiance towards a viewer, and pdf_Li, the density of sample_Li
-// per solid angle.
+//   std::optional<LightBounds> bounds() const
+//     where the light is and where it shines (core/light/light_bounds.h); nothing for lights without a position
+//     (distant, infinite)
+//   double brightness(double scene_size) const
+//     generous estimate of the radiance, in W/(m^2 sr), of surfaces that it lights in a scene of this radius
+//     (metres); the range of exact sums follows from it
+// Lights that rays hit when they leave the scene also have
+//   Rgb Le(ray) const
+//     radiance that the escaping ray meets
+//   float pdf_Li(x, wi) const
+//     density of sample_Li per solid angle
+// and those that need the scene's bounding sphere have these data members, which finalize_scene sets:
+//   Point3 scene_center; float scene_radius;
+// Area lights have Le and pdf_Li for points on them.
 
+#include <concepts>
 #include <optional>
 #include <string_view>
 
@@ -58,6 +72,12 @@ std::optional<LightSample> sample_point_light(const Point3& position, const Poin
   return LightSample{wi, Li, 1, position, false};
 }
 
+// LightType::brightness() of a light without extent whose greatest intensity is I (W/sr): at 2^-10 of the
+// scene's radius.
+inline double point_light_brightness(const Rgb& I, double scene_size) {
+  return 0x1p20 * double(max_component(I)) / (scene_size * scene_size);
+}
+
 // Start of a photon path.
 struct EmissionSample {
   Ray ray;      // unit direction; the origin is offset from the light's surface
@@ -65,6 +85,30 @@ struct EmissionSample {
   // The photon comes from infinity and only passes through the origin: discard it if a ray traced backwards
   // from there hits anything.
   bool from_sky = false;
+};
+
+struct LightBounds;
+
+template <class L>
+concept SamplesPoints = requires(const L& light, const Point3& p, const Point2& u) {
+  { light.sample_Li(p, u) } -> std::same_as<std::optional<LightSample>>;
+};
+template <class L>
+concept SamplesReceivers = requires(const L& light, const LightReceiver& x, const Point2& u) {
+  { light.sample_Li(x, u) } -> std::same_as<std::optional<LightSample>>;
+};
+
+// What every light must have; the meanings are at the top of this file.
+template <class L>
+concept LightType = (SamplesPoints<L> || SamplesReceivers<L>)&&requires(const L& light, const Point2& u,
+                                                                        EmissionMode mode,
+                                                                        double scene_size) {
+  { L::kName } -> std::convertible_to<std::string_view>;
+  { light.is_delta() } -> std::same_as<bool>;
+  { light.sample_Le(u, u, mode) } -> std::same_as<std::optional<EmissionSample>>;
+  { light.power() } -> std::same_as<Rgb>;
+  { light.bounds() } -> std::same_as<std::optional<LightBounds>>;
+  { light.brightness(scene_size) } -> std::same_as<double>;
 };
 
 }  // namespace kaustik

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/light/image/direction_map.h"
-#include "core/light/light_types.h"
+#include "core/light/light_bounds.h"
 #include "core/math/frame.h"
 #include "core/sampling/windowed_2d.h"
 
@@ -55,7 +55,6 @@ class PortalSky {
 // the rectangle, from the directions that leave through it to infinity. Objects outside cast shadows but are
 // not lit.
 struct PortalInfiniteLight {
-  static constexpr bool kDelta = false;
   static constexpr std::string_view kName = "infinite portal";
 
   Point3 corner{0};
@@ -64,6 +63,7 @@ struct PortalInfiniteLight {
   std::shared_ptr<const PortalSky> sky;
   float scale = 1;
 
+  static constexpr bool is_delta() { return false; }
   Rgb Le(const Ray& escaping) const;
   std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
   float pdf_Li(const Point3& ref, const Vector3& wi) const;
@@ -72,6 +72,10 @@ struct PortalInfiniteLight {
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
   // Flux through the portal if nothing blocks it.
   Rgb power() const;
+  std::optional<LightBounds> bounds() const { return std::nullopt; }
+  double brightness(double /*scene_size*/) const {
+    return double(scale) * double(max_component(sky->brightest()));
+  }
 
  private:
   // The part of the square that the portal covers as seen from p; nothing if p is outside.

@@ -86,4 +86,13 @@ std::optional<EmissionSample> ProjectionLight::sample_Le(const Point2& /*u_pos*/
   return EmissionSample{{position, to_world * s.w}, (scale / s.pdf) * s.value};
 }
 
+std::optional<LightBounds> ProjectionLight::bounds() const {
+  LightBounds b = bounds_of_point(position, power());
+  b.phi *= 0.5f * kInvPi;
+  b.w = to_world[2];
+  b.cos_o = image->least_cosine();
+  b.cos_e = 1;
+  return b;
+}
+
 }  // namespace kaustik

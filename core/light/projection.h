@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/light/image/light_image.h"
-#include "core/light/light_types.h"
+#include "core/light/light_bounds.h"
 #include "core/sampling/piecewise_2d.h"
 
 namespace kaustik {
@@ -41,7 +41,6 @@ class ProjectedImage {
 
 // A projector: its image gives the radiant intensity (W/sr) in each direction.
 struct ProjectionLight {
-  static constexpr bool kDelta = true;
   static constexpr std::string_view kName = "projection";
 
   Point3 position{0};
@@ -49,11 +48,16 @@ struct ProjectionLight {
   std::shared_ptr<const ProjectedImage> image;
   float scale = 1;
 
+  static constexpr bool is_delta() { return true; }
   // Radiant intensity in direction w (unit, away from the light).
   Rgb intensity(const Vector3& w) const { return scale * image->value(w * to_world); }
   std::optional<LightSample> sample_Li(const Point3& ref, const Point2& u) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
   Rgb power() const { return scale * image->integral(); }
+  std::optional<LightBounds> bounds() const;
+  double brightness(double scene_size) const {
+    return point_light_brightness(scale * image->brightest(), scene_size);
+  }
 };
 
 }  // namespace kaustik

@@ -56,4 +56,12 @@ Rgb SpotLight::power() const {
   return I * (2 * kPi * (cone + 0.5f * ring));
 }
 
+std::optional<LightBounds> SpotLight::bounds() const {
+  LightBounds b = bounds_of_point(position, I);
+  b.w = frame.z;
+  b.cos_o = cos_total_width;
+  b.cos_e = 1;
+  return b;
+}
+
 }  // namespace kaustik

@@ -23,27 +23,6 @@ double size_of(const Scene& scene) {
   return radius > 0 && std::isfinite(radius) ? radius : 1;
 }
 
-// Generous upper estimate, in W/(m^2 sr), of the radiance that a light causes.
-struct LightBrightness {
-  double scene_size;
-  double operator()(const DiffuseAreaLight& l) const {
-    return double(max_component(l.image ? l.L * l.image->brightest() : l.L));
-  }
-  double operator()(const InfiniteLight& l) const { return double(max_component(l.L)); }
-  double operator()(const ImageInfiniteLight& l) const {
-    return double(l.scale) * double(max_component(l.map->brightest()));
-  }
-  double operator()(const PortalInfiniteLight& l) const {
-    return double(l.scale) * double(max_component(l.sky->brightest()));
-  }
-  double operator()(const DistantLight& l) const { return double(max_component(l.L)); }
-  double operator()(const PointLight& l) const { return near(l.I); }
-  double operator()(const SpotLight& l) const { return near(l.I); }
-  double operator()(const GoniometricLight& l) const { return near(l.I * l.map->brightest().x); }
-  double operator()(const ProjectionLight& l) const { return near(l.scale * l.image->brightest()); }
-  double near(const Rgb& I) const { return 0x1p20 * double(max_component(I)) / (scene_size * scene_size); }
-};
-
 std::array<double, kSumChannels> channels_of(const PixelSum& s) {
   std::array<double, kSumChannels> out{};
   size_t i = 0;
@@ -143,8 +122,7 @@ PixelUnits::PixelUnits(const ExactUnits& units) : square(std::ldexp(1.0, units.s
 ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   const double size = size_of(scene);
   double brightest = 0;
-  for (const Light& light : scene.lights)
-    brightest = std::max(brightest, std::visit(LightBrightness{size}, light));
+  for (const Light& light : scene.lights) brightest = std::max(brightest, brightness(light, size));
   // The sensor makes no channel larger than this factor times the brightest one.
   if (!scene.sensor.neutral) brightest *= largest_gain(scene.sensor);
   const Point3 eye = scene.camera.to_world.point(Point3(0));

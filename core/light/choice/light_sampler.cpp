@@ -20,8 +20,7 @@ LightSampler::LightSampler(const std::vector<Light>& lights, size_t most_by_powe
   if (by_power_) return;
   tree_ = LightTree(lights);
   for (uint32_t i = 0; i < lights.size(); ++i) {
-    const bool placeless = is_infinite(lights[i]) || std::holds_alternative<DistantLight>(lights[i]);
-    if (placeless && luminance(power(lights[i])) > 0) placeless_.push_back(i);
+    if (!bounds_of(lights[i]) && luminance(power(lights[i])) > 0) placeless_.push_back(i);
   }
 }
 

@@ -63,7 +63,7 @@ void improve(Split& best, const Buckets& buckets, int axis, double elongation) {
 LightTree::LightTree(const std::vector<Light>& lights) : trails_(lights.size()) {
   std::vector<Item> items;
   for (uint32_t i = 0; i < lights.size(); ++i)
-    if (const auto b = light_bounds(lights[i])) items.push_back({*b, i});
+    if (const auto b = bounds_of(lights[i]); b && b->phi > 0) items.push_back({*b, i});
   if (items.empty()) return;
   nodes_.reserve(2 * items.size());
   nodes_.emplace_back();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/light/choice/light_bounds.h"
+#include "core/light/light.h"
 
 namespace kaustik {
 

@@ -75,8 +75,31 @@ TEST(Light, PhotonsAndIrradianceCarryTheSameFlux) {
   }
 }
 
-// Tests sample_Li's directions against pdf_Li, evaluated where rays meet the light: chi-square, and total
-// mass one.
+// Wherever a light brings something, its bounds find it important, and what arrives is no brighter than
+// brightness() says: the cases' lights are of the size of a scene of radius one, and no receiver is nearer
+// than 2^-10 of that.
+TEST(Light, BoundsAndBrightnessHoldForWhatArrives) {
+  for (const LightCase& c : test::light_cases()) {
+    SCOPED_TRACE(c.name);
+    const std::optional<LightBounds> bounds = bounds_of(c.light);
+    const double brightest = brightness(c.light, 1);
+    Random random(20);
+    int arriving = 0;
+    for (int i = 0; i < 20000; ++i) {
+      LightReceiver x{3.0f * Point3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))};
+      x.n = random.direction();
+      x.two_sided = random.uniform() < 0.5f;
+      const auto s = test::sample_Li(c.light, x, random);
+      if (!s || is_black(s->Li) || (!x.two_sided && !(glm::dot(x.n, s->wi) > 0))) continue;
+      ++arriving;
+      if (bounds) ASSERT_GT(bounds->importance(x), 0);
+      ASSERT_LE(double(max_component(s->Li)), brightest * (1 + 8 * 0x1p-24));
+    }
+    EXPECT_GT(arriving, 100);
+  }
+}
+
+// sample_Li's directions against pdf_Li, evaluated where rays meet the light: chi-square, and mass one.
 TEST(Light, DirectionsFollowTheirDensity) {
   std::vector<test::SquareCase> cases;
   for (const LightCase& c : test::light_cases()) {

@@ -1,7 +1,7 @@
 #pragma once
 // Bounds of sets of lights, from which their importance at a point is estimated.
 
-#include "core/light/light.h"
+#include "core/light/light_types.h"
 #include "core/math/bounds.h"
 
 namespace kaustik {
@@ -22,8 +22,8 @@ struct LightBounds {
   float importance(const LightReceiver& x) const;
 };
 
-// Nothing for lights without a position (distant, infinite) and for those that emit nothing.
-std::optional<LightBounds> light_bounds(const Light& light);
+// The bounds of a light at p of intensity I in all directions.
+LightBounds bounds_of_point(const Point3& p, const Rgb& I);
 LightBounds united(const LightBounds& a, const LightBounds& b);
 
 }  // namespace kaustik

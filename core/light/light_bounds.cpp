@@ -1,8 +1,6 @@
-// Bounds of each type of light, their union, and the importance at a receiver.
+// The union of bounds of lights, and their importance at a receiver.
 
-#include "core/light/choice/light_bounds.h"
-
-#include "core/geometry/surface_bounds.h"
+#include "core/light/light_bounds.h"
 
 namespace kaustik {
 namespace {
@@ -33,81 +31,6 @@ Angle subtended(float radius2, float distance2) {
 // 7 to 34 %.
 float typical(float most, float at_center) {
   return 0.5f * (std::max(most, kSlack) + std::max(at_center, 0.0f));
-}
-
-LightBounds of_point(const Point3& p, const Rgb& I) {
-  LightBounds b;
-  b.box.add(p);
-  b.phi = luminance(I);
-  return b;
-}
-
-std::optional<LightBounds> bounds(const PointLight& l) {
-  return of_point(l.position, l.I);
-}
-std::optional<LightBounds> bounds(const GoniometricLight& l) {
-  return of_point(l.position, l.I * l.map->mean().x);
-}
-std::optional<LightBounds> bounds(const SpotLight& l) {
-  LightBounds b = of_point(l.position, l.I);
-  b.w = l.frame.z;
-  b.cos_o = l.cos_total_width;
-  b.cos_e = 1;
-  return b;
-}
-std::optional<LightBounds> bounds(const ProjectionLight& l) {
-  LightBounds b = of_point(l.position, l.power());
-  b.phi *= 0.5f * kInvPi;
-  b.w = l.to_world[2];
-  b.cos_o = l.image->least_cosine();
-  b.cos_e = 1;
-  return b;
-}
-template <class L>
-std::optional<LightBounds> bounds(const L&) {
-  return std::nullopt;
-}
-
-void add_surface(const TriangleEmitter& e, LightBounds& b) {
-  Vector3 sum(0);
-  for (const TriangleEmitter::Triangle& t : e.triangles) {
-    for (const Point3& p : {t.p0, t.p0 + t.e1, t.p0 + t.e2}) b.box.add(p);
-    sum += t.n;
-  }
-  const float length = glm::length(sum);
-  if (!(length > 0)) return;
-  b.w = sum / length;
-  b.cos_o = 1;
-  for (const TriangleEmitter::Triangle& t : e.triangles) b.cos_o = std::min(b.cos_o, glm::dot(b.w, t.n));
-}
-void add_surface(const SphereEmitter& e, LightBounds& b) {
-  b.box.add(e.center - e.radius);
-  b.box.add(e.center + e.radius);
-}
-void add_surface(const DiskEmitter& e, LightBounds& b) {
-  const Vector3 half = glm::abs(e.to_world.linear[0]) + glm::abs(e.to_world.linear[1]);
-  b.box.add(e.to_world.translation - half);
-  b.box.add(e.to_world.translation + half);
-  b.w = e.n;
-  b.cos_o = 1;
-}
-
-void add_surface(const QuadricEmitter& e, LightBounds& b) {
-  b.box.add(bounds_of(e.quadric));
-  if (e.quadric.kind != QuadricKind::kDisk) return;
-  const Normal3 n = disk_normal(e.quadric.to_world);
-  b.w = e.inward ? -n : n;
-  b.cos_o = 1;
-}
-
-std::optional<LightBounds> bounds(const DiffuseAreaLight& l) {
-  LightBounds b;
-  std::visit([&](const auto& e) { add_surface(e, b); }, l.surface);
-  b.two_sided = l.twosided;
-  b.phi = luminance(l.power()) / ((l.twosided ? 2 : 1) * kPi);
-  // From afar, a convex surface whose normals cover all directions shows a quarter of its area (Cauchy 1832).
-  if (b.cos_o < 0) b.phi *= 0.25f;
-  return b;
 }
 
 // Sets the smallest cone that contains two cones.
@@ -151,9 +74,11 @@ float LightBounds::importance(const LightReceiver& x) const {
   return phi * cosines / std::max(distance2, radius2);
 }
 
-std::optional<LightBounds> light_bounds(const Light& light) {
-  auto b = std::visit([](const auto& l) { return bounds(l); }, light);
-  return b && b->phi > 0 ? b : std::nullopt;
+LightBounds bounds_of_point(const Point3& p, const Rgb& I) {
+  LightBounds b;
+  b.box.add(p);
+  b.phi = luminance(I);
+  return b;
 }
 
 LightBounds united(const LightBounds& a, const LightBounds& b) {
