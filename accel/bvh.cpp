@@ -17,6 +17,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -130,12 +131,12 @@ struct OwnScene {
 struct Bvh::Impl {
   std::atomic<int64_t> bytes{0};
   EmbreeHandles embree;
-  float to_scene = 1, to_embree = 1;  // lengths, as powers of two
-  QuadricGroup spheres, disks, others;
-  std::map<const TriangleMesh*, OwnScene> own_scenes;  // one for each instanced mesh
-  std::deque<AlphaMesh> alpha_meshes;                  // a deque, since Embree keeps pointers to its elements
-  bool coherent = false;                               // traverse packets of mixed rays coherently
-  bool instances = false;                              // hits may name an instance
+  float to_scene = 1, to_embree = 1;                               // lengths, as powers of two
+  std::array<QuadricGroup, std::variant_size_v<Geometry>> groups;  // by type; those of meshes stay empty
+  std::map<const TriangleMesh*, OwnScene> own_scenes;              // one for each instanced mesh
+  std::deque<AlphaMesh> alpha_meshes;  // a deque, since Embree keeps pointers to its elements
+  bool coherent = false;               // traverse packets of mixed rays coherently
+  bool instances = false;              // hits may name an instance
 
   void open();
   void set_scale(const Bounds3& bounds);
@@ -143,8 +144,7 @@ struct Bvh::Impl {
   void add_mesh(const Scene& scene, const TriangleMesh& mesh, uint32_t shape);
   void add_instance(const Scene& scene, const InstancedMesh& instance, uint32_t shape);
   RTCGeometry make_geometry(const TriangleMesh& mesh, float scale);
-  template <class Geometry>
-  void add_group(QuadricGroup& group, unsigned geometry_id);
+  void add_group(const Scene& scene, QuadricGroup& group, unsigned geometry_id);
   void attach(RTCScene scene, RTCGeometry geometry, unsigned geometry_id);
   void commit(int threads);
   void start_packets(RTCRayHit16* query) const;
@@ -211,12 +211,12 @@ void Bvh::Impl::add_instance(const Scene& scene, const InstancedMesh& instance, 
   instances = true;
 }
 
-template <class Geometry>
-void Bvh::Impl::add_group(QuadricGroup& group, unsigned geometry_id) {
+void Bvh::Impl::add_group(const Scene& scene, QuadricGroup& group, unsigned geometry_id) {
   if (group.members.empty()) return;
+  group.scene = &scene;
   group.to_scene = to_scene;
   group.to_embree = to_embree;
-  attach(embree.scene, accel::make_geometry<Geometry>(embree.device, group), geometry_id);
+  attach(embree.scene, accel::make_geometry(embree.device, group), geometry_id);
 }
 
 void Bvh::Impl::set_scale(const Bounds3& bounds) {
@@ -227,22 +227,16 @@ void Bvh::Impl::set_scale(const Bounds3& bounds) {
 void Bvh::Impl::add_shapes(const Scene& scene) {
   const std::vector<Shape>& all = scene.shapes;
   const auto shapes = static_cast<uint32_t>(all.size());
-  spheres.scene = disks.scene = others.scene = &scene;
   for (uint32_t i = 0; i < shapes; ++i) {
     std::visit(
-        [&](const auto& geometry) {
-          using Geometry = std::decay_t<decltype(geometry)>;
-          if constexpr (std::is_same_v<Geometry, TriangleMesh>) add_mesh(scene, geometry, i);
-          if constexpr (std::is_same_v<Geometry, InstancedMesh>) add_instance(scene, geometry, i);
-          if constexpr (std::is_same_v<Geometry, Sphere>) spheres.add(all[i], i);
-          if constexpr (std::is_same_v<Geometry, Disk>) disks.add(all[i], i);
-          if constexpr (std::is_same_v<Geometry, Quadric>) others.add(all[i], i);
+        [&]<class G>(const G& geometry) {
+          if constexpr (std::same_as<G, TriangleMesh>) add_mesh(scene, geometry, i);
+          if constexpr (std::same_as<G, InstancedMesh>) add_instance(scene, geometry, i);
+          if constexpr (AnalyticShape<G>) groups[all[i].geometry.index()].add(all[i], i);
         },
         all[i].geometry);
   }
-  add_group<Sphere>(spheres, shapes);
-  add_group<Disk>(disks, shapes + 1);
-  add_group<Quadric>(others, shapes + 2);
+  for (unsigned type = 0; type < groups.size(); ++type) add_group(scene, groups[type], shapes + type);
   coherent = primitive_count(all) <= kFewPrimitives;
 }
 

@@ -21,24 +21,14 @@ Ray to_ray(RTCRayN* rays, unsigned N, unsigned i, float to_scene) {
   return {to_scene * o, d, to_scene * t_max};
 }
 
-float intersect_geometry(const Sphere& sphere, const Ray& ray, Point2* /*uv*/) {
-  return intersect_sphere(sphere, ray);
-}
-float intersect_geometry(const Disk& disk, const Ray& ray, Point2* uv) {
-  return intersect_disk(disk, ray, uv);
-}
-float intersect_geometry(const Quadric& quadric, const Ray& ray, Point2* uv) {
-  return kaustik::intersect_quadric(quadric, ray, uv);
-}
-
 // Nearest crossing that alpha does not reject, or infinity. A ray meets a sphere or a disk at most twice.
-template <class Geometry>
+template <AnalyticShape G>
 float intersect_with_alpha(const QuadricGroup& group, uint32_t primitive, Ray ray, uint64_t ray_hash,
                            Point2* uv) {
-  const auto& geometry = std::get<Geometry>(group.shape(primitive).geometry);
+  const auto& geometry = std::get<G>(group.shape(primitive).geometry);
   float passed = 0;
-  for (uint32_t crossing = 0; crossing < 2; ++crossing) {
-    const float t = intersect_geometry(geometry, ray, uv);
+  for (uint32_t crossing = 0; crossing < G::kMostCrossings; ++crossing) {
+    const float t = geometry.intersect(ray, uv);
     if (t == kInfinity) break;
     const Hit hit{t, group.members[primitive], 0, *uv};
     if (stops_at(*group.scene, ray, hit, ray_hash + crossing)) return passed + t;
@@ -49,15 +39,14 @@ float intersect_with_alpha(const QuadricGroup& group, uint32_t primitive, Ray ra
 }
 
 // Nearest intersection of ray i of N; t in Embree's units.
-template <class Geometry>
+template <AnalyticShape G>
 float intersect_quadric(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, unsigned i,
                         Point2* uv) {
   const Ray ray = to_ray(rays, N, i, group.to_scene);
   if (group.has_alpha && group.shape(primitive).has_alpha()) {
-    return group.to_embree *
-           intersect_with_alpha<Geometry>(group, primitive, ray, hash_of_ray(rays, N, i), uv);
+    return group.to_embree * intersect_with_alpha<G>(group, primitive, ray, hash_of_ray(rays, N, i), uv);
   }
-  return group.to_embree * intersect_geometry(std::get<Geometry>(group.shape(primitive).geometry), ray, uv);
+  return group.to_embree * std::get<G>(group.shape(primitive).geometry).intersect(ray, uv);
 }
 
 void quadric_bounds(const RTCBoundsFunctionArguments* args) {
@@ -73,10 +62,10 @@ bool replaces(float held_t, unsigned held_shape, float t, unsigned shape) {
 }
 
 // Intersects all N rays, valid or not: t in Embree's units; uv for disks.
-template <class Geometry>
+template <AnalyticShape G>
 void intersect_all(const QuadricGroup& group, uint32_t primitive, RTCRayN* rays, unsigned N, float* t,
                    Point2* uv) {
-  for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<Geometry>(group, primitive, rays, N, i, &uv[i]);
+  for (unsigned i = 0; i < N; ++i) t[i] = intersect_quadric<G>(group, primitive, rays, N, i, &uv[i]);
 }
 
 template <>
@@ -100,7 +89,7 @@ void intersect_all<Sphere>(const QuadricGroup& group, uint32_t primitive, RTCRay
   for (size_t i = 0; i < kPacket; ++i) t[i] *= group.to_embree;
 }
 
-template <class Geometry>
+template <AnalyticShape G>
 void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
   const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
   const unsigned N = args->N, primitive = args->primID, shape = group.members[primitive];
@@ -108,7 +97,7 @@ void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, N);
   alignas(64) float t[kPacket];
   Point2 uv[kPacket] = {};
-  intersect_all<Geometry>(group, primitive, rays, N, t, uv);
+  intersect_all<G>(group, primitive, rays, N, t, uv);
   for (unsigned i = 0; i < N; ++i) {
     const unsigned instance = RTCHitN_instID(hits, N, i, 0);
     const unsigned held = instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(hits, N, i) : instance;
@@ -122,32 +111,38 @@ void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
   }
 }
 
-template <class Geometry>
+template <AnalyticShape G>
 void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
   const auto& group = *static_cast<const QuadricGroup*>(args->geometryUserPtr);
   for (unsigned i = 0; i < args->N; ++i) {
     if (!args->valid[i]) continue;
     Point2 uv(0);
     float& t_far = RTCRayN_tfar(args->ray, args->N, i);
-    if (intersect_quadric<Geometry>(group, args->primID, args->ray, args->N, i, &uv) <= t_far)
+    if (intersect_quadric<G>(group, args->primID, args->ray, args->N, i, &uv) <= t_far)
       t_far = kEmbreeOccluded;
   }
 }
 
-}  // namespace
-
-template <class Geometry>
-RTCGeometry make_geometry(RTCDevice device, QuadricGroup& group) {
+template <AnalyticShape G>
+RTCGeometry geometry_of(RTCDevice device, QuadricGroup& group) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(group.members.size()));
   rtcSetGeometryUserData(geometry, &group);
   rtcSetGeometryBoundsFunction(geometry, quadric_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, quadric_intersect<Geometry>);
-  rtcSetGeometryOccludedFunction(geometry, quadric_occluded<Geometry>);
+  rtcSetGeometryIntersectFunction(geometry, quadric_intersect<G>);
+  rtcSetGeometryOccludedFunction(geometry, quadric_occluded<G>);
   return geometry;
 }
-template RTCGeometry make_geometry<Sphere>(RTCDevice, QuadricGroup&);
-template RTCGeometry make_geometry<Disk>(RTCDevice, QuadricGroup&);
-template RTCGeometry make_geometry<Quadric>(RTCDevice, QuadricGroup&);
+
+}  // namespace
+
+RTCGeometry make_geometry(RTCDevice device, QuadricGroup& group) {
+  return std::visit(
+      [&]<class G>(const G&) -> RTCGeometry {
+        if constexpr (AnalyticShape<G>) return geometry_of<G>(device, group);
+        return nullptr;
+      },
+      group.shape(0).geometry);
+}
 
 }  // namespace kaustik::accel

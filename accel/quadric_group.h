@@ -24,10 +24,8 @@ struct QuadricGroup {
   }
 };
 
-// Makes the Embree geometry of a group whose members are all of type Geometry (Sphere, Disk or Quadric). Hits
-// name the shape in place of the geometry id. Embree keeps a pointer to the group, which must not move while
-// rays are traced.
-template <class Geometry>
+// All members are of the same type, an AnalyticShape. Their hits name the shape. Embree points to the group
+// while rays are traced.
 RTCGeometry make_geometry(RTCDevice device, QuadricGroup& group);
 
 }  // namespace kaustik::accel

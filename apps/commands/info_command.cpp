@@ -34,10 +34,6 @@ glm::dvec3 in_world(const Scene& scene, const Point3& p) {
 std::string_view type_name(const Material& material) {
   return material.mixed() ? "mix" : name_of(material.typical());
 }
-std::string_view type_name(const Shape& shape) {
-  constexpr std::string_view kNames[] = {"trianglemesh", "sphere", "disk", "instance", "quadric"};
-  return kNames[shape.geometry.index()];
-}
 
 // How many shapes use each material or surface group, by index.
 template <class Field>
@@ -52,7 +48,7 @@ std::vector<uint64_t> uses_of(const Scene& scene, size_t size, Field Shape::*fie
 Json shapes_json(const Scene& scene) {
   std::map<std::string, std::pair<uint64_t, uint64_t>> counts;  // shapes and primitives by type
   for (const Shape& shape : scene.shapes) {
-    auto& [shapes, primitives] = counts[std::string(type_name(shape))];
+    auto& [shapes, primitives] = counts[std::string(name_of(shape))];
     ++shapes;
     primitives += primitive_count(shape);
   }

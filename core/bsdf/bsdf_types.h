@@ -5,8 +5,8 @@
 //   diffuse lobes    photons are gathered under them. They are wide; a rough metal's lobe may be one.
 //   specular lobes   photons and camera paths follow them by sampling. They are delta lobes, or glossy lobes,
 //                    whose width is finite but too small to gather under (Ggx::is_narrow).
-// The part that scatters a path decides its class (docs/decisions/020-one-owner-per-path.md). A value can have diffuse
-// lobes, specular lobes, or both.
+// The part that scatters a path decides its class (docs/decisions/020-one-owner-per-path.md). A value can
+// have diffuse lobes, specular lobes, or both.
 //
 // The concept BsdfType below lists what a BSDF must have. Directions are in the local shading frame (z = ns);
 // wo and wi have unit length and point away from the surface, and wo.z < 0 means the back side:

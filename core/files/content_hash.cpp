@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/sampling/sampler.h"
+#include "core/math/hash.h"
 
 namespace kaustik {
 

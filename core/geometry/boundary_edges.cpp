@@ -254,15 +254,10 @@ void add_instance_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEd
   });
 }
 
-// Integral of the bend of a quadric (see SurfaceBend). An ellipsoid counts as a ball of its mean radius.
-double bend_of_quadric(const Shape& shape) {
-  const auto quadric = quadric_of(shape);
-  if (!quadric || quadric->kind == QuadricKind::kDisk) return 0;
-  const bool ball = quadric->kind == QuadricKind::kSphere;
-  const glm::dmat3 m(quadric->to_world.linear);
-  const double radius =
-      ball ? std::cbrt(std::abs(glm::determinant(m))) : std::sqrt(glm::length(glm::cross(m[0], m[1])));
-  return radius > 0 ? (ball ? 2 : 1) * surface_area(shape) / radius : 0;
+double bend_of_analytic(const Shape& shape) {
+  const auto swept = swept_of(shape);
+  if (!swept) return 0;
+  return std::visit([&](const auto& s) { return s.bend(surface_area(shape)); }, *swept);
 }
 
 }  // namespace
@@ -276,7 +271,7 @@ std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes,
   for (const Shape& shape : shapes) {
     if (std::holds_alternative<InstancedMesh>(shape.geometry)) continue;
     found[shape.surface_group].area += surface_area(shape);
-    found[shape.surface_group].bend += bend_of_quadric(shape);
+    found[shape.surface_group].bend += bend_of_analytic(shape);
   }
   add_mesh_edges(shapes, &edges, &found);
   add_instance_edges(shapes, &edges, &found);

@@ -56,35 +56,12 @@ void fill(const InstancedMesh& instance, const Shape& shape, const Ray& /*ray*/,
   si.ns = si.n;
 }
 
-void fill(const Quadric& q, const Shape& shape, const Ray& ray, const Hit& hit, SurfaceInteraction& si) {
-  const Transform& t = q.to_world;
-  Point3 p(hit.uv.x, hit.uv.y, 0);
-  if (q.kind != QuadricKind::kDisk) p = t.inverse_point(ray.o) + hit.t * t.inverse_vector(ray.d);
-  const Normal3 local(normal_at(q, glm::dvec3(p)));
-  // Project back onto the surface, so that the length of the ray affects the position along it only.
-  if (q.kind == QuadricKind::kSphere) p = local;
-  if (q.kind == QuadricKind::kCylinder) p = {local.x, local.y, p.z};
-  const Normal3 n = glm::normalize(t.normal(local));
-  si.p = t.point(p);
-  si.p_error = quadric_error(q);
-  si.n = si.ns = shape.flip_normal ? -n : n;
-}
-
-void fill(const Sphere& sphere, const Shape& shape, const Ray& ray, const Hit& hit, SurfaceInteraction& si) {
-  const Transform& t = sphere.to_world;
-  const Vector3 on_sphere = glm::normalize(t.inverse_point(ray.o) + hit.t * t.inverse_vector(ray.d));
-  const Normal3 n = glm::normalize(t.normal(on_sphere));
-  si.p = t.point(on_sphere);
-  si.p_error = sphere_error(t);
-  si.n = si.ns = shape.flip_normal ? -n : n;
-}
-
-void fill(const Disk& disk, const Shape& shape, const Ray& /*ray*/, const Hit& hit, SurfaceInteraction& si) {
-  const Transform& t = disk.to_world;
-  const Normal3 n = disk_normal(t);
-  si.p = t.point({hit.uv.x, hit.uv.y, 0});
-  si.p_error = disk_error(t);
-  si.n = si.ns = shape.flip_normal ? -n : n;
+template <AnalyticShape G>
+void fill(const G& analytic, const Shape& shape, const Ray& ray, const Hit& hit, SurfaceInteraction& si) {
+  const SurfacePoint at = analytic.at_hit(ray, hit.t, hit.uv);
+  si.p = at.p;
+  si.p_error = at.p_error;
+  si.n = si.ns = shape.flip_normal ? -at.n : at.n;
 }
 
 }  // namespace

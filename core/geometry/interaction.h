@@ -44,10 +44,4 @@ struct SurfaceInteraction {
 // sphere) rather than as ray.at(t), so that its error does not grow with the length of the ray.
 SurfaceInteraction make_interaction(const std::vector<Shape>& shapes, const Ray& ray, const Hit& hit);
 
-// t of the nearest intersection of a sphere or disk with 0 < t < ray.t_max, or kInfinity; sets uv for disks.
-// Sphere: Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection". Used by Embree's
-// callbacks.
-float intersect_sphere(const Sphere& sphere, const Ray& ray);
-float intersect_disk(const Disk& disk, const Ray& ray, Point2* uv);
-
 }  // namespace kaustik

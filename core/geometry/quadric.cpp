@@ -2,6 +2,7 @@
 
 #include "core/geometry/quadric.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/surface_bounds.h"
@@ -59,16 +60,26 @@ float intersect_round(const Quadric& q, const Point3& o, const Vector3& d, float
 
 }  // namespace
 
-float intersect_quadric(const Quadric& q, const Ray& ray, Point2* uv) {
-  const Point3 o = q.to_world.inverse_point(ray.o);
-  const Vector3 d = q.to_world.inverse_vector(ray.d);
-  return q.kind == QuadricKind::kDisk ? intersect_flat(q, o, d, ray.t_max, uv)
-                                      : intersect_round(q, o, d, ray.t_max);
+float Quadric::intersect(const Ray& ray, Point2* uv) const {
+  const Point3 o = to_world.inverse_point(ray.o);
+  const Vector3 d = to_world.inverse_vector(ray.d);
+  return kind == QuadricKind::kDisk ? intersect_flat(*this, o, d, ray.t_max, uv)
+                                    : intersect_round(*this, o, d, ray.t_max);
 }
 
-glm::dvec3 point_at(const Quadric& q, double s, double phi) {
-  const double z = double(q.z_min) + s * double(q.z_max - q.z_min), inner = q.inner;
-  switch (q.kind) {
+SurfacePoint Quadric::at_hit(const Ray& ray, float t, const Point2& uv) const {
+  Point3 p(uv.x, uv.y, 0);
+  if (!flat()) p = to_world.inverse_point(ray.o) + t * to_world.inverse_vector(ray.d);
+  const Normal3 local(normal_at(glm::dvec3(p)));
+  // Back to the surface: the error of the ray's length remains only along the surface.
+  if (kind == QuadricKind::kSphere) p = local;
+  if (kind == QuadricKind::kCylinder) p = {local.x, local.y, p.z};
+  return {to_world.point(p), error(), glm::normalize(to_world.normal(local))};
+}
+
+glm::dvec3 Quadric::point_at(double s, double phi) const {
+  const double z = double(z_min) + s * double(z_max - z_min), hole = inner;
+  switch (kind) {
     case QuadricKind::kSphere: {
       const double r = std::sqrt(std::max(0.0, 1 - z * z));
       return {r * std::cos(phi), r * std::sin(phi), z};
@@ -78,19 +89,19 @@ glm::dvec3 point_at(const Quadric& q, double s, double phi) {
     case QuadricKind::kDisk:
       break;
   }
-  const double r = inner + s * (1 - inner);
+  const double r = hole + s * (1 - hole);
   return {r * std::cos(phi), r * std::sin(phi), 0};
 }
 
-glm::dvec3 normal_at(const Quadric& q, const glm::dvec3& p) {
-  if (q.kind == QuadricKind::kDisk) return {0, 0, 1};
-  return glm::normalize(q.kind == QuadricKind::kSphere ? p : glm::dvec3(p.x, p.y, 0));
+glm::dvec3 Quadric::normal_at(const glm::dvec3& p) const {
+  if (kind == QuadricKind::kDisk) return {0, 0, 1};
+  return glm::normalize(kind == QuadricKind::kSphere ? p : glm::dvec3(p.x, p.y, 0));
 }
 
-Point3 sample_uniform(const Quadric& q, const Point2& u) {
-  const Point2 cs = cos_sin_turns(u.y * std::min(1.0f, q.phi_max / (2 * kPi)));
-  const float z = q.z_min + u.x * (q.z_max - q.z_min);
-  switch (q.kind) {
+Point3 Quadric::sample_uniform(const Point2& u) const {
+  const Point2 cs = cos_sin_turns(u.y * std::min(1.0f, phi_max / (2 * kPi)));
+  const float z = z_min + u.x * (z_max - z_min);
+  switch (kind) {
     case QuadricKind::kSphere: {
       const float r = std::sqrt(std::max(0.0f, (1 - z) * (1 + z)));
       return {r * cs.x, r * cs.y, z};
@@ -100,53 +111,148 @@ Point3 sample_uniform(const Quadric& q, const Point2& u) {
     case QuadricKind::kDisk:
       break;
   }
-  const float r = std::sqrt(q.inner * q.inner + u.x * (1 - q.inner * q.inner));
+  const float r = std::sqrt(inner * inner + u.x * (1 - inner * inner));
   return {r * cs.x, r * cs.y, 0};
 }
 
 // For cylinders, the map's inverse is rounded relative to the whole length, and the part of that error across
 // the axis is amplified by the map across the axis.
-float quadric_error(const Quadric& q) {
-  const Transform& t = q.to_world;
-  if (q.kind == QuadricKind::kSphere) return sphere_error(t);
-  if (q.kind == QuadricKind::kDisk) return disk_error(t);
+float Quadric::error() const {
+  const Transform& t = to_world;
+  if (kind == QuadricKind::kSphere) return sphere_error(t);
+  if (kind == QuadricKind::kDisk) return disk_error(t);
   glm::mat3 whole = t.linear, across = t.inverse_linear;
-  whole[2] *= std::max(std::abs(q.z_min), std::abs(q.z_max));
+  whole[2] *= std::max(std::abs(z_min), std::abs(z_max));
   for (int c = 0; c < 3; ++c) across[c].z = 0;
   const float extent = max_row_sum(whole), amplified = max_row_sum(t.linear, 2) * max_row_sum(across);
   return surface_error(max_abs_component(t.translation) + extent, extent * std::max(1.0f, amplified));
 }
 
 // Maps the corners of the local box, which z_min and z_max cut but phi_max does not.
-Bounds3 bounds_of(const Quadric& q) {
-  const bool flat = q.kind == QuadricKind::kDisk;
+Bounds3 Quadric::bounds() const {
   Bounds3 box;
   for (int corner = 0; corner < 8; ++corner) {
-    const float z = flat ? 0 : corner & 4 ? q.z_max : q.z_min;
-    box.add(q.to_world.point({corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, z}));
+    const float z = flat() ? 0 : corner & 4 ? z_max : z_min;
+    box.add(to_world.point({corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, z}));
   }
-  const float error = quadric_error(q);
-  box.min -= error;
-  box.max += error;
+  const float room = error();
+  box.min -= room;
+  box.max += room;
   return box;
 }
 
 // Integrates the area element |det M| |M^-T n| per local area. It depends smoothly on phi and z; the midpoint
 // rule is exact for similarities, and along s for cylinders and disks.
-double area_of(const Quadric& q) {
+double Quadric::area() const {
   constexpr int kRings = 128, kSectors = 256;
-  const glm::dmat3 m(q.to_world.linear);
+  const glm::dmat3 m(to_world.linear);
   const glm::dmat3 inverse_transpose = glm::transpose(glm::inverse(m));
   double mean = 0;
   for (int i = 0; i < kRings; ++i) {
     for (int j = 0; j < kSectors; ++j) {
-      const glm::dvec3 p = point_at(q, (i + 0.5) / kRings, double(q.phi_max) * (j + 0.5) / kSectors);
-      mean += glm::length(inverse_transpose * normal_at(q, p)) / (kRings * kSectors);
+      const glm::dvec3 p = point_at((i + 0.5) / kRings, double(phi_max) * (j + 0.5) / kSectors);
+      mean += glm::length(inverse_transpose * normal_at(p)) / (kRings * kSectors);
     }
   }
-  const double inner = q.inner;
-  const double local = q.kind == QuadricKind::kDisk ? 0.5 * (1 - inner * inner) : double(q.z_max - q.z_min);
-  return std::abs(glm::determinant(m)) * mean * local * double(q.phi_max);
+  const double hole = inner;
+  const double local = kind == QuadricKind::kDisk ? 0.5 * (1 - hole * hole) : double(z_max - z_min);
+  return std::abs(glm::determinant(m)) * mean * local * double(phi_max);
+}
+
+Bounds3 Quadric::local_bounds() const {
+  const bool cylinder = kind == QuadricKind::kCylinder;
+  return {{-1, -1, cylinder ? z_min : -1}, {1, 1, cylinder ? z_max : 1}};
+}
+
+// Even in the polar angle of a sphere, so that the poles are as fine as the equator.
+double Quadric::strip_at(double t) const {
+  if (kind != QuadricKind::kSphere) return t;
+  const double low = double(z_min), high = double(z_max);
+  const double z = std::cos(std::lerp(std::acos(low), std::acos(high), t));
+  return std::clamp((z - low) / (high - low), 0.0, 1.0);
+}
+
+bool Quadric::has_rim(int end) const {
+  const bool sphere = kind == QuadricKind::kSphere;
+  if (end == 0) return !(sphere && z_min <= -1) && !(flat() && inner == 0);
+  return !(sphere && z_max >= 1);
+}
+
+// An ellipsoid counts as a ball of its mean radius.
+double Quadric::bend(double surface_area) const {
+  if (flat()) return 0;
+  const bool ball = kind == QuadricKind::kSphere;
+  const glm::dmat3 m(to_world.linear);
+  const double radius =
+      ball ? std::cbrt(std::abs(glm::determinant(m))) : std::sqrt(glm::length(glm::cross(m[0], m[1])));
+  return radius > 0 ? (ball ? 2 : 1) * surface_area / radius : 0;
+}
+
+LocalParameters Quadric::parameters(const Point3& on_surface) const {
+  Point3 p = kind == QuadricKind::kSphere ? glm::normalize(on_surface) : on_surface;
+  constexpr float kNearAxis = 1e-5f;
+  if (p.x == 0 && p.y == 0) p.x = kNearAxis;
+  const float r = std::sqrt(p.x * p.x + p.y * p.y);
+  const Vector3 outward(p.x / r, p.y / r, 0), along(-p.y, p.x, 0);
+  float phi = std::atan2(p.y, p.x);
+  if (phi < 0) phi += 2 * kPi;
+  LocalParameters s;
+  s.uv.x = phi / phi_max;
+  s.dpdu = phi_max * along;
+  switch (kind) {
+    case QuadricKind::kSphere: {
+      // polar angle theta at v = 0, and its change to v = 1
+      const float low = std::acos(z_min), turn = std::acos(z_max) - low;
+      s.uv.y = (std::atan2(r, p.z) - low) / turn;
+      s.dpdv = turn * (p.z * outward - Vector3(0, 0, r));
+      s.n = p;
+      s.dndu = s.dpdu;
+      s.dndv = s.dpdv;
+      return s;
+    }
+    case QuadricKind::kCylinder:
+      s.uv.y = (p.z - z_min) / (z_max - z_min);
+      s.dpdv = {0, 0, z_max - z_min};
+      s.n = outward;
+      s.dndu = s.dpdu;
+      return s;
+    case QuadricKind::kDisk:
+      break;
+  }
+  s.uv.y = (1 - r) / (1 - inner);
+  s.dpdv = (inner - 1) * outward;
+  return s;
+}
+
+bool Quadric::keeps_areas_even() const {
+  if (kind == QuadricKind::kDisk) return true;
+  glm::mat3 m = to_world.linear;
+  // A cylinder may be scaled along its axis.
+  if (kind == QuadricKind::kCylinder) m[2] *= glm::length(m[0]) / glm::length(m[2]);
+  return is_similarity(m);
+}
+
+Point2 Quadric::square_of(const Point3& p) const {
+  float phi = std::atan2(p.y, p.x);
+  if (phi < 0) phi += 2 * kPi;
+  const float inner2 = inner * inner;
+  const float along = kind == QuadricKind::kDisk ? (p.x * p.x + p.y * p.y - inner2) / (1 - inner2)
+                                                 : (p.z - z_min) / (z_max - z_min);
+  return {along, phi / phi_max};
+}
+
+float Quadric::v_of(float u) const {
+  switch (kind) {
+    case QuadricKind::kSphere: {
+      const float low = std::acos(z_min), turn = std::acos(z_max) - low;
+      return (std::acos(std::clamp(z_min + u * (z_max - z_min), -1.0f, 1.0f)) - low) / turn;
+    }
+    case QuadricKind::kCylinder:
+      return u;
+    case QuadricKind::kDisk:
+      break;
+  }
+  return (1 - std::sqrt(inner * inner + u * (1 - inner * inner))) / (1 - inner);
 }
 
 }  // namespace kaustik

@@ -2,9 +2,7 @@
 // Cylinders, and parts of spheres and disks: cut by planes across their axis and by an angle about it. Whole
 // spheres and disks have types of their own (core/geometry/shape.h), which are faster.
 
-#include "core/math/bounds.h"
-#include "core/math/ray.h"
-#include "core/math/transform.h"
+#include "core/geometry/analytic_shape.h"
 
 namespace kaustik {
 
@@ -20,24 +18,33 @@ struct Quadric {
   float inner = 0;              // disks: inner radius, in [0, 1)
   float phi_max = 2 * kPi;      // radians, in (0, 2 pi]
 
+  static constexpr std::string_view kName = "quadric";
+  static constexpr uint32_t kMostCrossings = 2;
+
   bool full_turn() const { return phi_max >= 2 * kPi; }
+
+  // AnalyticShape and SweptShape (core/geometry/analytic_shape.h). s leads from z_min to z_max, or from the
+  // inner rim of a disk to the outer one.
+  float intersect(const Ray& ray, Point2* uv) const;
+  SurfacePoint at_hit(const Ray& ray, float t, const Point2& uv) const;
+  Bounds3 bounds() const;
+  double area() const;
+  Bounds3 local_bounds() const;
+  const Quadric& swept() const { return *this; }
+  double turn() const { return double(phi_max); }
+  glm::dvec3 point_at(double s, double phi) const;
+  glm::dvec3 normal_at(const glm::dvec3& p) const;
+  bool flat() const { return kind == QuadricKind::kDisk; }
+  int strips(int around) const { return kind == QuadricKind::kSphere ? around / 2 : 1; }
+  double strip_at(double t) const;
+  bool has_rim(int end) const;
+  double bend(double area) const;
+  LocalParameters parameters(const Point3& p) const;
+  float error() const;
+  bool keeps_areas_even() const;
+  Point3 sample_uniform(const Point2& u) const;
+  Point2 square_of(const Point3& p) const;
+  float v_of(float u_x) const;
 };
-
-// t of the nearest intersection with 0 < t < ray.t_max, or kInfinity; sets uv to the local xy for disks.
-float intersect_quadric(const Quadric& quadric, const Ray& ray, Point2* uv);
-
-// The surface point at azimuth phi (radians); s in [0, 1] leads from z_min to z_max, or from the inner rim of
-// a disk to the outer one. Local space, in double.
-glm::dvec3 point_at(const Quadric& quadric, double s, double phi);
-// Outside normal at p: local, unit.
-glm::dvec3 normal_at(const Quadric& quadric, const glm::dvec3& p);
-
-// Uniformly distributed point of the surface in local space, for u in [0, 1)^2.
-Point3 sample_uniform(const Quadric& quadric, const Point2& u);
-
-// Bound on the error of a surface point along the normal, metres.
-float quadric_error(const Quadric& quadric);
-Bounds3 bounds_of(const Quadric& quadric);
-double area_of(const Quadric& quadric);  // m^2
 
 }  // namespace kaustik

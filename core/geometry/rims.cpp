@@ -46,22 +46,22 @@ struct Rim {
   int sides;
 };
 
-std::vector<Rim> rims_of(const Quadric& q) {
+template <SweptShape S>
+std::vector<Rim> rims_of(const S& q) {
   std::vector<Rim> rims;
-  const double turn = double(q.phi_max);
+  const double turn = q.turn();
   const int around = std::max(1, static_cast<int>(std::ceil(kSides * turn / (2 * std::numbers::pi))));
-  const bool sphere = q.kind == QuadricKind::kSphere, disk = q.kind == QuadricKind::kDisk;
-  if (!(sphere && q.z_min <= -1) && !(disk && q.inner == 0))
-    rims.push_back({{0, 0}, {0, turn}, {1, 0}, around});
-  if (!(sphere && q.z_max >= 1)) rims.push_back({{1, 0}, {1, turn}, {-1, 0}, around});
-  if (q.full_turn()) return rims;
-  const int up = sphere ? kSides / 2 : 1;
+  if (q.has_rim(0)) rims.push_back({{0, 0}, {0, turn}, {1, 0}, around});
+  if (q.has_rim(1)) rims.push_back({{1, 0}, {1, turn}, {-1, 0}, around});
+  if (turn >= double(2 * kPi)) return rims;
+  const int up = q.strips(kSides);
   rims.push_back({{0, 0}, {1, 0}, {0, 1}, up});
   rims.push_back({{0, turn}, {1, turn}, {0, -1}, up});
   return rims;
 }
 
-void add_rim(const Quadric& q, const Rim& rim, const Shape& shape, std::vector<BoundaryEdge>* edges) {
+template <SweptShape S>
+void add_rim(const S& q, const Rim& rim, const Shape& shape, std::vector<BoundaryEdge>* edges) {
   constexpr double kStep = 1e-4;  // of s, or radians: a small step to find the direction of the surface
   const auto place = [&](double t) {
     return Place{rim.begin.s + t * (rim.end.s - rim.begin.s),
@@ -72,12 +72,11 @@ void add_rim(const Quadric& q, const Rim& rim, const Shape& shape, std::vector<B
     const Place a = place(i / double(rim.sides)), b = place((i + 1) / double(rim.sides));
     // Use the middle of the side: at its ends, parts of a sphere may meet in a pole.
     const Place m = place((i + 0.5) / rim.sides);
-    const glm::dvec3 middle = point_at(q, m.s, m.phi);
-    const glm::dvec3 in = point_at(q, m.s + kStep * rim.inward.s, m.phi + kStep * rim.inward.phi) - middle;
-    const Point3 inner =
-        world(middle + in / kStep * (rim.inward.s != 0 ? 1.0 : std::min(1.0, double(q.phi_max))));
-    const Normal3 n = glm::normalize(q.to_world.normal(Normal3(normal_at(q, middle))));
-    const BoundaryEdge edge = make_edge(world(point_at(q, a.s, a.phi)), world(point_at(q, b.s, b.phi)), inner,
+    const glm::dvec3 middle = q.point_at(m.s, m.phi);
+    const glm::dvec3 in = q.point_at(m.s + kStep * rim.inward.s, m.phi + kStep * rim.inward.phi) - middle;
+    const Point3 inner = world(middle + in / kStep * (rim.inward.s != 0 ? 1.0 : std::min(1.0, q.turn())));
+    const Normal3 n = glm::normalize(q.to_world.normal(Normal3(q.normal_at(middle))));
+    const BoundaryEdge edge = make_edge(world(q.point_at(a.s, a.phi)), world(q.point_at(b.s, b.phi)), inner,
                                         shape.flip_normal ? -n : n, shape.surface_group);
     if (edge.height > 0) edges->push_back(edge);
   }
@@ -97,8 +96,12 @@ void add_rims(const Shape& shape, std::vector<BoundaryEdge>* edges) {
   if (const auto* disk = std::get_if<Disk>(&shape.geometry)) {
     add_rim(*disk, shape, true, edges);
     if (disk->inner > 0) add_rim(*disk, shape, false, edges);
-  } else if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
-    for (const Rim& rim : rims_of(*quadric)) add_rim(*quadric, rim, shape, edges);
+  } else if (const auto swept = swept_of(shape)) {
+    std::visit(
+        [&](const auto& s) {
+          for (const Rim& rim : rims_of(s)) add_rim(s, rim, shape, edges);
+        },
+        *swept);
   }
 }
 

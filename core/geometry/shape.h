@@ -9,8 +9,11 @@
 #include <variant>
 #include <vector>
 
+#include "core/geometry/disk.h"
 #include "core/geometry/quadric.h"
+#include "core/geometry/sphere.h"
 #include "core/math/bounds.h"
+#include "core/math/index.h"
 #include "core/math/transform.h"
 #include "core/math/vec.h"
 
@@ -19,6 +22,8 @@ namespace kaustik {
 // Indexed triangles. N and uv are empty or have one entry per vertex. The outside is the side of cross(p1 -
 // p0, p2 - p0); where N is given, the geometric normal is turned into the hemisphere of N (pbrt's rule).
 struct TriangleMesh {
+  static constexpr std::string_view kName = "trianglemesh";
+
   std::vector<Point3> P;
   std::vector<Normal3> N;
   std::vector<Point2> uv;
@@ -28,27 +33,30 @@ struct TriangleMesh {
 // A mesh in a space of its own, placed by to_world; any number of instances share it. If N is given, its
 // vectors have unit length, and are negated if the shape's orientation is reversed.
 struct InstancedMesh {
+  static constexpr std::string_view kName = "instance";
+
   std::shared_ptr<const TriangleMesh> mesh;
   Bounds3 local;  // of the mesh
   Transform to_world;
 };
 
-// The unit sphere about the origin mapped by to_world: exact, including ellipsoids.
-struct Sphere {
-  Transform to_world;
-};
+// Every shape is a mesh or an AnalyticShape; a type that lacks a member does not compile.
+template <class G>
+concept ShapeGeometry = AnalyticShape<G> || std::same_as<G, TriangleMesh> || std::same_as<G, InstancedMesh>;
+template <ShapeGeometry... G>
+using VariantOfShapes = std::variant<G...>;
 
-// The annulus inner <= |xy| <= 1, z = 0 mapped by to_world. The outside is the side of +z (mapped as a
-// normal).
-struct Disk {
-  Transform to_world;
-  float inner = 0;  // inner radius over outer radius, in [0, 1)
-};
-
-inline constexpr uint32_t kNoIndex = 0xffffffffu;
+// The list of all shapes. To add an analytic one: (1) write a header with the struct, and its source
+// (core/geometry/analytic_shape.h says what it must have), (2) add its name here, and below if it is a
+// SweptShape, (3) add its row to core/scene/schema/shape_rows.cpp. The tests then ask for an oracle in
+// tests/accel/support/brute_force.h and for examples in tests/core/support/shape_examples.h.
+using Geometry = VariantOfShapes<TriangleMesh, Sphere, Disk, InstancedMesh, Quadric>;
+template <SweptShape... S>
+using VariantOfSweptShapes = std::variant<S...>;
+using SweptGeometry = VariantOfSweptShapes<Quadric>;
 
 struct Shape {
-  std::variant<TriangleMesh, Sphere, Disk, InstancedMesh, Quadric> geometry;
+  Geometry geometry;
   uint32_t material = 0;       // into Scene::materials
   uint32_t light = kNoIndex;   // into Scene::lights; kNoIndex unless the shape emits
   uint32_t surface_group = 0;  // photons are shared only within a group
@@ -67,8 +75,9 @@ struct Shape {
   }
 };
 
-// Converts spheres and disks to quadrics; nothing for meshes.
-std::optional<Quadric> quadric_of(const Shape& shape);
+// The shape as a grid over (s, phi); nothing for meshes.
+std::optional<SweptGeometry> swept_of(const Shape& shape);
+std::string_view name_of(const Shape& shape);
 
 Bounds3 bounds_of(const Shape& shape);
 double surface_area(const Shape& shape);

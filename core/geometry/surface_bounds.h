@@ -76,4 +76,19 @@ inline Normal3 disk_normal(const Transform& to_world) {
   return Normal3(glm::normalize(glm::dvec3(to_world.normal({0, 0, 1}))));
 }
 
+inline Bounds3 bounds_about(const Point3& center, const Vector3& half, float error) {
+  Bounds3 b;
+  b.add(center - half - error);
+  b.add(center + half + error);
+  return b;
+}
+
+// Half extent of the image of the unit disk (two columns) or ball (three): the root of the sum of squares of
+// each row.
+inline Vector3 half_extent(const glm::mat3& m, int columns) {
+  glm::dvec3 sum(0);
+  for (int c = 0; c < columns; ++c) sum += glm::dvec3(m[c]) * glm::dvec3(m[c]);
+  return Vector3(glm::sqrt(sum));
+}
+
 }  // namespace kaustik

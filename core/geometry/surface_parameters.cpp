@@ -6,8 +6,6 @@ namespace kaustik {
 
 namespace {
 
-constexpr float k2Pi = 2 * kPi;
-
 // Solves for the derivatives by u and v of a quantity that changes by d1 and d2 along two edges of a
 // triangle.
 struct UvSystem {
@@ -76,68 +74,16 @@ SurfaceParameters parameters(const InstancedMesh& instance, const Shape& /*shape
       [&](const Normal3& n) { return t.normal(n); });
 }
 
-// Parametrisation in the space of the unit sphere, cylinder or disk.
-struct LocalParameters {
-  Point2 uv{0};
-  Vector3 dpdu{0}, dpdv{0};
-  Normal3 n{0, 0, 1};
-  Vector3 dndu{0}, dndv{0};
-};
-
-LocalParameters local_parameters(const Quadric& q, Point3 p) {
-  constexpr float kNearAxis = 1e-5f;
-  if (p.x == 0 && p.y == 0) p.x = kNearAxis;
-  const float r = std::sqrt(p.x * p.x + p.y * p.y);
-  const Vector3 outward(p.x / r, p.y / r, 0), along(-p.y, p.x, 0);
-  float phi = std::atan2(p.y, p.x);
-  if (phi < 0) phi += k2Pi;
-  LocalParameters s;
-  s.uv.x = phi / q.phi_max;
-  s.dpdu = q.phi_max * along;
-  switch (q.kind) {
-    case QuadricKind::kSphere: {
-      // polar angle theta at v = 0, and its change to v = 1
-      const float low = std::acos(q.z_min), turn = std::acos(q.z_max) - low;
-      s.uv.y = (std::atan2(r, p.z) - low) / turn;
-      s.dpdv = turn * (p.z * outward - Vector3(0, 0, r));
-      s.n = p;
-      s.dndu = s.dpdu;
-      s.dndv = s.dpdv;
-      return s;
-    }
-    case QuadricKind::kCylinder:
-      s.uv.y = (p.z - q.z_min) / (q.z_max - q.z_min);
-      s.dpdv = {0, 0, q.z_max - q.z_min};
-      s.n = outward;
-      s.dndu = s.dpdu;
-      return s;
-    case QuadricKind::kDisk:
-      break;
-  }
-  s.uv.y = (1 - r) / (1 - q.inner);
-  s.dpdv = (q.inner - 1) * outward;
-  return s;
-}
-
-SurfaceParameters parameters(const Quadric& q, const Shape& shape, const SurfaceInteraction& si) {
-  const Transform& t = q.to_world;
-  Point3 p(si.hit_uv, 0);
-  if (q.kind != QuadricKind::kDisk) p = t.inverse_point(si.p);
-  if (q.kind == QuadricKind::kSphere) p = glm::normalize(p);
-  const LocalParameters local = local_parameters(q, p);
+template <AnalyticShape G>
+SurfaceParameters parameters(const G& analytic, const Shape& shape, const SurfaceInteraction& si) {
+  const auto& swept = analytic.swept();
+  const Transform& t = swept.to_world;
+  const LocalParameters local = swept.parameters(local_point(swept, si.p, si.hit_uv));
   SurfaceParameters s{local.uv, t.vector(local.dpdu), t.vector(local.dpdv)};
   const float sign = shape.flip_normal ? -1.0f : 1.0f, length = glm::length(t.normal(local.n));
   s.dndu = turning(sign * t.normal(local.dndu), si.ns, length);
   s.dndv = turning(sign * t.normal(local.dndv), si.ns, length);
   return s;
-}
-
-SurfaceParameters parameters(const Sphere& sphere, const Shape& shape, const SurfaceInteraction& si) {
-  return parameters(Quadric{sphere.to_world}, shape, si);
-}
-
-SurfaceParameters parameters(const Disk& disk, const Shape& shape, const SurfaceInteraction& si) {
-  return parameters(Quadric{disk.to_world, QuadricKind::kDisk, 0, 0, disk.inner}, shape, si);
 }
 
 }  // namespace

@@ -39,11 +39,14 @@ SurfaceSample sample_surface(const DiskEmitter& e, const Point2& u) {
   return {p, disk_error(e.to_world), e.n};
 }
 
-SurfaceSample sample_surface(const QuadricEmitter& e, const Point2& u) {
-  const Transform& t = e.quadric.to_world;
-  const Point3 p = sample_uniform(e.quadric, u);
-  const Normal3 n = glm::normalize(t.normal(Normal3(normal_at(e.quadric, glm::dvec3(p)))));
-  return {t.point(p), quadric_error(e.quadric), e.inward ? -n : n};
+SurfaceSample sample_surface(const SweptEmitter& e, const Point2& u) {
+  const auto sample = [&](const auto& shape) {
+    const Transform& t = shape.to_world;
+    const Point3 p = shape.sample_uniform(u);
+    const Normal3 n = glm::normalize(t.normal(Normal3(shape.normal_at(glm::dvec3(p)))));
+    return SurfaceSample{t.point(p), shape.error(), e.inward ? -n : n};
+  };
+  return std::visit(sample, e.shape);
 }
 
 // A point on a light, its emitted radiance, and one over its density per area. Used for all lights except
@@ -58,7 +61,7 @@ struct EmittingSample {
 SurfaceSample surface_at(const DiffuseAreaLight& light, const EmissionImage::Place& place) {
   if (const auto* mesh = std::get_if<TriangleEmitter>(&light.surface))
     return point_on_triangle(mesh->triangles[place.part], place.u);
-  return sample_surface(std::get<QuadricEmitter>(light.surface), place.u);
+  return sample_surface(std::get<SweptEmitter>(light.surface), place.u);
 }
 
 EmittingSample sample_emitting(const DiffuseAreaLight& light, const Point2& u) {

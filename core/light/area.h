@@ -27,8 +27,8 @@ struct SphereEmitter {
   float radius;
   bool inward = false;  // emits inward
 };
-struct QuadricEmitter {
-  Quadric quadric;
+struct SweptEmitter {
+  SweptGeometry shape;
   bool inward = false;  // emits inward
 };
 struct DiskEmitter {
@@ -53,7 +53,7 @@ struct EmitterAlpha {
 struct DiffuseAreaLight {
   static constexpr std::string_view kName = "diffuse";
 
-  std::variant<TriangleEmitter, SphereEmitter, DiskEmitter, QuadricEmitter> surface;
+  std::variant<TriangleEmitter, SphereEmitter, DiskEmitter, SweptEmitter> surface;
   Rgb L{1};
   bool twosided = false;
   bool invisible = false;  // pbrt's lights of alpha 0: they emit, but no ray hits them
@@ -84,5 +84,9 @@ struct DiffuseAreaLight {
   // Flux that an area a with radiance Le emits.
   Rgb flux_of(float a, const Rgb& Le) const { return (twosided ? 2.0f : 1.0f) * kPi * a * Le; }
 };
+
+// Whether the shape is analytic, and points that are uniform in its own space are uniform in the world. A
+// sphere or cylinder under an uneven scale is not so, and cannot be a light.
+bool keeps_areas_even(const Shape& shape);
 
 }  // namespace kaustik

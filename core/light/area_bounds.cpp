@@ -30,12 +30,16 @@ void add_surface(const DiskEmitter& e, LightBounds& b) {
   b.cos_o = 1;
 }
 
-void add_surface(const QuadricEmitter& e, LightBounds& b) {
-  b.box.add(bounds_of(e.quadric));
-  if (e.quadric.kind != QuadricKind::kDisk) return;
-  const Normal3 n = disk_normal(e.quadric.to_world);
-  b.w = e.inward ? -n : n;
-  b.cos_o = 1;
+void add_surface(const SweptEmitter& e, LightBounds& b) {
+  std::visit(
+      [&](const auto& shape) {
+        b.box.add(shape.bounds());
+        if (!shape.flat()) return;
+        const Normal3 n = disk_normal(shape.to_world);
+        b.w = e.inward ? -n : n;
+        b.cos_o = 1;
+      },
+      e.shape);
 }
 
 }  // namespace

@@ -70,13 +70,18 @@ bool set_image(const Shape& shape, std::shared_ptr<const LightImage> image, Diff
     light.image = std::make_shared<const EmissionImage>(std::move(image), triangles_of(*mesh, emitter));
     return true;
   }
-  const Quadric quadric = *quadric_of(shape);
-  light.surface = QuadricEmitter{quadric, shape.flip_normal};
-  light.image = std::make_shared<const EmissionImage>(std::move(image), quadric, double(light.area));
+  const SweptGeometry swept = *swept_of(shape);
+  light.surface = SweptEmitter{swept, shape.flip_normal};
+  light.image = std::make_shared<const EmissionImage>(std::move(image), swept, double(light.area));
   return true;
 }
 
 }  // namespace
+
+bool keeps_areas_even(const Shape& shape) {
+  const auto swept = swept_of(shape);
+  return swept && std::visit([](const auto& s) { return s.keeps_areas_even(); }, *swept);
+}
 
 std::optional<DiffuseAreaLight> DiffuseAreaLight::make(const Shape& shape, const Rgb& L, bool twosided,
                                                        std::shared_ptr<const LightImage> image) {
@@ -87,19 +92,16 @@ std::optional<DiffuseAreaLight> DiffuseAreaLight::make(const Shape& shape, const
   if (!(light.area > 0) || !std::isfinite(light.area)) return std::nullopt;
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
     light.surface = make_emitter(*mesh, shape.flip_normal);
+  } else if (!keeps_areas_even(shape)) {
+    return std::nullopt;
   } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
     const Transform& t = sphere->to_world;
-    if (!is_similarity(t.linear)) return std::nullopt;
     light.surface = SphereEmitter{t.translation, glm::length(t.linear[0]), shape.flip_normal};
-  } else if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
-    if (!keeps_areas_even(*quadric)) return std::nullopt;
-    light.surface = QuadricEmitter{*quadric, shape.flip_normal};
-  } else if (!std::holds_alternative<Disk>(shape.geometry)) {
-    return std::nullopt;
+  } else if (const auto* disk = std::get_if<Disk>(&shape.geometry)) {
+    const Normal3 n = disk_normal(disk->to_world);
+    light.surface = DiskEmitter{disk->to_world, disk->inner, shape.flip_normal ? -n : n};
   } else {
-    const auto& disk = std::get<Disk>(shape.geometry);
-    const Normal3 n = disk_normal(disk.to_world);
-    light.surface = DiskEmitter{disk.to_world, disk.inner, shape.flip_normal ? -n : n};
+    light.surface = SweptEmitter{*swept_of(shape), shape.flip_normal};
   }
   if (image && !set_image(shape, std::move(image), light)) return std::nullopt;
   return light;

@@ -28,4 +28,9 @@ bool Transform::invertible() const {
   return is_finite(translation);
 }
 
+bool is_usable_transform(const glm::dmat4& m) {
+  return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1 &&
+         Transform::from_matrix(m).invertible();
+}
+
 }  // namespace kaustik

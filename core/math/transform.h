@@ -25,4 +25,13 @@ struct Transform {
   bool invertible() const;
 };
 
+// Whether m is affine and can be inverted in float precision.
+bool is_usable_transform(const glm::dmat4& m);
+
+// Changes an affine map to the world into one to coordinates relative to origin.
+inline glm::dmat4 relative_to(const glm::dvec3& origin, glm::dmat4 to_world) {
+  to_world[3] -= glm::dvec4(origin, 0);
+  return to_world;
+}
+
 }  // namespace kaustik

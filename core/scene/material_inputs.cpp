@@ -5,33 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/scene/schema/schema.h"
-
 namespace kaustik {
-
-namespace {
-
-MaterialInput input_of(const ParameterReader& parameters, const ParameterSpec& spec) {
-  MaterialInput input;
-  input.name = spec.name;
-  input.given = parameters.has(spec.name);
-  const Parameter* given = parameters.directive().find(spec.name);
-  const bool textured = given && given->type == ParameterType::kTexture;
-  input.text = parameters.text(spec.name);
-  input.numbers = textured ? spec.defaults : parameters.numbers(spec.name);
-  if (textured && input.numbers.empty()) input.numbers = {0, 0, 0};
-  if (spec.types.front() == ParameterType::kRgb && !input.numbers.empty()) {
-    input.rgb =
-        textured ? Rgb(input.numbers[0], input.numbers[1], input.numbers[2]) : parameters.rgb(spec.name);
-  }
-  input.low = static_cast<float>(spec.range.low);
-  input.high = static_cast<float>(spec.range.high);
-  input.low_open = spec.range.low_open;
-  input.high_open = spec.range.high_open;
-  return input;
-}
-
-}  // namespace
 
 float MaterialInput::in_range(float value, float otherwise) const {
   if (!(value >= low)) value = value < low ? low : otherwise;
@@ -59,14 +33,6 @@ Rgb MaterialInputs::rgb(std::string_view name) const {
   Rgb value = textures_->evaluate(input.texture, *x_);
   for (int c = 0; c < 3; ++c) value[c] = input.in_range(value[c], input.rgb[c]);
   return value;
-}
-
-std::vector<MaterialInput> material_inputs(const ParameterReader& parameters) {
-  std::vector<MaterialInput> inputs;
-  for (const ParameterSpec& spec : parameters.spec().parameters) {
-    if (spec.state == ParameterState::kUsed) inputs.push_back(input_of(parameters, spec));
-  }
-  return inputs;
 }
 
 }  // namespace kaustik

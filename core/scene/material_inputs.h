@@ -9,8 +9,6 @@
 
 namespace kaustik {
 
-class ParameterReader;
-
 // One parameter of a material, with its value from the directive or else the schema's default.
 struct MaterialInput {
   std::string_view name;  // the schema's name of the parameter
@@ -50,9 +48,5 @@ class MaterialInputs {
   const TextureSet* textures_;
   const TexturePoint* x_;
 };
-
-// All parameters of the row that have an effect, before their textures are resolved. The directive must have
-// passed check_parameters.
-std::vector<MaterialInput> material_inputs(const ParameterReader& parameters);
 
 }  // namespace kaustik

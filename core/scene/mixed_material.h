@@ -2,7 +2,7 @@
 // A mixture of two materials, one of which is chosen at each hit.
 
 #include "core/bsdf/bsdf.h"
-#include "core/geometry/shape.h"
+#include "core/math/index.h"
 #include "core/math/vec.h"
 
 namespace kaustik {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/geometry/shape.h"
+#include "core/math/index.h"
 #include "core/texture/image_lookup.h"
 #include "core/texture/mapping.h"
 #include "core/texture/noise.h"

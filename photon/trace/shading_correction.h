@@ -28,9 +28,9 @@ inline float shading_correction(const SurfaceInteraction& si, const Vector3& w, 
   return si.n == si.ns ? 1.0f : cos_ns / cos_n;
 }
 
-// Camera paths shade non-specular surfaces by n when they see them from a direction on different sides of n and
-// ns (render/estimators/shading_point.h). Towards such directions Lo(w) = 1/dA sum f_n(w, wi) dPhi, without the
-// factor c, for all photons that cross the geometric surface. Photons do the same at BSDFs whose
+// Camera paths shade non-specular surfaces by n when they see them from a direction on different sides of n
+// and ns (render/estimators/shading_point.h). Towards such directions Lo(w) = 1/dA sum f_n(w, wi) dPhi,
+// without the factor c, for all photons that cross the geometric surface. Photons do the same at BSDFs whose
 // kScattersAboutN is true.
 
 inline bool sides_differ(const SurfaceInteraction& si, const Vector3& w) {

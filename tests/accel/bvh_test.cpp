@@ -8,6 +8,7 @@
 
 #include "tests/accel/support/brute_force.h"
 #include "tests/accel/support/random_scenes.h"
+#include "tests/core/support/shape_examples.h"
 
 namespace kaustik::accel {
 namespace {
@@ -102,7 +103,36 @@ TEST(Bvh, MatchesBruteForceOnQuadrics) {
   expect_matches_oracle(scene, {}, random, 3000);
 }
 
-// Meshes of different sizes, placed by all kinds of affine transforms.
+glm::dmat4 matrix_of(const Transform& t) {
+  glm::dmat4 m(glm::dmat3(t.linear));
+  m[3] = glm::dvec4(glm::dvec3(t.translation), 1);
+  return m;
+}
+
+// Copies of every example of every analytic shape, so that none is traced without being compared.
+TEST(Bvh, MatchesBruteForceOnExamplesOfAllAnalyticShapes) {
+  Random random(7);
+  Scene scene;
+  const Placement place;
+  for (const Shape& example : kaustik::test::analytic_shapes()) {
+    for (int copy = 0; copy < 15; ++copy) {
+      Shape& shape = scene.shapes.emplace_back(example);
+      const Frame frame = Frame::from_z(random.direction());
+      const Transform to_place =
+          place.transform(random.in_cube(), frame, Vector3(random.uniform(0.1f, 0.4f)));
+      std::visit(
+          [&]<class G>(G& g) {
+            if constexpr (AnalyticShape<G>)
+              g.to_world = Transform::from_matrix(matrix_of(to_place) * matrix_of(g.to_world));
+          },
+          shape.geometry);
+    }
+  }
+  test::finish(scene);
+  expect_matches_oracle(scene, place, random, 3000);
+}
+
+// Meshes of any size of their own, placed by maps of any kind.
 TEST(Bvh, MatchesBruteForceOnInstances) {
   for (const float size : {1.0f, 1e-4f, 3e5f}) {
     for (const Placement& place : {Placement{}, Placement{1e-4f, {0, 0, 0}}, Placement{1, {100, -200, 50}}}) {

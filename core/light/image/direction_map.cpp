@@ -2,7 +2,7 @@
 
 #include "core/light/image/direction_map.h"
 
-#include "core/math/equal_area.h"
+#include "core/sampling/equal_area.h"
 #include "core/sampling/warp.h"
 
 namespace kaustik {

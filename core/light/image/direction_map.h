@@ -18,7 +18,7 @@ namespace kaustik {
 class DirectionMap {
  public:
   enum class Layout {
-    kEqualArea,  // octahedral, square (core/math/equal_area.h), as in pbrt-v4
+    kEqualArea,  // octahedral, square (core/sampling/equal_area.h), as in pbrt-v4
     kLatLong     // row 0 around +z, column 0 from +x towards +y, as in pbrt-v3
   };
   enum class Excess { kLeftOut, kSampled };

@@ -21,30 +21,6 @@ Point2 square_of_barycentrics(const Point2& b) {
   return b.x < b.y ? Point2(smaller, larger) : Point2(larger, smaller);
 }
 
-// The surface parameter v (core/geometry/surface_parameters.h) for the u.x of sample_uniform().
-float v_of(const Quadric& q, float u) {
-  switch (q.kind) {
-    case QuadricKind::kSphere: {
-      const float low = std::acos(q.z_min), turn = std::acos(q.z_max) - low;
-      return (std::acos(std::clamp(q.z_min + u * (q.z_max - q.z_min), -1.0f, 1.0f)) - low) / turn;
-    }
-    case QuadricKind::kCylinder:
-      return u;
-    case QuadricKind::kDisk:
-      break;
-  }
-  return (1 - std::sqrt(q.inner * q.inner + u * (1 - q.inner * q.inner))) / (1 - q.inner);
-}
-
-Point2 square_of_local(const Quadric& q, const Point3& p) {
-  float phi = std::atan2(p.y, p.x);
-  if (phi < 0) phi += 2 * kPi;
-  const float inner2 = q.inner * q.inner;
-  const float along = q.kind == QuadricKind::kDisk ? (p.x * p.x + p.y * p.y - inner2) / (1 - inner2)
-                                                   : (p.z - q.z_min) / (q.z_max - q.z_min);
-  return {along, phi / q.phi_max};
-}
-
 int cell_of(float u, int n) {
   return std::clamp(static_cast<int>(u * static_cast<float>(n)), 0, n - 1);
 }
@@ -58,8 +34,8 @@ EmissionImage::EmissionImage(std::shared_ptr<const LightImage> image, std::vecto
   make_tables(areas);
 }
 
-EmissionImage::EmissionImage(std::shared_ptr<const LightImage> image, const Quadric& quadric, double area)
-    : image_(std::move(image)), quadric_(quadric) {
+EmissionImage::EmissionImage(std::shared_ptr<const LightImage> image, const SweptGeometry& shape, double area)
+    : image_(std::move(image)), shape_(shape) {
   make_tables({area});
 }
 
@@ -77,7 +53,10 @@ Rgb EmissionImage::value(const Point2& uv) const {
 }
 
 Point2 EmissionImage::uv(const Place& place) const {
-  if (triangles_.empty()) return {place.u.y, v_of(quadric_, place.u.x)};
+  if (triangles_.empty()) {
+    const float u_x = place.u.x;
+    return {place.u.y, std::visit([&](const auto& shape) { return shape.v_of(u_x); }, shape_)};
+  }
   const Point2 b = sample_uniform_triangle(place.u);
   const auto& uv = triangles_[place.part].uv;
   return uv[0] + (b.x * (uv[1] - uv[0]) + b.y * (uv[2] - uv[0]));
@@ -85,9 +64,10 @@ Point2 EmissionImage::uv(const Place& place) const {
 
 EmissionImage::Place EmissionImage::place_of(const SurfaceInteraction& on_surface) const {
   if (!triangles_.empty()) return {on_surface.primitive, square_of_barycentrics(on_surface.hit_uv)};
-  const bool flat = quadric_.kind == QuadricKind::kDisk;
-  const Point3 p = flat ? Point3(on_surface.hit_uv, 0) : quadric_.to_world.inverse_point(on_surface.p);
-  return {0, square_of_local(quadric_, p)};
+  const auto square = [&](const auto& shape) {
+    return shape.square_of(local_point(shape, on_surface.p, on_surface.hit_uv));
+  };
+  return {0, std::visit(square, shape_)};
 }
 
 EmissionImage::Sample EmissionImage::sample(const Point2& u) const {

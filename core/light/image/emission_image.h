@@ -27,7 +27,7 @@ class EmissionImage {
   };
   EmissionImage(std::shared_ptr<const LightImage> image, std::vector<Triangle> triangles);
   // For a whole sphere, cylinder or disk, or a part of one; area in m^2.
-  EmissionImage(std::shared_ptr<const LightImage> image, const Quadric& quadric, double area);
+  EmissionImage(std::shared_ptr<const LightImage> image, const SweptGeometry& shape, double area);
 
   // A point on the surface: the triangle (zero for quadrics), and the point of the square that
   // sample_uniform_triangle() or sample_uniform() maps to the surface.
@@ -65,7 +65,7 @@ class EmissionImage {
 
   std::shared_ptr<const LightImage> image_;
   std::vector<Triangle> triangles_;  // empty for a quadric
-  Quadric quadric_;
+  SweptGeometry shape_;
   DiscreteDistribution parts_;
   std::vector<PiecewiseConstant2D> tables_;  // one per part; empty for a part with a single cell
   std::vector<float> areas_;                 // area of each part over its probability

@@ -1,8 +1,11 @@
 #pragma once
-// The pixels of an image that a light emits.
+// The pixels of an image that a light emits, and what loads them.
 
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "core/diagnostics/source_location.h"
 #include "core/math/vec.h"
 
 namespace kaustik {
@@ -16,5 +19,14 @@ struct LightImage {
     return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
   }
 };
+
+// The result of loading an image file: a linear Rec. 709 image, or an error.
+struct LightImageResult {
+  LightImage image;
+  std::string error;  // one sentence that names the file; empty on success
+};
+// Reads the image of a light that the parameter at `where` names.
+using LightImageLoader =
+    std::function<LightImageResult(const std::string& filename, const SourceLocation& where)>;
 
 }  // namespace kaustik

@@ -11,12 +11,12 @@
 
 #include "core/diagnostics/nearest_name.h"
 #include "core/scene/build/camera_builder.h"
-#include "core/scene/build/light_images.h"
 #include "core/scene/build/light_table.h"
 #include "core/scene/build/local_origin.h"
 #include "core/scene/build/material_table.h"
 #include "core/scene/build/sensor_builder.h"
 #include "core/scene/build/surface_groups.h"
+#include "core/scene/schema/light_images.h"
 #include "core/scene/shapes/shape_source.h"
 
 namespace kaustik {
@@ -207,10 +207,10 @@ void Builder::add_instance(size_t index, const std::map<std::string_view, std::v
 
 std::optional<ShapeSource> Builder::make_source(const Item& item, const glm::dvec3& mesh_origin,
                                                 DiagnosticList& diagnostics) const {
-  const auto& types = shape_types();
-  const auto spec = std::find_if(types.begin(), types.end(),
-                                 [&](const TypeSpec& t) { return t.name == item.description->type; });
-  return make_shape_source(*item.description, *spec, load_mesh_, diagnostics, mesh_origin);
+  const auto& rows = shape_rows();
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [&](const ShapeRow& r) { return r.spec.name == item.description->type; });
+  return make_shape_source(*item.description, *row, load_mesh_, diagnostics, mesh_origin);
 }
 
 void Builder::load_sources() {

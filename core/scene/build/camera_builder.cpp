@@ -106,11 +106,6 @@ void take_filter(const Directive& filter, WarnedOnce& warned, DiagnosticList& di
 
 }  // namespace
 
-bool is_usable_transform(const glm::dmat4& m) {
-  return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1 &&
-         Transform::from_matrix(m).invertible();
-}
-
 Camera build_camera(const SceneDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics) {
   Camera camera;
   if (description.film) take_film(*description.film, warned, diagnostics, camera);

@@ -10,7 +10,4 @@ namespace kaustik {
 // what is absent. The camera is usable even after errors.
 Camera build_camera(const SceneDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
 
-// Whether m is affine and can be inverted in float precision.
-bool is_usable_transform(const glm::dmat4& m);
-
 }  // namespace kaustik

@@ -65,10 +65,9 @@ bool LightTable::make(const ShapeDescription& description, Shape& shape, std::ve
   auto light = DiffuseAreaLight::make(shape, image ? Rgb(1) : parameters.rgb("L"),
                                       parameters.flag("twosided"), partly && !image ? white_pixel() : image);
   if (!light) {
-    const bool sphere =
-        std::holds_alternative<Sphere>(shape.geometry) || std::holds_alternative<Quadric>(shape.geometry);
+    const bool uneven = swept_of(shape) && !keeps_areas_even(shape);
     diagnostics_.error(description.location,
-                       sphere ? "a sphere or cylinder that is scaled non-uniformly cannot be a light"
+                       uneven ? "a sphere or cylinder that is scaled non-uniformly cannot be a light"
                               : "the area of this light is zero or not finite",
                        {{directive.location, "the area light"}});
     return false;

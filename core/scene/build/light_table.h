@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene/build/light_images.h"
 #include "core/scene/build/texture_table.h"
+#include "core/scene/schema/light_images.h"
 
 namespace kaustik {
 

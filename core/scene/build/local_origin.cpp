@@ -18,10 +18,14 @@ ExactBounds object_bounds(const ShapeDescription& shape, const ShapeSource& sour
   ExactBounds box;
   const auto* mesh = std::get_if<TriangleMesh>(&source.geometry);
   if (!mesh) {
-    const auto* quadric = std::get_if<Quadric>(&source.geometry);
-    const bool cylinder = quadric && quadric->kind == QuadricKind::kCylinder;
-    box.add(glm::dvec3(-1, -1, cylinder ? double(quadric->z_min) : -1));
-    box.add(glm::dvec3(1, 1, cylinder ? double(quadric->z_max) : 1));
+    const Bounds3 local = std::visit(
+        []<class G>(const G& g) {
+          if constexpr (AnalyticShape<G>) return g.local_bounds();
+          return Bounds3();
+        },
+        source.geometry);
+    box.add(glm::dvec3(local.min));
+    box.add(glm::dvec3(local.max));
     return mapped(source.local, box);
   }
   if (const Parameter* P = shape.find("P")) {

@@ -40,10 +40,4 @@ inline constexpr double kFarRadii = 64;
 // empty, without extent, or not finite.
 glm::dvec3 local_origin(const ExactBounds& shapes);
 
-// Changes an affine map to the world into one to coordinates relative to origin.
-inline glm::dmat4 relative_to(const glm::dvec3& origin, glm::dmat4 to_world) {
-  to_world[3] -= glm::dvec4(origin, 0);
-  return to_world;
-}
-
 }  // namespace kaustik

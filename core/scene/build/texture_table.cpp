@@ -9,8 +9,7 @@
 #include <charconv>
 
 #include "core/diagnostics/nearest_name.h"
-#include "core/scene/build/camera_builder.h"
-#include "core/scene/build/local_origin.h"
+#include "core/math/transform.h"
 
 namespace kaustik {
 

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "core/scene/build/light_images.h"
-#include "core/scene/build/local_origin.h"
+#include "core/math/transform.h"
+#include "core/scene/schema/light_images.h"
 #include "core/scene/schema/parameter_spec.h"
 
 namespace kaustik {

@@ -6,6 +6,30 @@
 
 namespace kaustik {
 
+namespace {
+
+MaterialInput input_of(const ParameterReader& parameters, const ParameterSpec& spec) {
+  MaterialInput input;
+  input.name = spec.name;
+  input.given = parameters.has(spec.name);
+  const Parameter* given = parameters.directive().find(spec.name);
+  const bool textured = given && given->type == ParameterType::kTexture;
+  input.text = parameters.text(spec.name);
+  input.numbers = textured ? spec.defaults : parameters.numbers(spec.name);
+  if (textured && input.numbers.empty()) input.numbers = {0, 0, 0};
+  if (spec.types.front() == ParameterType::kRgb && !input.numbers.empty()) {
+    input.rgb =
+        textured ? Rgb(input.numbers[0], input.numbers[1], input.numbers[2]) : parameters.rgb(spec.name);
+  }
+  input.low = static_cast<float>(spec.range.low);
+  input.high = static_cast<float>(spec.range.high);
+  input.low_open = spec.range.low_open;
+  input.high_open = spec.range.high_open;
+  return input;
+}
+
+}  // namespace
+
 size_t numbers_per_item(ParameterType type) {
   switch (type) {
     case ParameterType::kPoint2:
@@ -50,6 +74,14 @@ std::string ParameterReader::text(std::string_view name) const {
 SourceLocation ParameterReader::location(std::string_view name) const {
   const Parameter* parameter = directive_.find(name);
   return parameter ? parameter->value_location(0) : directive_.type_location;
+}
+
+std::vector<MaterialInput> material_inputs(const ParameterReader& parameters) {
+  std::vector<MaterialInput> inputs;
+  for (const ParameterSpec& spec : parameters.spec().parameters) {
+    if (spec.state == ParameterState::kUsed) inputs.push_back(input_of(parameters, spec));
+  }
+  return inputs;
 }
 
 }  // namespace kaustik

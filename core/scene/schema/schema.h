@@ -88,6 +88,10 @@ class ParameterReader {
   const TypeSpec& spec_;
 };
 
+// All parameters of the row that have an effect, before their textures are resolved. The directive must have
+// passed check_parameters.
+std::vector<MaterialInput> material_inputs(const ParameterReader& parameters);
+
 struct MaterialRow {
   TypeSpec spec;
   // Null for a surface that is not there ("interface") and for "mix".
@@ -113,11 +117,31 @@ struct LightRow {
 
 // The tables, one per directive. Area lights have no function here: the builder makes them from the row and
 // the shape.
+// A shape in its own space, before any transform; its to_world is not set yet. Never an InstancedMesh.
+struct ShapeSource {
+  Geometry geometry;
+  // Maps to the shape's space: from the unit sphere or disk, or from a mesh's own origin.
+  glm::dmat4 local{1};
+};
+
+// Input of the function that makes an analytic shape.
+struct ShapeInputs {
+  const ParameterReader& parameters;
+  DiagnosticList& diagnostics;
+};
+
+struct ShapeRow {
+  TypeSpec spec;
+  // Nothing, with an error added, when the parameters contradict each other. Null for meshes, which
+  // core/scene/shapes makes.
+  std::optional<ShapeSource> (*make)(const ShapeInputs&) = nullptr;
+};
+
 const std::vector<MaterialRow>& material_rows();
 const std::vector<LightRow>& light_rows();
+const std::vector<ShapeRow>& shape_rows();
 const std::vector<TypeSpec>& area_light_types();
 const std::vector<TypeSpec>& texture_types();
-const std::vector<TypeSpec>& shape_types();
 const std::vector<TypeSpec>& camera_types();
 const std::vector<TypeSpec>& film_types();
 const std::vector<TypeSpec>& sampler_types();

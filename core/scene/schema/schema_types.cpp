@@ -1,4 +1,4 @@
-// Schema rows of shapes, film, sampler, accelerator and options, and the list of all categories.
+// Schema rows of film, sampler, accelerator and options, and the list of all categories.
 
 #include <algorithm>
 
@@ -9,66 +9,6 @@ namespace {
 
 using namespace spec;
 using Type = ParameterType;
-
-// Adds the parameters that all shapes have.
-std::vector<ParameterSpec> shape(std::vector<ParameterSpec> own) {
-  own.push_back(text("surfacegroup", "found from shared edges",
-                     "name of the surface that the shape is part of: photons are shared among all shapes of "
-                     "that name, and with no others. Not in pbrt"));
-  own.push_back(
-      textured(number("alpha", 1, "", kUnit, "opacity: the probability that a ray hits the surface")));
-  return own;
-}
-
-std::vector<TypeSpec> make_shape_types() {
-  const ParameterSpec P = list(Type::kPoint3, "P", 3, "required", "m", "vertices");
-  const ParameterSpec N =
-      list(Type::kNormal, "N", 1, "none", "", "normals, one per vertex; they also choose the outside");
-  const ParameterSpec uv = list(Type::kPoint2, "uv", 1, "none", "", "texture coordinates, one per vertex");
-  const ParameterSpec face_indices =
-      ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
-  const Range turn{0, 360, true, false};
-  const ParameterSpec phimax = number("phimax", 360, "degrees", turn, "extent about the axis, from +x");
-  return {
-      {"trianglemesh", "Triangles. Without `N`, the outside is the side of cross(p1 - p0, p2 - p0).",
-       shape({P,
-              list(Type::kInteger, "indices", 3, "0 1 2 when there are three vertices", "",
-                   "three vertex indices per triangle, counted from zero"),
-              N, uv, ignored("S", {Type::kVector3}, "tangents"), face_indices})},
-      {"plymesh", "Triangles, quads and polygons of a PLY file (ascii or binary), with normals and uv.",
-       shape({text("filename", "required", "path, relative to the scene file"),
-              ignored("displacement", {Type::kTexture, Type::kFloat}, "displacement is not supported", 0),
-              ignored("edgelength", {Type::kFloat}, "displacement is not supported")})},
-      {"sphere",
-       "A sphere about the origin, exact; under a transform that scales non-uniformly, an ellipsoid.",
-       shape({number("radius", 1, "m", kPositive, "radius"),
-              without_default(number("zmin", 0, "m", kAnyNumber, "lower limit, where the sphere is cut off"),
-                              "-radius"),
-              without_default(number("zmax", 0, "m", kAnyNumber, "upper limit, where the sphere is cut off"),
-                              "radius"),
-              phimax})},
-      {"cylinder", "A cylinder about the z axis, without caps; the outside is away from the axis.",
-       shape({number("radius", 1, "m", kPositive, "radius"), number("zmin", -1, "m", kAnyNumber, "lower end"),
-              number("zmax", 1, "m", kAnyNumber, "upper end"), phimax})},
-      {"disk", "A disk in the plane z = height; the outside is the side of +z.",
-       shape({number("radius", 1, "m", kPositive, "outer radius"),
-              number("innerradius", 0, "m", kNotNegative, "radius of the hole"),
-              number("height", 0, "m", kAnyNumber, "position along z"), phimax})},
-      {"bilinearmesh",
-       "Patches of four corners p00 p10 p01 p11. Flat convex ones become two triangles, others a grid.",
-       shape({list(Type::kPoint3, "P", 4, "required", "m", "corners"),
-              list(Type::kInteger, "indices", 4, "0 1 2 3 when there are four corners", "",
-                   "four corner indices per patch, counted from zero"),
-              N, uv, face_indices,
-              ignored("emissionfilename", {Type::kString}, "an area light is sampled by its own image")})},
-      {"loopsubdiv", "The limit surface of Loop's subdivision (Loop 1987), as triangles with its normals.",
-       shape({P,
-              list(Type::kInteger, "indices", 3, "required", "",
-                   "three vertex indices per triangle, counted from zero"),
-              integer("levels", 3, "", {0, 12}, "how many times each triangle is divided into four"),
-              ignored("scheme", {Type::kString}, "there is only one scheme")})},
-  };
-}
 
 std::vector<TypeSpec> make_film_types() {
   ParameterSpec crop = list(Type::kFloat, "cropwindow", 4, "0 1 0 1", "",
@@ -179,7 +119,7 @@ std::vector<Category> make_categories() {
       {"Accelerator", "accelerator", specs_of(accelerator_types()), {}},
       {"Material", "material", specs_of(material_rows()), {"hair"}},
       {"Texture", "texture", specs_of(texture_types()), {"ptex"}},
-      {"Shape", "shape", specs_of(shape_types()), {"curve"}},
+      {"Shape", "shape", specs_of(shape_rows()), {"curve"}},
       {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
       {"LightSource", "light", specs_of(light_rows()), {}},
   };
@@ -187,10 +127,6 @@ std::vector<Category> make_categories() {
 
 }  // namespace
 
-const std::vector<TypeSpec>& shape_types() {
-  static const std::vector<TypeSpec> types = make_shape_types();
-  return types;
-}
 const std::vector<TypeSpec>& film_types() {
   static const std::vector<TypeSpec> types = make_film_types();
   return types;

@@ -50,15 +50,14 @@ PlacedShape place_shape(ShapeSource source, const glm::dmat4& object_to_world, b
     placed.shape.flip_normal = reverse_orientation != (glm::determinant(glm::dmat3(object_to_world)) < 0);
     return placed;
   }
-  if (const auto* disk = std::get_if<DiskSource>(&source.geometry)) {
-    placed.shape.geometry = Disk{to_world, disk->inner};
-  } else if (auto* quadric = std::get_if<Quadric>(&source.geometry)) {
-    quadric->to_world = to_world;
-    placed.shape.geometry = *quadric;
-  } else {
-    placed.shape.geometry = Sphere{to_world};
-  }
-  // Their normals are transformed as normals, so the outside remains outside under mirroring, too.
+  std::visit(
+      [&]<class G>(G& analytic) {
+        if constexpr (AnalyticShape<G>) analytic.to_world = to_world;
+      },
+      source.geometry);
+  placed.shape.geometry = std::move(source.geometry);
+  // The normals of analytic shapes are transformed as normals, so the outside remains outside under
+  // mirroring.
   placed.shape.flip_normal = reverse_orientation;
   placed.finite = to_world.invertible();
   return placed;

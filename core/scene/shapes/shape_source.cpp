@@ -143,67 +143,6 @@ std::optional<ShapeSource> make_plymesh(const Context& c, const MeshLoader& load
   return ShapeSource{std::move(result.mesh)};
 }
 
-float turn_of(const Context& c) {
-  return static_cast<float>(glm::radians(c.reader.number("phimax")));
-}
-
-// As in pbrt, either of the two limits may be the larger one; the caller has sorted them.
-bool check_extent(const Context& c, double z_min, double z_max) {
-  if (z_min < z_max) return true;
-  c.error(
-      c.reader.location(c.shape.find("zmin") ? "zmin" : "zmax"),
-      fmt::format("no part of the {} lies between `zmin` = {} and `zmax` = {}", c.shape.type, z_min, z_max));
-  return false;
-}
-
-std::optional<ShapeSource> make_sphere(const Context& c) {
-  const double radius = c.reader.number("radius");
-  const auto limit = [&](std::string_view name, double whole) {
-    return c.reader.has(name) ? std::clamp(c.reader.number(name), -radius, radius) : whole;
-  };
-  const auto [z_min, z_max] = std::minmax({limit("zmin", -radius), limit("zmax", radius)});
-  if (!check_extent(c, z_min, z_max)) return std::nullopt;
-  const glm::dmat4 local = glm::scale(glm::dmat4(1), glm::dvec3(radius));
-  if (z_min == -radius && z_max == radius && c.reader.number("phimax") == 360)
-    return ShapeSource{SphereSource{}, local};
-  Quadric q;
-  q.z_min = static_cast<float>(z_min / radius);
-  q.z_max = static_cast<float>(z_max / radius);
-  q.phi_max = turn_of(c);
-  return ShapeSource{q, local};
-}
-
-std::optional<ShapeSource> make_cylinder(const Context& c) {
-  const double radius = c.reader.number("radius");
-  const auto [z_min, z_max] = std::minmax({c.reader.number("zmin"), c.reader.number("zmax")});
-  if (!check_extent(c, z_min, z_max)) return std::nullopt;
-  Quadric q;
-  q.kind = QuadricKind::kCylinder;
-  q.z_min = static_cast<float>(z_min / radius);
-  q.z_max = static_cast<float>(z_max / radius);
-  q.phi_max = turn_of(c);
-  return ShapeSource{q, glm::scale(glm::dmat4(1), glm::dvec3(radius))};
-}
-
-std::optional<ShapeSource> make_disk(const Context& c) {
-  const double radius = c.reader.number("radius");
-  const double inner = c.reader.number("innerradius");
-  if (!(inner < radius)) {
-    c.error(c.reader.location("innerradius"),
-            fmt::format("`innerradius` = {} leaves nothing of a disk of radius {}", inner, radius));
-    return std::nullopt;
-  }
-  const glm::dmat4 local = glm::scale(
-      glm::translate(glm::dmat4(1), glm::dvec3(0, 0, c.reader.number("height"))), glm::dvec3(radius));
-  if (c.reader.number("phimax") == 360)
-    return ShapeSource{DiskSource{static_cast<float>(inner / radius)}, local};
-  Quadric q;
-  q.kind = QuadricKind::kDisk;
-  q.inner = static_cast<float>(inner / radius);
-  q.phi_max = turn_of(c);
-  return ShapeSource{q, local};
-}
-
 // Checks that apply to both inline meshes and mesh files.
 bool check_mesh(const Context& c, const TriangleMesh& mesh) {
   const std::string_view source = c.shape.find("P") ? "P" : "filename";
@@ -225,24 +164,22 @@ bool check_mesh(const Context& c, const TriangleMesh& mesh) {
   return true;
 }
 
-std::optional<ShapeSource> make_geometry(const Context& c, const MeshLoader& load_mesh) {
-  if (c.shape.type == "trianglemesh") return make_trianglemesh(c);
+std::optional<ShapeSource> make_mesh(const Context& c, const MeshLoader& load_mesh) {
   if (c.shape.type == "plymesh") return make_plymesh(c, load_mesh);
   if (c.shape.type == "bilinearmesh") return make_bilinearmesh(c);
   if (c.shape.type == "loopsubdiv") return make_loopsubdiv(c);
-  if (c.shape.type == "sphere") return make_sphere(c);
-  if (c.shape.type == "cylinder") return make_cylinder(c);
-  return make_disk(c);
+  return make_trianglemesh(c);
 }
 
 }  // namespace
 
-std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
+std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const ShapeRow& row,
                                              const MeshLoader& load_mesh, DiagnosticList& diagnostics,
                                              const glm::dvec3& mesh_origin) {
-  const ParameterReader reader(shape, spec);
+  const ParameterReader reader(shape, row.spec);
+  if (row.make) return row.make({reader, diagnostics});
   const Context context{shape, reader, diagnostics, mesh_origin};
-  std::optional<ShapeSource> source = make_geometry(context, load_mesh);
+  std::optional<ShapeSource> source = make_mesh(context, load_mesh);
   if (!source) return std::nullopt;
   const auto* mesh = std::get_if<TriangleMesh>(&source->geometry);
   if (mesh && !check_mesh(context, *mesh)) return std::nullopt;

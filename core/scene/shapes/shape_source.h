@@ -6,28 +6,16 @@
 #include <variant>
 
 #include "core/geometry/shape.h"
-#include "core/scene/build/builder.h"
 #include "core/scene/schema/schema.h"
+#include "core/scene/shapes/mesh_loader.h"
 
 namespace kaustik {
-
-struct SphereSource {};
-struct DiskSource {
-  float inner = 0;
-};
-
-struct ShapeSource {
-  // The to_world of a Quadric is not used.
-  std::variant<TriangleMesh, SphereSource, DiskSource, Quadric> geometry;
-  // Map to the shape's space from the space of the unit sphere or disk, or from a mesh's own origin.
-  glm::dmat4 local{1};
-};
 
 // Makes the geometry of a Shape line. Returns nothing, with errors added, if the parameters contradict each
 // other or the mesh is invalid: indices out of range, positions or normals that are not finite. The directive
 // must have passed check_parameters. mesh_origin: in the shape's space; vertices given in the scene file are
 // rounded to float relative to it. Thread-safe.
-std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const TypeSpec& spec,
+std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const ShapeRow& row,
                                              const MeshLoader& load_mesh, DiagnosticList& diagnostics,
                                              const glm::dvec3& mesh_origin = glm::dvec3(0));
 

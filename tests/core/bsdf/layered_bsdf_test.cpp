@@ -12,8 +12,8 @@
 namespace kaustik {
 namespace {
 
-using test::Random;
 using test::kCopperEta, test::kCopperK;
+using test::Random;
 
 const Vector3 kDirections[] = {{0, 0, 1},
                                {0, 0, -1},

@@ -13,8 +13,11 @@ namespace {
 SurfaceInteraction hit_from(const Shape& shape, const Point3& o, const Vector3& d) {
   const Ray ray{o, d};
   Hit hit{0, 0, 0, Point2(0)};
-  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) hit.t = intersect_sphere(*sphere, ray);
-  if (const auto* disk = std::get_if<Disk>(&shape.geometry)) hit.t = intersect_disk(*disk, ray, &hit.uv);
+  std::visit(
+      [&]<class G>(const G& g) {
+        if constexpr (AnalyticShape<G>) hit.t = g.intersect(ray, &hit.uv);
+      },
+      shape.geometry);
   EXPECT_LT(hit.t, kInfinity);
   return make_interaction({shape}, ray, hit);
 }

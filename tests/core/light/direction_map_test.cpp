@@ -7,7 +7,7 @@
 #include "core/light/infinite.h"
 #include "core/light/point.h"
 #include "core/light/projection.h"
-#include "core/math/equal_area.h"
+#include "core/sampling/equal_area.h"
 #include "tests/core/support/chi_square.h"
 #include "tests/support/random.h"
 #include "tests/support/statistics.h"

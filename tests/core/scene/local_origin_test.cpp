@@ -6,6 +6,8 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/scene/build/builder.h"
+
 namespace kaustik {
 namespace {
 

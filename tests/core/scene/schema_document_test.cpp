@@ -64,10 +64,11 @@ TEST(MaterialRows, OnlyRoughnessDecidesTheLobes) {
         if (is_roughness(input) || !takes_texture) continue;
         const MaterialInput before = input;
         for (const float value : {0.3f, 0.9f, 1.7f, 3.3f}) {
-          const float clamped = input.in_range(value, value);
+          // At the ends of a range a lobe may vanish, as for an index of one.
+          if (!(value > input.low && value < input.high)) continue;
           input.given = true;
-          input.rgb = Rgb(clamped);
-          input.numbers = {double(clamped), double(clamped), double(clamped)};
+          input.rgb = Rgb(value);
+          input.numbers = {double(value), double(value), double(value)};
           const Lobes changed = lobes(row.make(MaterialInputs(inputs)));
           EXPECT_EQ(changed.diffuse, usual.diffuse) << row.spec.name << " " << input.name << " " << value;
           EXPECT_EQ(changed.specular, usual.specular) << row.spec.name << " " << input.name << " " << value;

@@ -84,6 +84,32 @@ inline double rounding_of(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return rounding_of(b); }, bsdf);
 }
 
+// Samples can end on the wrong side of the surface, where they are lost, and lobes can be much narrower than
+// a bin of a chi-square test. Overload these for a BSDF without facets of which the same is true.
+template <BsdfType B>
+bool loses_samples(const B& bsdf) {
+  if constexpr (requires { bsdf.facets; }) return !bsdf.facets.smooth();
+  return false;
+}
+inline bool loses_samples(const Bsdf& bsdf) {
+  return std::visit([](const auto& b) { return loses_samples(b); }, bsdf);
+}
+// albedo() is the mean weight of reflected samples. Rough surfaces state that of the smooth one, and smooth
+// dielectrics count transmission, too.
+template <BsdfType B>
+bool albedo_is_exact(const B& bsdf) {
+  return !loses_samples(bsdf);
+}
+inline bool albedo_is_exact(const Dielectric& /*bsdf*/) {
+  return false;
+}
+inline bool albedo_is_exact(const ThinDielectric& /*bsdf*/) {
+  return false;
+}
+inline bool albedo_is_exact(const Bsdf& bsdf) {
+  return std::visit([](const auto& b) { return albedo_is_exact(b); }, bsdf);
+}
+
 namespace detail {
 template <class... B>
 std::vector<Bsdf> examples_of_all(const std::variant<B...>* /*deduces B*/) {

@@ -29,13 +29,11 @@ inline Hit brute_force(const std::vector<Shape>& shapes, const Ray& ray) {
     }
     Hit hit;
     hit.shape = s;
-    if (const auto* sphere = std::get_if<Sphere>(&shapes[s].geometry)) {
-      hit.t = intersect_sphere(*sphere, ray);
-    } else if (const auto* quadric = std::get_if<Quadric>(&shapes[s].geometry)) {
-      hit.t = intersect_quadric(*quadric, ray, &hit.uv);
-    } else {
-      hit.t = intersect_disk(std::get<Disk>(shapes[s].geometry), ray, &hit.uv);
-    }
+    std::visit(
+        [&]<class G>(const G& g) {
+          if constexpr (AnalyticShape<G>) hit.t = g.intersect(ray, &hit.uv);
+        },
+        shapes[s].geometry);
     if (hit.t < best.t) best = hit;
   }
   return best;

@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "core/scene/build/builder.h"
+#include "core/light/image/direction_map.h"
 #include "core/scene/schema/schema.h"
 
 namespace kaustik {

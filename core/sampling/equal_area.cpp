@@ -1,6 +1,6 @@
 // The equal-area map with polynomial sine and cosine, so that its bits are the same on every machine.
 
-#include "core/math/equal_area.h"
+#include "core/sampling/equal_area.h"
 
 #include "core/sampling/warp.h"
 

@@ -1,6 +1,6 @@
 // Loads the images of lights, once each, and checks their pixels.
 
-#include "core/scene/build/light_images.h"
+#include "core/scene/schema/light_images.h"
 
 #include <fmt/format.h>
 
