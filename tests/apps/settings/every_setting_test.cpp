@@ -59,7 +59,9 @@ TEST(EverySetting, SurvivesBeingShown) {
     Settings changed, copy;
     setting.assign(changed, another_value(setting));
     for (const auto& [name, texts] : shown(changed))
-      if (!texts.empty()) EXPECT_EQ(find_setting(name)->assign(copy, texts), std::nullopt) << name;
+      if (!texts.empty()) {
+        EXPECT_EQ(find_setting(name)->assign(copy, texts), std::nullopt) << name;
+      }
     EXPECT_EQ(shown(copy), shown(changed)) << setting.name;
   }
 }
@@ -69,7 +71,9 @@ TEST(EverySetting, HasTheDefaultThatItsRowStates) {
   for (const Setting& setting : settings_table()) {
     Settings settings;
     const std::string first_word = setting.default_text.substr(0, setting.default_text.find_first_of(" ;"));
-    if (!setting.assign(settings, {&first_word, 1})) EXPECT_EQ(shown(settings), shown({})) << setting.name;
+    if (!setting.assign(settings, {&first_word, 1})) {
+      EXPECT_EQ(shown(settings), shown({})) << setting.name;
+    }
   }
 }
 
