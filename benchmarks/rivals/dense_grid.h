@@ -6,6 +6,7 @@
 
 #include "benchmarks/photon_index.h"
 #include "benchmarks/rivals/plain_photon.h"
+#include "benchmarks/rivals/range_gather.h"
 
 namespace kaustik::benchmarks {
 
@@ -25,8 +26,7 @@ class DenseGrid {
     ++counters.queries;
     const Rows rows = rows_near(query.p, box_reach(query.radius));
     for (const photon::PhotonRange& row : rows) counters.candidates += row.size();
-    const photon::GatherSum sum =
-        photon::gather_ranges(columns(), rows, query, photon::KernelType::kConstant, 0);
+    const photon::GatherSum sum = gather_ranges(columns(), rows, query);
     counters.accepted += sum.accepted;
     const float scale = photon::kernel_terms({}, query.radius).scale;
     return Rgb(sum.flux * double(scale) * double(flux_unit_));
@@ -117,7 +117,7 @@ class DenseGrid {
   }
 
   photon::PhotonColumns columns() const {
-    return {x_.data(), y_.data(), z_.data(), direction_.data(), surface_.data(), power_.data(), {}};
+    return {x_.data(), y_.data(), z_.data(), direction_.data(), surface_.data(), power_.data()};
   }
   // The cell of p, clamped to the photons' bounds. Monotone, so that an interval of positions is an interval
   // of cells.

@@ -33,15 +33,6 @@ struct Rgb9e5Power {
   }
 };
 
-struct F32Power {
-  static constexpr float kUnit[3] = {1, 1, 1};
-  Vf component[3], scale;
-
-  HWY_INLINE F32Power(const PhotonColumns& c, uint64_t i) : scale(hn::Set(Floats(), 1.0f)) {
-    for (int k = 0; k < 3; ++k) component[k] = hn::LoadU(Floats(), c.power_f32[k] + i);
-  }
-};
-
 template <KernelType kType>
 HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
   const Vf one = hn::Set(Floats(), 1.0f);
@@ -54,7 +45,7 @@ HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
 // many terms, and which terms are added together depends on the photons alone, not on what else was read.
 // Blocks that hold no photon in reach add zeros, and change no bit. The constructor is written out: what the
 // compiler generates is not compiled for the target.
-template <class Power, KernelType kType>
+template <KernelType kType>
 struct FluxSum {
   static constexpr int kRunBits = 10, kShift = kRunBits + std::bit_width(hn::MaxLanes(Floats())) - 1;
 
@@ -69,7 +60,7 @@ struct FluxSum {
   HWY_INLINE void Reach(uint64_t i) {
     if (HWY_UNLIKELY(i >> kShift != run)) Fold(i >> kShift);
   }
-  HWY_INLINE void Add(const Power& power, Vf weight, Mask counts) {
+  HWY_INLINE void Add(const Rgb9e5Power& power, Vf weight, Mask counts) {
     accepted += hn::CountTrue(Floats(), counts);
     const Vf factor = hn::IfThenElseZero(counts, weight);
     x = hn::MulAdd(power.component[0], factor, x);
@@ -77,7 +68,7 @@ struct FluxSum {
     z = hn::MulAdd(power.component[2], factor, z);
   }
   HWY_INLINE void Add(const PhotonColumns& c, uint64_t i, Vf distance_squared, Mask counts, Vf slope) {
-    const Power power(c, i);
+    const Rgb9e5Power power(c, i);
     Add(power, hn::Mul(Weight<kType>(distance_squared, slope), power.scale), counts);
   }
   HWY_INLINE void AddTo(GatherSum& sum) {
@@ -99,8 +90,8 @@ struct FluxSum {
   HWY_INLINE void MoveRuns() {
     const auto moved = [](Vf sum, float unit)
                            HWY_ATTR { return double(hn::GetLane(hn::SumOfLanes(Floats(), sum)) * unit); };
-    total += glm::dvec3(moved(runs_x, Power::kUnit[0]), moved(runs_y, Power::kUnit[1]),
-                        moved(runs_z, Power::kUnit[2]));
+    total += glm::dvec3(moved(runs_x, Rgb9e5Power::kUnit[0]), moved(runs_y, Rgb9e5Power::kUnit[1]),
+                        moved(runs_z, Rgb9e5Power::kUnit[2]));
     runs_x = runs_y = runs_z = hn::Zero(Floats());
   }
 };
@@ -119,17 +110,12 @@ HWY_INLINE void AddOthers(const PhotonColumns& c, const LaneQuery& q, const uint
   }
 }
 
-// Calls fn.operator()<Power, kType>().
+// Calls fn.operator()<kType>().
 template <class Fn>
-HWY_INLINE auto WithTypes(const PhotonColumns& c, KernelType kernel, const Fn& fn) {
-  const auto with_kernel = [&]<class Power>() HWY_ATTR {
-    if (kernel == KernelType::kCone) return fn.template operator()<Power, KernelType::kCone>();
-    if (kernel == KernelType::kEpanechnikov)
-      return fn.template operator()<Power, KernelType::kEpanechnikov>();
-    return fn.template operator()<Power, KernelType::kConstant>();
-  };
-  return c.power ? with_kernel.template operator()<Rgb9e5Power>()
-                 : with_kernel.template operator()<F32Power>();
+HWY_INLINE auto WithKernel(KernelType kernel, const Fn& fn) {
+  if (kernel == KernelType::kCone) return fn.template operator()<KernelType::kCone>();
+  if (kernel == KernelType::kEpanechnikov) return fn.template operator()<KernelType::kEpanechnikov>();
+  return fn.template operator()<KernelType::kConstant>();
 }
 
 }  // namespace kaustik::photon::HWY_NAMESPACE

@@ -34,9 +34,9 @@ GatherSum GatherPhotons(const IndexedPhotons& photons, const BoxTree::Start& sta
                         KernelType kernel, float slope) {
   const PhotonColumns& c = photons.columns;
   const LaneQuery q(query, photons.size);
-  return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
+  return WithKernel(kernel, [&]<KernelType kType>() HWY_ATTR {
     const Vf slopes = hn::Set(Floats(), slope);
-    FluxSum<Power, kType> same, others;
+    FluxSum<kType> same, others;
     GatherSum sum;
     VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
       AddSame(c, q.sphere, found.same, found.same_size, slopes, same);
@@ -46,37 +46,6 @@ GatherSum GatherPhotons(const IndexedPhotons& photons, const BoxTree::Start& sta
     same.AddTo(sum);
     others.AddTo(sum);
     return sum;
-  });
-}
-
-template <class Power, KernelType kType>
-GatherSum GatherRangeLoop(const PhotonColumns& c, std::span<const PhotonRange> ranges, const LaneQuery& q,
-                          float slope) {
-  const Floats d;
-  const uint64_t lanes = hn::Lanes(d);
-  FluxSum<Power, kType> flux;
-  const auto add = [&](uint64_t i, Mask valid) HWY_ATTR {
-    const Vf distance_squared = DistanceSquared(q.sphere, c, i);
-    const Mask inside = hn::And(valid, hn::Le(distance_squared, q.sphere.radius_squared));
-    flux.Reach(i);
-    flux.Add(c, i, distance_squared, OnSurface(q, c, i, inside), hn::Set(d, slope));
-  };
-  const Mask all = hn::FirstN(d, lanes);
-  for (const PhotonRange& range : ranges) {
-    uint64_t i = range.begin;
-    for (; i + lanes <= range.end; i += lanes) add(i, all);
-    if (i < range.end) add(i, hn::FirstN(d, range.end - i));
-  }
-  GatherSum sum;
-  flux.AddTo(sum);
-  return sum;
-}
-
-GatherSum GatherRanges(const PhotonColumns& c, std::span<const PhotonRange> ranges, const GatherQuery& query,
-                       KernelType kernel, float slope) {
-  const LaneQuery q(query, 0);
-  return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
-    return GatherRangeLoop<Power, kType>(c, ranges, q, slope);
   });
 }
 
@@ -117,17 +86,11 @@ HWY_AFTER_NAMESPACE();
 namespace kaustik::photon {
 
 HWY_EXPORT(GatherPhotons);
-HWY_EXPORT(GatherRanges);
 HWY_EXPORT(SelectPhotons);
 
 GatherSum gather_photons(const IndexedPhotons& photons, const GatherQuery& query, KernelType kernel,
                          float slope) {
   return HWY_DYNAMIC_DISPATCH(GatherPhotons)(photons, start_of(photons, query), query, kernel, slope);
-}
-
-GatherSum gather_ranges(const PhotonColumns& columns, std::span<const PhotonRange> ranges,
-                        const GatherQuery& query, KernelType kernel, float slope) {
-  return HWY_DYNAMIC_DISPATCH(GatherRanges)(columns, ranges, query, kernel, slope);
 }
 
 void select_photons(const IndexedPhotons& photons, const GatherQuery& query, GatherCounters& counters,

@@ -54,8 +54,7 @@ struct PhotonColumns {
   const float *x = nullptr, *y = nullptr, *z = nullptr;
   const uint32_t* direction = nullptr;
   const uint32_t* surface = nullptr;
-  const uint32_t* power = nullptr;  // RGB9E5 in flux units, or null when the f32 columns are there
-  const float* power_f32[3] = {};   // flux units
+  const uint32_t* power = nullptr;  // RGB9E5 in flux units
 };
 inline constexpr uint64_t kGatherPadding = 64;
 
@@ -83,11 +82,6 @@ GatherSum gather_photons(const IndexedPhotons& photons, const GatherQuery& query
 // that a query alone is spared.
 void gather_photons(const IndexedPhotons& photons, std::span<const GatherQuery> queries, KernelType kernel,
                     const float* slopes, GatherSum* sums);
-
-// The same for an index of another kind, over those in the ranges. query.within is not read, candidates are
-// not counted.
-GatherSum gather_ranges(const PhotonColumns& columns, std::span<const PhotonRange> ranges,
-                        const GatherQuery& query, KernelType kernel, float slope);
 
 // Calls take(to, ...) with the photons that count, ascending, and their squared distances. Adds to candidates
 // and accepted.

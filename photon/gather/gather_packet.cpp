@@ -145,11 +145,11 @@ struct PartQuery {
 };
 
 // Of blocks whose photons have the packet's surface. Queries beyond the packet's size reach nothing.
-template <class Power, KernelType kType>
+template <KernelType kType>
 HWY_INLINE void AddPart(const PhotonColumns& c, const QueryPacket& packet, size_t first,
                         const uint32_t* blocks, size_t size, GatherSum* sums) {
   const Floats d;
-  using Sum = FluxSum<Power, kType>;
+  using Sum = FluxSum<kType>;
   // By name: an array would not stay in registers.
   Sum s0, s1, s2, s3;
   const size_t third = first + kTogether / 2, fourth = first + kTogether - 1;
@@ -161,7 +161,7 @@ HWY_INLINE void AddPart(const PhotonColumns& c, const QueryPacket& packet, size_
       for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(d))) {
         const uint64_t i = uint64_t(blocks[b]) + j;
         const Vf x = hn::LoadU(d, c.x + i), y = hn::LoadU(d, c.y + i), z = hn::LoadU(d, c.z + i);
-        const Power power(c, i);
+        const Rgb9e5Power power(c, i);
         const auto add = [&](const PartQuery& q, Sum& sum) HWY_ATTR {
           const Vf distance_squared =
               LengthSquared(hn::Sub(x, q.sphere.x), hn::Sub(y, q.sphere.y), hn::Sub(z, q.sphere.z));
@@ -187,14 +187,14 @@ bool GatherPacket(const IndexedPhotons& photons, const QueryPacket& packet, cons
   if (!FindPacketNodes(*photons.tree, packet, start, nodes)) return false;
   PacketBlocks found;
   FindPacketBlocks(*photons.tree, packet, nodes, found);
-  return WithTypes(c, kernel, [&]<class Power, KernelType kType>() HWY_ATTR {
+  return WithKernel(kernel, [&]<KernelType kType>() HWY_ATTR {
     for (size_t part = 0; part < kParts; ++part)
-      AddPart<Power, kType>(c, packet, part * kTogether, found.same[part], found.same_size[part], sums);
+      AddPart<kType>(c, packet, part * kTogether, found.same[part], found.same_size[part], sums);
     for (size_t q = 0; q < queries.size(); ++q) {
       const size_t part = q / kTogether;
       sums[q].candidates += uint64_t(found.reached[q]) * BoxTree::kBlockPhotons;
       if (HWY_LIKELY(found.other_size[part] == 0)) continue;
-      FluxSum<Power, kType> others;
+      FluxSum<kType> others;
       AddOthers(c, LaneQuery(queries[q], photons.size), found.other[part], found.other_size[part],
                 hn::Set(Floats(), packet.slope[q]), others);
       others.AddTo(sums[q]);

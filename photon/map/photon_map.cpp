@@ -3,7 +3,6 @@
 #include "photon/map/photon_map.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
@@ -21,13 +20,6 @@ namespace {
 
 using IndexBlock = tbb::blocked_range<size_t>;
 constexpr size_t kGrain = 1 << 14;
-
-template <class Fn>
-void for_each_index(size_t size, const Fn& fn) {
-  tbb::parallel_for(IndexBlock(0, size, kGrain), [&](const IndexBlock& block) {
-    for (size_t i = block.begin(); i < block.end(); ++i) fn(i);
-  });
-}
 
 // Minima and maxima do not depend on the order in which they are joined.
 Bounds3 bounds_of(std::span<const PhotonRecord> records) {
@@ -53,27 +45,18 @@ void check_size(uint64_t size) {
 
 }  // namespace
 
-RecordColumns PhotonMap::allocate(uint64_t size, bool f32_power) {
-  const uint64_t lines = (size + kGatherPadding) / BoxTree::kBlockPhotons + 1, columns = f32_power ? 8 : 6;
+RecordColumns PhotonMap::allocate(uint64_t size) {
+  constexpr uint64_t kColumns = 6;
+  const uint64_t lines = (size + kGatherPadding) / BoxTree::kBlockPhotons + 1;
   size_ = size;
-  storage_ = UninitialisedArray<Line>(lines * columns);
+  storage_ = UninitialisedArray<Line>(lines * kColumns);
   prefer_large_pages(storage_.data(), storage_.size() * sizeof(Line));
   const auto words = [&](uint64_t c) { return storage_[c * lines].words; };
   const auto floats = [&](uint64_t c) { return reinterpret_cast<float*>(words(c)); };
-  for (uint64_t c = 0; c < columns; ++c)
+  for (uint64_t c = 0; c < kColumns; ++c)
     std::fill(words(c) + size, words(c) + lines * BoxTree::kBlockPhotons, c == 0 ? ~0u : 0u);
   const RecordColumns to{floats(0), floats(1), floats(2), words(3), words(5), words(4)};
-  columns_ = {to.x, to.y, to.z, to.direction, to.surface, f32_power ? nullptr : to.power, {}};
-  for (uint64_t c = 0; f32_power && c < 3; ++c) columns_.power_f32[c] = floats(5 + c);
-  return to;
-}
-
-RecordColumns PhotonMap::fill(PhotonRecords&& records, const MapSettings& settings, bool f32_power) {
-  const MortonCube cube = MortonCube::around(settings.bounds.value_or(bounds_of(records)));
-  const RecordColumns to = allocate(records.size(), f32_power);
-  sort_into_columns(records, cube, to);
-  tbb::parallel_invoke([&] { octree_ = Octree(cube, positions(), size_); },
-                       [&] { boxes_ = BoxTree(columns_, size_); }, [&] { PhotonRecords().swap(records); });
+  columns_ = {to.x, to.y, to.z, to.direction, to.surface, to.power};
   return to;
 }
 
@@ -82,27 +65,11 @@ PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
   PhotonBuffer taken = std::exchange(buffer, {});
   PhotonMap map;
   map.flux_unit_ = taken.flux_unit;
-  map.fill(std::move(taken.records), settings, false);
-  return map;
-}
-
-PhotonMap PhotonMap::build_f32(std::span<const Photon> photons, float flux_unit,
-                               const MapSettings& settings) {
-  check_size(photons.size());
-  PhotonRecords records(photons.size());
-  for_each_index(photons.size(), [&](size_t i) {
-    records[i] = pack(photons[i], flux_unit);
-    records[i].power = uint32_t(i);  // stands for the power until the order is known
-  });
-  PhotonMap map;
-  map.flux_unit_ = flux_unit;
-  const RecordColumns filled = map.fill(std::move(records), settings, true);
-  auto* const power = reinterpret_cast<float*>(filled.power);  // and the two columns after it
-  const uint64_t stride = uint64_t(map.columns_.power_f32[1] - map.columns_.power_f32[0]);
-  for_each_index(photons.size(), [&](size_t i) {
-    const Rgb flux = photons[filled.power[i]].flux;
-    for (size_t c = 0; c < 3; ++c) power[c * stride + i] = flux[int(c)] / flux_unit;
-  });
+  const MortonCube cube = MortonCube::around(settings.bounds.value_or(bounds_of(taken.records)));
+  sort_into_columns(taken.records, cube, map.allocate(taken.records.size()));
+  tbb::parallel_invoke([&] { map.octree_ = Octree(cube, map.positions(), map.size_); },
+                       [&] { map.boxes_ = BoxTree(map.columns_, map.size_); },
+                       [&] { PhotonRecords().swap(taken.records); });
   return map;
 }
 

@@ -30,10 +30,6 @@ class PhotonMap {
   // 51 bytes per photon, the buffer included, and a few megabytes per thread. At most 2^32 - 1 photons
   // (std::length_error beyond).
   static PhotonMap build(PhotonBuffer&& buffer, const MapSettings& settings = {});
-  // The same with the power kept as 3 x f32 instead of RGB9E5 (32 bytes per photon): the reference for what
-  // the packed power loses.
-  static PhotonMap build_f32(std::span<const Photon> photons, float flux_unit,
-                             const MapSettings& settings = {});
 
   uint64_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -73,10 +69,8 @@ class PhotonMap {
   PhotonPositions positions() const { return {columns_.x, columns_.y, columns_.z}; }
 
  private:
-  // The columns to fill. Where the power is kept as f32, the first of its columns takes the records' words.
-  RecordColumns allocate(uint64_t size, bool f32_power);
-  // Columns, octree and boxes of the records, whose memory is freed.
-  RecordColumns fill(PhotonRecords&& records, const MapSettings& settings, bool f32_power);
+  // The columns to fill.
+  RecordColumns allocate(uint64_t size);
 
   IndexedPhotons indexed() const { return {columns_, &octree_, &boxes_, size_}; }
 
@@ -94,10 +88,7 @@ class PhotonMap {
 
 inline Photon PhotonMap::photon(uint64_t i) const {
   const PhotonColumns& c = columns_;
-  const uint32_t power = c.power ? c.power[i] : 0;
-  Photon photon = unpack({c.x[i], c.y[i], c.z[i], c.direction[i], power, c.surface[i]}, flux_unit_);
-  if (!c.power) photon.flux = Rgb(c.power_f32[0][i], c.power_f32[1][i], c.power_f32[2][i]) * flux_unit_;
-  return photon;
+  return unpack({c.x[i], c.y[i], c.z[i], c.direction[i], c.power[i], c.surface[i]}, flux_unit_);
 }
 
 template <class Fn>
