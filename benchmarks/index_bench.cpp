@@ -92,26 +92,6 @@ void BM_Gather(benchmark::State& state) {
               });
 }
 
-// All queries of a tile at once, as the renderer issues them.
-void BM_GatherTiles(benchmark::State& state) {
-  const Size size(state);
-  const PhotonMapIndex& index = shared_index<PhotonMapIndex>(size);
-  std::vector<photon::GatherQuery> queries;
-  for (const photon::Photon& point : tile_points(12, true))
-    queries.push_back({point.p, point.n, point.surface_group, size.radius, photon::kAllPhotons});
-  std::vector<photon::PhotonMap::Gathered> results(queries.size());
-  for (auto _ : state) {
-    index.map().gather_flux(queries, {}, results.data());
-    benchmark::DoNotOptimize(results.data());
-  }
-  photon::GatherCounters counters;
-  for (const auto& result : results) counters += result.counters;
-  const double count = double(queries.size());
-  state.SetItemsProcessed(state.iterations() * int64_t(queries.size()));
-  state.counters["accepted"] = double(counters.accepted) / count;
-  state.counters["candidates"] = double(counters.candidates) / count;
-}
-
 // The search may reach four times as far as the k-th photon is expected.
 template <NearestIndex Index>
 void BM_Nearest(benchmark::State& state) {
@@ -138,18 +118,9 @@ void add(int64_t photons) {
   }
 }
 
-void add_tiles(int64_t photons) {
-  auto* const bench = benchmark::RegisterBenchmark("gather/PhotonMap together", BM_GatherTiles);
-  bench->ArgNames({"photons", "reach"})
-      ->Unit(benchmark::kMillisecond)
-      ->Args({photons, 50})
-      ->Args({photons, 500});
-}
-
 template <PhotonIndex... Indices>
 void add_all(int64_t photons) {
   (add<Indices>(photons), ...);
-  add_tiles(photons);
 }
 
 }  // namespace

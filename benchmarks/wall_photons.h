@@ -61,19 +61,15 @@ inline float radius_for(double photons_in_reach, size_t count) {
   return float(std::sqrt(photons_in_reach / double(count) * double(room_area()) / std::numbers::pi));
 }
 
-// The points of 16 x 16 pixel tiles of a picture of one wall, tile by tile, with a jitter of a pixel; within
-// a tile row by row, or along a Morton curve.
-inline std::vector<photon::Photon> tile_points(size_t tiles_per_axis, bool along_curve = false) {
+// The points of 16 x 16 pixel tiles of a picture of one wall, tile by tile, with a jitter of a pixel; within a
+// tile row by row.
+inline std::vector<photon::Photon> tile_points(size_t tiles_per_axis) {
   std::vector<photon::Photon> points;
   const float pixels = float(16 * tiles_per_axis);
-  const auto even_bits = [](size_t bits) {
-    return (bits & 1) | (bits >> 1 & 2) | (bits >> 2 & 4) | (bits >> 3 & 8);
-  };
   for (size_t tile = 0; tile < tiles_per_axis * tiles_per_axis; ++tile) {
     for (size_t pixel = 0; pixel < 256; ++pixel) {
-      const size_t in_x = along_curve ? even_bits(pixel) : pixel % 16,
-                   in_y = along_curve ? even_bits(pixel >> 1) : pixel / 16;
-      const size_t x = 16 * (tile % tiles_per_axis) + in_x, y = 16 * (tile / tiles_per_axis) + in_y;
+      const size_t x = 16 * (tile % tiles_per_axis) + pixel % 16,
+                   y = 16 * (tile / tiles_per_axis) + pixel / 16;
       points.push_back(wall_point(4, (float(x) + canonical(points.size(), 3)) / pixels,
                                   (float(y) + canonical(points.size(), 4)) / pixels));
     }

@@ -44,7 +44,7 @@ class BlockSamples {
       // share.
       const bool with_bias = ctx_.settings.estimate_bias.value_or(false) && i == ctx_.samples.first;
       const CameraSample ray{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch, samples_.light};
-      const auto gathers = [&] { return counters.gather.queries + batch->readings(); };
+      const auto gathers = [&] { return counters.gather.queries + batch->gathers(); };
       const uint64_t rays_before = counters.rays.all(), gathers_before = gathers();
       trace_camera_ray(ctx_, ray, sampler, counters, &sample.result);
       sample.rays = counters.rays.all() - rays_before, sample.gathers = gathers() - gathers_before;

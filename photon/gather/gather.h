@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "core/math/vec.h"
 #include "photon/gather/kernel.h"
@@ -76,12 +75,6 @@ struct GatherSum {
 // Over the photons that count. The order of the sum depends on the instruction set, and on nothing else.
 GatherSum gather_photons(const IndexedPhotons& photons, const GatherQuery& query, KernelType kernel,
                          float slope);
-
-// The same for each of many queries: sums[i] is that of queries[i] with slopes[i], to the last bit.
-// Neighbours on one surface that follow one another share the work; together they may look through blocks
-// that a query alone is spared.
-void gather_photons(const IndexedPhotons& photons, std::span<const GatherQuery> queries, KernelType kernel,
-                    const float* slopes, GatherSum* sums);
 
 // Calls take(to, ...) with the photons that count, ascending, and their squared distances. Adds to candidates
 // and accepted.

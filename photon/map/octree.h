@@ -68,11 +68,7 @@ class Octree {
 
   // Every photon of `within` that is within radius of p, and others, ascending: those of the cells that the
   // sphere meets, as wide as it or wider.
-  CellRanges ranges_near(const Point3& p, float radius, PhotonRange within) const {
-    return ranges_near(p, p, radius, within);
-  }
-  // The same for all points of a box.
-  CellRanges ranges_near(const Point3& lowest, const Point3& highest, float radius, PhotonRange within) const;
+  CellRanges ranges_near(const Point3& p, float radius, PhotonRange within) const;
 
   // Radius in metres of a disc that holds so many photons, and some more, if those of the smallest node
   // around p with twice as many are spread evenly over one cut through it: a guess.

@@ -75,14 +75,13 @@ void Octree::make_entries(const PhotonPositions& positions) {
   begin_cell(entries_.size() - 1, uint32_t(size_));
 }
 
-CellRanges Octree::ranges_near(const Point3& lowest, const Point3& highest, float radius,
-                               PhotonRange within) const {
+CellRanges Octree::ranges_near(const Point3& p, float radius, PhotonRange within) const {
   CellRanges ranges;
   if (nodes_.empty() || !(radius >= 0)) return ranges;
   // Rounding in |x - p| <= radius lets photons pass that lie up to a few units in the last place beyond; the
   // quantisation is monotone, so the slightly larger box holds their cells.
   const Vector3 reach(radius * (1 + 0x1p-20f));
-  const MortonCell lo = cube_.cell(lowest - reach), hi = cube_.cell(highest + reach);
+  const MortonCell lo = cube_.cell(p - reach), hi = cube_.cell(p + reach);
   // Cells as wide as the box: it meets two at most along each axis.
   const int narrowest = int(std::bit_width((hi[0] - lo[0]) | (hi[1] - lo[1]) | (hi[2] - lo[2])));
   const int level = std::max(narrowest, kMortonBits - entry_depth_);

@@ -7,6 +7,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -83,25 +84,6 @@ Rgb PhotonMap::gather_flux(const GatherQuery& query, const KernelSpec& kernel,
   const GatherSum sum = gather_photons(indexed(), query, kernel.type, terms.slope);
   counters += {1, sum.candidates, sum.accepted};
   return Rgb(sum.flux * double(terms.scale) * double(flux_unit_));
-}
-
-void PhotonMap::gather_flux(std::span<const GatherQuery> queries, const KernelSpec& kernel,
-                            Gathered* results) const {
-  constexpr size_t kSome = 128;
-  for (size_t first = 0; first < queries.size(); first += kSome) {
-    const std::span<const GatherQuery> some = queries.subspan(first, std::min(kSome, queries.size() - first));
-    float scales[kSome], slopes[kSome];
-    GatherSum sums[kSome];
-    for (size_t i = 0; i < some.size(); ++i) {
-      const KernelTerms terms = kernel_terms(kernel, some[i].radius);
-      scales[i] = terms.scale;
-      slopes[i] = terms.slope;
-    }
-    gather_photons(indexed(), some, kernel.type, slopes, sums);
-    for (size_t i = 0; i < some.size(); ++i)
-      results[first + i] = {Rgb(sums[i].flux * double(scales[i]) * double(flux_unit_)),
-                            {1, sums[i].candidates, sums[i].accepted}};
-  }
 }
 
 float PhotonMap::nearest_radius(const GatherQuery& query, uint32_t k, GatherCounters& counters) const {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "photon/gather/gather.h"
@@ -44,13 +43,6 @@ class PhotonMap {
 
   // Sum of flux K(d) over the photons that count, in W/m^2. The order of the sum is fixed.
   Rgb gather_flux(const GatherQuery& query, const KernelSpec& kernel, GatherCounters& counters) const;
-
-  // The same for many queries, to the last bit: neighbours that follow one another share the work.
-  struct Gathered {
-    Rgb flux{0};  // W/m^2
-    GatherCounters counters;
-  };
-  void gather_flux(std::span<const GatherQuery> queries, const KernelSpec& kernel, Gathered* results) const;
 
   // fn(const Photon&, float distance_squared) for each photon that counts, in Morton order.
   template <class Fn>

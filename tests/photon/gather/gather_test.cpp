@@ -79,23 +79,5 @@ TEST(Gather, EveryInstructionSetAcceptsTheSamePhotons) {
   }
 }
 
-TEST(Gather, GathersTogetherMatchGathersAloneOnEveryInstructionSet) {
-  for (const PhotonSet& set : photon_sets()) {
-    const PhotonMap map = PhotonMap::build(make_buffer(set.photons));
-    const std::vector<GatherQuery> queries = with_neighbours(queries_for(set, 60), map.size());
-    for (const int64_t target : targets()) {
-      const OnlyTarget only(target);
-      std::vector<PhotonMap::Gathered> together(queries.size());
-      map.gather_flux(queries, {}, together.data());
-      for (size_t i = 0; i < queries.size(); ++i) {
-        GatherCounters counters;
-        ASSERT_EQ(together[i].flux, map.gather_flux(queries[i], {}, counters))
-            << hwy::TargetName(target) << ", " << set.name << ", query " << i;
-        ASSERT_EQ(together[i].counters.accepted, counters.accepted);
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace kaustik::photon

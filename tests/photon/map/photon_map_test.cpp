@@ -84,26 +84,6 @@ TEST_P(PhotonMapSets, GatherSumsWhatBruteForceSums) {
   }
 }
 
-TEST_P(PhotonMapSets, GathersTogetherHaveTheBitsOfGathersAlone) {
-  const std::vector<GatherQuery> queries = with_neighbours(queries_, map_.size());
-  for (const KernelType type : {KernelType::kConstant, KernelType::kCone, KernelType::kEpanechnikov}) {
-    const KernelSpec kernel{type, 1.25f};
-    std::vector<PhotonMap::Gathered> together(queries.size()), some(queries.size());
-    map_.gather_flux(queries, kernel, together.data());
-    // The same queries, grouped differently.
-    map_.gather_flux(std::span(queries).subspan(5), kernel, some.data() + 5);
-    for (size_t i = 0; i < queries.size(); ++i) {
-      GatherCounters counters;
-      const Rgb alone = map_.gather_flux(queries[i], kernel, counters);
-      ASSERT_EQ(together[i].flux, alone) << "query " << i << ", radius " << queries[i].radius;
-      ASSERT_EQ(together[i].counters.accepted, counters.accepted);
-      ASSERT_GE(together[i].counters.candidates, counters.accepted) << "query " << i;
-      if (i < 5) continue;
-      ASSERT_EQ(some[i].flux, alone) << "query " << i;
-    }
-  }
-}
-
 TEST_P(PhotonMapSets, NearestRadiusMatchesBruteForce) {
   GatherCounters counters;
   for (const GatherQuery& query : queries_) {

@@ -96,22 +96,4 @@ inline std::vector<GatherQuery> queries_for(const PhotonSet& set, int count) {
   return queries;
 }
 
-// Seventeen queries around each of the given ones: more than a packet, while their neighbours in the list lie
-// elsewhere.
-inline std::vector<GatherQuery> with_neighbours(const std::vector<GatherQuery>& queries, uint64_t photons) {
-  PhotonMaker make(3);
-  std::vector<GatherQuery> all;
-  for (size_t i = 0; i < queries.size(); ++i) {
-    for (int k = 0; k < 17; ++k) {
-      GatherQuery q = queries[i];
-      q.p += float(i % 5) * 0.4f * std::min(q.radius, 1e3f) * make.direction();
-      if (i % 7 == 0 && k % 5 == 0) q.radius *= 0.5f;
-      if (i % 11 == 0 && k == 9) q.n = -q.n;
-      if (i % 13 == 0 && k == 3) q.within = {photons / 3, photons / 2};
-      all.push_back(q);
-    }
-  }
-  return all;
-}
-
 }  // namespace kaustik::photon
