@@ -5,7 +5,7 @@
 #include <concepts>
 #include <string_view>
 
-#include "photon/gather/gather.h"
+#include "photon/gather/gather_query.h"
 #include "photon/record/photon_record.h"
 
 namespace kaustik::benchmarks {
@@ -33,7 +33,7 @@ concept PhotonIndex = std::move_constructible<T> &&
 };
 
 // An index that also finds the k-th nearest photon.
-//   nearest_radius(q, k, c)  PhotonMap::nearest_radius(): metres
+//   nearest_radius(q, k, c)  photon::nearest_radius(): metres
 template <class T>
 concept NearestIndex = PhotonIndex<T> &&
     requires(const T& index, const photon::GatherQuery& query, photon::GatherCounters& counters) {

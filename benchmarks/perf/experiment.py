@@ -25,7 +25,7 @@ TWICE = """
   static thread_local uint64_t queries = 0;
   if (++queries % 50 == 0) {
     GatherCounters ignored;
-    static_cast<void>(gather_flux(query, kernel, ignored));
+    static_cast<void>(gather_flux(map, query, kernel, ignored));
   }
 """
 
@@ -50,7 +50,7 @@ def add_unused_code(index):
 
 
 def gather_slower(_):
-    edit("photon/map/photon_map.cpp", lambda text: re.sub(r"(PhotonMap::gather_flux\([^{]*\{)", r"\1" + TWICE, text, count=1))
+    edit("photon/gather/gather.cpp", lambda text: re.sub(r"(Rgb gather_flux\([^{]*\{)", r"\1" + TWICE, text, count=1))
 
 
 CHANGES = [("none", change_nothing, 5, 0), ("unused code", add_unused_code, 5, 0),

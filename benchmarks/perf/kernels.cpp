@@ -16,6 +16,8 @@
 
 #include "benchmarks/perf/kernel_scene.h"
 #include "benchmarks/wall_photons.h"
+#include "photon/gather/gather.h"
+#include "photon/gather/nearest.h"
 #include "photon/map/photon_map.h"
 #include "photon/shoot/shoot.h"
 
@@ -84,7 +86,7 @@ Kernel gather_kernel(const Size& size) {
   return {[made] {
     photon::GatherCounters counters;
     for (const photon::GatherQuery& query : made->queries) {
-      benchmark::DoNotOptimize(made->map.gather_flux(query, {}, counters));
+      benchmark::DoNotOptimize(photon::gather_flux(made->map, query, {}, counters));
     }
   }};
 }
@@ -96,7 +98,7 @@ Kernel nearest_kernel(const Size& size) {
   return {[made] {
     photon::GatherCounters counters;
     for (const photon::GatherQuery& query : made->queries) {
-      benchmark::DoNotOptimize(made->map.nearest_radius(query, kNearest, counters));
+      benchmark::DoNotOptimize(photon::nearest_radius(made->map, query, kNearest, counters));
     }
   }};
 }

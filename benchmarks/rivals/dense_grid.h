@@ -26,7 +26,7 @@ class DenseGrid {
     ++counters.queries;
     const Rows rows = rows_near(query.p, box_reach(query.radius));
     for (const photon::PhotonRange& row : rows) counters.candidates += row.size();
-    const photon::GatherSum sum = gather_ranges(columns(), rows, query);
+    const photon::detail::GatherSum sum = gather_ranges(columns(), rows, query);
     counters.accepted += sum.accepted;
     const float scale = photon::kernel_terms({}, query.radius).scale;
     return Rgb(sum.flux * double(scale) * double(flux_unit_));
@@ -91,7 +91,7 @@ class DenseGrid {
       ++first_[cell_of[i] + 1];
     }
     for (size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
-    const size_t padded = records.size() + photon::kGatherPadding;
+    const size_t padded = records.size() + photon::kColumnPadding;
     for (auto* column : {&x_, &y_, &z_}) column->resize(padded);
     for (auto* column : {&surface_, &power_, &direction_}) column->resize(padded);
     std::vector<uint32_t> place = first_;

@@ -2,7 +2,8 @@
 // This program's photon map as a PhotonIndex.
 
 #include "benchmarks/photon_index.h"
-#include "photon/map/photon_map.h"
+#include "photon/gather/gather.h"
+#include "photon/gather/nearest.h"
 
 namespace kaustik::benchmarks {
 
@@ -16,15 +17,15 @@ class PhotonMapIndex {
     return index;
   }
   Rgb flux_density(const photon::GatherQuery& query, photon::GatherCounters& counters) const {
-    return map_.gather_flux(query, {}, counters);
+    return photon::gather_flux(map_, query, {}, counters);
   }
   template <class Fn>
   void for_each(const photon::GatherQuery& query, photon::GatherCounters& counters, Fn&& fn) const {
-    map_.for_each(
-        query, [&](const photon::Photon& photon, float) { fn(photon.flux); }, counters);
+    photon::for_each_photon(
+        map_, query, [&](const photon::Photon& photon, float) { fn(photon.flux); }, counters);
   }
   float nearest_radius(const photon::GatherQuery& query, uint32_t k, photon::GatherCounters& counters) const {
-    return map_.nearest_radius(query, k, counters);
+    return photon::nearest_radius(map_, query, k, counters);
   }
   uint64_t memory_bytes() const { return map_.memory_bytes(); }
   const photon::PhotonMap& map() const { return map_; }

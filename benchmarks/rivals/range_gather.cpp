@@ -43,9 +43,9 @@ HWY_EXPORT(GatherRanges);
 
 namespace kaustik::benchmarks {
 
-photon::GatherSum gather_ranges(const photon::PhotonColumns& columns,
-                                std::span<const photon::PhotonRange> ranges,
-                                const photon::GatherQuery& query) {
+photon::detail::GatherSum gather_ranges(const photon::PhotonColumns& columns,
+                                        std::span<const photon::PhotonRange> ranges,
+                                        const photon::GatherQuery& query) {
   using namespace photon;
   return HWY_DYNAMIC_DISPATCH(GatherRanges)(columns, ranges, query);
 }

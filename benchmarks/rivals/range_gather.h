@@ -9,8 +9,8 @@ namespace kaustik::benchmarks {
 
 // The sum with the constant kernel over the photons of the ranges that count; ranges ascend. query.within is
 // not read, candidates are not counted.
-photon::GatherSum gather_ranges(const photon::PhotonColumns& columns,
-                                std::span<const photon::PhotonRange> ranges,
-                                const photon::GatherQuery& query);
+photon::detail::GatherSum gather_ranges(const photon::PhotonColumns& columns,
+                                        std::span<const photon::PhotonRange> ranges,
+                                        const photon::GatherQuery& query);
 
 }  // namespace kaustik::benchmarks

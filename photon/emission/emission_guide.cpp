@@ -197,7 +197,7 @@ float EmissionGuide::warp(EmissionPoint& u) const {
   return box.weight;
 }
 
-void EmissionGuide::warp(EmissionLanes& starts, size_t count, EmissionLanes::Column& weights) const {
+void EmissionGuide::warp(EmissionLanes& starts, size_t count, LaneColumn& weights) const {
   auto& numbers = starts.position_direction.u;
   for (size_t k = 0; k < count; ++k) {
     EmissionPoint u{numbers[0][k], numbers[1][k], numbers[2][k], numbers[3][k], starts.u_light[k]};

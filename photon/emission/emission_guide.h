@@ -47,7 +47,7 @@ class EmissionGuide {
   // Warps a uniform u to one of density p; returns 1/p. Thread-safe.
   float warp(EmissionPoint& u) const;
   // Warps the first `count` starts; weights receive 1/p. Thread-safe.
-  void warp(EmissionLanes& starts, size_t count, EmissionLanes::Column& weights) const;
+  void warp(EmissionLanes& starts, size_t count, LaneColumn& weights) const;
   // Returns p(u). Thread-safe.
   float density(const EmissionPoint& u) const;
 

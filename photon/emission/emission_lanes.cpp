@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "photon/trace/vector_lanes-inl.h"
+#include "photon/lanes/vector_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
@@ -99,19 +99,19 @@ void set_start(EmissionLanes& lanes, size_t k, const ChosenLight& light) {
     side = u[2][k] < 0.5f ? 1.0f : -1.0f;
     lanes.u[2][k] = u[2][k] < 0.5f ? 2 * u[2][k] : 2 * u[2][k] - 1;
   }
-  VertexLanes::set(lanes.p0, k, t.p0);
-  VertexLanes::set(lanes.e1, k, t.e1);
-  VertexLanes::set(lanes.e2, k, t.e2);
-  VertexLanes::set(lanes.n, k, side * t.n);
-  VertexLanes::set(lanes.flux, k, light.flux());
+  set_lane(lanes.p0, k, t.p0);
+  set_lane(lanes.e1, k, t.e1);
+  set_lane(lanes.e2, k, t.e2);
+  set_lane(lanes.n, k, side * t.n);
+  set_lane(lanes.flux, k, light.flux());
 }
 
 void set_start(EmissionLanes& lanes, size_t k, const std::optional<EmissionSample>& start) {
   lanes.emitted[k] = !start ? 0 : start->from_sky ? EmissionLanes::kFromSky : 1;
   if (!start) return;
-  VertexLanes::set(lanes.ray.o, k, start->ray.o);
-  VertexLanes::set(lanes.ray.d, k, start->ray.d);
-  VertexLanes::set(lanes.flux, k, start->flux);
+  set_lane(lanes.ray.o, k, start->ray.o);
+  set_lane(lanes.ray.d, k, start->ray.d);
+  set_lane(lanes.flux, k, start->flux);
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ void emit_lanes(const Scene& scene, uint64_t total, EmissionMode mode, size_t co
   std::fill_n(lanes.emitted, count, 0);
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return;
   ChosenLight light(scene, total, mode, only);
-  bool in_lanes[VertexLanes::kLanes];
+  bool in_lanes[kPhotonLanes];
   for (size_t k = 0; k < count; ++k) {
     light.choose(lanes.u_light[k]);
     in_lanes[k] = light.triangles() != nullptr;

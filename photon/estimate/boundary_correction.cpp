@@ -5,7 +5,7 @@
 #include <array>
 #include <numbers>
 
-#include "photon/gather/gather.h"
+#include "photon/record/packing.h"
 
 namespace kaustik::photon {
 

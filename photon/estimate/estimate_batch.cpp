@@ -1,5 +1,7 @@
 #include "photon/estimate/estimate_batch.h"
 
+#include "photon/gather/gather.h"
+
 namespace kaustik::photon {
 
 void EstimateBatch::begin_block() {
@@ -39,7 +41,7 @@ uint32_t EstimateBatch::new_gather(const PhotonMap& map, const EstimateSettings&
   GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
   if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters_);
   const uint64_t accepted = counters_.accepted;
-  Rgb flux = map.gather_flux(query, settings.kernel, counters_);
+  Rgb flux = gather_flux(map, query, settings.kernel, counters_);
   if (settings.edges && !is_black(flux)) flux /= float(share_of_disc(settings, si, query.radius));
   gathers_.push_back({&map, query, latest_[pixel_], flux, float(counters_.accepted - accepted)});
   return latest_[pixel_] = static_cast<uint32_t>(gathers_.size() - 1);

@@ -5,6 +5,8 @@
 #include <variant>
 
 #include "photon/estimate/boundary_correction.h"
+#include "photon/gather/gather.h"
+#include "photon/gather/nearest.h"
 
 namespace kaustik::photon {
 
@@ -37,7 +39,7 @@ struct ReflectedRadiance {
   template <HasConstantValue ConstantBsdf>
   Rgb operator()(const ConstantBsdf& bsdf) const {
     const bool transmitted = glm::dot(query.n, frame.z) * wo.z < 0;
-    return bsdf.pi_f(transmitted) * kInvPi * map.gather_flux(query, kernel, counters);
+    return bsdf.pi_f(transmitted) * kInvPi * gather_flux(map, query, kernel, counters);
   }
 
   template <class AnyBsdf>
@@ -46,8 +48,8 @@ struct ReflectedRadiance {
     const KernelTerms terms = kernel_terms(kernel, query.radius);
     const auto seen = seen_from(bsdf, wo);
     Rgb Lr(0);
-    map.for_each(
-        query,
+    for_each_photon(
+        map, query,
         [&](const Photon& photon, float distance_squared) {
           const Vector3 wi = frame.to_local(photon.wi);
           Lr += seen.f(wi) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
@@ -97,7 +99,7 @@ double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction&
 }
 
 float disc_of_nearest(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
-  const float radius = map.nearest_radius(query, k, counters);
+  const float radius = nearest_radius(map, query, k, counters);
   return radius < query.radius ? std::nextafter(radius, 0.0f) : radius;
 }
 

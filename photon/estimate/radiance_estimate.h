@@ -5,6 +5,8 @@
 #include "core/bsdf/bsdf.h"
 #include "core/geometry/interaction.h"
 #include "photon/estimate/surface_areas.h"
+#include "photon/gather/gather_query.h"
+#include "photon/gather/kernel.h"
 #include "photon/map/photon_map.h"
 
 namespace kaustik::photon {

@@ -13,6 +13,7 @@
 
 #include "core/geometry/surface_bounds.h"
 #include "core/geometry/tessellate.h"
+#include "photon/gather/gather.h"
 
 namespace kaustik::photon {
 
@@ -180,7 +181,7 @@ SurfaceAreas::SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& b
 double SurfaceAreas::share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius) const {
   GatherCounters ignored;
   const GatherQuery query{si.p, si.n, si.surface_group, radius, kAllPhotons};
-  return std::clamp(double(pieces_.gather_flux(query, kernel, ignored).x), kLeastShare, 1.0);
+  return std::clamp(double(gather_flux(pieces_, query, kernel, ignored).x), kLeastShare, 1.0);
 }
 
 }  // namespace kaustik::photon

@@ -11,6 +11,7 @@
 
 #include "core/geometry/boundary_edges.h"
 #include "core/scene/scene.h"
+#include "photon/gather/kernel.h"
 #include "photon/map/photon_map.h"
 
 namespace kaustik::photon {

@@ -14,8 +14,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "photon/gather/gather_query.h"
 #include "photon/map/box_tree.h"
-#include "photon/record/packing.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {

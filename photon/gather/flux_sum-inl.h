@@ -10,9 +10,12 @@
 #include <bit>
 
 #include "photon/gather/block_lanes-inl.h"
+#include "photon/gather/gather.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
+
+using detail::GatherSum;
 
 // Power of photons i ... as components times scale. Beyond the photons they may be anything, also NaN.
 // RGB9E5 is taken apart with few operations: components two and three stay 2^9 and 2^18 times too large, and

@@ -15,6 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
+using detail::TakePhotons;
+
 // No branch for vectors without a photon inside: at the rim of the disc it would be mispredicted.
 template <class Sum>
 HWY_INLINE void AddSame(const PhotonColumns& c, Sphere sphere, const uint32_t* blocks, size_t size, Vf slope,
@@ -30,15 +32,15 @@ HWY_INLINE void AddSame(const PhotonColumns& c, Sphere sphere, const uint32_t* b
   total = sum;
 }
 
-GatherSum GatherPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
+GatherSum GatherPhotons(const PhotonMap& map, const BoxTree::Start& start, const GatherQuery& query,
                         KernelType kernel, float slope) {
-  const PhotonColumns& c = photons.columns;
-  const LaneQuery q(query, photons.size);
+  const PhotonColumns& c = map.columns();
+  const LaneQuery q(query, map.size());
   return WithKernel(kernel, [&]<KernelType kType>() HWY_ATTR {
     const Vf slopes = hn::Set(Floats(), slope);
     FluxSum<kType> same, others;
     GatherSum sum;
-    VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
+    VisitBlocks(map.boxes(), start, q, [&](const FoundBlocks& found) HWY_ATTR {
       AddSame(c, q.sphere, found.same, found.same_size, slopes, same);
       AddOthers(c, q, found.other, found.other_size, slopes, others);
       sum.candidates += (found.same_size + found.other_size) * BoxTree::kBlockPhotons;
@@ -49,12 +51,12 @@ GatherSum GatherPhotons(const IndexedPhotons& photons, const BoxTree::Start& sta
   });
 }
 
-void SelectPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
+void SelectPhotons(const PhotonMap& map, const BoxTree::Start& start, const GatherQuery& query,
                    GatherCounters& counters, TakePhotons take, void* to) {
   const Floats d;
   const Words u;
-  const PhotonColumns& c = photons.columns;
-  const LaneQuery q(query, photons.size);
+  const PhotonColumns& c = map.columns();
+  const LaneQuery q(query, map.size());
   uint32_t index[2 * BoxTree::kBlockPhotons];
   float distances_squared[2 * BoxTree::kBlockPhotons];
   const auto select = [&](uint32_t block) HWY_ATTR {
@@ -69,7 +71,7 @@ void SelectPhotons(const IndexedPhotons& photons, const BoxTree::Start& start, c
     counters.candidates += BoxTree::kBlockPhotons;
     take(to, index, distances_squared, count);
   };
-  VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
+  VisitBlocks(map.boxes(), start, q, [&](const FoundBlocks& found) HWY_ATTR {
     const uint32_t *same = found.same, *other = found.other;
     const uint32_t *const same_end = same + found.same_size, *const other_end = other + found.other_size;
     while (same < same_end || other < other_end) {
@@ -88,14 +90,18 @@ namespace kaustik::photon {
 HWY_EXPORT(GatherPhotons);
 HWY_EXPORT(SelectPhotons);
 
-GatherSum gather_photons(const IndexedPhotons& photons, const GatherQuery& query, KernelType kernel,
-                         float slope) {
-  return HWY_DYNAMIC_DISPATCH(GatherPhotons)(photons, start_of(photons, query), query, kernel, slope);
+Rgb gather_flux(const PhotonMap& map, const GatherQuery& query, const KernelSpec& kernel,
+                GatherCounters& counters) {
+  const KernelTerms terms = kernel_terms(kernel, query.radius);
+  const detail::GatherSum sum =
+      HWY_DYNAMIC_DISPATCH(GatherPhotons)(map, detail::start_of(map, query), query, kernel.type, terms.slope);
+  counters += {1, sum.candidates, sum.accepted};
+  return Rgb(sum.flux * double(terms.scale) * double(map.flux_unit()));
 }
 
-void select_photons(const IndexedPhotons& photons, const GatherQuery& query, GatherCounters& counters,
-                    TakePhotons take, void* to) {
-  HWY_DYNAMIC_DISPATCH(SelectPhotons)(photons, start_of(photons, query), query, counters, take, to);
+void detail::select_photons(const PhotonMap& map, const GatherQuery& query, GatherCounters& counters,
+                            TakePhotons take, void* to) {
+  HWY_DYNAMIC_DISPATCH(SelectPhotons)(map, start_of(map, query), query, counters, take, to);
 }
 
 }  // namespace kaustik::photon

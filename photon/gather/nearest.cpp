@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "photon/gather/block_lanes-inl.h"
+#include "photon/gather/gather.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
@@ -31,12 +32,12 @@ HWY_INLINE size_t AppendDistances(const PhotonColumns& c, const LaneQuery& q, Sp
 }
 
 // Of the photons that count within query.radius. Returns how many; adds to candidates.
-size_t FindDistances(const IndexedPhotons& photons, const BoxTree::Start& start, const GatherQuery& query,
+size_t FindDistances(const PhotonMap& map, const BoxTree::Start& start, const GatherQuery& query,
                      DistanceList& distances, uint64_t& candidates) {
-  const PhotonColumns c = photons.columns;
-  const LaneQuery q(query, photons.size);
+  const PhotonColumns c = map.columns();
+  const LaneQuery q(query, map.size());
   size_t size = 0;
-  VisitBlocks(*photons.tree, start, q, [&](const FoundBlocks& found) HWY_ATTR {
+  VisitBlocks(map.boxes(), start, q, [&](const FoundBlocks& found) HWY_ATTR {
     const size_t most = (found.same_size + found.other_size) * BoxTree::kBlockPhotons;
     float* const to = distances.reserve(size, most);
     size_t end = size;
@@ -146,14 +147,14 @@ float select_smallest(float* values, size_t size, size_t k, float high) {
   return HWY_DYNAMIC_DISPATCH(SelectSmallest)(values, size, k, high);
 }
 
-std::optional<float> nearest_distance_squared(const IndexedPhotons& photons, const GatherQuery& query,
-                                              uint64_t k, float guess, GatherCounters& counters) {
+std::optional<float> detail::nearest_distance_squared(const PhotonMap& map, const GatherQuery& query,
+                                                      uint64_t k, float guess, GatherCounters& counters) {
   ++counters.queries;
   DistanceList distances;
   GatherQuery disc = query;
   for (disc.radius = std::min(query.radius, guess);; disc.radius = std::min(query.radius, disc.radius)) {
-    const size_t found = HWY_DYNAMIC_DISPATCH(FindDistances)(photons, start_of(photons, disc), disc,
-                                                             distances, counters.candidates);
+    const size_t found =
+        HWY_DYNAMIC_DISPATCH(FindDistances)(map, start_of(map, disc), disc, distances, counters.candidates);
     counters.accepted += found;
     if (found >= k) return select_smallest(distances.data(), found, k, disc.radius_squared());
     if (!(disc.radius < query.radius)) return {};
@@ -161,6 +162,17 @@ std::optional<float> nearest_distance_squared(const IndexedPhotons& photons, con
     const float grow = std::sqrt(1.3f * float(k) / float(std::max<size_t>(1, found)));
     disc.radius = std::max(disc.radius, query.radius * 0x1p-20f) * std::clamp(grow, 1.25f, 4.0f);
   }
+}
+
+float nearest_radius(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
+  if (k == 0 || map.size() < k) return query.radius;
+  const float guess = map.octree().guess_radius(query.p, k);
+  const auto nearest = detail::nearest_distance_squared(map, query, k, guess, counters);
+  if (!nearest) return query.radius;
+  float radius = std::sqrt(*nearest);
+  // The root is rounded; its square must still reach the photon.
+  if (radius * radius < *nearest) radius = std::nextafter(radius, kInfinity);
+  return std::min(radius, query.radius);
 }
 
 }  // namespace kaustik::photon

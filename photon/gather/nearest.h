@@ -4,14 +4,22 @@
 #include <optional>
 #include <vector>
 
-#include "photon/gather/gather.h"
+#include "photon/gather/gather_query.h"
+#include "photon/map/photon_map.h"
 
 namespace kaustik::photon {
 
-// Its squared distance; nothing when fewer than k > 0 are within query.radius. guess: metres, a radius that
-// may hold k photons but not many more; the result does not depend on it. Counts one query.
-std::optional<float> nearest_distance_squared(const IndexedPhotons& photons, const GatherQuery& query,
-                                              uint64_t k, float guess, GatherCounters& counters);
+// The smallest radius in metres that reaches the k-th nearest photon that counts; query.radius when fewer
+// than k are within it. Counts one query. Thread-safe.
+float nearest_radius(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters);
+
+namespace detail {
+// The squared distance of the k-th nearest photon that counts; nothing when fewer than k > 0 are within
+// query.radius. guess: metres, a radius that may hold k photons but not many more; the result does not depend
+// on it. Counts one query.
+std::optional<float> nearest_distance_squared(const PhotonMap& map, const GatherQuery& query, uint64_t k,
+                                              float guess, GatherCounters& counters);
+}  // namespace detail
 
 // The k-th smallest of `size` >= k > 0 values in [0, high], which are reordered. Behind them, kSelectSlack
 // more can be written. Fast when they are spread evenly, as squared distances in a disc of even density.

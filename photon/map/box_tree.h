@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/memory/uninitialised_array.h"
-#include "photon/gather/gather.h"
 #include "photon/map/octree.h"
+#include "photon/record/photon_columns.h"
 
 namespace kaustik::photon {
 
@@ -68,9 +68,5 @@ class BoxTree {
   uint64_t first_[kMostLevels + 1] = {};
   int levels_ = 0;
 };
-
-inline BoxTree::Start start_of(const IndexedPhotons& photons, const GatherQuery& query) {
-  return photons.tree->start_at(photons.octree->ranges_near(query.p, query.radius, query.within));
-}
 
 }  // namespace kaustik::photon

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/memory/uninitialised_array.h"
-#include "photon/gather/gather.h"
 #include "photon/map/morton.h"
+#include "photon/record/photon_columns.h"
 
 namespace kaustik::photon {
 

@@ -1,4 +1,4 @@
-// Building the columns of a map, and its searches.
+// Building the columns of a map and what finds photons in them.
 
 #include "photon/map/photon_map.h"
 
@@ -12,8 +12,6 @@
 #include <utility>
 
 #include "core/memory/memory_pages.h"
-#include "photon/gather/nearest.h"
-#include "photon/record/packing.h"
 
 namespace kaustik::photon {
 
@@ -48,7 +46,7 @@ void check_size(uint64_t size) {
 
 RecordColumns PhotonMap::allocate(uint64_t size) {
   constexpr uint64_t kColumns = 6;
-  const uint64_t lines = (size + kGatherPadding) / BoxTree::kBlockPhotons + 1;
+  const uint64_t lines = (size + kColumnPadding) / BoxTree::kBlockPhotons + 1;
   size_ = size;
   storage_ = UninitialisedArray<Line>(lines * kColumns);
   prefer_large_pages(storage_.data(), storage_.size() * sizeof(Line));
@@ -76,25 +74,6 @@ PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
 
 uint64_t PhotonMap::memory_bytes() const {
   return storage_.size() * sizeof(Line) + octree_.memory_bytes() + boxes_.memory_bytes();
-}
-
-Rgb PhotonMap::gather_flux(const GatherQuery& query, const KernelSpec& kernel,
-                           GatherCounters& counters) const {
-  const KernelTerms terms = kernel_terms(kernel, query.radius);
-  const GatherSum sum = gather_photons(indexed(), query, kernel.type, terms.slope);
-  counters += {1, sum.candidates, sum.accepted};
-  return Rgb(sum.flux * double(terms.scale) * double(flux_unit_));
-}
-
-float PhotonMap::nearest_radius(const GatherQuery& query, uint32_t k, GatherCounters& counters) const {
-  if (k == 0 || size_ < k) return query.radius;
-  const auto nearest =
-      nearest_distance_squared(indexed(), query, k, octree_.guess_radius(query.p, k), counters);
-  if (!nearest) return query.radius;
-  float radius = std::sqrt(*nearest);
-  // The root is rounded; its square must still reach the photon.
-  if (radius * radius < *nearest) radius = std::nextafter(radius, kInfinity);
-  return std::min(radius, query.radius);
 }
 
 }  // namespace kaustik::photon

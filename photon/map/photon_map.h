@@ -1,11 +1,10 @@
 #pragma once
-// Photons of one kind in Morton order, with the octree that finds those near a point.
+// Photons of one kind in Morton order, with the octree and the boxes that find those near a point. The
+// searches are in photon/gather.
 
 #include <cstdint>
 #include <optional>
-#include <utility>
 
-#include "photon/gather/gather.h"
 #include "photon/map/box_tree.h"
 #include "photon/map/morton_sort.h"
 #include "photon/map/octree.h"
@@ -41,17 +40,6 @@ class PhotonMap {
   // Photon i of the Morton order, decoded.
   Photon photon(uint64_t i) const;
 
-  // Sum of flux K(d) over the photons that count, in W/m^2. The order of the sum is fixed.
-  Rgb gather_flux(const GatherQuery& query, const KernelSpec& kernel, GatherCounters& counters) const;
-
-  // fn(const Photon&, float distance_squared) for each photon that counts, in Morton order.
-  template <class Fn>
-  void for_each(const GatherQuery& query, Fn&& fn, GatherCounters& counters) const;
-
-  // The smallest radius in metres that reaches the k-th nearest photon that counts; query.radius when fewer
-  // than k are within it.
-  float nearest_radius(const GatherQuery& query, uint32_t k, GatherCounters& counters) const;
-
   // The lecture's cell of p: see Octree::find_cell.
   OctreeCell find_cell(const Point3& p, uint32_t node_photons, float radius) const {
     return octree_.find_cell(positions(), p, node_photons, radius);
@@ -63,8 +51,6 @@ class PhotonMap {
  private:
   // The columns to fill.
   RecordColumns allocate(uint64_t size);
-
-  IndexedPhotons indexed() const { return {columns_, &octree_, &boxes_, size_}; }
 
   Octree octree_;
   BoxTree boxes_;
@@ -81,21 +67,6 @@ class PhotonMap {
 inline Photon PhotonMap::photon(uint64_t i) const {
   const PhotonColumns& c = columns_;
   return unpack({c.x[i], c.y[i], c.z[i], c.direction[i], c.power[i], c.surface[i]}, flux_unit_);
-}
-
-template <class Fn>
-void PhotonMap::for_each(const GatherQuery& query, Fn&& fn, GatherCounters& counters) const {
-  ++counters.queries;
-  const auto take = [&](const uint32_t* index, const float* distance_squared, size_t count) {
-    for (size_t i = 0; i < count; ++i) fn(photon(index[i]), distance_squared[i]);
-  };
-  using Take = decltype(take);
-  select_photons(
-      indexed(), query, counters,
-      [](void* to, const uint32_t* index, const float* distance_squared, size_t count) {
-        (*static_cast<const Take*>(to))(index, distance_squared, count);
-      },
-      const_cast<void*>(static_cast<const void*>(&take)));
 }
 
 }  // namespace kaustik::photon

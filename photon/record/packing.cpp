@@ -4,8 +4,6 @@
 
 #include <bit>
 
-#include "photon/gather/gather.h"
-
 namespace kaustik::photon {
 
 namespace {

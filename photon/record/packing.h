@@ -53,7 +53,11 @@ inline Rgb unpack_rgb9e5(uint32_t bits) {
   return {float(bits & 511) * scale, float(bits >> 9 & 511) * scale, float(bits >> 18 & 511) * scale};
 }
 
-// Whether a photon with this packed surface counts for a query with normal n, see kNormalCosine. Defines the
+// A photon counts when its normal and the query's make a cosine above this (60 degrees): curved surfaces keep
+// their photons, the other side of a sheet and the far wall of a corner do not count.
+inline constexpr float kNormalCosine = 0.5f;
+
+// Whether a photon with this packed surface counts for a query with normal n. Defines the
 // result of the SIMD loops; exact in small integers up to the dot product.
 bool normal_counts(uint32_t surface, const Normal3& n);
 

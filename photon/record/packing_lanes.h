@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "photon/lanes/photon_lanes.h"
 #include "photon/record/photon_record.h"
-#include "photon/trace/vertex_lanes.h"
 
 namespace kaustik::photon {
 
@@ -17,11 +17,11 @@ struct PhotonLanes {
 };
 // Words of the photons' records, as aligned columns.
 struct PackedLanes {
-  alignas(64) uint32_t direction[VertexLanes::kLanes], power[VertexLanes::kLanes],
-      surface[VertexLanes::kLanes];
+  alignas(64) uint32_t direction[kPhotonLanes], power[kPhotonLanes],
+      surface[kPhotonLanes];
 };
 
-// Packs the first `count` lanes, at most VertexLanes::kLanes. Reads and writes whole multiples of 16 lanes.
+// Packs the first `count` lanes, at most kPhotonLanes. Reads and writes whole multiples of 16 lanes.
 void pack_lanes(const PhotonLanes& photons, size_t count, float flux_unit, PackedLanes* packed);
 
 // Collects photons of one kind and packs kLanes at a time into records.

@@ -13,7 +13,7 @@
 #include <shared_mutex>
 
 #include "core/memory/memory_pages.h"
-#include "photon/record/record_sink.h"
+#include "photon/trace/record_sink.h"
 
 namespace kaustik::photon {
 

@@ -8,26 +8,26 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "photon/trace/vector_lanes-inl.h"
+#include "photon/trace/energy_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
 void ToEnergyLanes(const Columns3& flux, size_t count, float units_per_watt,
-                   int32_t (&energy)[VertexLanes::kLanes]) {
+                   int32_t (&energy)[kPhotonLanes]) {
   const Floats d;
   const hn::RebindToSigned<Floats> i;
   const Vf scale = hn::Set(d, units_per_watt);
   for (size_t k = 0; k < count; k += hn::Lanes(d)) hn::Store(Energy(Load(flux, k), scale), i, energy + k);
 }
 
-void BookLanes(const VertexLanes& lanes, const uint8_t (&scatters)[VertexLanes::kLanes], WalkerLanes& walkers,
+void BookLanes(const VertexLanes& lanes, const uint8_t (&scatters)[kPhotonLanes], WalkerLanes& walkers,
                EnergyLedger& ledger) {
   const hn::RebindToSigned<Floats> i;
   const hn::RebindToUnsigned<Floats> words;
   const hn::Rebind<uint8_t, decltype(i)> bytes;
   auto all = hn::Zero(i), escaped = all, scattering = all, scattered = all, next = all;
-  for (size_t k = 0; k < VertexLanes::kLanes; k += hn::Lanes(i)) {
+  for (size_t k = 0; k < kPhotonLanes; k += hn::Lanes(i)) {
     const auto energy = hn::Load(i, walkers.energy + k);
     const auto scatter = hn::Ne(hn::PromoteTo(i, hn::Load(bytes, scatters + k)), hn::Zero(i));
     const auto missed =
@@ -58,13 +58,13 @@ namespace kaustik::photon {
 HWY_EXPORT(ToEnergyLanes);
 HWY_EXPORT(BookLanes);
 
-void to_energy_lanes(const float (&flux)[3][VertexLanes::kLanes], size_t count, float units_per_watt,
-                     int32_t (&energy)[VertexLanes::kLanes]) {
+void to_energy_lanes(const float (&flux)[3][kPhotonLanes], size_t count, float units_per_watt,
+                     int32_t (&energy)[kPhotonLanes]) {
   HWY_DYNAMIC_DISPATCH(ToEnergyLanes)(flux, count, units_per_watt, energy);
 }
 
-void book_lanes(const VertexLanes& lanes, const uint8_t (&scatters)[VertexLanes::kLanes],
-                WalkerLanes& walkers, EnergyLedger& ledger) {
+void book_lanes(const VertexLanes& lanes, const uint8_t (&scatters)[kPhotonLanes], WalkerLanes& walkers,
+                EnergyLedger& ledger) {
   HWY_DYNAMIC_DISPATCH(BookLanes)(lanes, scatters, walkers, ledger);
 }
 

@@ -11,12 +11,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "photon/trace/vector_lanes-inl.h"
+#include "photon/lanes/vector_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
-using Doubles = hn::CappedTag<double, VertexLanes::kLanes / 2>;
+using Doubles = hn::CappedTag<double, kPhotonLanes / 2>;
 using HalfFloats = hn::Rebind<float, Doubles>;
 using Vd = hn::Vec<Doubles>;
 using Words = hn::RebindToUnsigned<Floats>;

@@ -9,7 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "photon/trace/vector_lanes-inl.h"
+#include "photon/trace/energy_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {

@@ -130,7 +130,7 @@ class Tracer {
     std::fill_n(walkers_.state, count, WalkState());
     to_energy_lanes(starts_.flux, count, units_per_watt_, walkers_.energy);
     for (size_t k = 0; k < count; ++k) {
-      const Rgb flux = VertexLanes::get(starts_.flux, k);
+      const Rgb flux = get_lane(starts_.flux, k);
       goes_on_[k] = starts_.emitted[k] && !is_black(flux) && valid(flux) && !sky_hidden(bvh_, starts_, k);
       if (goes_on_[k]) counters_.energy.emitted += walkers_.energy[k];
     }
@@ -143,7 +143,7 @@ class Tracer {
   }
 
   // Pushes the photons whose goes_on_ is set into the queues.
-  void push(const accel::RayLanes& rays, const VertexLanes::Column (&flux)[3], size_t count) {
+  void push(const accel::RayLanes& rays, const LaneColumn (&flux)[3], size_t count) {
     to_rows(rays, flux, walkers_, count, &rows_);
     for (size_t k = 0; k < count; ++k) queues_[rows_.octant[k]].push(rows_, k, goes_on_[k]);
   }
@@ -220,7 +220,7 @@ class Tracer {
     left_[k] = kNothing;
     goes_on_[k] = false;
     scatters_[k] = false;
-    const Arrival photon{lanes_.ray.get(k), VertexLanes::get(lanes_.flux, k)};
+    const Arrival photon{lanes_.ray.get(k), get_lane(lanes_.flux, k)};
     SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
     const BsdfAt bsdf_at(scene_, si, -photon.ray.d);
     std::visit(
@@ -254,10 +254,10 @@ class Tracer {
   void cast_shadow(size_t k, WalkState before) {
     const bool specular = lanes_.traits[k] & kSpecularTrait;
     if (!before.is_straight() && !casts_shadow(before.kind(), specular)) return;
-    const Vector3 d = VertexLanes::get(lanes_.ray.d, k);
+    const Vector3 d = get_lane(lanes_.ray.d, k);
     const Ray on{
-        offset_origin(VertexLanes::get(lanes_.p, k), lanes_.p_error[k], VertexLanes::get(lanes_.n, k), d), d};
-    const Rgb flux = VertexLanes::get(lanes_.flux, k);
+        offset_origin(get_lane(lanes_.p, k), lanes_.p_error[k], get_lane(lanes_.n, k), d), d};
+    const Rgb flux = get_lane(lanes_.flux, k);
     if (!before.is_straight()) return start_straight(k, on, flux);
     walkers_.state[k] = before;
     go_straight_on(k, on, flux);
@@ -284,8 +284,8 @@ class Tracer {
       for (size_t k = 0; k < count; ++k) {
         if (left_[k] == kNothing) continue;
         hand_over(k, static_cast<PhotonKind>(left_[k]),
-                  Photon{VertexLanes::get(lanes_.p, k), -VertexLanes::get(lanes_.ray.d, k),
-                         VertexLanes::get(lanes_.flux, k), VertexLanes::get(lanes_.facing, k),
+                  Photon{get_lane(lanes_.p, k), -get_lane(lanes_.ray.d, k),
+                         get_lane(lanes_.flux, k), get_lane(lanes_.facing, k),
                          lanes_.surface_group[k]});
       }
     }
@@ -386,7 +386,7 @@ class Tracer {
   VertexLanes lanes_{};
   SobolLanes numbers_{};
   EmissionLanes starts_{};
-  EmissionLanes::Column weights_{};  // 1/p of guided starts
+  LaneColumn weights_{};  // 1/p of guided starts
   WalkerLanes walkers_{};
   WalkerRows rows_{};
   std::array<uint32_t, kGroupSize> sets_{};  // each lane's Sobol set

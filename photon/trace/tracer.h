@@ -77,7 +77,7 @@ inline constexpr uint32_t kVertexDimensions = 4;
 inline constexpr uint32_t kMaxStraightSurfaces = 1 << 16;
 
 // Number of photons that take a step together.
-inline constexpr uint64_t kGroupSize = VertexLanes::kLanes;
+inline constexpr uint64_t kGroupSize = kPhotonLanes;
 
 // Traces photons first ... end - 1 of settings.photons and calls sink(PhotonKind, const Photon&) for each
 // photon of a kind in settings.kinds. A sink may also take the photon's index as a third argument, or be

@@ -2,10 +2,7 @@
 // The commonest vertices of photon paths, computed for a group of photons in SIMD lanes: triangles without
 // vertex normals and spheres, with diffuse, Oren-Nayar, mirror and dielectric BSDFs.
 
-#include <cstddef>
-
-#include "accel/ray_lanes.h"
-#include "core/sampling/sobol_lanes.h"
+#include "photon/lanes/photon_lanes.h"
 #include "photon/trace/surface_table.h"
 
 namespace kaustik::photon {
@@ -13,33 +10,29 @@ namespace kaustik::photon {
 // A group of vertices as structure of arrays. Lanes that were never set are computed too; ignore their
 // results.
 struct VertexLanes {
-  static constexpr size_t kLanes = kSobolLanes;
-  static_assert(kLanes == accel::kRayLanes && kLanes == 64);
-  using Column = float[kLanes];
-
   // In: the ray that led here, its flux and its hit; the corners if it hit a triangle; the surface's row.
   accel::RayLanes ray;
   accel::HitLanes hit;
-  alignas(64) Column flux[3];
-  Column corner[3][3], reflectance[3], parameter[2], flip;
-  uint32_t traits[kLanes], surface_group[kLanes];
+  alignas(64) LaneColumn flux[3];
+  LaneColumn corner[3][3], reflectance[3], parameter[2], flip;
+  uint32_t traits[kPhotonLanes], surface_group[kPhotonLanes];
 
   // Out: p, p_error and n as make_interaction() computes them; n flipped to the side the photon comes from
   // (facing); cos_in = d.n; and the next segment after sample_f and Russian roulette.
-  Column p[3], p_error, n[3], facing[3], cos_in;
+  LaneColumn p[3], p_error, n[3], facing[3], cos_in;
   accel::RayLanes next;
-  Column next_flux[3];
+  LaneColumn next_flux[3];
   // Outcome of scattering; kInvalid: the flux would be NaN, infinite or negative.
   enum Fate : int32_t { kAbsorbed = 0, kAlive = 1, kInvalid = 2 };
-  int32_t fate[kLanes];
+  int32_t fate[kPhotonLanes];
   // Ledger units of the scattered flux before and after Russian roulette.
-  int32_t scattered_energy[kLanes], next_energy[kLanes];
+  int32_t scattered_energy[kPhotonLanes], next_energy[kPhotonLanes];
 
   // Copies what lane k needs of the surface that its hit is on.
   void set_vertex(size_t k, const SurfaceRow& surface) {
     const std::array<uint32_t, 3>& vertices = surface.indices[hit.primitive[k] & surface.primitives];
-    for (size_t v = 0; v < 3; ++v) set(corner[v], k, surface.P[vertices[v]]);
-    set(reflectance, k, surface.reflectance);
+    for (size_t v = 0; v < 3; ++v) set_lane(corner[v], k, surface.P[vertices[v]]);
+    set_lane(reflectance, k, surface.reflectance);
     parameter[0][k] = surface.parameter[0];
     parameter[1][k] = surface.parameter[1];
     flip[k] = surface.flip;
@@ -47,17 +40,9 @@ struct VertexLanes {
     surface_group[k] = surface.surface_group;
   }
   void set_next(size_t k, const Ray& r, const Rgb& power) {
-    set(next.o, k, r.o);
-    set(next.d, k, r.d);
-    set(next_flux, k, power);
-  }
-  static void set(Column (&columns)[3], size_t k, const glm::vec3& v) {
-    columns[0][k] = v.x;
-    columns[1][k] = v.y;
-    columns[2][k] = v.z;
-  }
-  static glm::vec3 get(const Column (&columns)[3], size_t k) {
-    return {columns[0][k], columns[1][k], columns[2][k]};
+    set_lane(next.o, k, r.o);
+    set_lane(next.d, k, r.d);
+    set_lane(next_flux, k, power);
   }
 };
 

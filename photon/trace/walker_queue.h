@@ -11,7 +11,7 @@ namespace kaustik::photon {
 // Photons whose rays point into one octant. Stored as rows, so that a push touches three cache lines.
 class WalkerQueue {
  public:
-  static constexpr size_t kGroup = VertexLanes::kLanes;
+  static constexpr size_t kGroup = kPhotonLanes;
   // The tracer emits a group only when none of the eight queues holds a whole one, and each emitted photon
   // adds at most one more entry, its straight ray.
   static constexpr size_t kCapacity = 2 * (8 * kGroup + kGroup);

@@ -8,7 +8,7 @@ namespace kaustik::photon {
 
 // What a photon carries besides ray and flux, as columns.
 struct WalkerLanes {
-  static constexpr size_t kLanes = VertexLanes::kLanes;
+  static constexpr size_t kLanes = kPhotonLanes;
   alignas(64) uint32_t reversed_index[kLanes];
   WalkState state[kLanes];
   int32_t energy[kLanes];  // of the flux, in ledger units; zero for straight rays
@@ -16,7 +16,7 @@ struct WalkerLanes {
 
 // Rows of twelve words in three parts: (o, d.x), (d.yz, flux.rg), (flux.b, index, state, energy).
 struct WalkerRows {
-  static constexpr size_t kLanes = VertexLanes::kLanes;
+  static constexpr size_t kLanes = kPhotonLanes;
   alignas(64) uint32_t part[3][kLanes][4];
   uint32_t octant[kLanes];  // of d: bit c is set where component c is negative
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "photon/gather/nearest.h"
 #include "render/maps/visible_points.h"
 
 namespace kaustik::render {
@@ -58,7 +59,7 @@ std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
 float nearest_radius(const photon::PhotonMap& map, photon::GatherQuery query, float reach, uint32_t k) {
   photon::GatherCounters ignored;
   for (query.radius = reach / 4096; query.radius < reach; query.radius *= 2)
-    if (const float r = map.nearest_radius(query, k, ignored); r < query.radius) return r;
+    if (const float r = photon::nearest_radius(map, query, k, ignored); r < query.radius) return r;
   return reach;
 }
 

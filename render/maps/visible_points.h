@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "accel/bvh.h"
-#include "photon/gather/gather.h"
+#include "photon/gather/gather_query.h"
 #include "photon/record/photon.h"
 #include "render/settings.h"
 

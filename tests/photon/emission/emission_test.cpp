@@ -161,8 +161,8 @@ Scene many_lights() {
 void expect_lanes_are_emit_photon(const Scene& scene, EmissionMode mode, std::optional<uint32_t> only = {}) {
   auto lanes = std::make_unique<EmissionLanes>();
   uint64_t in_any = 0;
-  for (const size_t count : {size_t{1}, size_t{37}, VertexLanes::kLanes}) {
-    for (uint64_t first = 0; first < 2048; first += VertexLanes::kLanes) {
+  for (const size_t count : {size_t{1}, size_t{37}, kPhotonLanes}) {
+    for (uint64_t first = 0; first < 2048; first += kPhotonLanes) {
       std::vector<std::optional<EmissionSample>> expected;
       for (size_t k = 0; k < count; ++k) {
         Sampler sampler(7, first + k);
@@ -179,7 +179,7 @@ void expect_lanes_are_emit_photon(const Scene& scene, EmissionMode mode, std::op
         ++in_any;
         ASSERT_EQ(lanes->ray.get(k).o, expected[k]->ray.o);
         ASSERT_EQ(lanes->ray.get(k).d, expected[k]->ray.d);
-        ASSERT_EQ(VertexLanes::get(lanes->flux, k), expected[k]->flux);
+        ASSERT_EQ(get_lane(lanes->flux, k), expected[k]->flux);
       }
     }
   }

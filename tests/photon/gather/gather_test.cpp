@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "photon/gather/nearest.h"
 #include "tests/photon/support/photon_sets.h"
 
 namespace kaustik::photon {
@@ -41,11 +42,11 @@ std::vector<Answer> ask(const PhotonMap& map, const std::vector<GatherQuery>& qu
   for (const GatherQuery& query : queries) {
     Answer answer{};
     GatherCounters counters;
-    answer.flux = map.gather_flux(query, {KernelType::kEpanechnikov, 1}, counters);
+    answer.flux = gather_flux(map, query, {KernelType::kEpanechnikov, 1}, counters);
     answer.accepted = counters.accepted;
-    map.for_each(
-        query, [&](const Photon&, float d2) { answer.distances.push_back(d2); }, counters);
-    answer.nearest = map.nearest_radius(query, 5, counters);
+    for_each_photon(
+        map, query, [&](const Photon&, float d2) { answer.distances.push_back(d2); }, counters);
+    answer.nearest = nearest_radius(map, query, 5, counters);
     answers.push_back(std::move(answer));
   }
   return answers;

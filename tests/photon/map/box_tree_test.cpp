@@ -133,12 +133,11 @@ TEST(NearestSearch, DoesNotDependOnTheInitialRadius) {
   for (const PhotonSet& set : photon_sets()) {
     SCOPED_TRACE(set.name);
     const PhotonMap map = PhotonMap::build(make_buffer(set.photons));
-    const IndexedPhotons photons{map.columns(), &map.octree(), &map.boxes(), map.size()};
     for (const GatherQuery& query : queries_for(set, 60)) {
       GatherCounters counters;
-      const auto nearest = nearest_distance_squared(photons, query, 20, query.radius, counters);
+      const auto nearest = detail::nearest_distance_squared(map, query, 20, query.radius, counters);
       for (const float guess : {0.0f, 1e-9f, 0.01f, 1.0f, kInfinity})
-        ASSERT_EQ(nearest_distance_squared(photons, query, 20, guess, counters), nearest) << guess;
+        ASSERT_EQ(detail::nearest_distance_squared(map, query, 20, guess, counters), nearest) << guess;
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "photon/gather/gather.h"
 #include "tests/photon/support/photon_sets.h"
 
 namespace kaustik::photon {
@@ -133,11 +134,11 @@ TEST(Octree, CellContainsEveryPhotonInReach) {
   for (GatherQuery query : queries_for({"walls", photons}, 400)) {
     query.radius = 0.1f;
     GatherCounters counters;
-    const Rgb exact = map.gather_flux(query, {}, counters);
+    const Rgb exact = gather_flux(map, query, {}, counters);
     const OctreeCell cell = map.find_cell(query.p, 64, query.radius);
     query.within = cell.range;
     GatherCounters in_cell;
-    map.gather_flux(query, {}, in_cell);
+    gather_flux(map, query, {}, in_cell);
     EXPECT_EQ(in_cell.accepted, counters.accepted) << exact.x;
     ++(cell.climbed ? climbed : stayed);
   }

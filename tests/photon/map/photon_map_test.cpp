@@ -7,6 +7,8 @@
 
 #include <cstring>
 
+#include "photon/gather/gather.h"
+#include "photon/gather/nearest.h"
 #include "photon/record/packing.h"
 #include "tests/photon/support/photon_sets.h"
 #include "tests/support/packed_flux.h"
@@ -54,8 +56,8 @@ TEST_P(PhotonMapSets, ForEachFindsWhatBruteForceFinds) {
   uint64_t found_in_all = 0;
   for (const GatherQuery& query : queries_) {
     std::vector<float> found;
-    map_.for_each(
-        query, [&](const Photon&, float d2) { found.push_back(d2); }, counters);
+    for_each_photon(
+        map_, query, [&](const Photon&, float d2) { found.push_back(d2); }, counters);
     ASSERT_EQ(found, brute_force(map_, query, {}).distances) << "radius " << query.radius;
     found_in_all += found.size();
   }
@@ -70,7 +72,7 @@ TEST_P(PhotonMapSets, GatherSumsWhatBruteForceSums) {
     const KernelSpec kernel{type, 1.25f};
     for (const GatherQuery& query : queries_) {
       GatherCounters counters;
-      const Rgb sum = map_.gather_flux(query, kernel, counters);
+      const Rgb sum = gather_flux(map_, query, kernel, counters);
       const BruteForce expected = brute_force(map_, query, kernel);
       ASSERT_EQ(counters.accepted, expected.distances.size());
       // All terms are positive. A lane adds at most 1024 terms before it moves the sum to double; each term
@@ -90,7 +92,7 @@ TEST_P(PhotonMapSets, NearestRadiusMatchesBruteForce) {
     BruteForce all = brute_force(map_, query, {});
     std::sort(all.distances.begin(), all.distances.end());
     for (const uint32_t k : {1u, 3u, 50u, 5000u}) {
-      const float radius = map_.nearest_radius(query, k, counters);
+      const float radius = nearest_radius(map_, query, k, counters);
       if (all.distances.size() < k) {
         ASSERT_EQ(radius, query.radius);
         continue;
@@ -114,8 +116,8 @@ TEST_P(PhotonMapSets, WithinLimitsTheSearchToARange) {
     query.within = within;
     uint64_t expected = 0, found = 0;
     for (uint64_t i = within.begin; i < within.end; ++i) expected += counts(map_, i, query);
-    map_.for_each(
-        query, [&](const Photon&, float) { ++found; }, counters);
+    for_each_photon(
+        map_, query, [&](const Photon&, float) { ++found; }, counters);
     ASSERT_EQ(found, expected);
   }
 }
@@ -191,10 +193,10 @@ TEST(PhotonMap, ScalingByAPowerOfTwoScalesTheGatherExactly) {
     GatherCounters counters;
     for (GatherQuery query : queries_for({"walls", photons}, 200)) {
       const KernelSpec kernel{KernelType::kCone, 1.5f};
-      const Rgb sum = map.gather_flux(query, kernel, counters);
+      const Rgb sum = gather_flux(map, query, kernel, counters);
       query.p *= std::ldexp(1.0f, exponent);
       query.radius *= std::ldexp(1.0f, exponent);
-      EXPECT_EQ(scaled_map.gather_flux(query, kernel, counters) * std::ldexp(1.0f, 2 * exponent), sum);
+      EXPECT_EQ(gather_flux(scaled_map, query, kernel, counters) * std::ldexp(1.0f, 2 * exponent), sum);
     }
   }
 }
@@ -220,7 +222,7 @@ TEST(PhotonMap, PackedPowerAgreesWithExactFlux) {
     if (!(query.radius > 0)) continue;
     GatherCounters counters;
     const glm::dvec3 exact = exact_flux(photons, query) / (double(kPi) * query.radius * query.radius);
-    const Rgb found = packed.gather_flux(query, {}, counters);
+    const Rgb found = gather_flux(packed, query, {}, counters);
     // Each photon is off by at most kPackedFluxError of its largest component, which is at most the sum of all three. A
     // lane adds at most 1024 terms in float, and a weight carries a few roundings.
     const double rounding = (1024 + 16) * double(std::numeric_limits<float>::epsilon()) / 2;
@@ -238,13 +240,13 @@ TEST(PhotonMap, PhotonsOutsideTheGivenBoundsAreFound) {
   GatherCounters counters;
   for (const GatherQuery& query : queries_for(set, 240)) {
     std::vector<float> found;
-    map.for_each(
-        query, [&](const Photon&, float d2) { found.push_back(d2); }, counters);
+    for_each_photon(
+        map, query, [&](const Photon&, float d2) { found.push_back(d2); }, counters);
     ASSERT_EQ(found, brute_force(map, query, {}).distances);
     BruteForce all = brute_force(map, query, {});
     if (all.distances.size() < 5) continue;
     std::sort(all.distances.begin(), all.distances.end());
-    ASSERT_NEAR(map.nearest_radius(query, 5, counters), std::sqrt(all.distances[4]),
+    ASSERT_NEAR(nearest_radius(map, query, 5, counters), std::sqrt(all.distances[4]),
                 1e-6f * std::sqrt(all.distances[4]));
   }
 }
@@ -255,13 +257,13 @@ TEST(PhotonMap, InfiniteRadiusFindsAllOfTheSurface) {
     const GatherQuery query{{1, 1, 0}, {0, 0, 1}, 2, kInfinity, kAllPhotons};
     uint64_t found = 0, expected = 0;
     GatherCounters counters;
-    map.for_each(
-        query, [&](const Photon&, float) { ++found; }, counters);
+    for_each_photon(
+        map, query, [&](const Photon&, float) { ++found; }, counters);
     for (uint64_t i = 0; i < map.size(); ++i) expected += counts(map, i, query);
     EXPECT_EQ(found, expected);
     EXPECT_GT(found, 100u);
     EXPECT_LT(counters.candidates, map.size() + BoxTree::kBlockPhotons) << "no empty boxes";
-    EXPECT_EQ(map.gather_flux(query, {}, counters), Rgb(0)) << "an infinite disc has no density";
+    EXPECT_EQ(gather_flux(map, query, {}, counters), Rgb(0)) << "an infinite disc has no density";
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "photon/gather/gather_query.h"
 #include "photon/map/photon_map.h"
 #include "tests/support/random.h"
 

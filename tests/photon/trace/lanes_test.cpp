@@ -6,7 +6,7 @@
 #include <cstring>
 #include <set>
 
-#include "photon/record/record_sink.h"
+#include "photon/trace/record_sink.h"
 #include "photon/trace/vertex_lanes.h"
 #include "photon/trace/walker_queue.h"
 #include "tests/core/support/bsdf_examples.h"
@@ -66,7 +66,7 @@ Bsdf make_bsdf(PhotonMaker& make, uint32_t k) {
 Vertices make_vertices(uint64_t seed) {
   PhotonMaker make(seed);
   Vertices v;
-  for (uint32_t k = 0; k < VertexLanes::kLanes; ++k) {
+  for (uint32_t k = 0; k < kPhotonLanes; ++k) {
     Shape shape;
     shape.geometry = make_triangle(make, k == 5);
     if (k % 4 == 2) shape.geometry = make_ellipsoid(make);
@@ -86,10 +86,10 @@ Vertices make_vertices(uint64_t seed) {
 
 void fill(const Vertices& v, VertexLanes& lanes) {
   const SurfaceTable surfaces(v.shapes, v.materials);
-  for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
-    VertexLanes::set(lanes.ray.o, k, v.rays[k].o);
-    VertexLanes::set(lanes.ray.d, k, v.rays[k].d);
-    VertexLanes::set(lanes.flux, k, v.flux[k]);
+  for (size_t k = 0; k < kPhotonLanes; ++k) {
+    set_lane(lanes.ray.o, k, v.rays[k].o);
+    set_lane(lanes.ray.d, k, v.rays[k].d);
+    set_lane(lanes.flux, k, v.flux[k]);
     lanes.hit.set(k, v.hits[k]);
     lanes.set_vertex(k, surfaces.row(v.hits[k].shape));
   }
@@ -100,15 +100,15 @@ TEST(VertexLanes, PointsMatchMakeInteraction) {
     const Vertices v = make_vertices(seed);
     VertexLanes lanes{};
     fill(v, lanes);
-    locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
-    for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
+    locate_lanes(lanes, v.shapes, kPhotonLanes);
+    for (size_t k = 0; k < kPhotonLanes; ++k) {
       const SurfaceInteraction si = make_interaction(v.shapes, v.rays[k], v.hits[k]);
       const float cosine = glm::dot(v.rays[k].d, si.n);
-      ASSERT_EQ(VertexLanes::get(lanes.p, k), si.p);
+      ASSERT_EQ(get_lane(lanes.p, k), si.p);
       ASSERT_EQ(lanes.p_error[k], si.p_error);
-      ASSERT_EQ(VertexLanes::get(lanes.n, k), si.n);
+      ASSERT_EQ(get_lane(lanes.n, k), si.n);
       ASSERT_EQ(lanes.cos_in[k], cosine);
-      ASSERT_EQ(VertexLanes::get(lanes.facing, k), cosine > 0 ? -si.n : si.n);
+      ASSERT_EQ(get_lane(lanes.facing, k), cosine > 0 ? -si.n : si.n);
       ASSERT_EQ(lanes.surface_group[k], si.surface_group);
     }
   }
@@ -132,9 +132,9 @@ void expect_scattered(const VertexLanes& lanes, const Vertices& v, const float (
   ASSERT_EQ(draws_lobe, specular) << "lanes take the number for roulette behind that for the lobe";
   ASSERT_EQ(lanes.fate[k], alive ? VertexLanes::kAlive : VertexLanes::kAbsorbed) << k;
   if (!alive) return;
-  ASSERT_EQ(VertexLanes::get(lanes.next.d, k), wi) << k;
-  ASSERT_EQ(VertexLanes::get(lanes.next.o, k), si.spawn(wi).o);
-  ASSERT_EQ(VertexLanes::get(lanes.next_flux, k), (after < before ? before / after : 1.0f) * next);
+  ASSERT_EQ(get_lane(lanes.next.d, k), wi) << k;
+  ASSERT_EQ(get_lane(lanes.next.o, k), si.spawn(wi).o);
+  ASSERT_EQ(get_lane(lanes.next_flux, k), (after < before ? before / after : 1.0f) * next);
 }
 
 void expect_scattered(const Vertices& v, uint64_t seed) {
@@ -145,9 +145,9 @@ void expect_scattered(const Vertices& v, uint64_t seed) {
   for (auto& column : numbers.u) {
     for (float& u : column) u = make.uniform();
   }
-  locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
-  scatter_lanes(lanes, numbers, 1, VertexLanes::kLanes);
-  for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
+  locate_lanes(lanes, v.shapes, kPhotonLanes);
+  scatter_lanes(lanes, numbers, 1, kPhotonLanes);
+  for (size_t k = 0; k < kPhotonLanes; ++k) {
     if (lanes.traits[k] & kScalarTrait) continue;
     expect_scattered(lanes, v, {numbers.u[0][k], numbers.u[1][k], numbers.u[2][k], numbers.u[3][k]}, k);
   }
@@ -197,12 +197,12 @@ TEST(VertexLanes, NegativeOrNonFiniteFluxIsInvalid) {
 TEST(WalkerQueue, ReturnsWhatWasPushed) {
   PhotonMaker make(5);
   accel::RayLanes rays{};
-  VertexLanes::Column flux[3];
+  LaneColumn flux[3];
   WalkerLanes walkers{};
   for (size_t k = 0; k < WalkerLanes::kLanes; ++k) {
-    VertexLanes::set(rays.o, k, make.direction());
-    VertexLanes::set(rays.d, k, make.direction());
-    VertexLanes::set(flux, k, make.direction());
+    set_lane(rays.o, k, make.direction());
+    set_lane(rays.d, k, make.direction());
+    set_lane(flux, k, make.direction());
     walkers.reversed_index[k] = static_cast<uint32_t>(make.bits());
     walkers.state[k] = k % 2 ? WalkState().behind_specular() : WalkState::straight();
   }
@@ -211,7 +211,7 @@ TEST(WalkerQueue, ReturnsWhatWasPushed) {
   const auto queue = std::make_unique<WalkerQueue>();
   constexpr size_t kKept = 21;
   for (size_t k = 0; k < WalkerLanes::kLanes; ++k) {
-    ASSERT_EQ(rows.octant[k], WalkerQueue::octant(VertexLanes::get(rays.d, k)));
+    ASSERT_EQ(rows.octant[k], WalkerQueue::octant(get_lane(rays.d, k)));
     queue->push(rows, k, k % 3 == 1);
   }
   queue->push({1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10, WalkState::straight());
@@ -221,14 +221,14 @@ TEST(WalkerQueue, ReturnsWhatWasPushed) {
   queue->take(1, lanes, taken);
   EXPECT_EQ(lanes.ray.get(0).o, Point3(1, 2, 3));
   EXPECT_EQ(lanes.ray.get(0).d, Vector3(4, 5, 6));
-  EXPECT_EQ(VertexLanes::get(lanes.flux, 0), Rgb(7, 8, 9));
+  EXPECT_EQ(get_lane(lanes.flux, 0), Rgb(7, 8, 9));
   EXPECT_EQ(taken.reversed_index[0], 10u);
   EXPECT_TRUE(taken.state[0].is_straight());
   queue->take(kKept, lanes, taken);
   for (size_t i = 0, k = 1; i < kKept; ++i, k += 3) {
     EXPECT_EQ(lanes.ray.get(i).o, rays.get(k).o);
     EXPECT_EQ(lanes.ray.get(i).d, rays.get(k).d);
-    EXPECT_EQ(VertexLanes::get(lanes.flux, i), VertexLanes::get(flux, k));
+    EXPECT_EQ(get_lane(lanes.flux, i), get_lane(flux, k));
     EXPECT_EQ(taken.reversed_index[i], walkers.reversed_index[k]);
     EXPECT_EQ(taken.state[i].kind(), walkers.state[k].kind());
     EXPECT_EQ(taken.state[i].rays(), walkers.state[k].rays());
@@ -263,16 +263,16 @@ TEST(RecordSink, LanesMatchPack) {
   const Vertices v = make_vertices(9);
   VertexLanes lanes{};
   fill(v, lanes);
-  locate_lanes(lanes, v.shapes, VertexLanes::kLanes);
-  uint8_t kinds[VertexLanes::kLanes];
+  locate_lanes(lanes, v.shapes, kPhotonLanes);
+  uint8_t kinds[kPhotonLanes];
   constexpr float kUnit = 0x1p-3f;
   constexpr size_t kCount = 61;
   RecordsByKind records, expected;
-  for (size_t k = 0; k < VertexLanes::kLanes; ++k) {
+  for (size_t k = 0; k < kPhotonLanes; ++k) {
     kinds[k] = static_cast<uint8_t>(k % (kPhotonKinds + 1));  // every fifth leaves nothing
     if (k >= kCount || kinds[k] == kPhotonKinds) continue;
-    const Photon photon{VertexLanes::get(lanes.p, k), -v.rays[k].d, v.flux[k],
-                        VertexLanes::get(lanes.facing, k), lanes.surface_group[k]};
+    const Photon photon{get_lane(lanes.p, k), -v.rays[k].d, v.flux[k], get_lane(lanes.facing, k),
+                        lanes.surface_group[k]};
     expected[kinds[k]].push_back(pack(photon, kUnit));
   }
   RecordSink sink(kUnit, records);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "photon/record/packing_lanes.h"
+#include "photon/trace/vertex_lanes.h"
 
 namespace kaustik::photon {
 

@@ -1,6 +1,6 @@
 // Packs a whole group of photons in SIMD lanes.
 
-#include "photon/record/record_sink.h"
+#include "photon/trace/record_sink.h"
 
 namespace kaustik::photon {
 

@@ -10,18 +10,17 @@
 
 #include <hwy/highway.h>
 
-#include "photon/trace/energy_ledger.h"
-#include "photon/trace/vertex_lanes.h"
+#include "photon/lanes/photon_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, VertexLanes::kLanes>;
+using Floats = hn::CappedTag<float, kPhotonLanes>;
 using Vf = hn::Vec<Floats>;
 using Mask = hn::Mask<Floats>;
-using Columns3 = VertexLanes::Column[3];
+using Columns3 = LaneColumn[3];
 
 // A 3-vector in each lane.
 template <class V>
@@ -60,12 +59,6 @@ HWY_INLINE Vf Largest(const Vec3<Vf>& v) {
 }
 HWY_INLINE Vf LargestMagnitude(const Vec3<Vf>& v) {
   return Largest({hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)});
-}
-
-// Same operations as energy_of().
-HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> Energy(const Vec3<Vf>& flux, Vf units_per_watt) {
-  const Vf sum = hn::Add(hn::Add(flux.x, flux.y), flux.z);
-  return hn::NearestInt(hn::Min(hn::Mul(sum, units_per_watt), hn::Set(Floats(), kMostEnergy)));
 }
 
 HWY_INLINE Vec3<Vf> Load(const Columns3& c, size_t k) {
