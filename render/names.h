@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 5> kDirectNames = {"shadow-rays", 
                                                                  "predicted", "signed"};
 inline constexpr std::array<std::string_view, 3> kCausticNames = {"photons", "paths", "off"};
 inline constexpr std::array<std::string_view, 3> kIndirectNames = {"paths", "photons", "off"};
-inline constexpr std::array<std::string_view, 3> kKernelNames = {"constant", "cone", "epanechnikov"};
+inline constexpr auto kKernelNames = photon::kKernelNames;
 inline constexpr std::array<std::string_view, 2> kLookupNames = {"exact", "leaf"};
 inline constexpr std::array<std::string_view, 2> kEmissionNames = {"cosine", "uniform-angle"};
 inline constexpr std::array<std::string_view, 2> kGuideNames = {"off", "on"};

@@ -3,6 +3,7 @@
 #include "photon/estimate/boundary_correction.h"
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "photon/record/packing.h"
@@ -16,43 +17,38 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 // A point counts as lying in si's plane up to this height, as a fraction of the radius.
 constexpr double kInPlane = 1e-3;
 
-double cube(double x) {
-  return x * x * x;
+// Integral over theta from 0 to atan(t / d) of rho^power, rho = d sec(theta), by the recurrence for powers of
+// the secant.
+double integral_of_rho(int power, double d, double t) {
+  if (power == 0) return std::atan2(t, d);
+  const bool odd = power % 2 != 0;
+  const double rho_squared = t * t + d * d;
+  double integral = odd && d > 0 ? d * std::asinh(t / d) : 0;
+  double rho = odd ? std::sqrt(rho_squared) : 1;  // to the power of n - 2
+  for (int n = odd ? 3 : 2; n <= power; n += 2) {
+    integral = (d * t * rho + (n - 2) * (d * d * integral)) / (n - 1);
+    rho *= rho_squared;
+  }
+  return integral;
 }
 
-// Integrals over theta from 0 to atan(t / d) of powers of rho = d sec(theta), as needed for M (see the
-// header).
-double angle(double d, double t) {
-  return std::atan2(t, d);
-}
-double rho_squared(double d, double t) {
-  return d * t;
-}
-double rho_cubed(double d, double t) {
-  if (d == 0) return 0;
-  return 0.5 * (d * t * std::sqrt(t * t + d * d) + cube(d) * std::asinh(t / d));
-}
-double rho_fourth(double d, double t) {
-  return cube(d) * t + d * cube(t) / 3;
-}
-
-double cone_slope(const KernelSpec& kernel) {
-  return 2 / (3 * std::max(double(kernel.cone_k), 1.0));
+// The mean over the terms m_j of the kernel's mass, by their size, of value(j + 2): see the header.
+template <class Value>
+double mass_of(const KernelSpec& kernel, const Value& value) {
+  const auto terms = mass_terms<double>(kernel);
+  double mass = 0, sum = 0;
+  for (size_t j = 0; j < terms.size(); ++j) {
+    if (terms[j] == 0) continue;
+    mass += terms[j] * value(int(j) + 2);
+    sum += terms[j];
+  }
+  return mass / sum;
 }
 
 // The kernel's mass on a plane at height h (in radii) above the centre, where photons count by their distance
 // to the centre.
 double mass_at_height(const KernelSpec& kernel, double h) {
-  const double inside = 1 - h * h;
-  switch (kernel.type) {
-    case KernelType::kEpanechnikov:
-      return inside * inside;
-    case KernelType::kCone:
-      return (inside - cone_slope(kernel) * (1 - cube(h))) / (1 - cone_slope(kernel));
-    case KernelType::kConstant:
-      break;
-  }
-  return inside;
+  return mass_of(kernel, [h](int power) { return 1 - (power == 2 ? h * h : std::pow(h, power)); });
 }
 
 bool counts(const Normal3& facet, const Normal3& n) {
@@ -97,18 +93,9 @@ double mass_behind_edge(const KernelSpec& kernel, double d, double t1, double t2
   t1 = std::max(t1, -rim);
   t2 = std::min(t2, rim);
   if (!(t1 < t2)) return 0;
-  const auto over = [&](auto integral) { return integral(d, t2) - integral(d, t1); };
-  switch (kernel.type) {
-    case KernelType::kEpanechnikov:
-      return (over(angle) - 2 * over(rho_squared) + over(rho_fourth)) / kTwoPi;
-    case KernelType::kCone: {
-      const double s = cone_slope(kernel);
-      return (over(angle) - over(rho_squared) - s * (over(angle) - over(rho_cubed))) / (kTwoPi * (1 - s));
-    }
-    case KernelType::kConstant:
-      break;
-  }
-  return (over(angle) - over(rho_squared)) / kTwoPi;
+  const auto over = [&](int power) { return integral_of_rho(power, d, t2) - integral_of_rho(power, d, t1); };
+  const double angle = over(0);
+  return mass_of(kernel, [&](int power) { return angle - over(power); }) / kTwoPi;
 }
 
 double surface_share(const accel::EdgeIndex& edges, const SurfaceInteraction& si, const KernelSpec& kernel,

@@ -12,14 +12,15 @@
 // The edge is met at rho = d / cos(theta), t = d tan(theta), so with both in units of r
 //
 //   M = integral over theta of m(rho),   m(rho) = integral of K(s) s ds from rho to 1
-//   constant      2 pi m = 1 - rho^2
-//   Epanechnikov  2 pi m = (1 - rho^2)^2
-//   cone          2 pi m = (1 - rho^2 - 2/(3k) (1 - rho^3)) / (1 - 2/(3k))
 //
-// whose integrals follow from those of sec^2, sec^4 and sec^3. Edges at which the surface ends add mass,
-// edges beyond which it begins again (the far side of a hole) subtract: the sum is exactly the mass off the
-// surface for every flat surface (Green's theorem, region by region). For curved surfaces it is exact to
-// first order in r / curvature.
+// For a kernel of photon/gather/kernel.h
+//
+//   2 pi m = (sum over j of m_j (1 - rho^(j + 2))) / (sum over j of m_j),   m_j = 2 a_j / ((j + 2) k^j),
+//
+// which is 1 - rho^2 for the constant kernel and (1 - rho^2)^2 for Epanechnikov's; the integrals follow from
+// those of powers of the secant. Edges at which the surface ends add mass, edges beyond which it begins again
+// (the far side of a hole) subtract: the sum is exactly the mass off the surface for every flat surface
+// (Green's theorem, region by region). For curved surfaces it is exact to first order in r / curvature.
 
 #include "accel/edge_index.h"
 #include "core/geometry/interaction.h"

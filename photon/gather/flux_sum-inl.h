@@ -36,12 +36,17 @@ struct Rgb9e5Power {
   }
 };
 
+// w of kernel_value().
 template <KernelType kType>
 HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
-  const Vf one = hn::Set(Floats(), 1.0f);
-  if constexpr (kType == KernelType::kCone) return hn::NegMulAdd(slope, hn::Sqrt(distance_squared), one);
-  if constexpr (kType == KernelType::kEpanechnikov) return hn::NegMulAdd(slope, distance_squared, one);
-  return one;
+  constexpr KernelRow kRow = kKernels[size_t(kType)];
+  const Floats d;
+  Vf s = distance_squared;
+  if constexpr (!kRow.even()) s = hn::Sqrt(s);
+  Vf w = hn::Set(d, kRow.a[size_t(kRow.degree())]);
+  for (int j = kRow.degree() - kRow.step(); j >= 0; j -= kRow.step())
+    w = hn::MulAdd(hn::Mul(w, slope), s, hn::Set(d, kRow.a[size_t(j)]));
+  return w;
 }
 
 // In runs of 1024 vectors of photon indices, then of 1024 such runs, then in double: so that float does for
@@ -111,14 +116,6 @@ HWY_INLINE void AddOthers(const PhotonColumns& c, const LaneQuery& q, const uint
       sum.Add(c, i, distance_squared, Counts(q, c, i, distance_squared), slope);
     }
   }
-}
-
-// Calls fn.operator()<kType>().
-template <class Fn>
-HWY_INLINE auto WithKernel(KernelType kernel, const Fn& fn) {
-  if (kernel == KernelType::kCone) return fn.template operator()<KernelType::kCone>();
-  if (kernel == KernelType::kEpanechnikov) return fn.template operator()<KernelType::kEpanechnikov>();
-  return fn.template operator()<KernelType::kConstant>();
 }
 
 }  // namespace kaustik::photon::HWY_NAMESPACE

@@ -36,7 +36,7 @@ GatherSum GatherPhotons(const PhotonMap& map, const BoxTree::Start& start, const
                         KernelType kernel, float slope) {
   const PhotonColumns& c = map.columns();
   const LaneQuery q(query, map.size());
-  return WithKernel(kernel, [&]<KernelType kType>() HWY_ATTR {
+  return with_kernel(kernel, [&]<KernelType kType>() HWY_ATTR {
     const Vf slopes = hn::Set(Floats(), slope);
     FluxSum<kType> same, others;
     GatherSum sum;

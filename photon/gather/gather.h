@@ -20,7 +20,7 @@ namespace detail {
 
 // What the SIMD loops add up.
 struct GatherSum {
-  glm::dvec3 flux{0};  // flux units times (1 - slope s), see KernelTerms: multiply by scale and flux_unit
+  glm::dvec3 flux{0};  // flux units times the weight, see KernelTerms: multiply by scale and flux_unit
   uint64_t accepted = 0, candidates = 0;
 };
 

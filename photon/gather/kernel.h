@@ -1,7 +1,21 @@
 #pragma once
 // Kernels K(d) of the density estimate on a disc of radius r, each normalised to one over the disc, in 1/m^2.
+//
+// A kernel is a polynomial in d / R over what makes its integral one:
+//
+//   K(d) = w(d / R) / (N pi r^2)   for d <= r
+//   w(x) = sum over j of a_j x^j
+//   N    = sum over j of 2 a_j / ((j + 2) k^j)
+//
+// with R = k r, where k is 1 but for the cone. To add a kernel, add an enumerator and its row. All else
+// follows from the row: the name in command line, scene files and docs, the weights in the gather's SIMD
+// lanes, and the share of the mass behind an edge (photon/estimate/boundary_correction.h).
 
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <string_view>
 
 #include "core/math/vec.h"
 
@@ -9,49 +23,106 @@ namespace kaustik::photon {
 
 enum class KernelType : uint8_t { kConstant, kCone, kEpanechnikov };
 
+struct KernelRow {
+  static constexpr int kCoefficients = 5;
+
+  KernelType type;
+  std::string_view name;               // as the command line spells it
+  std::array<float, kCoefficients> a;  // a_0 is 1
+  bool stretched = false;              // k is KernelSpec::cone_k, else 1
+
+  constexpr int degree() const {
+    int last = 0;
+    for (int j = 0; j < kCoefficients; ++j)
+      if (a[size_t(j)] != 0) last = j;
+    return last;
+  }
+  // Whether no odd power occurs: then the weight needs no square root.
+  constexpr bool even() const { return a[1] == 0 && a[3] == 0; }
+  constexpr int step() const { return even() ? 2 : 1; }  // from one power in w to the next
+};
+
+inline constexpr KernelRow kKernels[] = {
+    {KernelType::kConstant, "constant", {1}},
+    // Jensen 2001, section 7.2.1 (cone filter).
+    {KernelType::kCone, "cone", {1, -1}, true},
+    // Silverman 1986, section 4.2.1.
+    {KernelType::kEpanechnikov, "epanechnikov", {1, 0, -1}},
+};
+
+inline constexpr auto kKernelTypes = [] {
+  std::array<KernelType, std::size(kKernels)> types{};
+  for (size_t i = 0; i < types.size(); ++i) types[i] = KernelType(i);
+  return types;
+}();
+inline constexpr auto kKernelNames = [] {
+  std::array<std::string_view, std::size(kKernels)> names{};
+  for (size_t i = 0; i < names.size(); ++i) names[i] = kKernels[i].name;
+  return names;
+}();
+static_assert(
+    [] {
+      for (const KernelType type : kKernelTypes)
+        if (kKernels[size_t(type)].type != type) return false;
+      return true;
+    }(),
+    "the rows are in the order of the enumerators");
+
 struct KernelSpec {
   KernelType type = KernelType::kConstant;
   float cone_k = 1.1f;  // k >= 1: the cone's weight reaches zero at k r
+
+  const KernelRow& row() const { return kKernels[size_t(type)]; }
+  float k() const { return row().stretched ? std::max(cone_k, 1.0f) : 1; }
 };
 
-// K(d) = scale * (1 - slope * s) with s = 0 (constant), d (cone) or d^2 (Epanechnikov), for d <= r:
-//   constant      1 / (pi r^2)
-//   cone          (1 - d/(k r)) / ((1 - 2/(3k)) pi r^2)     Jensen 2001, section 7.2.1 (cone filter)
-//   Epanechnikov  2 (1 - d^2/r^2) / (pi r^2)                Silverman 1986, section 4.2.1
+// The terms of N: 2 a_j / ((j + 2) k^j).
+template <class T>
+std::array<T, KernelRow::kCoefficients> mass_terms(const KernelSpec& kernel) {
+  std::array<T, KernelRow::kCoefficients> terms{};
+  T power = 1;
+  for (size_t j = 0; j < terms.size(); ++j, power *= T(kernel.k()))
+    terms[j] = 2 * T(kernel.row().a[j]) / (T(j + 2) * power);
+  return terms;
+}
+
+// K(d) = scale w, where w is a polynomial in slope s: s is d^2 where the kernel is even(), else d.
 struct KernelTerms {
   float scale = 0;  // 1/m^2
-  float slope = 0;  // 1/m or 1/m^2
+  float slope = 0;  // 1/m^2 or 1/m
 };
 
 // radius in metres. A radius that is not positive and finite gives a kernel of zero: a disc without area
 // holds no density.
 inline KernelTerms kernel_terms(const KernelSpec& kernel, float radius) {
   if (!(radius > 0) || !std::isfinite(radius)) return {};
-  const float area = kPi * radius * radius;
-  switch (kernel.type) {
-    case KernelType::kCone: {
-      const float k = std::max(kernel.cone_k, 1.0f);
-      return {1 / ((1 - 2 / (3 * k)) * area), 1 / (k * radius)};
-    }
-    case KernelType::kEpanechnikov:
-      return {2 / area, 1 / (radius * radius)};
-    case KernelType::kConstant:
-      break;
+  float mass = 0;
+  for (const float term : mass_terms<float>(kernel)) mass += term;
+  const float area = kPi * radius * radius, reach = kernel.k() * radius;
+  return {1 / (mass * area), 1 / (kernel.row().even() ? reach * reach : reach)};
+}
+
+// Calls fn.operator()<type>() with the type as a template argument.
+template <size_t kFirst = 0, class Fn>
+auto with_kernel(KernelType type, const Fn& fn) {
+  if constexpr (kFirst + 1 == std::size(kKernels)) {
+    return fn.template operator()<KernelType(kFirst)>();
+  } else {
+    return size_t(type) == kFirst ? fn.template operator()<KernelType(kFirst)>()
+                                  : with_kernel<kFirst + 1>(type, fn);
   }
-  return {1 / area, 0};
 }
 
 // K(d) from the squared distance in m^2, which must not exceed the squared radius.
 inline float kernel_value(KernelType type, const KernelTerms& terms, float distance_squared) {
-  switch (type) {
-    case KernelType::kCone:
-      return terms.scale * (1 - terms.slope * std::sqrt(distance_squared));
-    case KernelType::kEpanechnikov:
-      return terms.scale * (1 - terms.slope * distance_squared);
-    case KernelType::kConstant:
-      break;
-  }
-  return terms.scale;
+  return with_kernel(type, [&]<KernelType kType>() {
+    constexpr KernelRow kRow = kKernels[size_t(kType)];
+    const float s = kRow.even() ? distance_squared : std::sqrt(distance_squared);
+    float w = kRow.a[size_t(kRow.degree())];
+    for (int j = kRow.degree() - kRow.step(); j >= 0; j -= kRow.step())
+      w = w * terms.slope * s + kRow.a[size_t(j)];
+    return terms.scale * w;
+  });
 }
 
 }  // namespace kaustik::photon

@@ -17,8 +17,7 @@ struct PhotonLanes {
 };
 // Words of the photons' records, as aligned columns.
 struct PackedLanes {
-  alignas(64) uint32_t direction[kPhotonLanes], power[kPhotonLanes],
-      surface[kPhotonLanes];
+  alignas(64) uint32_t direction[kPhotonLanes], power[kPhotonLanes], surface[kPhotonLanes];
 };
 
 // Packs the first `count` lanes, at most kPhotonLanes. Reads and writes whole multiples of 16 lanes.

@@ -16,7 +16,7 @@ void to_energy_lanes(const float (&flux)[3][kPhotonLanes], size_t count, float u
 // escapes. Where `scatters` is one, lanes.scattered_energy and lanes.next_energy hold what remains before and
 // after Russian roulette. All others are terminated. Afterwards walkers.energy is the energy that travels on.
 // All lanes are read; lanes that are not in use must have zero energy and `scatters` zero. Thread-safe.
-void book_lanes(const VertexLanes& lanes, const uint8_t (&scatters)[kPhotonLanes],
-                WalkerLanes& walkers, EnergyLedger& ledger);
+void book_lanes(const VertexLanes& lanes, const uint8_t (&scatters)[kPhotonLanes], WalkerLanes& walkers,
+                EnergyLedger& ledger);
 
 }  // namespace kaustik::photon

@@ -255,8 +255,7 @@ class Tracer {
     const bool specular = lanes_.traits[k] & kSpecularTrait;
     if (!before.is_straight() && !casts_shadow(before.kind(), specular)) return;
     const Vector3 d = get_lane(lanes_.ray.d, k);
-    const Ray on{
-        offset_origin(get_lane(lanes_.p, k), lanes_.p_error[k], get_lane(lanes_.n, k), d), d};
+    const Ray on{offset_origin(get_lane(lanes_.p, k), lanes_.p_error[k], get_lane(lanes_.n, k), d), d};
     const Rgb flux = get_lane(lanes_.flux, k);
     if (!before.is_straight()) return start_straight(k, on, flux);
     walkers_.state[k] = before;
@@ -284,9 +283,8 @@ class Tracer {
       for (size_t k = 0; k < count; ++k) {
         if (left_[k] == kNothing) continue;
         hand_over(k, static_cast<PhotonKind>(left_[k]),
-                  Photon{get_lane(lanes_.p, k), -get_lane(lanes_.ray.d, k),
-                         get_lane(lanes_.flux, k), get_lane(lanes_.facing, k),
-                         lanes_.surface_group[k]});
+                  Photon{get_lane(lanes_.p, k), -get_lane(lanes_.ray.d, k), get_lane(lanes_.flux, k),
+                         get_lane(lanes_.facing, k), lanes_.surface_group[k]});
       }
     }
   }

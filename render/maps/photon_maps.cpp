@@ -24,15 +24,12 @@ uint32_t share(uint32_t photons, const PassShare& pass) {
 
 photon::EstimateSettings estimate_settings(const RenderSettings& settings, const PassShare& pass) {
   photon::EstimateSettings estimate;
-  estimate.kernel.type = photon::KernelType(int(settings.kernel));
-  estimate.kernel.cone_k = settings.cone_k;
+  estimate.kernel = {settings.kernel, settings.cone_k};
   if (settings.nearest > 0) estimate.nearest = photons_in_reach(settings.nearest, pass.shares);
   estimate.leaf = settings.lookup == Lookup::kLeaf;
   estimate.node_photons = share(settings.node_photons, pass);
   return estimate;
 }
-static_assert(int(Kernel::kCone) == int(photon::KernelType::kCone) &&
-              int(Kernel::kEpanechnikov) == int(photon::KernelType::kEpanechnikov));
 
 // Builds all maps in one cube, since the lecture's test compares direct and shadow photons of the same cell.
 void build_maps(const Scene& scene, photon::ShootResult&& shot, PhotonMaps* maps) {

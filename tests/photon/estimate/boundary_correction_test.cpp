@@ -17,10 +17,15 @@
 namespace kaustik::photon {
 namespace {
 
-const KernelSpec kKernels[] = {{KernelType::kConstant, 1},
-                               {KernelType::kEpanechnikov, 1},
-                               {KernelType::kCone, 1},
-                               {KernelType::kCone, 2.5f}};
+// Every kernel, the stretched ones with another slope as well.
+std::vector<KernelSpec> kernels() {
+  std::vector<KernelSpec> specs;
+  for (const KernelRow& row : kKernels) {
+    specs.push_back({row.type, 1});
+    if (row.stretched) specs.push_back({row.type, 2.5f});
+  }
+  return specs;
+}
 
 // The midpoint rule in polar coordinates over the part of the disc behind the segment from (d, t1) to (d,
 // t2), seen from the origin.
@@ -47,7 +52,7 @@ constexpr double kMidpointError = 4e-6;
 
 TEST(MassBehindEdge, MatchesTheKernelsIntegral) {
   const double segments[][2] = {{-9, 9}, {-0.4, 0.7}, {0.1, 0.3}, {-0.9, -0.2}, {0.3, 5}, {0.99, 1.5}};
-  for (const KernelSpec& kernel : kKernels)
+  for (const KernelSpec& kernel : kernels())
     for (const double d : {0.0, 1e-9, 0.05, 0.3, 0.7, 0.95})
       for (const auto& [t1, t2] : segments)
         EXPECT_NEAR(mass_behind_edge(kernel, d, t1, t2), integrated_mass(kernel, d, t1, t2), kMidpointError)
@@ -55,7 +60,7 @@ TEST(MassBehindEdge, MatchesTheKernelsIntegral) {
 }
 
 TEST(MassBehindEdge, IsHalfAtTheEdgeAndZeroOutOfReach) {
-  for (const KernelSpec& kernel : kKernels) {
+  for (const KernelSpec& kernel : kernels()) {
     EXPECT_NEAR(mass_behind_edge(kernel, 0, -2, 2), 0.5, 1e-15);
     EXPECT_NEAR(mass_behind_edge(kernel, 0, 0, 2), 0.25, 1e-15);
     EXPECT_EQ(mass_behind_edge(kernel, 1, -2, 2), 0);
@@ -103,7 +108,7 @@ const Point3 kPointsOfSquare[] = {{0.001f, 0.002f, 0}, {0.999f, 0.9995f, 0}, {0.
 
 void expect_shares(const accel::EdgeIndex& edges, double radius,
                    const std::function<bool(double, double)>& on_surface) {
-  for (const KernelSpec& kernel : kKernels)
+  for (const KernelSpec& kernel : kernels())
     for (const Point3& p : kPointsOfSquare) {
       if (!on_surface(double(p.x), double(p.y))) continue;
       const double expected = grid_share(kernel, radius, p, on_surface);
@@ -159,7 +164,7 @@ TEST(SurfaceShare, DiskMatchesTheGrid) {
   const accel::EdgeIndex edges = edges_of(scene);
   EXPECT_EQ(edges.size(), 128u);
   const auto on_surface = [](double x, double y) { return std::hypot(x, y) <= 1 && std::hypot(x, y) >= 0.5; };
-  for (const KernelSpec& kernel : kKernels)
+  for (const KernelSpec& kernel : kernels())
     for (const float x : {0.5f, 0.55f, 0.75f, 0.92f, 1.0f})
       EXPECT_NEAR(surface_share(edges, at({x, 0, 0}), kernel, 0.1f),
                   grid_share(kernel, 0.1, {x, 0, 0}, on_surface), 0.012 + kGridError)
@@ -227,7 +232,7 @@ TEST(SurfaceShare, ScalesByPowersOfTwo) {
     const accel::EdgeIndex a = edges_of(scene), b = edges_of(scaled);
     for (const float t : {0.01f, 0.1f, 0.3f}) {
       const Point3 p = Point3(0.3f, 0, 0) + t * Vector3(1, 0.2f, 0.1f) + 0.2f * Vector3(0, 1, 0.4f);
-      for (const KernelSpec& kernel : kKernels)
+      for (const KernelSpec& kernel : kernels())
         EXPECT_EQ(surface_share(a, at(p, n), kernel, 0.25f),
                   surface_share(b, at(s * p, n), kernel, s * 0.25f));
     }
@@ -257,7 +262,7 @@ TEST(CorrectedEstimate, IsEvenUpToTheBorder) {
                {{0x1p-12f, 0x1p-11f, 0}, 0.25},
                {{1 - 0x1p-12f, 0x1p-12f, 0}, 0.25}};
   const Vector3 viewer = glm::normalize(Vector3(0.3f, -0.2f, 0.8f));
-  for (const KernelSpec& kernel : kKernels)
+  for (const KernelSpec& kernel : kernels())
     for (const uint32_t nearest : {0u, 2000u})
       for (const auto& [p, share] : cases) {
         EstimateSettings settings{0.1f, kernel, nearest, false, 64};

@@ -32,23 +32,31 @@ const Vector3 kViewer = glm::normalize(Vector3(0.3f, -0.2f, 0.8f));
 const Rgb kIrradiance(3, 2, 0.5f);
 
 // The number of photons in reach is binomial: the relative standard error of the constant kernel is
-// 1/sqrt(n), that of a kernel K is sqrt(pi r^2 int K^2 / n), where pi r^2 int K^2 is 4/3 for Epanechnikov and
-// at most 3/2 for the cone. The tolerance is five of them and the rounding of packed fluxes.
-float tolerance(float radius) {
-  const float n = kPi * radius * radius * float(kPhotons);
-  return 5 * std::sqrt(1.5f / n) + float(test::kPackedFluxError);
+// 1/sqrt(n), that of a kernel K is sqrt(pi r^2 int K^2 / n). The tolerance is five of them and the rounding of
+// packed fluxes.
+float tolerance(float radius, KernelType type) {
+  const KernelSpec kernel{type, 1};
+  const KernelTerms terms = kernel_terms(kernel, radius);
+  constexpr int kRings = 1000;  // of equal area
+  double squares = 0;
+  for (int i = 0; i < kRings; ++i) {
+    const double k = double(kernel_value(type, terms, radius * radius * (float(i) + 0.5f) / kRings));
+    squares += k * k / kRings;
+  }
+  const double area = double(kPi * radius * radius), n = area * double(kPhotons);
+  return float(5 * std::sqrt(squares * area * area / n) + test::kPackedFluxError);
 }
 
 TEST(RadianceEstimate, LambertianUnderEvenLightIsAlbedoTimesIrradianceOverPi) {
   const PhotonMap map = even_floor(kIrradiance);
   const Lambertian bsdf{Rgb(0.8f, 0.5f, 0.2f)};
   const Rgb expected = bsdf.reflectance * kIrradiance * kInvPi;
-  for (const KernelType type : {KernelType::kConstant, KernelType::kCone, KernelType::kEpanechnikov}) {
+  for (const KernelType type : kKernelTypes) {
     for (const bool leaf : {false, true}) {
       const EstimateSettings settings{0.1f, {type, 1}, 0, leaf, 64};
       GatherCounters counters;
       const Rgb Lr = estimate_radiance(map, middle(), kViewer, bsdf, settings, counters);
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lr[c], expected[c], expected[c] * tolerance(0.1f));
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lr[c], expected[c], expected[c] * tolerance(0.1f, type));
       EXPECT_EQ(counters.queries, 1u);
     }
   }
@@ -68,7 +76,8 @@ TEST(RadianceEstimate, OtherBsdfsAreEvaluatedPerPhoton) {
   const OrenNayar rough = OrenNayar::from_sigma_degrees(Rgb(0.5f), 30);
   const Rgb expected = rough.f(kViewer, {0, 0, 1}) * kIrradiance;
   const Rgb Lr = estimate_radiance(map, middle(), kViewer, rough, settings, counters);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lr[c], expected[c], expected[c] * tolerance(0.1f));
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(Lr[c], expected[c], expected[c] * tolerance(0.1f, KernelType::kEpanechnikov));
 }
 
 TEST(RadianceEstimate, NearestUsesTheDiscOfTheKthPhoton) {

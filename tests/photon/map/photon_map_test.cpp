@@ -68,7 +68,7 @@ TEST_P(PhotonMapSets, ForEachFindsWhatBruteForceFinds) {
 }
 
 TEST_P(PhotonMapSets, GatherSumsWhatBruteForceSums) {
-  for (const KernelType type : {KernelType::kConstant, KernelType::kCone, KernelType::kEpanechnikov}) {
+  for (const KernelType type : kKernelTypes) {
     const KernelSpec kernel{type, 1.25f};
     for (const GatherQuery& query : queries_) {
       GatherCounters counters;
