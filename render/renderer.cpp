@@ -11,9 +11,10 @@
 #include "render/adaptive/sample_counts.h"
 #include "render/camera/pixel_range.h"
 #include "render/film/error_estimate.h"
-#include "render/maps/photon_maps.h"
-#include "render/passes/pass_trials.h"
-#include "render/tiles.h"
+#include "render/maps/pass_photons.h"
+#include "render/passes/passes.h"
+#include "render/plan/pass_share.h"
+#include "render/tiles/tiles.h"
 
 namespace kaustik::render {
 
@@ -54,37 +55,38 @@ ProgressCallback serialised(const ProgressCallback& progress, uint64_t passes) {
   };
 }
 
-// State that the passes of a render share.
+// Renders the passes of one render, one after the other, and holds the state that they share.
 class PassRenderer {
  public:
-  PassRenderer(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-               const EstimatorPlan& plan, uint64_t shares, std::shared_ptr<FirstPhotons> photons,
-               ProgressCallback progress)
-      : scene_(scene),
-        bvh_(bvh),
-        settings_(settings),
-        plan_(plan),
+  // first: the photons of a single pass, or null. radii: r0, if an earlier render settled it.
+  PassRenderer(const RenderInput& input, uint64_t shares, std::shared_ptr<FirstPhotons> first,
+               const std::optional<GatherRadii>& radii, ProgressCallback progress)
+      : input_(input),
         shares_(shares),
-        photons_(std::move(photons)),
-        progress_(std::move(progress)) {}
+        first_(std::move(first)),
+        progress_(std::move(progress)),
+        photons_(radii) {}
 
   // Determines r0 if this render does not begin with the first pass: shoots that pass's photons only for r0,
   // and does not count them.
-  bool settle_radii(std::optional<GatherRadii>* radii) {
-    if (*radii || !kinds_needed(plan_).any()) return true;
-    if (settings_.radius) return true;  // any pass sets it
+  bool settle_radii() {
+    if (photons_.radii() || !kinds_needed(input_.plan).any()) return true;
+    if (input_.settings.radius) return true;  // any pass sets it
     RenderStatistics ignored;
-    return make_photon_maps(scene_, bvh_, settings_, plan_, share(0), progress_, &maps_, radii, &ignored);
+    return photons_.make(input_, share(0), progress_, &ignored);
   }
+  const std::optional<GatherRadii>& radii() const { return photons_.radii(); }
 
   // Renders one pass into a film of zeros. False when the progress callback cancelled.
-  bool render(uint64_t pass, std::optional<GatherRadii>* radii, FilmSums* film,
-              RenderStatistics* statistics) {
+  bool render(uint64_t pass, FilmSums* film, RenderStatistics* statistics) {
     const PassShare part = share(pass);
-    const RayCone cone = camera_cone(scene_.camera, part.end_sample - part.first_sample);
-    const RenderContext ctx{scene_, bvh_, settings_, plan_, maps_, part, pass_samples(part, settings_, plan_),
-                            cone};
-    if (!make_maps(part, radii, statistics)) return false;
+    if (!make_maps(part, statistics)) return false;
+    const RenderContext ctx{input_,
+                            photons_.maps(),
+                            photons_.visibility(),
+                            part,
+                            pass_samples(part, input_.settings, input_.plan),
+                            camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
     const Stopwatch watch;
     const bool finished = render_tiles(ctx, progress_, film, statistics);
     statistics->render_s += watch.seconds();
@@ -93,31 +95,28 @@ class PassRenderer {
   }
 
  private:
-  bool make_maps(const PassShare& pass, std::optional<GatherRadii>* radii, RenderStatistics* statistics) {
-    if (photons_) {
-      if (!photons_->radii) return false;  // cancelled
-      maps_ = std::move(photons_->maps);
-      *radii = photons_->radii;
-      *statistics = photons_->statistics;
-      photons_.reset();
-    } else if (!make_photon_maps(scene_, bvh_, settings_, plan_, pass, progress_, &maps_, radii,
-                                 statistics)) {
+  bool make_maps(const PassShare& pass, RenderStatistics* statistics) {
+    if (first_) {
+      if (!first_->photons.radii()) return false;  // cancelled
+      photons_ = std::move(first_->photons);
+      *statistics = first_->statistics;
+      first_.reset();
+    } else if (!photons_.make(input_, pass, progress_, statistics)) {
       return false;
     }
-    predict_visibility(scene_, bvh_, settings_, plan_, &maps_, statistics);
+    photons_.predict_visibility(input_, statistics);
     return true;
   }
 
-  PassShare share(uint64_t pass) const { return pass_share(pass, shares_, settings_.photons, settings_.spp); }
+  PassShare share(uint64_t pass) const {
+    return pass_share(pass, shares_, input_.settings.photons, input_.settings.spp);
+  }
 
-  const Scene& scene_;
-  const accel::Bvh& bvh_;
-  const RenderSettings& settings_;
-  const EstimatorPlan& plan_;
+  const RenderInput input_;
   uint64_t shares_;
-  std::shared_ptr<FirstPhotons> photons_;
+  std::shared_ptr<FirstPhotons> first_;
   ProgressCallback progress_;
-  PhotonMaps maps_;
+  PassPhotons photons_;
 };
 
 bool has_samples(const FilmSums& film) {
@@ -127,20 +126,18 @@ bool has_samples(const FilmSums& film) {
   return false;
 }
 
-ExactUnits units_of(const Scene& scene, const RenderSettings& settings, const EstimatorPlan& plan,
-                    uint64_t shares) {
-  const PassShare pass = pass_share(0, shares, settings.photons, settings.spp);
-  const bool further = pass_samples(pass, settings, plan).further_work > 0;
-  return choose_units(scene, pass.end_sample << (further ? kMostDoublings : 0));
+ExactUnits units_of(const RenderInput& input, uint64_t shares) {
+  const PassShare pass = pass_share(0, shares, input.settings.photons, input.settings.spp);
+  const bool further = pass_samples(pass, input.settings, input.plan).further_work > 0;
+  return choose_units(input.scene, pass.end_sample << (further ? kMostDoublings : 0));
 }
 
-PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, const EstimatorPlan& plan,
-                     uint64_t shares, bool with_totals) {
+PassSums nothing_yet(const RenderInput& input, uint64_t shares, bool with_totals) {
   PassSums sums;
   sums.shares = shares;
   PixelWindow<PixelTotals> zero;
-  if (with_totals) zero = make_window<PixelTotals>(settings.crop, scene.camera);
-  sums.totals = FilmTotals(std::move(zero), units_of(scene, settings, plan, shares));
+  if (with_totals) zero = make_window<PixelTotals>(input.settings.crop, input.scene.camera);
+  sums.totals = FilmTotals(std::move(zero), units_of(input, shares));
   return sums;
 }
 
@@ -150,12 +147,16 @@ PassSums nothing_yet(const Scene& scene, const RenderSettings& settings, const E
 bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderTask& task, FilmSums* tiles,
                    RenderResult* result) {
   PassSums& sums = result->sums;
-  if (missing.first() > 0 && !renderer.settle_radii(&sums.radii)) return false;
+  const bool settled = missing.first() == 0 || renderer.settle_radii();
+  sums.radii = renderer.radii();
+  if (!settled) return false;
   for (const PassSet::Range& range : missing.ranges()) {
     for (uint64_t pass = range.begin; pass < range.end; ++pass) {
       if (pass != missing.first()) tiles->clear();
       result->statistics = {};
-      if (!renderer.render(pass, &sums.radii, tiles, &result->statistics)) return false;
+      const bool finished = renderer.render(pass, tiles, &result->statistics);
+      sums.radii = renderer.radii();
+      if (!finished) return false;
       if (task.keep_sums) result->statistics.clamped_sums = sums.totals.add(*tiles);
       sums.passes.add(PassSet(pass, pass + 1));
       sums.statistics += result->statistics;
@@ -195,19 +196,18 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   RenderResult result;
   result.plan = make_plan(settings, scene.needs);
   const uint64_t shares = choose_passes(scene, bvh, settings, &result.plan);
+  const RenderInput input{scene, bvh, settings, result.plan};
   const PassSet goal = task.passes.empty() ? PassSet(0, shares) : task.passes;
   const PassSet missing = goal.without(task.done.passes);
   const bool goes_on = !task.done.passes.empty();
   task.keep_sums |= goes_on || missing.count() != 1;
-  result.sums =
-      goes_on ? std::move(task.done) : nothing_yet(scene, settings, result.plan, shares, task.keep_sums);
-  require(result.sums.shares == shares &&
-              result.sums.totals.units() == units_of(scene, settings, result.plan, shares),
+  result.sums = goes_on ? std::move(task.done) : nothing_yet(input, shares, task.keep_sums);
+  require(result.sums.shares == shares && result.sums.totals.units() == units_of(input, shares),
           "the passes rendered before belong to another scene or to other settings");
 
   require(!task.photons || missing == PassSet(0, 1),
           "photons shot in advance can be used only for a single pass");
-  PassRenderer renderer(scene, bvh, settings, result.plan, shares, std::move(task.photons),
+  PassRenderer renderer(input, shares, std::move(task.photons), result.sums.radii,
                         serialised(callback, goal.end() < kMostPasses ? std::max(shares, goal.end()) : 0));
   auto tiles = make_window<PixelSum>(settings.crop, scene.camera);
   result.cancelled = !render_passes(renderer, missing, task, &tiles, &result);

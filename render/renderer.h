@@ -3,26 +3,16 @@
 
 #include <functional>
 #include <memory>
-#include <string_view>
 
 #include "accel/bvh.h"
 #include "render/film/film.h"
 #include "render/passes/pass_sums.h"
-#include "render/settings.h"
-#include "render/statistics.h"
+#include "render/plan/plan.h"
+#include "render/plan/progress.h"
 
 namespace kaustik::render {
 
-struct FirstPhotons;  // pass_trials.h
-
-struct Progress {
-  std::string_view phase;        // "photons", "build", "render"
-  uint64_t done = 0, total = 0;  // of the phase in this pass
-  // In each pass the phases photons, build and render follow each other; passes = 0: unknown.
-  uint64_t pass = 0, passes = 1;
-};
-// Called from worker threads, one call at a time. Returning false cancels.
-using ProgressCallback = std::function<bool(const Progress&)>;
+struct FirstPhotons;  // render/maps/pass_photons.h
 
 // Which passes to render, and what to do with them.
 struct RenderTask {
@@ -55,11 +45,6 @@ struct RenderResult {
   PassSums sums;             // the complete passes; has totals as RenderTask::keep_sums says
   double error = kInfinity;  // of what the film shows, see relative_error(); infinite if unknown
 };
-
-// Chooses the estimators: the method's preset, then the settings' overrides; then estimators that the scene
-// does not need are left out. Pure function. notes[0] names the choice; each further note says what was left
-// out or is missing, and why.
-EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs);
 
 // Sets film, error and statistics from result->sums, which must have totals.
 void show_passes(RenderResult* result);

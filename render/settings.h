@@ -65,18 +65,4 @@ struct RenderSettings {
   uint64_t photon_memory = std::numeric_limits<uint64_t>::max();
 };
 
-// Whether the estimator samples the lights; then it shares direct light with paths that leave the point
-// anyway.
-inline bool samples_lights(DirectEstimator direct) {
-  return direct == DirectEstimator::kShadowRays || direct == DirectEstimator::kPredicted;
-}
-
-// The estimators that a render uses, determined by method, settings and the scene's needs.
-struct EstimatorPlan {
-  DirectEstimator direct = DirectEstimator::kShadowRays;
-  CausticEstimator caustics = CausticEstimator::kOff;
-  IndirectEstimator indirect = IndirectEstimator::kOff;
-  std::vector<std::string> notes;  // one sentence each: what was chosen or left out, and why
-};
-
 }  // namespace kaustik::render

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "photon/trace/tracer.h"
+#include "photon/trace/trace_settings.h"
 
 namespace kaustik::render {
 

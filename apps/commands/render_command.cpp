@@ -12,7 +12,7 @@
 #include "apps/session/render_session.h"
 #include "apps/session/stop_rules.h"
 #include "apps/session/time_plan.h"
-#include "render/maps/photon_maps.h"
+#include "render/plan/plan.h"
 
 namespace kaustik::app {
 

@@ -11,7 +11,7 @@
 #include "apps/session/render_session.h"
 #include "apps/session/stop_rules.h"
 #include "apps/settings/values.h"
-#include "render/maps/photon_maps.h"
+#include "render/plan/plan.h"
 
 namespace kaustik::app {
 

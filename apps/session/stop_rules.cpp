@@ -7,7 +7,7 @@
 
 #include "apps/console/exit_error.h"
 #include "render/film/error_estimate.h"
-#include "render/passes/passes.h"
+#include "render/plan/pass_share.h"
 
 namespace kaustik::app {
 

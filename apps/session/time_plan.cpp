@@ -8,7 +8,6 @@
 
 #include "apps/session/stop_rules.h"
 #include "render/camera/pixel_range.h"
-#include "render/maps/photon_maps.h"
 #include "render/passes/passes.h"
 
 namespace kaustik::app {
@@ -79,11 +78,10 @@ class TimePlan {
 
   // Returns null if the render is split into passes, and photons without radii if it was cancelled.
   std::shared_ptr<render::FirstPhotons> settle() {
-    render::PhotonTrial trial =
-        render::try_photons(scene_, bvh_, render_, plan_, kTrial * seconds_, progress_);
-    if (!trial.photons.radii) return std::make_shared<render::FirstPhotons>(std::move(trial.photons));
+    render::PhotonTrial trial = render::try_photons(input(), kTrial * seconds_, progress_);
+    if (!trial.first.photons.radii()) return std::make_shared<render::FirstPhotons>(std::move(trial.first));
     if (seconds_ > kLongPass) {
-      const render::SampleCost cost = samples(&trial.photons);
+      const render::SampleCost cost = samples(&trial.first.photons);
       if (cost.of(kManySamples, render_.adaptive) < (1 - kPhotons) * left()) {
         set_passes(trial.cost, cost);
         return nullptr;
@@ -92,21 +90,22 @@ class TimePlan {
     render_.photons = photons_within(trial.cost, kPhotons * left(), fewest_);
     render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
     trial = {};
-    auto photons =
-        std::make_shared<render::FirstPhotons>(render::shoot_first(scene_, bvh_, render_, plan_, progress_));
-    const render::SampleCost cost = samples(photons.get());
+    auto first = std::make_shared<render::FirstPhotons>(render::shoot_first(input(), progress_));
+    const render::SampleCost cost = samples(&first->photons);
     render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
     render_.adaptive = further_within(cost, render_.spp, render_.adaptive, left());
-    return photons;
+    return first;
   }
 
  private:
+  render::RenderInput input() const { return {scene_, bvh_, render_, plan_}; }
+
   double left() const {
     const uint64_t pixels = render::rendered_range(render_.crop, scene_.camera).pixels();
     return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels);
   }
-  render::SampleCost samples(render::FirstPhotons* photons) const {
-    return render::try_samples(scene_, bvh_, render_, plan_, kTrial * seconds_, photons);
+  render::SampleCost samples(render::PassPhotons* photons) const {
+    return render::try_samples(input(), kTrial * seconds_, photons);
   }
 
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
@@ -146,7 +145,7 @@ std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const acce
                                                   const render::ProgressCallback& progress,
                                                   const Console& console, Settings* settings) {
   auto photons = TimePlan(scene, bvh, total, progress, settings).settle();
-  if (photons && !photons->radii) return photons;
+  if (photons && !photons->photons.radii()) return photons;
   if (!photons) settle_error_settings(console, settings);
   const render::RenderSettings& render = settings->render;
   console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}", *settings->stop.seconds,

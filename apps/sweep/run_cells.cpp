@@ -7,6 +7,7 @@
 #include "apps/session/render_job.h"
 #include "apps/sweep/pictures.h"
 #include "render/picture/error_parts.h"
+#include "render/picture/image_io.h"
 
 namespace kaustik::app {
 

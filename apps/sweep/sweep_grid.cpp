@@ -8,9 +8,8 @@
 #include "apps/settings/list_options.h"
 #include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
-#include "render/maps/photon_maps.h"
 #include "render/names.h"
-#include "render/renderer.h"
+#include "render/plan/plan.h"
 
 namespace kaustik::app {
 

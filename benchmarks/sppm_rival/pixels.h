@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "render/estimators/shading_point.h"
+#include "render/camera/shading_point.h"
 
 namespace kaustik::benchmarks::sppm {
 

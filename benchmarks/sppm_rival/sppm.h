@@ -124,7 +124,7 @@ class Renderer {
 
   // Handles the end of the camera path, at pixel.point.
   void see(Pixel& pixel, const Rgb& beta, Sampler& sampler) {
-    const render::RenderContext context{scene_, bvh_, direct_, plan_, maps_, {}};
+    const render::RenderContext context{{scene_, bvh_, direct_, plan_}, maps_};
     render::TileCounters ignored;
     pixel.Ld +=
         beta * render::sample_direct(context, *pixel.point, render::LightWeight::kAlone, sampler, ignored);

@@ -29,7 +29,7 @@ inline float shading_correction(const SurfaceInteraction& si, const Vector3& w, 
 }
 
 // Camera paths shade non-specular surfaces by n when they see them from a direction on different sides of n
-// and ns (render/estimators/shading_point.h). Towards such directions Lo(w) = 1/dA sum f_n(w, wi) dPhi,
+// and ns (render/camera/shading_point.h). Towards such directions Lo(w) = 1/dA sum f_n(w, wi) dPhi,
 // without the factor c, for all photons that cross the geometric surface. Photons do the same at BSDFs whose
 // kScattersAboutN is true.
 

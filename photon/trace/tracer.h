@@ -16,58 +16,16 @@
 //
 // Not handled: participating media.
 
-#include <array>
 #include <cstdint>
-#include <optional>
 
 #include "accel/bvh.h"
 #include "photon/emission/emission_guide.h"
 #include "photon/record/photon.h"
 #include "photon/trace/energy_lanes.h"
+#include "photon/trace/trace_settings.h"
 #include "photon/trace/vertex_lanes.h"
 
 namespace kaustik::photon {
-
-struct KindMask {
-  bool direct = false, shadow = false, caustic = false, indirect = false;
-  bool operator[](PhotonKind k) const {
-    const bool kinds[] = {direct, shadow, caustic, indirect};
-    return kinds[static_cast<int>(k)];
-  }
-  bool any() const { return direct || shadow || caustic || indirect; }
-};
-
-struct TraceSettings {
-  uint64_t seed = 0;
-  uint64_t pass = 0;
-  uint64_t photons = 0;  // emitted in this pass, by all lights together
-  // Longest path L x1 ... xj whose photon at xj is kept: j <= max_bounces. The deposit counts as a scattering
-  // (it sends light to the eye): 1 is direct light alone, 2 adds one reflection before the deposit.
-  int max_bounces = 16;
-  EmissionMode emission = EmissionMode::kCosine;
-  bool shadow_behind_specular = false;
-  // Index of the only light that emits, with all photons; unset: each emits in proportion to its power.
-  std::optional<uint32_t> light{};
-  // Draws the starts of all lights; must not be empty. Null: starts are uniform.
-  const EmissionGuide* guide = nullptr;
-  // Only the requested kinds are traced: without `indirect`, for instance, a photon ends at its first diffuse
-  // surface.
-  KindMask kinds;
-};
-
-// Exact counters; merging them adds integers.
-struct TraceCounters {
-  uint64_t emitted = 0;
-  uint64_t rays = 0;         // path segments traced
-  uint64_t shadow_rays = 0;  // segments of straight rays behind the first surface
-  std::array<uint64_t, kPhotonKinds> stored{};
-  uint64_t dropped_invalid = 0;  // photons of NaN, infinite or negative flux
-  EnergyLedger energy;
-  TraceCounters& operator+=(const TraceCounters& o);
-};
-
-// Key of the pass's random sequence, independent of that of the camera paths.
-uint64_t photon_stream(const TraceSettings& settings);
 
 // Dimensions of a photon's random point: the first 8 are for emission, each vertex takes the next 4.
 inline constexpr uint32_t kEmissionDimensions = 8;

@@ -28,8 +28,8 @@ Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
 // bright a sample.
 photon::VisibilityPrediction predicted(const RenderContext& ctx, const ShadingPoint& x, LobePart part,
                                        uint32_t light) {
-  if (!ctx.maps.visibility || part == LobePart::kGlossy || transmits(*x.bsdf)) return {};
-  return ctx.maps.visibility->predict(light, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
+  if (!ctx.visibility || part == LobePart::kGlossy || transmits(*x.bsdf)) return {};
+  return ctx.visibility->predict(light, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
 }
 
 float trace_visibility(const RenderContext& ctx, const ShadingPoint& x, const LightSample& s,

@@ -2,8 +2,8 @@
 // Light that arrives straight from the lights: next-event estimation, emission met by rays, and the MIS
 // weights that combine the two.
 
-#include "render/estimators/shading_point.h"
-#include "render/render_context.h"
+#include "render/camera/shading_point.h"
+#include "render/estimators/render_context.h"
 
 namespace kaustik::render {
 
@@ -17,7 +17,7 @@ enum class LightWeight {
 // lights are all sampled, and one of them is chosen for the shadow ray by its contribution (resampling,
 // Talbot et al. 2005); of many lights one is chosen by the scene's LightSampler. Any surface in between
 // blocks, including glass, since light through specular surfaces belongs to the caustic class. Delta lights
-// always have weight one. With ctx.maps.visibility most shadow rays are skipped, and V is an unbiased
+// always have weight one. With ctx.visibility most shadow rays are skipped, and V is an unbiased
 // estimate that may be negative (photon/visibility/visibility_tree.h). Always draws three dimensions. part:
 // the lobes of f that count.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,

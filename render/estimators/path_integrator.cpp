@@ -110,10 +110,6 @@ bool visit(const RenderContext& ctx, const ShadingPoint& y, PathState* path, Pat
 
 }  // namespace
 
-bool traces_paths(const EstimatorPlan& plan) {
-  return plan.caustics == CausticEstimator::kPaths || plan.indirect == IndirectEstimator::kPaths;
-}
-
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler,
                      TileCounters& counters) {
   PathLight light;

@@ -10,9 +10,6 @@ struct PathLight {
   Rgb direct{0}, caustic{0}, indirect{0};
 };
 
-// Whether any estimator of this plan needs trace_path().
-bool traces_paths(const EstimatorPlan& plan);
-
 // Traces one path that starts at x with a sample of its diffuse lobes. What it meets decides the class:
 //
 //   a light straight from x                direct, with the MIS weight of BSDF sampling (if samples_lights())

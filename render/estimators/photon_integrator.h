@@ -1,8 +1,10 @@
 #pragma once
 // Radiance along one camera ray: the rendering equation, split by classes of paths.
 
+#include "core/sampling/sampler.h"
 #include "photon/estimate/estimate_batch.h"
-#include "render/render_context.h"
+#include "render/estimators/render_context.h"
+#include "render/film/film.h"
 
 namespace kaustik::render {
 

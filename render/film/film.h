@@ -12,7 +12,6 @@
 #include "core/memory/memory_pages.h"
 #include "core/memory/uninitialised_array.h"
 #include "render/film/for_each_pixel.h"
-#include "render/picture/image.h"
 
 namespace kaustik::render {
 
@@ -131,13 +130,5 @@ PixelWindow<Pixel> window_of(const PixelWindow<Other>& like) {
 
 using Film = PixelWindow<PixelResult>;
 using FilmSums = PixelWindow<PixelSum>;
-
-// The total radiance as an image.
-inline Image image_of(const Film& film) {
-  Image image(film.width(), film.height());
-  for (int y = 0; y < film.height(); ++y)
-    for (int x = 0; x < film.width(); ++x) image.at(x, y) = film.at(x, y).radiance();
-  return image;
-}
 
 }  // namespace kaustik::render

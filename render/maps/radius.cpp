@@ -105,11 +105,11 @@ float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>&
 
 }  // namespace
 
-GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const PassShare& pass, const PhotonMaps& maps) {
+GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {
+  const RenderSettings& settings = input.settings;
   if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius, 0};
-  const float reach = 2 * scene.bounds.radius(), f = settings.radius_factor;
-  const auto visible = visible_points(scene, bvh, settings, kPilotPoints);
+  const float reach = 2 * input.scene.bounds.radius(), f = settings.radius_factor;
+  const auto visible = visible_points(input, kPilotPoints);
   const auto choose = [&](const photon::PhotonMap& map, const auto& points, uint32_t k) {
     return f * auto_radius(map, points, reach, k, pass);
   };

@@ -1,7 +1,12 @@
 #pragma once
 // Chooses the gather radius r0 of each map when the user gives none.
 
+#include <algorithm>
+
+#include "render/maps/gather_radii.h"
 #include "render/maps/photon_maps.h"
+#include "render/plan/pass_share.h"
+#include "render/plan/render_input.h"
 
 namespace kaustik::render {
 
@@ -26,7 +31,6 @@ inline uint32_t photons_in_reach(uint32_t of_all, uint64_t passes) {
 // smaller for maps with fewer photons. Deterministic: a function of scene and settings only, and scales
 // exactly with the scene for powers of two. maps are those of the first pass, which holds one in pass.shares
 // of the photons; k is divided accordingly.
-GatherRadii choose_radii(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const PassShare& pass, const PhotonMaps& maps);
+GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps);
 
 }  // namespace kaustik::render

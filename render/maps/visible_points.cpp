@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "core/sampling/sampler.h"
-#include "render/estimators/shading_point.h"
+#include "render/camera/shading_point.h"
 
 namespace kaustik::render {
 
@@ -20,14 +20,14 @@ constexpr uint64_t kPilotStream = 0x9117;
 constexpr float kCells = 32;
 
 // The first point on a camera ray whose BSDF has diffuse lobes.
-std::optional<VisiblePoint> visible_point(const Scene& scene, const accel::Bvh& bvh,
-                                          const RenderSettings& settings, uint32_t index) {
-  Sampler sampler(hash_combine(settings.seed, kPilotStream), index);
+std::optional<VisiblePoint> visible_point(const RenderInput& input, uint32_t index) {
+  const Scene& scene = input.scene;
+  Sampler sampler(hash_combine(input.settings.seed, kPilotStream), index);
   const Point2 u = sampler.next_2d();
   Ray ray = scene.camera.generate_ray({u.x * float(scene.camera.width), u.y * float(scene.camera.height)});
-  for (int events = 0; events <= settings.max_bounces; ++events) {
+  for (int events = 0; events <= input.settings.max_bounces; ++events) {
     SurfaceInteraction si;
-    if (!bvh.intersect(ray, &si)) return {};
+    if (!input.bvh.intersect(ray, &si)) return {};
     const ShadingPoint x(scene, si, -ray.d);
     if (!x.specular()) {
       const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;
@@ -49,11 +49,9 @@ uint64_t cube_side(const Normal3& n) {
 
 }  // namespace
 
-std::vector<VisiblePoint> visible_points(const Scene& scene, const accel::Bvh& bvh,
-                                         const RenderSettings& settings, uint32_t count) {
+std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count) {
   std::vector<std::optional<VisiblePoint>> found(count);
-  tbb::parallel_for(uint32_t{0}, count,
-                    [&](uint32_t i) { found[i] = visible_point(scene, bvh, settings, i); });
+  tbb::parallel_for(uint32_t{0}, count, [&](uint32_t i) { found[i] = visible_point(input, i); });
   std::vector<VisiblePoint> points;
   for (const auto& point : found)
     if (point) points.push_back(*point);

@@ -5,10 +5,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "accel/bvh.h"
 #include "photon/gather/gather_query.h"
 #include "photon/record/photon.h"
-#include "render/settings.h"
+#include "render/plan/render_input.h"
 
 namespace kaustik::render {
 
@@ -18,8 +17,7 @@ struct VisiblePoint {
 };
 
 // Traces `count` camera rays and returns the points of those that meet one. A function of scene and settings.
-std::vector<VisiblePoint> visible_points(const Scene& scene, const accel::Bvh& bvh,
-                                         const RenderSettings& settings, uint32_t count);
+std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count);
 
 // Number of visible points in a cell of space, for each side of the surfaces in it: photons in cells with few
 // points matter to few pixels, those in empty cells to hardly any. A cell is a 32nd as wide as the box of all

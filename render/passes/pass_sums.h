@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "render/film/film_totals.h"
+#include "render/maps/gather_radii.h"
 #include "render/passes/pass_set.h"
-#include "render/passes/passes.h"
 #include "render/statistics.h"
 
 namespace kaustik::render {

@@ -12,7 +12,7 @@
 #include "render/camera/camera_rays.h"
 #include "render/camera/pixel_range.h"
 #include "render/camera/ray_cone.h"
-#include "render/tiles.h"
+#include "render/tiles/tiles.h"
 
 namespace kaustik::render {
 
@@ -46,38 +46,36 @@ std::vector<PixelRange> windows_of(const PixelRange& whole) {
 }
 
 // Seconds for the samples of all pixels, extrapolated from those of the windows.
-double seconds_of(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                  const EstimatorPlan& plan, const PhotonMaps& maps, const std::vector<PixelRange>& windows) {
+double seconds_of(const RenderInput& input, const PassPhotons& photons,
+                  const std::vector<PixelRange>& windows) {
   const Stopwatch watch;
+  const RenderSettings& settings = input.settings;
+  const Camera& camera = input.scene.camera;
   const PassShare pass = pass_share(0, 1, settings.photons, settings.spp);
-  const RenderContext ctx{scene,
-                          bvh,
-                          settings,
-                          plan,
-                          maps,
+  const RenderContext ctx{input,
+                          photons.maps(),
+                          photons.visibility(),
                           pass,
-                          pass_samples(pass, settings, plan),
-                          camera_cone(scene.camera, pass.end_sample)};
+                          pass_samples(pass, settings, input.plan),
+                          camera_cone(camera, pass.end_sample)};
   tbb::parallel_for(size_t(0), windows.size(), [&](size_t i) {
     const PixelRange& w = windows[i];
-    FilmSums film(w.width(), w.height(), w.x0, w.y0, scene.camera.width, scene.camera.height);
+    FilmSums film(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height);
     RenderStatistics ignored;
     render_tiles(ctx, {}, &film, &ignored);
   });
   const double seconds = watch.seconds();
   uint64_t pixels = 0;
   for (const PixelRange& w : windows) pixels += w.pixels();
-  return seconds * double(rendered_range(settings.crop, scene.camera).pixels()) / double(pixels);
+  return seconds * double(rendered_range(settings.crop, camera).pixels()) / double(pixels);
 }
 
 }  // namespace
 
-FirstPhotons shoot_first(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const EstimatorPlan& plan, const ProgressCallback& progress) {
-  FirstPhotons shot;
-  make_photon_maps(scene, bvh, settings, plan, pass_share(0, 1, settings.photons, 1), progress, &shot.maps,
-                   &shot.radii, &shot.statistics);
-  return shot;
+FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress) {
+  FirstPhotons first;
+  first.photons.make(input, pass_share(0, 1, input.settings.photons, 1), progress, &first.statistics);
+  return first;
 }
 
 PhotonCost photon_cost(double few, double more) {
@@ -88,14 +86,13 @@ PhotonCost photon_cost(double few, double more) {
   return cost;
 }
 
-PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                        const EstimatorPlan& plan, double most, const ProgressCallback& progress) {
+PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress) {
   PhotonTrial trial;
   const auto shoot = [&](uint64_t photons) {
     const Stopwatch watch;
-    RenderSettings few = settings;
+    RenderSettings few = input.settings;
     few.photons = photons;
-    trial.photons = shoot_first(scene, bvh, few, plan, progress);
+    trial.first = shoot_first({input.scene, input.bvh, few, input.plan}, progress);
     return watch.seconds();
   };
   const double few = shoot(kFewPhotons);
@@ -112,16 +109,16 @@ SampleCost sample_cost(double one, double four, double four_further, double adap
   return cost;
 }
 
-SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                       const EstimatorPlan& plan, double most, FirstPhotons* photons) {
-  if (!photons->radii) return {.each = 1};  // cancelled
-  const std::vector<PixelRange> windows = windows_of(rendered_range(settings.crop, scene.camera));
+SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons) {
+  if (!photons->radii()) return {.each = 1};  // cancelled
+  const RenderSettings& settings = input.settings;
+  const std::vector<PixelRange> windows = windows_of(rendered_range(settings.crop, input.scene.camera));
   RenderStatistics ignored;
-  predict_visibility(scene, bvh, settings, plan, &photons->maps, &ignored);
+  photons->predict_visibility(input, &ignored);
   const auto seconds = [&](int spp, float adaptive) {
     RenderSettings tried = settings;
     tried.spp = spp, tried.adaptive = adaptive;
-    return seconds_of(scene, bvh, tried, plan, photons->maps, windows);
+    return seconds_of({input.scene, input.bvh, tried, input.plan}, *photons, windows);
   };
   const Stopwatch watch;
   const float w = settings.adaptive;
@@ -131,7 +128,7 @@ SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSe
     const double four = seconds(4, 0);
     cost = sample_cost(one, four, w > 0 ? seconds(4, w) : four, double(w));
   }
-  photons->maps.visibility.reset();  // was made for other settings.spp
+  photons->forget_visibility();  // it depends on settings.spp
   return cost;
 }
 

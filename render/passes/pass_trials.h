@@ -2,18 +2,9 @@
 // Measures the cost of a pass on this machine by trials: with few photons, and with few samples in windows
 // spread over the picture. All functions run within the render's task arena.
 
-#include "accel/bvh.h"
-#include "render/maps/photon_maps.h"
-#include "render/renderer.h"
+#include "render/maps/pass_photons.h"
 
 namespace kaustik::render {
-
-// Photons of the first pass, shot in advance, with their radii and statistics.
-struct FirstPhotons {
-  PhotonMaps maps;
-  std::optional<GatherRadii> radii;
-  RenderStatistics statistics;
-};
 
 // Wall-clock seconds of the photons of a pass.
 struct PhotonCost {
@@ -35,20 +26,18 @@ SampleCost sample_cost(double one, double four, double four_further, double adap
 
 struct PhotonTrial {
   PhotonCost cost;
-  FirstPhotons photons;
+  FirstPhotons first;
 };
 
 // Shoots a few photons, and more of them if that took less than `most` seconds.
-PhotonTrial try_photons(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                        const EstimatorPlan& plan, double most, const ProgressCallback& progress);
+PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress);
 
-// Shoots the photons of a render that has a single pass. radii is unset if the progress callback cancelled.
-FirstPhotons shoot_first(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                         const EstimatorPlan& plan, const ProgressCallback& progress);
+// Shoots the photons of a render that has a single pass. They have no radii if the progress callback
+// cancelled.
+FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress);
 
 // Renders one sample with these photons, and four if one took less than `most` seconds. Without photons
 // (cancelled) the result is meaningless.
-SampleCost try_samples(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
-                       const EstimatorPlan& plan, double most, FirstPhotons* photons);
+SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons);
 
 }  // namespace kaustik::render

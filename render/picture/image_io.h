@@ -35,6 +35,14 @@ struct WriteOptions {
 // std::invalid_argument for an unknown layer, with the list of valid ones.
 std::vector<Layer> layers_from_names(const std::vector<std::string>& names);
 
+// The total radiance as an image.
+inline Image image_of(const Film& film) {
+  Image image(film.width(), film.height());
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) image.at(x, y) = film.at(x, y).radiance();
+  return image;
+}
+
 // Throws std::invalid_argument unless path ends in .exr, .png, .jpg or .jpeg (in any case). Lets the command
 // line fail before rendering.
 void check_output_name(const std::string& path);

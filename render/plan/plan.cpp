@@ -1,10 +1,10 @@
 // make_plan(): chooses the estimator of each class of paths.
 
+#include "render/plan/plan.h"
+
 #include <fmt/format.h>
 
-#include "render/maps/photon_maps.h"
 #include "render/names.h"
-#include "render/renderer.h"
 
 namespace kaustik::render {
 
@@ -117,6 +117,15 @@ EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs)
   note_photon_kinds(plan, &plan.notes);
   note_limits(needs, &plan);
   return plan;
+}
+
+photon::KindMask kinds_needed(const EstimatorPlan& plan) {
+  photon::KindMask kinds;
+  kinds.direct = plan.direct == DirectEstimator::kPhotons || plan.direct == DirectEstimator::kLecture;
+  kinds.shadow = plan.direct == DirectEstimator::kLecture || plan.direct == DirectEstimator::kSigned;
+  kinds.caustic = plan.caustics == CausticEstimator::kPhotons;
+  kinds.indirect = plan.indirect == IndirectEstimator::kPhotons;
+  return kinds;
 }
 
 }  // namespace kaustik::render

@@ -108,15 +108,15 @@ class WrongPrediction : public ::testing::Test {
 
   // Mean and standard error of the light at the origin if every photon on the floor had made the same record.
   Estimate light(std::optional<bool> all_said) {
-    PhotonMaps maps;
+    const PhotonMaps maps;
+    std::unique_ptr<const photon::VisibilityTree> visibility;
     const photon::MortonCube cube = photon::MortonCube::around(scene_.bounds);
     if (all_said) {
       const uint64_t observation =
           photon::VisibilityTree::observation(cube, 0, Point3(0), {0, 1, 0}, *all_said);
-      maps.visibility =
-          std::make_unique<photon::VisibilityTree>(cube, std::vector<uint64_t>(2000, observation));
+      visibility = std::make_unique<photon::VisibilityTree>(cube, std::vector<uint64_t>(2000, observation));
     }
-    const RenderContext ctx{scene_, bvh_, settings_, plan_, maps, {}};
+    const RenderContext ctx{{scene_, bvh_, settings_, plan_}, maps, visibility.get()};
     std::vector<double> values;
     for (uint64_t i = 0; i < 20000; ++i) {
       Sampler sampler(11, i);

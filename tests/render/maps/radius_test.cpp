@@ -28,7 +28,10 @@ TEST(CausticRadius, FollowsTheFluxNotTheCount) {
   PhotonMaps maps;
   maps.caustic.map = photon::PhotonMap::build(photon::make_buffer(photons, 1));
   const Scene scene = test::lit_room(Rgb(0.5f), Rgb(1));
-  const GatherRadii radii = choose_radii(scene, accel::Bvh(scene), {}, {}, maps);
+  const accel::Bvh bvh(scene);
+  const RenderSettings settings;
+  const EstimatorPlan plan;
+  const GatherRadii radii = choose_radii({scene, bvh, settings, plan}, {}, maps);
   // At the even density k photons lie within half that radius. The distance to the k-th photon has the
   // relative deviation 1/(2 sqrt k), and the median of 1024 of them 1.25/32 of that; 1 in 20 points is so
   // near the border that its disc is wider.

@@ -22,6 +22,8 @@ class PassTrials : public ::testing::Test {
     plan_ = make_plan(settings_, scene_.needs);
   }
 
+  RenderInput input() const { return {scene_, bvh_, settings_, plan_}; }
+
   Scene scene_ = cornell(40);
   accel::Bvh bvh_{scene_};
   RenderSettings settings_;
@@ -51,21 +53,21 @@ TEST(PassCosts, CostOfSamplesIsLinearInBothCounts) {
 }
 
 TEST_F(PassTrials, KeepThePhotonsThatTheRenderUses) {
-  PhotonTrial trial = try_photons(scene_, bvh_, settings_, plan_, 1, {});
-  ASSERT_TRUE(trial.photons.radii);
-  EXPECT_GT(trial.photons.radii->indirect, 0);
-  try_samples(scene_, bvh_, settings_, plan_, 1, &trial.photons);
-  EXPECT_GT(trial.photons.maps.indirect.map.size(), 0u);
-  EXPECT_EQ(trial.photons.maps.visibility, nullptr);  // it depends on the number of samples
+  PhotonTrial trial = try_photons(input(), 1, {});
+  ASSERT_TRUE(trial.first.photons.radii());
+  EXPECT_GT(trial.first.photons.radii()->indirect, 0);
+  try_samples(input(), 1, &trial.first.photons);
+  EXPECT_GT(trial.first.photons.maps().indirect.map.size(), 0u);
+  EXPECT_EQ(trial.first.photons.visibility(), nullptr);  // it depends on the number of samples
 }
 
 // When the first trial takes too long there is no second.
 TEST_F(PassTrials, StopEarlyWhenTheyTakeTooLong) {
-  PhotonTrial few = try_photons(scene_, bvh_, settings_, plan_, 0, {});
+  PhotonTrial few = try_photons(input(), 0, {});
   EXPECT_EQ(few.cost.fixed, 0);
-  EXPECT_GT(few.photons.maps.indirect.map.size(), 0u);
-  EXPECT_LE(few.photons.maps.indirect.map.size(), 16u * 16384);
-  const SampleCost cost = try_samples(scene_, bvh_, settings_, plan_, 0, &few.photons);
+  EXPECT_GT(few.first.photons.maps().indirect.map.size(), 0u);
+  EXPECT_LE(few.first.photons.maps().indirect.map.size(), 16u * 16384);
+  const SampleCost cost = try_samples(input(), 0, &few.first.photons);
   EXPECT_EQ(cost.fixed, 0);
   EXPECT_EQ(cost.each, cost.further);
 }
@@ -73,8 +75,8 @@ TEST_F(PassTrials, StopEarlyWhenTheyTakeTooLong) {
 // Windows are chosen by squares of the whole image; a crop may contain none of them.
 TEST_F(PassTrials, WorkOnTheSmallestCrop) {
   settings_.crop = {39, 40, 17, 18};
-  PhotonTrial trial = try_photons(scene_, bvh_, settings_, plan_, 1, {});
-  const double each = try_samples(scene_, bvh_, settings_, plan_, 1, &trial.photons).each;
+  PhotonTrial trial = try_photons(input(), 1, {});
+  const double each = try_samples(input(), 1, &trial.first.photons).each;
   EXPECT_TRUE(std::isfinite(each)) << each;
 }
 
@@ -83,8 +85,8 @@ TEST_F(PassTrials, PhotonsShotBeforeGiveTheSamePicture) {
   const RenderResult whole = render(scene_, bvh_, settings_);
   RenderSettings before = settings_;
   before.spp = 16;
-  auto photons = std::make_shared<FirstPhotons>(shoot_first(scene_, bvh_, before, plan_, {}));
-  try_samples(scene_, bvh_, before, plan_, 1, photons.get());
+  auto photons = std::make_shared<FirstPhotons>(shoot_first({scene_, bvh_, before, plan_}, {}));
+  try_samples({scene_, bvh_, before, plan_}, 1, &photons->photons);
   const RenderResult result = render(scene_, bvh_, settings_, {}, {.keep_sums = false, .photons = photons});
   const size_t bytes = sizeof(PixelResult) * size_t(result.film.width()) * size_t(result.film.height());
   EXPECT_EQ(std::memcmp(&result.film.at(0, 0), &whole.film.at(0, 0), bytes), 0);
@@ -95,15 +97,15 @@ TEST_F(PassTrials, PhotonsShotBeforeGiveTheSamePicture) {
 }
 
 TEST_F(PassTrials, PhotonsShotBeforeAreForASinglePass) {
-  auto photons = std::make_shared<FirstPhotons>(shoot_first(scene_, bvh_, settings_, plan_, {}));
+  auto photons = std::make_shared<FirstPhotons>(shoot_first(input(), {}));
   settings_.passes = 2;
   EXPECT_THROW(render(scene_, bvh_, settings_, {}, {.photons = photons}), std::invalid_argument);
 }
 
 TEST_F(PassTrials, CancelledPhotonsGiveNoPicture) {
   const auto cancel = [](const Progress&) { return false; };
-  auto photons = std::make_shared<FirstPhotons>(shoot_first(scene_, bvh_, settings_, plan_, cancel));
-  EXPECT_FALSE(photons->radii);
+  auto photons = std::make_shared<FirstPhotons>(shoot_first(input(), cancel));
+  EXPECT_FALSE(photons->photons.radii());
   const RenderResult result =
       render(scene_, bvh_, settings_, cancel, {.keep_sums = false, .photons = photons});
   EXPECT_TRUE(result.cancelled);

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "render/maps/photon_maps.h"
+#include "render/maps/pass_photons.h"
 #include "render/maps/radius.h"
 #include "render/statistics_json.h"
 #include "tests/render/support/closed_forms.h"
@@ -211,17 +211,18 @@ TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
     settings.nearest = nearest;
     settings.alpha = 0.5f;
     const EstimatorPlan plan = make_plan(settings, scene.needs);
-    PhotonMaps maps;
-    std::optional<GatherRadii> radii;
+    PassPhotons photons;
     for (const uint64_t pass : {uint64_t{0}, uint64_t{9}, uint64_t{100'000}}) {
       RenderStatistics ignored;
-      make_photon_maps(scene, bvh, settings, plan, pass_share(pass, 1, settings.photons, 1), {}, &maps,
-                       &radii, &ignored);
+      photons.make({scene, bvh, settings, plan}, pass_share(pass, 1, settings.photons, 1), {}, &ignored);
+      const PhotonMaps& maps = photons.maps();
       const double squared = radius_shrink_squared(pass, 0.5f);
       const auto k = [&](uint32_t first) { return uint32_t(std::max(8.0, std::round(first * squared))); };
-      EXPECT_EQ(maps.caustic.estimate.nearest, k(nearest > 0 ? nearest : radii->caustic_nearest)) << pass;
+      EXPECT_EQ(maps.caustic.estimate.nearest, k(nearest > 0 ? nearest : photons.radii()->caustic_nearest))
+          << pass;
       EXPECT_EQ(maps.direct.estimate.nearest, nearest > 0 ? k(nearest) : 0) << pass;
-      EXPECT_EQ(maps.indirect.estimate.radius, float(double(radii->indirect) * std::sqrt(squared))) << pass;
+      EXPECT_EQ(maps.indirect.estimate.radius, float(double(photons.radii()->indirect) * std::sqrt(squared)))
+          << pass;
       EXPECT_EQ(maps.lecture.radius, maps.direct.estimate.radius);
     }
   }
@@ -254,12 +255,10 @@ TEST(Progressive, NearestPhotonsStayAtLeastEight) {
   settings.nearest = 50;
   const EstimatorPlan plan = make_plan(settings, scene.needs);
   for (const uint64_t passes : {uint64_t{34}, uint64_t{100}, uint64_t{1000}}) {
-    PhotonMaps maps;
-    std::optional<GatherRadii> radii;
+    PassPhotons photons;
     RenderStatistics ignored;
-    make_photon_maps(scene, bvh, settings, plan, pass_share(0, passes, settings.photons, 1), {}, &maps,
-                     &radii, &ignored);
-    EXPECT_EQ(maps.indirect.estimate.nearest, 8u) << passes;  // 50 / 34 rounds to 1
+    photons.make({scene, bvh, settings, plan}, pass_share(0, passes, settings.photons, 1), {}, &ignored);
+    EXPECT_EQ(photons.maps().indirect.estimate.nearest, 8u) << passes;  // 50 / 34 rounds to 1
   }
 }
 

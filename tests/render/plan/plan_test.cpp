@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/maps/photon_maps.h"
-#include "render/renderer.h"
+#include "render/plan/plan.h"
 #include "tests/render/support/print_names.h"
 
 namespace kaustik::render {

@@ -1,6 +1,6 @@
 // Renders tiles in parallel, first with even and then with adaptive samples, and merges their counts.
 
-#include "render/tiles.h"
+#include "render/tiles/tiles.h"
 
 #include <tbb/parallel_for.h>
 
@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "render/adaptive/sample_counts.h"
-#include "render/block_samples.h"
+#include "render/tiles/block_samples.h"
 
 namespace kaustik::render {
 

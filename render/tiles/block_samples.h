@@ -8,8 +8,8 @@
 #include "render/adaptive/sample_spread.h"
 #include "render/camera/camera_rays.h"
 #include "render/camera/pixel_range.h"
+#include "render/estimators/render_context.h"
 #include "render/film/film.h"
-#include "render/render_context.h"
 
 namespace kaustik::render {
 

@@ -1,6 +1,6 @@
 // Traces, shades and adds the samples of one block, as many at a time as fit into a packet.
 
-#include "render/block_samples.h"
+#include "render/tiles/block_samples.h"
 
 #include "render/estimators/photon_integrator.h"
 

@@ -1,20 +1,19 @@
 #pragma once
 // What every estimator reads (const, shared by all threads), and what it counts (one object per tile).
 
+#include "photon/visibility/visibility_tree.h"
 #include "render/camera/ray_cone.h"
 #include "render/maps/photon_maps.h"
-#include "render/passes/passes.h"
-#include "render/renderer.h"
+#include "render/plan/pass_share.h"
+#include "render/plan/render_input.h"
+#include "render/statistics.h"
 
 namespace kaustik::render {
 
-struct RenderContext {
-  const Scene& scene;
-  const accel::Bvh& bvh;
-  const RenderSettings& settings;
-  const EstimatorPlan& plan;
+struct RenderContext : RenderInput {
   const PhotonMaps& maps;
-  PassShare pass;
+  const photon::VisibilityTree* visibility = nullptr;  // null: shadow rays are not predicted
+  PassShare pass{};
   PassSamples samples{};
   RayCone cone{};  // cone of a camera ray
 };

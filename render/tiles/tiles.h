@@ -2,7 +2,9 @@
 // Renders the image in square tiles, in parallel. Every sample is a function of (seed, pixel, number) alone,
 // so the result has the same bits for any number of threads.
 
-#include "render/render_context.h"
+#include "render/estimators/render_context.h"
+#include "render/film/film.h"
+#include "render/plan/progress.h"
 
 namespace kaustik::render {
 

@@ -1,0 +1,34 @@
+#pragma once
+// Gather radii of the photon maps, from pass to pass.
+
+#include <cstdint>
+
+namespace kaustik::render {
+
+// Gather radii r0 of the first pass, in metres; 0 for maps that are not used.
+struct GatherRadii {
+  float direct = 0, caustic = 0, indirect = 0;
+  // If > 0, the caustic map's radius shrinks to the k-th nearest photon, with k counted over all passes. Set
+  // where the user gave neither a radius nor --nearest.
+  uint32_t caustic_nearest = 0;
+  bool operator==(const GatherRadii&) const = default;
+};
+
+// r_i^2 / r_1^2 for pass i = pass + 1 under r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1) (Knaus and Zwicker 2011,
+// "Progressive Photon Mapping: A Probabilistic Approach"). For alpha in (0, 1), bias and variance of the mean
+// over passes both vanish, the bias like pass^(alpha - 1); alpha = 1 gives 1, a fixed radius. Uses basic
+// arithmetic only, so the result is the same on every machine. Takes `pass` steps.
+double radius_shrink_squared(uint64_t pass, float alpha);
+
+// Computes the same for successive passes, with one step each.
+class RadiusShrink {
+ public:
+  double squared(uint64_t pass, float alpha);
+
+ private:
+  uint64_t pass_ = 0;
+  float alpha_ = 1;
+  double squared_ = 1;
+};
+
+}  // namespace kaustik::render

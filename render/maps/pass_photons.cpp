@@ -1,0 +1,178 @@
+// Builds the maps of a pass and sets how they are gathered.
+
+#include "render/maps/pass_photons.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/stopwatch.h"
+#include "photon/visibility/visibility_shoot.h"
+#include "render/maps/radius.h"
+
+namespace kaustik::render {
+
+namespace {
+
+using photon::PhotonKind;
+
+std::array<GatherMap*, 3> gather_maps(PhotonMaps& maps) {
+  return {&maps.direct, &maps.caustic, &maps.indirect};
+}
+
+// A count of photons that is meant for all passes, converted to the photons of one pass: rounded, at least 1.
+uint32_t share(uint32_t photons, const PassShare& pass) {
+  return static_cast<uint32_t>(std::max<uint64_t>(1, (photons + pass.shares / 2) / pass.shares));
+}
+
+photon::EstimateSettings estimate_settings(const RenderSettings& settings, const PassShare& pass) {
+  photon::EstimateSettings estimate;
+  estimate.kernel = {settings.kernel, settings.cone_k};
+  if (settings.nearest > 0) estimate.nearest = photons_in_reach(settings.nearest, pass.shares);
+  estimate.leaf = settings.lookup == Lookup::kLeaf;
+  estimate.node_photons = share(settings.node_photons, pass);
+  return estimate;
+}
+
+// r0 for the maps that the plan needs, from those of the first pass.
+GatherRadii settle_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {
+  const photon::KindMask kinds = kinds_needed(input.plan);
+  const GatherRadii radii = choose_radii(input, pass, maps);
+  return {kinds.direct || kinds.shadow ? radii.direct : 0, kinds.caustic ? radii.caustic : 0,
+          kinds.indirect ? radii.indirect : 0, kinds.caustic ? radii.caustic_nearest : 0};
+}
+
+// The smallest 2^(k/2) metres that is at least the radius. So passes whose radii differ little share the
+// areas that are made for it.
+float at_least(float radius) {
+  int exponent = 0;
+  const float mantissa = std::frexp(radius, &exponent);
+  return std::ldexp(mantissa <= std::numbers::sqrt2_v<float> / 2 ? std::numbers::sqrt2_v<float> / 2 : 1.0f,
+                    exponent);
+}
+
+void note_radii(const GatherRadii& radii, RenderStatistics* s) {
+  s->direct_radius = radii.direct, s->caustic_radius = radii.caustic, s->indirect_radius = radii.indirect;
+  s->radius = std::max({radii.direct, radii.caustic, radii.indirect});
+}
+
+void add_sizes(const PhotonMaps& maps, RenderStatistics* s) {
+  uint64_t bytes = 0;
+  for (const photon::PhotonMap* map :
+       {&maps.direct.map, &maps.caustic.map, &maps.indirect.map, &maps.shadow}) {
+    bytes += map->memory_bytes();
+    s->octree_nodes += map->octree().nodes().size();
+  }
+  s->photon_bytes = std::max(s->photon_bytes, bytes);
+}
+
+// One photon for every 32 samples of the image, so that their cost is small compared with the shadow rays
+// they save, within the range that is useful.
+uint64_t visibility_photons(const Camera& camera, const RenderSettings& settings) {
+  constexpr uint64_t kFewest = 1u << 14, kMost = 1u << 18, kSamplesEach = 32;
+  const uint64_t pixels = static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height);
+  const uint64_t samples = pixels * static_cast<uint64_t>(settings.spp);
+  return std::min(settings.photons, std::clamp(samples / kSamplesEach, kFewest, kMost));
+}
+
+}  // namespace
+
+// Builds all maps in one cube, since the lecture's test compares direct and shadow photons of the same cell.
+void PassPhotons::build_maps(const RenderInput& input, photon::ShootResult&& shot) {
+  const photon::MapSettings in_scene{input.scene.bounds};
+  const auto build = [&](PhotonKind kind) {
+    return photon::PhotonMap::build(std::move(shot.buffers[size_t(kind)]), in_scene);
+  };
+  maps_.direct.map = build(PhotonKind::kDirect);
+  maps_.caustic.map = build(PhotonKind::kCaustic);
+  maps_.indirect.map = build(PhotonKind::kIndirect);
+  maps_.shadow = build(PhotonKind::kShadow);
+}
+
+void PassPhotons::free_maps() {
+  for (GatherMap* gather : gather_maps(maps_)) gather->map = {};
+  maps_.shadow = {};
+}
+
+// Finds surface edges and bends, which depend on the scene alone, unless they are there already.
+void PassPhotons::find_edges(const RenderInput& input) {
+  if (input.settings.lookup == Lookup::kLeaf || edges_) return;
+  edges_ = std::make_unique<accel::EdgeIndex>(
+      accel::without_continued(find_boundary_edges(input.scene.shapes, &bends_), input.bvh));
+}
+
+// Sets the radii and k-nearest counts for this pass; both shrink from pass to pass.
+void PassPhotons::set_estimates(const RenderSettings& settings, const PassShare& pass) {
+  const double squared = shrink_.squared(pass.pass, settings.alpha.value_or(1)), shrink = std::sqrt(squared);
+  const auto shrunk = [&](float radius) { return static_cast<float>(double(radius) * shrink); };
+  for (GatherMap* gather : gather_maps(maps_)) {
+    gather->estimate = estimate_settings(settings, pass);
+    gather->estimate.edges = edges_.get();
+  }
+  if (radii_->caustic_nearest > 0 && settings.nearest == 0)
+    maps_.caustic.estimate.nearest = photons_in_reach(radii_->caustic_nearest, pass.shares);
+  for (GatherMap* gather : gather_maps(maps_)) {
+    uint32_t& nearest = gather->estimate.nearest;
+    // Below kFewestInReach only r0 shrinks on: the K-th photon itself does not count, so K = 1 would see
+    // none.
+    if (nearest > 0)
+      nearest = std::max(std::min(nearest, kFewestInReach), uint32_t(std::lround(nearest * squared)));
+  }
+  maps_.direct.estimate.radius = shrunk(radii_->direct);
+  maps_.caustic.estimate.radius = shrunk(radii_->caustic);
+  maps_.indirect.estimate.radius = shrunk(radii_->indirect);
+  // M0 is a limit, so it is rounded down.
+  maps_.lecture = {shrunk(radii_->direct), share(settings.node_photons, pass),
+                   static_cast<uint32_t>(settings.min_photons / pass.shares)};
+}
+
+// Areas for this radius: those of another map or of the previous pass if they fit, otherwise new ones.
+std::shared_ptr<const photon::SurfaceAreas> PassPhotons::areas_for(float radius, const Scene& scene) const {
+  for (const GatherMap* gather : {&maps_.direct, &maps_.caustic, &maps_.indirect})
+    if (gather->areas && gather->areas->radius() == radius) return gather->areas;
+  return std::make_shared<const photon::SurfaceAreas>(scene, bends_, radius);
+}
+
+// Sets the areas of curved surfaces for each map. Maps with k-nearest estimates go without: where photons are
+// dense their discs are small, and elsewhere surfaces are treated as flat.
+void PassPhotons::set_areas(const Scene& scene) {
+  for (GatherMap* gather : gather_maps(maps_)) {
+    const photon::EstimateSettings& estimate = gather->estimate;
+    if (!edges_ || estimate.nearest > 0 || !(estimate.radius > 0)) continue;
+    const float radius = at_least(estimate.radius);
+    gather->areas = areas_for(radius, scene);
+    gather->estimate.areas = gather->areas.get();
+  }
+}
+
+bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
+                       RenderStatistics* statistics) {
+  if (!kinds_needed(input.plan).any()) return true;
+  learn_guides(input, &guides_, statistics);
+  free_maps();
+  photon::ShootResult shot;
+  if (!shoot_kinds(input, pass, guides_, progress, &shot, statistics)) return false;
+
+  const Stopwatch watch;
+  build_maps(input, std::move(shot));
+  if (!radii_) radii_ = settle_radii(input, pass, maps_);
+  find_edges(input);
+  set_estimates(input.settings, pass);
+  set_areas(input.scene);
+  note_radii(*radii_, statistics);
+  add_sizes(maps_, statistics);
+  statistics->photon_build_s += watch.seconds();
+  return !progress || progress({"build", 1, 1, pass.pass, pass.shares});
+}
+
+void PassPhotons::predict_visibility(const RenderInput& input, RenderStatistics* statistics) {
+  if (input.plan.direct != DirectEstimator::kPredicted || visibility_) return;
+  const Stopwatch watch;
+  const RenderSettings& settings = input.settings;
+  visibility_ = std::make_unique<const photon::VisibilityTree>(photon::predict_visibility(
+      input.scene, input.bvh,
+      {settings.seed, visibility_photons(input.scene.camera, settings), settings.emission}));
+  statistics->photon_trace_s += watch.seconds();
+}
+
+}  // namespace kaustik::render

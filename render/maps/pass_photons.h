@@ -1,0 +1,69 @@
+#pragma once
+// The photon maps of one pass after the other, and what all passes of a process share.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "accel/edge_index.h"
+#include "photon/visibility/visibility_tree.h"
+#include "render/maps/gather_radii.h"
+#include "render/maps/photon_maps.h"
+#include "render/maps/photon_shoots.h"
+
+namespace kaustik::render {
+
+class PassPhotons {
+ public:
+  PassPhotons() = default;
+  // radii: r0 of all passes, if known.
+  explicit PassPhotons(const std::optional<GatherRadii>& radii) : radii_(radii) {}
+
+  // Shoots and builds the photons that the plan needs in one pass, replacing the maps of the previous pass.
+  // If r0 is not known yet, it is determined from these maps, that is by the first pass. Adds to the photon
+  // fields of statistics. False when the progress callback cancelled. The maps are a function of scene,
+  // settings (except the number of samples), plan, pass and radii only, whatever the number of threads.
+  bool make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
+            RenderStatistics* statistics);
+
+  // Makes the visibility tree for `predicted`, unless it exists. It depends on scene and settings but not on
+  // the pass; whatever it predicts, the image is unbiased. Its time is added to that of the photons.
+  void predict_visibility(const RenderInput& input, RenderStatistics* statistics);
+  // The tree depends on the number of samples: call this before they change.
+  void forget_visibility() { visibility_.reset(); }
+
+  // Valid until the next make().
+  const PhotonMaps& maps() const { return maps_; }
+  const photon::VisibilityTree* visibility() const {
+    return visibility_.get();
+  }  // null: nothing is predicted
+  // r0 of the first pass; empty while not settled, and where the plan gathers nothing.
+  const std::optional<GatherRadii>& radii() const { return radii_; }
+
+ private:
+  void build_maps(const RenderInput& input, photon::ShootResult&& shot);
+  void free_maps();
+  void find_edges(const RenderInput& input);
+  void set_estimates(const RenderSettings& settings, const PassShare& pass);
+  void set_areas(const Scene& scene);
+  std::shared_ptr<const photon::SurfaceAreas> areas_for(float radius, const Scene& scene) const;
+
+  // The current pass.
+  PhotonMaps maps_;
+
+  // The same for all passes.
+  std::optional<GatherRadii> radii_;
+  RadiusShrink shrink_;
+  std::unique_ptr<const accel::EdgeIndex> edges_;  // where surfaces end; the estimates point to it
+  std::vector<SurfaceBend> bends_;                 // how surfaces curve, by surface group
+  PhotonGuides guides_;
+  std::unique_ptr<const photon::VisibilityTree> visibility_;
+};
+
+// Photons of the first pass, shot in advance, with their statistics.
+struct FirstPhotons {
+  PassPhotons photons;
+  RenderStatistics statistics;
+};
+
+}  // namespace kaustik::render

@@ -1,0 +1,140 @@
+// Divides the photons of a pass among shoots, and learns what guides them.
+
+#include "render/maps/photon_shoots.h"
+
+#include <atomic>
+#include <optional>
+
+#include "core/stopwatch.h"
+#include "render/maps/visible_points.h"
+
+namespace kaustik::render {
+
+namespace {
+
+using photon::PhotonKind;
+
+// Caustic photons that uniform emission leaves on its way to other kinds cost nothing. If their share is at
+// least this, guided ones are not worth their rays (docs/decisions/010-guided-photons.md).
+constexpr double kEnoughCaustics = 1.0 / 64;
+
+// Learns a guide for one kind, which depends on scene and settings alone. Indirect photons lie wherever there
+// is light, even outside a room, so those near visible points count most.
+std::unique_ptr<const photon::LearnedGuide> learn_guide(const RenderInput& input, PhotonKind kind,
+                                                        bool beside_others) {
+  constexpr uint32_t kPoints = 1u << 14;
+  const RenderSettings& s = input.settings;
+  photon::GuideSettings guide{s.seed, s.photons, s.max_bounces, s.emission, kind};
+  if (beside_others) guide.enough = kEnoughCaustics;
+  std::optional<VisibleDensity> visible;
+  if (kind == PhotonKind::kIndirect) {
+    visible.emplace(visible_points(input, kPoints));
+    guide.importance = [&](const photon::Photon& photon) { return visible->at(photon); };
+  }
+  return std::make_unique<const photon::LearnedGuide>(photon::learn_guide(input.scene, input.bvh, guide));
+}
+
+// One call of the tracer, for some of the kinds.
+struct Shoot {
+  photon::TraceSettings trace;
+  bool guided = false;
+};
+
+// Moves a kind from one shoot to another.
+void take(PhotonKind kind, Shoot* from, Shoot* to) {
+  (kind == PhotonKind::kCaustic ? from->trace.kinds.caustic : from->trace.kinds.indirect) = false;
+  (kind == PhotonKind::kCaustic ? to->trace.kinds.caustic : to->trace.kinds.indirect) = true;
+}
+
+// One shoot for each guided kind, and one for all others.
+std::vector<Shoot> plan_shoots(const RenderInput& input, const PassShare& pass, const PhotonGuides& guides) {
+  Shoot others{trace_settings(input.settings, input.plan, pass)};
+  std::vector<Shoot> shoots;
+  const auto guide = [&](PhotonKind kind, const auto& learned, uint64_t photons) {
+    if (!others.trace.kinds[kind] || !learned || learned->guide.empty()) return;
+    Shoot guided{others.trace, true};
+    guided.trace.kinds = {};
+    guided.trace.guide = &learned->guide;
+    guided.trace.photons = photons;
+    take(kind, &others, &guided);
+    shoots.push_back(guided);
+  };
+  guide(PhotonKind::kIndirect, guides.indirect, pass.photons);
+  guide(PhotonKind::kCaustic, guides.caustic, guided_photons(input.settings, input.plan, pass.photons));
+  if (others.trace.kinds.any()) shoots.insert(shoots.begin(), others);
+  return shoots;
+}
+
+void add(const Shoot& shoot, photon::ShootResult&& result, photon::ShootResult* all,
+         RenderStatistics* statistics) {
+  const photon::TraceCounters& c = result.counters;
+  if (shoot.guided)
+    statistics->guided += {c.emitted, c.rays, c.dropped_invalid, c.stored};
+  else
+    statistics->photons += c;
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k)
+    if (shoot.trace.kinds[PhotonKind(k)]) all->buffers[k] = std::move(result.buffers[k]);
+}
+
+}  // namespace
+
+photon::TraceSettings trace_settings(const RenderSettings& settings, const EstimatorPlan& plan,
+                                     const PassShare& pass) {
+  photon::TraceSettings trace;
+  trace.seed = settings.seed;
+  trace.pass = pass.pass;
+  trace.photons = pass.photons;
+  trace.max_bounces = settings.max_bounces;
+  trace.emission = settings.emission;
+  trace.kinds = kinds_needed(plan);
+  trace.shadow_behind_specular = plan.direct == DirectEstimator::kSigned;
+  return trace;
+}
+
+uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons) {
+  photon::KindMask kinds = kinds_needed(plan);
+  if (!kinds.caustic || settings.guide == Guide::kOff) return 0;
+  kinds.caustic = false;
+  return kinds.any() ? (photons + 1) / 2 : photons;
+}
+
+void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics) {
+  if (input.settings.guide == Guide::kOff) return;
+  const photon::KindMask kinds = kinds_needed(input.plan);
+  const Stopwatch watch;
+  const auto learn = [&](PhotonKind kind, bool beside_others, auto* guide) {
+    if (!kinds[kind]) return;
+    if (!*guide) *guide = learn_guide(input, kind, beside_others);
+    statistics->guide_photons += (*guide)->emitted;
+    statistics->guide_hits += (*guide)->hits;
+    statistics->guide_boxes += (*guide)->guide.boxes();
+  };
+  statistics->guide_photons = statistics->guide_hits = statistics->guide_boxes = 0;
+  learn(PhotonKind::kIndirect, false, &guides->indirect);
+  const bool uniform_indirect = kinds.indirect && guides->indirect->guide.empty();
+  learn(PhotonKind::kCaustic, uniform_indirect || kinds.direct || kinds.shadow, &guides->caustic);
+  statistics->photon_trace_s += watch.seconds();
+}
+
+bool shoot_kinds(const RenderInput& input, const PassShare& pass, const PhotonGuides& guides,
+                 const ProgressCallback& progress, photon::ShootResult* shot, RenderStatistics* statistics) {
+  const Stopwatch watch;
+  const std::vector<Shoot> shoots = plan_shoots(input, pass, guides);
+  uint64_t total = 0, before = 0;
+  for (const Shoot& shoot : shoots) total += shoot.trace.photons;
+  std::atomic<bool> cancelled{false};
+  for (const Shoot& shoot : shoots) {
+    const auto told = [&](uint64_t done, uint64_t) {
+      const bool go_on = !progress || progress({"photons", before + done, total, pass.pass, pass.shares});
+      if (!go_on) cancelled = true;
+      return go_on;
+    };
+    add(shoot, photon::shoot(input.scene, input.bvh, shoot.trace, told), shot, statistics);
+    if (cancelled) break;
+    before += shoot.trace.photons;
+  }
+  statistics->photon_trace_s += watch.seconds();
+  return !cancelled;
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,40 @@
+#pragma once
+// Which estimator computes which class of paths.
+
+#include <string>
+#include <vector>
+
+#include "core/scene/needs.h"
+#include "photon/trace/trace_settings.h"
+#include "render/settings.h"
+
+namespace kaustik::render {
+
+// The estimators that a render uses, determined by method, settings and the scene's needs.
+struct EstimatorPlan {
+  DirectEstimator direct = DirectEstimator::kShadowRays;
+  CausticEstimator caustics = CausticEstimator::kOff;
+  IndirectEstimator indirect = IndirectEstimator::kOff;
+  std::vector<std::string> notes;  // one sentence each: what was chosen or left out, and why
+};
+
+// Chooses the estimators: the method's preset, then the settings' overrides; then estimators that the scene
+// does not need are left out. Pure function. notes[0] names the choice; each further note says what was left
+// out or is missing, and why.
+EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs);
+
+// Photon kinds that the plan's estimators use; only these are traced and stored.
+photon::KindMask kinds_needed(const EstimatorPlan& plan);
+
+// Whether the estimator samples the lights; then it shares direct light with paths that leave the point
+// anyway.
+inline bool samples_lights(DirectEstimator direct) {
+  return direct == DirectEstimator::kShadowRays || direct == DirectEstimator::kPredicted;
+}
+
+// Whether paths are followed from the camera side.
+inline bool traces_paths(const EstimatorPlan& plan) {
+  return plan.caustics == CausticEstimator::kPaths || plan.indirect == IndirectEstimator::kPaths;
+}
+
+}  // namespace kaustik::render
