@@ -61,8 +61,8 @@ inline float radius_for(double photons_in_reach, size_t count) {
   return float(std::sqrt(photons_in_reach / double(count) * double(room_area()) / std::numbers::pi));
 }
 
-// The points of 16 x 16 pixel tiles of a picture of one wall, tile by tile, with a jitter of a pixel; within a
-// tile row by row.
+// The points of 16 x 16 pixel tiles of a picture of one wall, tile by tile, with a jitter of a pixel; within
+// a tile row by row.
 inline std::vector<photon::Photon> tile_points(size_t tiles_per_axis) {
   std::vector<photon::Photon> points;
   const float pixels = float(16 * tiles_per_axis);

@@ -22,16 +22,21 @@ double variance_of_mean(double squares, double mean, double n) {
   return std::max(0.0, (squares - n * mean * mean) / ((n - 1) * n));
 }
 
+double sum_value(const PixelTotals& totals, const PixelUnits& units, Layer layer, int channel) {
+  const size_t i = sum_of(layer) + size_t(channel);
+  return totals.sums[i].value(units.sums[i]);
+}
+
 Measured measured(const PixelTotals& totals, const PixelUnits& units) {
   Measured out;
   if (totals.weight == 0) return out;
   const double n = static_cast<double>(totals.passes), weight = static_cast<double>(totals.weight);
   for (int c = 0; c < 3; ++c) {
     double sum = 0;
-    for (const SumChannel first : {kEmittedSum, kDirectSum, kCausticSum, kIndirectSum})
-      sum += totals.sums[size_t(first + c)].value(units.sums[size_t(first + c)]);
+    for (const Layer layer : {Layer::kEmitted, Layer::kDirect, Layer::kCaustic, Layer::kIndirect})
+      sum += sum_value(totals, units, layer, c);
     out.mean[c] = sum / weight;
-    out.bias[c] = totals.sums[size_t(kBiasSum + c)].value(units.sums[size_t(kBiasSum + c)]) / n;
+    out.bias[c] = sum_value(totals, units, Layer::kBias, c) / n;
     if (totals.passes < 2) continue;
     out.variance[c] = variance_of_mean(totals.squares[size_t(c)].value(units.square), out.mean[c], n);
     out.bias_variance[c] =

@@ -15,23 +15,6 @@
 
 namespace kaustik::render {
 
-enum class Layer {
-  kEmitted,
-  kDirect,
-  kCaustic,
-  kIndirect,
-  kAlbedo,
-  kNormal,
-  kDepth,
-  kPhotons,
-  kError,
-  kBias
-};
-inline constexpr int kLayers = 10;
-inline constexpr std::array<std::string_view, kLayers> kLayerNames = {
-    "emitted", "direct", "caustic", "indirect", "albedo", "normal", "depth", "photons", "error", "bias"};
-inline constexpr std::array<int, kLayers> kLayerChannels = {3, 3, 3, 3, 3, 3, 1, 1, 3, 3};
-
 // Final values of one pixel: means over its samples.
 struct PixelResult {
   Rgb emitted{0}, direct{0}, caustic{0}, indirect{0};  // W/(m^2 sr)
@@ -63,28 +46,123 @@ struct PixelSum {
   uint64_t traced = 0;    // number of samples of kTraced light; if there are any, `negative` is 0
 
   int64_t weight() const { return static_cast<int64_t>(count) - 2 * static_cast<int64_t>(negative); }
-  void add(const PixelResult& s, int sample_weight = 1, SampleLight light = SampleLight::kAll) {
-    const double w = sample_weight;
-    const auto add3 = [w](glm::dvec3& sum, const glm::vec3& v) { sum += w * glm::dvec3(v); };
-    add3(emitted, s.emitted), add3(direct, s.direct), add3(caustic, s.caustic), add3(indirect, s.indirect);
-    add3(albedo, s.albedo), add3(normal, s.normal);
-    depth += w * double(s.depth), photons += w * double(s.photons);
-    bias += s.bias;
-    ++count;
-    negative += sample_weight < 0;
-    traced += light == SampleLight::kTraced;
-  }
+  void add(const PixelResult& s, int sample_weight = 1, SampleLight light = SampleLight::kAll);
   // The sums as if every sample had computed all light: what kTraced samples left out is extrapolated from
   // the others.
-  PixelSum completed() const {
-    PixelSum sum = *this;
-    if (traced == 0 || traced == count) return sum;
-    const double all = double(count) / double(count - traced);
-    sum.caustic *= all, sum.indirect *= all, sum.photons *= all;
-    sum.traced = 0;
-    return sum;
-  }
+  PixelSum completed() const;
 };
+
+// The layers. To add one, add a member to PixelResult and to PixelSum, an enumerator and a row here, and
+// write the value where it arises. Sums, totals, EXR channels and `--aov` follow from the row.
+enum class Layer {
+  kEmitted,
+  kDirect,
+  kCaustic,
+  kIndirect,
+  kBias,
+  kAlbedo,
+  kNormal,
+  kDepth,
+  kPhotons,
+  kError
+};
+
+// What the numbers of a layer are; decides the unit of their exact sums (film_totals.h).
+enum class LayerUnit { kRadiance, kFeature, kDepth, kCount };
+
+enum class LayerMean {
+  kSamples,  // the mean over the samples
+  kPasses,   // one value per pass, which the error estimate averages (error_estimate.h)
+  kNone      // not summed: computed by the error estimate
+};
+
+class LayerRow {
+ public:
+  Layer layer;
+  std::string_view name;
+  std::string_view channels;  // a letter for each number; the EXR channels are `name.X`
+  LayerUnit unit;
+  LayerMean mean;
+  bool from_maps;  // computed from photon maps, so SampleLight::kTraced leaves it out
+
+  constexpr LayerRow(Layer l, std::string_view n, std::string_view c, LayerUnit u, LayerMean m, bool maps,
+                     glm::vec3 PixelResult::*value, glm::dvec3 PixelSum::*sum)
+      : layer(l), name(n), channels(c), unit(u), mean(m), from_maps(maps), vector_(value), vector_sum_(sum) {}
+  constexpr LayerRow(Layer l, std::string_view n, std::string_view c, LayerUnit u, LayerMean m, bool maps,
+                     float PixelResult::*value, double PixelSum::*sum)
+      : layer(l), name(n), channels(c), unit(u), mean(m), from_maps(maps), number_(value), number_sum_(sum) {}
+
+  // The layer's numbers in a pixel, channels.size() of them.
+  const float* in(const PixelResult& p) const { return vector_ ? &(p.*vector_).x : &(p.*number_); }
+  float* in(PixelResult& p) const { return vector_ ? &(p.*vector_).x : &(p.*number_); }
+  const double* in(const PixelSum& p) const { return vector_ ? &(p.*vector_sum_).x : &(p.*number_sum_); }
+  double* in(PixelSum& p) const { return vector_ ? &(p.*vector_sum_).x : &(p.*number_sum_); }
+  constexpr bool summed() const { return mean != LayerMean::kNone; }
+
+ private:
+  glm::vec3 PixelResult::*vector_ = nullptr;
+  float PixelResult::*number_ = nullptr;
+  glm::dvec3 PixelSum::*vector_sum_ = nullptr;
+  double PixelSum::*number_sum_ = nullptr;
+};
+
+inline constexpr auto kLayerTable = [] {
+  using R = PixelResult;
+  using S = PixelSum;
+  using enum LayerMean;
+  return std::to_array<LayerRow>({
+      {Layer::kEmitted, "emitted", "RGB", LayerUnit::kRadiance, kSamples, false, &R::emitted, &S::emitted},
+      {Layer::kDirect, "direct", "RGB", LayerUnit::kRadiance, kSamples, false, &R::direct, &S::direct},
+      {Layer::kCaustic, "caustic", "RGB", LayerUnit::kRadiance, kSamples, true, &R::caustic, &S::caustic},
+      {Layer::kIndirect, "indirect", "RGB", LayerUnit::kRadiance, kSamples, true, &R::indirect, &S::indirect},
+      {Layer::kBias, "bias", "RGB", LayerUnit::kRadiance, kPasses, false, &R::bias, &S::bias},
+      {Layer::kAlbedo, "albedo", "RGB", LayerUnit::kFeature, kSamples, false, &R::albedo, &S::albedo},
+      {Layer::kNormal, "normal", "XYZ", LayerUnit::kFeature, kSamples, false, &R::normal, &S::normal},
+      {Layer::kDepth, "depth", "Z", LayerUnit::kDepth, kSamples, false, &R::depth, &S::depth},
+      {Layer::kPhotons, "photons", "Y", LayerUnit::kCount, kSamples, true, &R::photons, &S::photons},
+      {Layer::kError, "error", "RGB", LayerUnit::kRadiance, kNone, false, &R::error,
+       static_cast<glm::dvec3 S::*>(nullptr)},
+  });
+}();
+static_assert(
+    [] {
+      for (size_t i = 0; i < kLayerTable.size(); ++i)
+        if (kLayerTable[i].layer != Layer(i)) return false;
+      return true;
+    }(),
+    "the rows are in the order of the enumerators");
+inline constexpr int kLayers = int(kLayerTable.size());
+inline constexpr auto kLayerNames = [] {
+  std::array<std::string_view, kLayerTable.size()> names{};
+  for (size_t i = 0; i < names.size(); ++i) names[i] = kLayerTable[i].name;
+  return names;
+}();
+
+inline void PixelSum::add(const PixelResult& s, int sample_weight, SampleLight light) {
+  for (const LayerRow& row : kLayerTable) {
+    if (!row.summed()) continue;
+    const double w = row.mean == LayerMean::kPasses ? 1 : sample_weight;
+    double* const sum = row.in(*this);
+    const float* const value = row.in(s);
+    for (size_t c = 0; c < row.channels.size(); ++c) sum[c] += w * double(value[c]);
+  }
+  ++count;
+  negative += sample_weight < 0;
+  traced += light == SampleLight::kTraced;
+}
+
+inline PixelSum PixelSum::completed() const {
+  PixelSum result = *this;
+  if (traced == 0 || traced == count) return result;
+  const double all = double(count) / double(count - traced);
+  for (const LayerRow& row : kLayerTable) {
+    if (!row.from_maps) continue;
+    double* const sum = row.in(result);
+    for (size_t c = 0; c < row.channels.size(); ++c) sum[c] *= all;
+  }
+  result.traced = 0;
+  return result;
+}
 
 // A window of width x height pixels whose upper left corner is pixel (x0, y0) of an image of full_width x
 // full_height pixels. at(x, y) counts from the window's corner.

@@ -23,20 +23,26 @@ double size_of(const Scene& scene) {
   return radius > 0 && std::isfinite(radius) ? radius : 1;
 }
 
-std::array<double, kSumChannels> channels_of(const PixelSum& s) {
-  std::array<double, kSumChannels> out{};
+// Calls fn(row, i, c) for channel c of each layer that is summed; i counts the channels of all.
+template <class Fn>
+void for_each_sum(const Fn& fn) {
   size_t i = 0;
-  for (const glm::dvec3* v : {&s.emitted, &s.direct, &s.caustic, &s.indirect, &s.bias, &s.albedo, &s.normal})
-    for (const double c : {v->x, v->y, v->z}) out[i++] = c;
-  out[i++] = s.depth;
-  out[i++] = s.photons;
-  return out;
+  for (const LayerRow& row : kLayerTable)
+    for (size_t c = 0; row.summed() && c < row.channels.size(); ++c) fn(row, i++, c);
 }
 
-int exponent_of(size_t channel, const ExactUnits& units) {
-  if (channel < kAlbedoSum) return units.radiance;
-  if (channel < kDepthSum) return ExactUnits::kFeature;
-  return channel == kDepthSum ? units.depth : ExactUnits::kPhotons;
+int exponent_of(LayerUnit unit, const ExactUnits& units) {
+  switch (unit) {
+    case LayerUnit::kRadiance:
+      return units.radiance;
+    case LayerUnit::kFeature:
+      return ExactUnits::kFeature;
+    case LayerUnit::kDepth:
+      return units.depth;
+    case LayerUnit::kCount:
+      break;
+  }
+  return ExactUnits::kPhotons;
 }
 
 // Inverses of the units, computed once for a film.
@@ -44,7 +50,9 @@ struct PerUnit {
   std::array<double, kSumChannels> sums;
   double square;
   explicit PerUnit(const ExactUnits& units) : square(std::ldexp(1.0, -units.square)) {
-    for (size_t i = 0; i < kSumChannels; ++i) sums[i] = std::ldexp(1.0, -exponent_of(i, units));
+    for_each_sum([&](const LayerRow& row, size_t i, size_t) {
+      sums[i] = std::ldexp(1.0, -exponent_of(row.unit, units));
+    });
   }
 };
 
@@ -53,8 +61,9 @@ uint64_t add_pixel(const PixelSum& samples, const PerUnit& per_unit, PixelTotals
   if (samples.count == 0) return 0;
   const PixelSum pass = samples.completed();
   uint64_t clamped = 0;
-  const auto channels = channels_of(pass);
-  for (size_t i = 0; i < kSumChannels; ++i) clamped += !totals->sums[i].add(channels[i], per_unit.sums[i]);
+  for_each_sum([&](const LayerRow& row, size_t i, size_t c) {
+    clamped += !totals->sums[i].add(row.in(pass)[c], per_unit.sums[i]);
+  });
   // With few samples, the weights of a negative filter may cancel; the number of samples is then used
   // instead.
   const double weight = static_cast<double>(pass.weight() > 0 ? uint64_t(pass.weight()) : pass.count);
@@ -83,16 +92,10 @@ PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
   out.error = Rgb(kInfinity);  // a single film does not tell
   if (totals.weight == 0) return out;
   const double weight = static_cast<double>(totals.weight);
-  const auto mean = [&](size_t i) {
-    return static_cast<float>(totals.sums[i].value(units.sums[i]) / weight);
-  };
-  const auto mean3 = [&](SumChannel first) {
-    return glm::vec3(mean(first), mean(first + 1), mean(first + 2));
-  };
-  out.emitted = mean3(kEmittedSum), out.direct = mean3(kDirectSum);
-  out.caustic = mean3(kCausticSum), out.indirect = mean3(kIndirectSum);
-  out.albedo = mean3(kAlbedoSum), out.normal = mean3(kNormalSum);
-  out.depth = mean(kDepthSum), out.photons = mean(kPhotonsSum);
+  for_each_sum([&](const LayerRow& row, size_t i, size_t c) {
+    if (row.mean == LayerMean::kSamples)
+      row.in(out)[c] = static_cast<float>(totals.sums[i].value(units.sums[i]) / weight);
+  });
   return out;
 }
 
@@ -116,7 +119,9 @@ bool same_window(const PixelWindow<PixelTotals>& a, const Window& b) {
 }  // namespace
 
 PixelUnits::PixelUnits(const ExactUnits& units) : square(std::ldexp(1.0, units.square)) {
-  for (size_t i = 0; i < kSumChannels; ++i) sums[i] = std::ldexp(1.0, exponent_of(i, units));
+  for_each_sum([&](const LayerRow& row, size_t i, size_t) {
+    sums[i] = std::ldexp(1.0, exponent_of(row.unit, units));
+  });
 }
 
 ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {

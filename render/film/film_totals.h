@@ -27,19 +27,14 @@ struct ExactUnits {
 // squares below its square.
 ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass);
 
-// Position of each quantity's channels in a pixel's sums: three channels each, one for depth and photons.
-enum SumChannel : size_t {
-  kEmittedSum = 0,
-  kDirectSum = 3,
-  kCausticSum = 6,
-  kIndirectSum = 9,
-  kBiasSum = 12,
-  kAlbedoSum = 15,
-  kNormalSum = 18,
-  kDepthSum = 21,
-  kPhotonsSum = 22,
-  kSumChannels = 23
-};
+// The totals hold the sums of the layers that are summed, one after the other. Where a layer's begin:
+constexpr size_t sum_of(Layer layer) {
+  size_t sum = 0;
+  for (const LayerRow& row : kLayerTable)
+    if (row.layer < layer && row.summed()) sum += row.channels.size();
+  return sum;
+}
+inline constexpr size_t kSumChannels = sum_of(Layer(kLayers));
 
 struct PixelTotals {
   // Summed over samples, except for bias, which each pass measures once.

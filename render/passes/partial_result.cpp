@@ -29,7 +29,9 @@ constexpr std::string_view kMagic{"KPART\r\n\x1a", 8};
 constexpr uint64_t kVersion = 2;
 constexpr uint64_t kHeadBytes = 24, kHashBytes = 16;
 // Pixels are written as they are laid out in memory.
-static_assert(sizeof(PixelTotals) == 480 && std::endian::native == std::endian::little);
+// Without padding: the sums of the layers, two times three sums of squares, weight and passes.
+static_assert(sizeof(PixelTotals) == 16 * (kSumChannels + 6) + 16);
+static_assert(std::endian::native == std::endian::little);
 static_assert(std::is_trivially_copyable_v<PixelTotals>);
 
 struct Closer {

@@ -5,7 +5,7 @@
 //   8 bytes   "KPART\r\n\x1a"
 //   8 bytes   version of the format, 2
 //   8 bytes   size of the manifest, which follows: JSON, UTF-8
-//   480 bytes for each pixel of the window, rows from the top: a PixelTotals
+//   a PixelTotals for each pixel of the window (480 bytes), rows from the top
 //   16 bytes  ContentHash of everything before
 //
 // Integers are little-endian, sums in two's complement.

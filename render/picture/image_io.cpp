@@ -45,50 +45,15 @@ void write_exr(const std::string& path, const ExrPicture& picture, const Metadat
   });
 }
 
-std::vector<std::string> channel_names(Layer layer) {
-  const std::string name(kLayerNames[size_t(layer)]);
-  switch (layer) {
-    case Layer::kNormal:
-      return {name + ".X", name + ".Y", name + ".Z"};
-    case Layer::kDepth:
-      return {name + ".Z"};
-    case Layer::kPhotons:
-      return {name + ".Y"};
-    default:
-      return {name + ".R", name + ".G", name + ".B"};
-  }
-}
-
-void append_layer(const PixelResult& pixel, Layer layer, std::vector<float>* out) {
-  const auto append = [out](const glm::vec3& v) { out->insert(out->end(), {v.x, v.y, v.z}); };
-  switch (layer) {
-    case Layer::kEmitted:
-      return append(pixel.emitted);
-    case Layer::kDirect:
-      return append(pixel.direct);
-    case Layer::kCaustic:
-      return append(pixel.caustic);
-    case Layer::kIndirect:
-      return append(pixel.indirect);
-    case Layer::kAlbedo:
-      return append(pixel.albedo);
-    case Layer::kNormal:
-      return append(pixel.normal);
-    case Layer::kDepth:
-      return out->push_back(pixel.depth);
-    case Layer::kPhotons:
-      return out->push_back(pixel.photons);
-    case Layer::kError:
-      return append(pixel.error);
-    case Layer::kBias:
-      return append(pixel.bias);
-  }
+const LayerRow& row_of(Layer layer) {
+  return kLayerTable[size_t(layer)];
 }
 
 void write_exr(const std::string& path, const Film& film, const WriteOptions& options) {
   std::vector<std::string> names = {"R", "G", "B"};
   for (const Layer layer : options.layers)
-    for (std::string& name : channel_names(layer)) names.push_back(std::move(name));
+    for (const char channel : row_of(layer).channels)
+      names.push_back(fmt::format("{}.{}", row_of(layer).name, channel));
   std::vector<float> pixels;
   pixels.reserve(size_t(film.width()) * size_t(film.height()) * names.size());
   for (int y = 0; y < film.height(); ++y)
@@ -96,7 +61,10 @@ void write_exr(const std::string& path, const Film& film, const WriteOptions& op
       const PixelResult& pixel = film.at(x, y);
       const Rgb total = pixel.radiance();
       pixels.insert(pixels.end(), {total.x, total.y, total.z});
-      for (const Layer layer : options.layers) append_layer(pixel, layer, &pixels);
+      for (const Layer layer : options.layers) {
+        const float* const values = row_of(layer).in(pixel);
+        pixels.insert(pixels.end(), values, values + row_of(layer).channels.size());
+      }
     }
   // Radiance is noisy down to its last bits: for 512 x 512 pixels zip takes 75 ms to save 6 %, run lengths
   // take 3 ms to save 1 %, and compress an empty background as well. Other layers are smooth.

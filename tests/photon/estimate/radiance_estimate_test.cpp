@@ -32,8 +32,8 @@ const Vector3 kViewer = glm::normalize(Vector3(0.3f, -0.2f, 0.8f));
 const Rgb kIrradiance(3, 2, 0.5f);
 
 // The number of photons in reach is binomial: the relative standard error of the constant kernel is
-// 1/sqrt(n), that of a kernel K is sqrt(pi r^2 int K^2 / n). The tolerance is five of them and the rounding of
-// packed fluxes.
+// 1/sqrt(n), that of a kernel K is sqrt(pi r^2 int K^2 / n). The tolerance is five of them and the rounding
+// of packed fluxes.
 float tolerance(float radius, KernelType type) {
   const KernelSpec kernel{type, 1};
   const KernelTerms terms = kernel_terms(kernel, radius);

@@ -223,8 +223,8 @@ TEST(PhotonMap, PackedPowerAgreesWithExactFlux) {
     GatherCounters counters;
     const glm::dvec3 exact = exact_flux(photons, query) / (double(kPi) * query.radius * query.radius);
     const Rgb found = gather_flux(packed, query, {}, counters);
-    // Each photon is off by at most kPackedFluxError of its largest component, which is at most the sum of all three. A
-    // lane adds at most 1024 terms in float, and a weight carries a few roundings.
+    // Each photon is off by at most kPackedFluxError of its largest component, which is at most the sum of
+    // all three. A lane adds at most 1024 terms in float, and a weight carries a few roundings.
     const double rounding = (1024 + 16) * double(std::numeric_limits<float>::epsilon()) / 2;
     const double bound = (exact.x + exact.y + exact.z) * (test::kPackedFluxError + rounding);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], exact[c], bound);

@@ -135,7 +135,7 @@ TEST(FilmTotals, StoreMeansAndSquares) {
   for (size_t c = 0; c < 3; ++c) EXPECT_EQ(p.squares[c].value(0x1p-60), squares[c]);
   const double bias_squares[3] = {9, 0, 0.25};
   for (size_t c = 0; c < 3; ++c) EXPECT_EQ(p.bias_squares[c].value(0x1p-60), bias_squares[c]);
-  EXPECT_EQ(p.sums[kBiasSum].value(0x1p-60), -3);
+  EXPECT_EQ(p.sums[sum_of(Layer::kBias)].value(0x1p-60), -3);
 }
 
 TEST(FilmTotals, RefuseOtherWindowsAndUnits) {
