@@ -32,7 +32,7 @@ double integral_of_rho(int power, double d, double t) {
   return integral;
 }
 
-// The mean over the terms m_j of the kernel's mass, by their size, of value(j + 2): see the header.
+// Mean of value(j + 2), weighted by the terms m_j of the kernel's mass: see the header.
 template <class Value>
 double mass_of(const KernelSpec& kernel, const Value& value) {
   const auto terms = mass_terms<double>(kernel);

@@ -10,42 +10,43 @@ namespace kaustik::photon {
 
 class EstimateBatch {
  public:
-  // Points of one surface that are nearer to each other than this part of the disc's radius share a gather:
-  // of k photons in the disc 4 kShared / pi, at most a sixth, are others for the second point, so that its
-  // own estimate would hardly tell more. Neither is nearer to what is estimated than the other.
+  // Points on one surface that are closer than this fraction of the disc's radius share one gather. Of the k
+  // photons in the disc, only a share of 4 kShared / pi, at most a sixth, would differ for the second point,
+  // so its own estimate would add little information. Neither estimate is closer to the true value than the
+  // other.
   static constexpr float kShared = 1.0f / 8;
 
   static constexpr uint32_t kPixels = 16;
 
-  // Forgets all gathers, for other pixels. flush() comes first.
+  // Forgets all gathers, before other pixels are rendered. flush() must have been called.
   void begin_block();
-  // What is added from here on belongs to this one of kPixels. What is added to one does not depend on
-  // others.
+  // Selects which of the kPixels the following add() calls belong to. The results of one pixel do not depend
+  // on the others.
   void begin_pixel(uint32_t pixel) { pixel_ = pixel; }
 
-  // True when the estimate is taken: then flush() adds weight times estimate_radiance(), at this point or at
-  // one of the same pixel nearby, to *radiance, and to *photons how many counted. False, and nothing is done,
-  // for BSDFs without a constant_pi_f(), whose value differs from photon to photon, and for the leaf lookup.
-  // map and settings must live as long.
+  // Takes the estimate and returns true; flush() will then add weight times estimate_radiance(), at this
+  // point or at one nearby in the same pixel, to *radiance, and the number of photons that counted to
+  // *photons. Returns false and does nothing for the leaf lookup and for BSDFs other than Lambertian, whose
+  // value differs from photon to photon. map and settings must stay valid until flush().
   bool add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
            const EstimateSettings& settings, const Rgb& weight, Rgb* radiance, float* photons);
 
-  // Adds what was taken, in the order in which it came and behind all that was added to the sums at once, and
-  // the counts of the gathers to `counters`.
+  // Adds the estimates that were taken, in the order of the add() calls, and the counts of the gathers to
+  // `counters`. They are added after everything that was added to the sums directly.
   void flush(GatherCounters& counters);
 
-  // How many different points of the maps have been gathered at since begin_block().
+  // Number of different points at which maps were gathered since begin_block().
   size_t gathers() const { return gathers_.size(); }
 
  private:
   static constexpr uint32_t kNone = ~0u;
-  static constexpr int kLookedAt = 16;  // of a pixel's gathers, the latest
+  static constexpr int kLookedAt = 16;  // number of a pixel's latest gathers that are compared
 
   struct Gather {
     const PhotonMap* map;
     GatherQuery query;
-    uint32_t previous;  // gather of the same pixel
-    Rgb flux{0};        // of a disc that lies on the surface as a whole, W/m^2
+    uint32_t previous;  // previous gather of the same pixel
+    Rgb flux{0};        // W/m^2, corrected for the share of the disc on the surface
     float accepted = 0;
   };
   struct Waiting {

@@ -1,6 +1,6 @@
-// The parts of the searches that foreach_target.h compiles once per instruction set: which blocks of photons
-// a sphere meets, and which of a block's photons count. Nothing is fused, so every instruction set decides
-// alike.
+// Building blocks of the searches, compiled once per instruction set by foreach_target.h: which blocks of
+// photons a sphere meets, and which of a block's photons count. Nothing is fused, so the decisions are the
+// same on every instruction set.
 
 #if defined(KAUSTIK_BLOCK_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef KAUSTIK_BLOCK_LANES
@@ -28,8 +28,7 @@ using Vf = hn::Vec<Floats>;
 using Vu = hn::Vec<Words>;
 using Mask = hn::Mask<Floats>;
 
-// The query's sphere, spread over the lanes. Passed by value: what is passed by reference leaves the
-// registers.
+// The query's sphere, broadcast to all lanes. Passed by value to keep it in registers.
 struct Sphere {
   Vf x, y, z, radius_squared;
 };
@@ -42,19 +41,21 @@ HWY_INLINE Vf LengthSquared(Vf x, Vf y, Vf z) {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-// Of photons i ...
+// Squared distances of the photons from i on.
 HWY_INLINE Vf DistanceSquared(Sphere q, const PhotonColumns& c, uint64_t i) {
   const Floats d;
   return LengthSquared(hn::Sub(hn::LoadU(d, c.x + i), q.x), hn::Sub(hn::LoadU(d, c.y + i), q.y),
                        hn::Sub(hn::LoadU(d, c.z + i), q.z));
 }
 
-// first, first + 1, ... hn::Iota of what the compiler does not know goes through memory, and stalls there.
+// Returns first, first + 1, ... Calling hn::Iota with a value that is not a compile-time constant goes
+// through memory and stalls.
 HWY_INLINE Vu Numbers(uint32_t first) {
   return hn::Add(hn::Iota(Words(), 0), hn::Set(Words(), first));
 }
 
-// To boxes b ...: no farther than any computed distance to a point in them, since rounding is monotone.
+// Squared distances to the boxes from b on. Never larger than the computed distance to any point in the box,
+// since rounding is monotone.
 HWY_INLINE Vf DistanceSquared(Sphere q, const BoxNode& node, uint32_t b) {
   const Floats d;
   const auto gap = [&](Vf p, int axis) HWY_ATTR {
@@ -63,14 +64,14 @@ HWY_INLINE Vf DistanceSquared(Sphere q, const BoxNode& node, uint32_t b) {
   return LengthSquared(gap(q.x, 0), gap(q.y, 1), gap(q.z, 2));
 }
 
-// Which boxes the sphere meets. An infinite sphere meets none that is empty, for which the distance is
-// infinite.
+// Mask of the boxes that the sphere meets. Empty boxes have infinite distance, so even an infinite sphere
+// does not meet them.
 HWY_INLINE Mask Meets(Sphere q, const BoxNode& node, uint32_t b) {
   const Vf reach = hn::Min(q.radius_squared, hn::Set(Floats(), std::numeric_limits<float>::max()));
   return hn::Le(DistanceSquared(q, node, b), reach);
 }
 
-// Places of the set bits of a byte, in ascending order.
+// Positions of the set bits of each byte, in ascending order.
 struct BitPlaces {
   uint8_t place[256][8];
 };
@@ -83,9 +84,9 @@ inline constexpr BitPlaces kBitPlaces = [] {
   return places;
 }();
 
-// Stores the lanes of the mask one after the other, and as many elements as lanes; returns how many. Where
-// there is no instruction for it, Highway's own table is copied to the stack at every call (version 1.0.3,
-// gcc 12).
+// Stores the lanes of the mask consecutively and returns their number; as many elements as there are lanes
+// are overwritten. Instruction sets without a compress instruction use kBitPlaces, because Highway's own
+// table is copied to the stack at every call (version 1.0.3, GCC 12).
 template <class D>
 HWY_INLINE size_t StoreLanes(D d, hn::Vec<D> v, Mask mask, hn::TFromD<D>* to) {
   if constexpr (hn::MaxLanes(D()) > 8) {
@@ -100,13 +101,13 @@ HWY_INLINE size_t StoreLanes(D d, hn::Vec<D> v, Mask mask, hn::TFromD<D>* to) {
   return hn::CountTrue(Floats(), mask);
 }
 
-// A query for the lanes.
+// A query, prepared for SIMD lanes.
 struct LaneQuery {
   Sphere sphere;
-  uint32_t surface;  // packed
+  uint32_t surface;  // packed normal and surface group
   float nx, ny, nz;
-  uint32_t begin, end;  // photons that may count
-  bool all;             // every photon may
+  uint32_t begin, end;  // range of photons that may count
+  bool all;             // the range contains all photons
 
   HWY_INLINE LaneQuery(const GatherQuery& q, uint64_t size)
       : sphere(MakeSphere(q.p, q.radius_squared())),
@@ -119,7 +120,7 @@ struct LaneQuery {
         all(begin == 0 && end == size) {}
 };
 
-// normal_counts() and the same group, per lane.
+// For each lane: normal_counts(), and whether the surface group is the same.
 HWY_INLINE Mask SurfaceCounts(Vu surface, const LaneQuery& q) {
   const Floats d;
   const Words u;
@@ -140,8 +141,8 @@ HWY_INLINE Mask SurfaceCounts(Vu surface, const LaneQuery& q) {
   return hn::And(near, hn::RebindMask(d, same_group));
 }
 
-// Lanes of `inside` whose photon, i + lane, lies on the query's surface. The very same packed surface needs
-// no decoding.
+// Mask of the lanes of `inside` whose photon, i + lane, lies on the query's surface. A photon with exactly
+// the query's packed surface needs no decoding.
 HWY_INLINE Mask OnSurface(const LaneQuery& q, const PhotonColumns& c, uint64_t i, Mask inside) {
   const Floats d;
   const Words u;
@@ -151,30 +152,31 @@ HWY_INLINE Mask OnSurface(const LaneQuery& q, const PhotonColumns& c, uint64_t i
   return hn::And(inside, hn::Or(same, SurfaceCounts(surface, q)));
 }
 
-// Lanes whose number is in [begin, end).
+// Mask of the lanes whose number is in [begin, end).
 HWY_INLINE Mask LanesWithin(Vu number, uint32_t begin, uint32_t end) {
   const Words u;
   const auto within = hn::AndNot(hn::Lt(number, hn::Set(u, begin)), hn::Lt(number, hn::Set(u, end)));
   return hn::RebindMask(Floats(), within);
 }
 
-// Which of photons i ... count.
+// Mask of the photons from i on that count.
 HWY_INLINE Mask Counts(const LaneQuery& q, const PhotonColumns& c, uint64_t i, Vf distance_squared) {
   Mask inside = hn::Le(distance_squared, q.sphere.radius_squared);
   if (!q.all) inside = hn::And(inside, LanesWithin(Numbers(uint32_t(i)), q.begin, q.end));
   return OnSurface(q, c, i, inside);
 }
 
-// First photons of blocks that a sphere meets. Those in `same` have all the query's own packed surface and
-// lie in its range: there, only the distance decides. The others may hold photons that count.
+// Blocks that a sphere meets, named by their first photons. All photons of the blocks in `same` have the
+// query's own packed surface and lie in its range, so only the distance decides. The blocks in `other` may
+// contain photons that count.
 struct FoundBlocks {
-  static constexpr size_t kNodes = 16;  // at most so many are looked through for one list
+  static constexpr size_t kNodes = 16;  // most nodes that are searched for one list
   static constexpr size_t kRoom = (kNodes + 1) * BoxNode::kBoxes;
   uint32_t same[kRoom], other[kRoom];
   size_t same_size, other_size;
 };
 
-// Those of nodes of the lowest level, at most FoundBlocks::kNodes.
+// Finds the blocks in nodes of the lowest level, at most FoundBlocks::kNodes of them.
 HWY_INLINE void FindBlocks(const BoxTree& tree, const LaneQuery& q, const uint32_t* nodes, size_t size,
                            FoundBlocks& found) {
   const Floats d;
@@ -210,8 +212,8 @@ HWY_INLINE void FindBlocks(const BoxTree& tree, const LaneQuery& q, const uint32
   found.other_size = other_size;
 }
 
-// visit(FoundBlocks) for the blocks below nodes of a level, whose numbers ascend, as do those of the blocks
-// from one call to the next.
+// Calls visit(FoundBlocks) for the blocks below nodes of a level. The nodes must be in ascending order; the
+// blocks then ascend from one call to the next.
 template <class Fn>
 void VisitBlocks(const BoxTree& tree, const LaneQuery& q, int level, const uint32_t* nodes, size_t size,
                  const Fn& visit) {

@@ -1,4 +1,4 @@
-// Sums of the photons' flux in SIMD lanes, compiled once per instruction set by foreach_target.h.
+// Sums of photon flux in SIMD lanes, compiled once per instruction set by foreach_target.h.
 
 #if defined(KAUSTIK_FLUX_SUM) == defined(HWY_TARGET_TOGGLE)
 #ifdef KAUSTIK_FLUX_SUM
@@ -17,9 +17,10 @@ namespace kaustik::photon::HWY_NAMESPACE {
 
 using detail::GatherSum;
 
-// Power of photons i ... as components times scale. Beyond the photons they may be anything, also NaN.
-// RGB9E5 is taken apart with few operations: components two and three stay 2^9 and 2^18 times too large, and
-// scale is 2^-39 of what it should be (2^(e - 63) for the format's 2^(e - 24)). kUnit mends the sums.
+// Power of the photons from i on, as components times scale; beyond the last photon any value, including NaN.
+// To save operations, the decoding of RGB9E5 leaves components two and three too large by 2^9 and 2^18, and
+// the scale too small by 2^-39 (2^(e - 63) instead of the format's 2^(e - 24)). Multiplying the sums by kUnit
+// corrects this.
 struct Rgb9e5Power {
   static constexpr float kUnit[3] = {0x1p39f, 0x1p30f, 0x1p21f};
   Vf component[3], scale;
@@ -36,7 +37,7 @@ struct Rgb9e5Power {
   }
 };
 
-// w of kernel_value().
+// The polynomial w of kernel_value().
 template <KernelType kType>
 HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
   constexpr KernelRow kRow = kKernels[size_t(kType)];
@@ -49,22 +50,22 @@ HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
   return w;
 }
 
-// In runs of 1024 vectors of photon indices, then of 1024 such runs, then in double: so that float does for
-// many terms, and which terms are added together depends on the photons alone, not on what else was read.
-// Blocks that hold no photon in reach add zeros, and change no bit. The constructor is written out: what the
-// compiler generates is not compiled for the target.
+// Sums of flux, added up in runs of 1024 vectors of photon indices, then in runs of 1024 such runs, then in
+// double. So float is precise enough for many terms, and which terms are added together depends on the
+// photons' indices only, not on which blocks are read: blocks without a photon in reach add zeros and change
+// no bit. The constructor is written out because a compiler-generated one is not compiled for the target.
 template <KernelType kType>
 struct FluxSum {
   static constexpr int kRunBits = 10, kShift = kRunBits + std::bit_width(hn::MaxLanes(Floats())) - 1;
 
-  Vf x, y, z;                 // of this run
-  Vf runs_x, runs_y, runs_z;  // of those before
+  Vf x, y, z;                 // sums of the current run
+  Vf runs_x, runs_y, runs_z;  // sums of the runs before
   glm::dvec3 total;
   uint64_t run = 0, accepted = 0;
 
   HWY_INLINE FluxSum() : x(hn::Zero(Floats())), y(x), z(x), runs_x(x), runs_y(x), runs_z(x), total(0) {}
 
-  // Before photons i ... are added: i ascends.
+  // Must be called before photons from i on are added; i must ascend.
   HWY_INLINE void Reach(uint64_t i) {
     if (HWY_UNLIKELY(i >> kShift != run)) Fold(i >> kShift);
   }
@@ -104,7 +105,7 @@ struct FluxSum {
   }
 };
 
-// Of blocks that need a look at each photon's surface.
+// Adds blocks in which the surface of each photon must be checked.
 template <class Sum>
 HWY_INLINE void AddOthers(const PhotonColumns& c, const LaneQuery& q, const uint32_t* blocks, size_t size,
                           Vf slope, Sum& sum) {

@@ -1,4 +1,4 @@
-// The sums over blocks of photons, compiled once per instruction set (Google Highway) and chosen at run time.
+// Sums over blocks of photons, compiled once per instruction set (Google Highway) and chosen at run time.
 
 #include "photon/gather/gather.h"
 
@@ -17,11 +17,12 @@ namespace kaustik::photon::HWY_NAMESPACE {
 
 using detail::TakePhotons;
 
-// No branch for vectors without a photon inside: at the rim of the disc it would be mispredicted.
+// Adds blocks whose photons all have the query's surface. There is no branch to skip vectors without a photon
+// inside, since it would be mispredicted at the rim of the disc.
 template <class Sum>
 HWY_INLINE void AddSame(const PhotonColumns& c, Sphere sphere, const uint32_t* blocks, size_t size, Vf slope,
                         Sum& total) {
-  Sum sum = total;  // in registers
+  Sum sum = total;  // a local copy stays in registers
   for (size_t b = 0; b < size; ++b) {
     sum.Reach(blocks[b]);
     for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(Floats()))) {

@@ -1,6 +1,6 @@
 #pragma once
-// Gathers over a photon map. Which photons count is decided without fused operations, so every instruction
-// set accepts the same ones; only the order of the sum depends on it. All functions are thread-safe.
+// Gathers over a photon map. Which photons count is decided without fused operations, so it is the same on
+// every instruction set; only the order of the sum depends on it. All functions are thread-safe.
 
 #include "photon/gather/gather_query.h"
 #include "photon/gather/kernel.h"
@@ -8,29 +8,30 @@
 
 namespace kaustik::photon {
 
-// Sum of flux K(d) over the photons that count, in W/m^2. The order of the sum is fixed.
+// Returns the sum of flux K(d) over the photons that count, in W/m^2. The order of the sum is fixed.
 Rgb gather_flux(const PhotonMap& map, const GatherQuery& query, const KernelSpec& kernel,
                 GatherCounters& counters);
 
-// fn(const Photon&, float distance_squared) for each photon that counts, in Morton order.
+// Calls fn(const Photon&, float distance_squared) for each photon that counts, in Morton order.
 template <class Fn>
 void for_each_photon(const PhotonMap& map, const GatherQuery& query, Fn&& fn, GatherCounters& counters);
 
 namespace detail {
 
-// What the SIMD loops add up.
+// Sums of the SIMD loops.
 struct GatherSum {
-  glm::dvec3 flux{0};  // flux units times the weight, see KernelTerms: multiply by scale and flux_unit
+  glm::dvec3 flux{
+      0};  // in flux units times the kernel's weight: multiply by KernelTerms::scale and flux_unit
   uint64_t accepted = 0, candidates = 0;
 };
 
-// Where the search for the query's photons begins.
+// Nodes of the box tree at which the search for the query's photons begins.
 inline BoxTree::Start start_of(const PhotonMap& map, const GatherQuery& query) {
   return map.boxes().start_at(map.octree().ranges_near(query.p, query.radius, query.within));
 }
 
-// Calls take(to, ...) with the photons that count, ascending, and their squared distances. Adds to candidates
-// and accepted.
+// Calls take(to, ...) with the indices of the photons that count, in ascending order, and their squared
+// distances. Adds to candidates and accepted.
 using TakePhotons = void (*)(void* to, const uint32_t* index, const float* distance_squared, size_t count);
 void select_photons(const PhotonMap& map, const GatherQuery& query, GatherCounters& counters,
                     TakePhotons take, void* to);

@@ -1,5 +1,5 @@
 #pragma once
-// What a search for photons asks and counts.
+// The query of a photon search, and the counts that searches keep.
 
 #include <cstdint>
 
@@ -9,23 +9,23 @@
 
 namespace kaustik::photon {
 
-// Photons count within radius of p (d <= radius, metres), on the same surface group (modulo 2^16) and with a
-// normal near n (kNormalCosine), which is unit and lies on the viewer's side.
+// A photon counts if it is within radius of p (d <= radius, metres), on the same surface group (modulo 2^16),
+// and its normal is near n (kNormalCosine). n is a unit vector on the viewer's side.
 struct GatherQuery {
   Point3 p{0};
   Normal3 n{0, 0, 1};
   uint32_t surface_group = 0;
   float radius = 0;
-  PhotonRange within = kAllPhotons;  // e.g. the range of a cell, for the leaf lookup
+  PhotonRange within = kAllPhotons;  // restricts the search, for instance to a cell in the leaf lookup
 
-  // Below zero, where nothing is in reach, unless radius >= 0.
+  // Negative if radius is negative or NaN, so that no photon counts.
   float radius_squared() const { return radius >= 0 ? radius * radius : -1.0f; }
 };
 
-// Exact counts, merged by integer sums.
+// Exact counts; merging them adds integers.
 struct GatherCounters {
   uint64_t queries = 0;
-  uint64_t candidates = 0;  // photons of the blocks that were looked through for the query
+  uint64_t candidates = 0;  // photons in the blocks that the searches read
   uint64_t accepted = 0;    // photons that counted
   GatherCounters& operator+=(const GatherCounters& o) {
     queries += o.queries;

@@ -1,15 +1,16 @@
 #pragma once
 // Kernels K(d) of the density estimate on a disc of radius r, each normalised to one over the disc, in 1/m^2.
 //
-// A kernel is a polynomial in d / R over what makes its integral one:
+// A kernel is a polynomial in d / R, divided by its integral:
 //
 //   K(d) = w(d / R) / (N pi r^2)   for d <= r
 //   w(x) = sum over j of a_j x^j
 //   N    = sum over j of 2 a_j / ((j + 2) k^j)
 //
-// with R = k r, where k is 1 but for the cone. To add a kernel, add an enumerator and its row. All else
-// follows from the row: the name in command line, scene files and docs, the weights in the gather's SIMD
-// lanes, and the share of the mass behind an edge (photon/estimate/boundary_correction.h).
+// with R = k r, where k is 1 except for the cone. To add a kernel, add an enumerator and its row in kKernels.
+// Everything else follows from the row: the name in command line, scene files and docs, the weights in the
+// gather's SIMD lanes, and the share of the kernel's mass behind an edge
+// (photon/estimate/boundary_correction.h).
 
 #include <array>
 #include <cmath>
@@ -29,7 +30,7 @@ struct KernelRow {
   KernelType type;
   std::string_view name;               // as the command line spells it
   std::array<float, kCoefficients> a;  // a_0 is 1
-  bool stretched = false;              // k is KernelSpec::cone_k, else 1
+  bool stretched = false;              // true: k is KernelSpec::cone_k; false: k is 1
 
   constexpr int degree() const {
     int last = 0;
@@ -37,9 +38,9 @@ struct KernelRow {
       if (a[size_t(j)] != 0) last = j;
     return last;
   }
-  // Whether no odd power occurs: then the weight needs no square root.
+  // Whether only even powers occur; then the weight needs no square root.
   constexpr bool even() const { return a[1] == 0 && a[3] == 0; }
-  constexpr int step() const { return even() ? 2 : 1; }  // from one power in w to the next
+  constexpr int step() const { return even() ? 2 : 1; }  // difference between successive powers in w
 };
 
 inline constexpr KernelRow kKernels[] = {
@@ -92,8 +93,8 @@ struct KernelTerms {
   float slope = 0;  // 1/m^2 or 1/m
 };
 
-// radius in metres. A radius that is not positive and finite gives a kernel of zero: a disc without area
-// holds no density.
+// The terms for a radius in metres. If it is not positive and finite, the kernel is zero, since a disc
+// without area has no density.
 inline KernelTerms kernel_terms(const KernelSpec& kernel, float radius) {
   if (!(radius > 0) || !std::isfinite(radius)) return {};
   float mass = 0;

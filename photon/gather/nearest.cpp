@@ -1,4 +1,5 @@
-// Searches a disc that should hold somewhat more than k photons, and selects among their distances.
+// Finds the distances in a disc that should hold somewhat more than k photons, and selects the k-th smallest
+// of them.
 
 #include "photon/gather/nearest.h"
 
@@ -16,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {
 
-// Appends those of the block's photons that count to `to`; returns how many.
+// Appends the squared distances of the block's photons that count to `to`; returns their number.
 template <bool kSame>
 HWY_INLINE size_t AppendDistances(const PhotonColumns& c, const LaneQuery& q, Sphere sphere, uint64_t block,
                                   float* to) {
@@ -31,7 +32,8 @@ HWY_INLINE size_t AppendDistances(const PhotonColumns& c, const LaneQuery& q, Sp
   return count;
 }
 
-// Of the photons that count within query.radius. Returns how many; adds to candidates.
+// Collects the squared distances of the photons that count within query.radius. Returns their number; adds to
+// candidates.
 size_t FindDistances(const PhotonMap& map, const BoxTree::Start& start, const GatherQuery& query,
                      DistanceList& distances, uint64_t& candidates) {
   const PhotonColumns c = map.columns();
@@ -51,7 +53,7 @@ size_t FindDistances(const PhotonMap& map, const BoxTree::Start& start, const Ga
   return size;
 }
 
-// So few values are selected among by their ranks, at once.
+// Up to this many values, the k-th smallest is found by computing all ranks.
 inline constexpr size_t kFew = 32;
 static_assert(kFew + BoxTree::kBlockPhotons <= kSelectSlack);
 
@@ -63,7 +65,7 @@ HWY_INLINE float SelectOfFew(float* values, size_t size, size_t k) {
   Vf least = none;
   for (size_t i = 0; i < size; i += hn::Lanes(d)) {
     const Vf v = hn::LoadU(d, values + i);
-    Vu rank = hn::Zero(u);  // how many are not larger; a true lane is -1
+    Vu rank = hn::Zero(u);  // number of values that are not larger; a true lane is -1
     for (size_t j = 0; j < size; ++j)
       rank = hn::Sub(rank, hn::BitCast(u, hn::VecFromMask(d, hn::Le(hn::Set(d, values[j]), v))));
     const auto enough = hn::RebindMask(d, hn::Gt(rank, hn::Set(u, uint32_t(k) - 1)));
@@ -72,16 +74,16 @@ HWY_INLINE float SelectOfFew(float* values, size_t size, size_t k) {
   return hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-// An interval of the line and the ranks of its ends: so many values are at most low, high.
+// An interval of values, and the number of values that are at most `low` and at most `high`.
 struct Interval {
   float low, high;
   size_t below, up_to;
   size_t size() const { return up_to - below; }
 };
 
-// Cuts the interval at four places and returns the part that holds the k-th smallest of the values.
+// Cuts the interval at four values and returns the part that contains the k-th smallest of the values.
 HWY_INLINE Interval Narrow(const float* values, size_t size, size_t k, const Interval& from) {
-  // About where k should be.
+  // Cuts around the expected position of the k-th value.
   const float rank = float(k - from.below), among = float(from.size());
   const float margin = 1 + 0.5f * std::sqrt(std::min(rank, among - rank));
   const float unit = (from.high - from.low) / among;
@@ -99,13 +101,13 @@ HWY_INLINE Interval Narrow(const float* values, size_t size, size_t k, const Int
     up_to[3] += hn::CountTrue(d, hn::Le(v, cut3));
     up_to[4] += hn::CountTrue(d, hn::Le(v, cut4));
   }
-  // Without branches, which would be mispredicted.
+  // Branchless, since branches would be mispredicted.
   size_t part = 0;
   for (size_t i = 1; i <= 4; ++i) part += up_to[i] < k;
   return {cuts[part], cuts[part + 1], up_to[part], up_to[part + 1]};
 }
 
-// Moves the values of the interval to the front; returns how many.
+// Moves the values in the interval to the front; returns their number.
 HWY_INLINE size_t KeepBetween(float* values, size_t size, const Interval& interval) {
   const Floats d;
   const Vf low = hn::Set(d, interval.low), high = hn::Set(d, interval.high);
@@ -120,13 +122,13 @@ HWY_INLINE size_t KeepBetween(float* values, size_t size, const Interval& interv
 float SelectSmallest(float* values, size_t size, size_t k, float high) {
   constexpr float kBelowAll = -1;
   if (size <= kFew) return SelectOfFew(values, size, k);
-  // Lanes behind the values are to be counted nowhere.
+  // NaN behind the values keeps the surplus lanes from being counted.
   hn::StoreU(hn::NaN(Floats()), Floats(), values + size);
-  constexpr int kSteps = 12;  // equal values do not part
+  constexpr int kSteps = 12;  // a limit, since equal values cannot be separated
   Interval interval{0, high, 0, size};
   for (int step = 0; step < kSteps && interval.size() > kFew; ++step)
     interval = Narrow(values, size, k, interval);
-  if (interval.below == 0) interval.low = kBelowAll;  // zeros count
+  if (interval.below == 0) interval.low = kBelowAll;  // so that values of zero are inside the interval
   const size_t kept = KeepBetween(values, size, interval);
   k -= interval.below;
   if (kept <= kFew) return SelectOfFew(values, kept, k);
@@ -158,7 +160,7 @@ std::optional<float> detail::nearest_distance_squared(const PhotonMap& map, cons
     counters.accepted += found;
     if (found >= k) return select_smallest(distances.data(), found, k, disc.radius_squared());
     if (!(disc.radius < query.radius)) return {};
-    // As if the photons farther out lay as densely, within limits.
+    // Assume the same density farther out, within limits.
     const float grow = std::sqrt(1.3f * float(k) / float(std::max<size_t>(1, found)));
     disc.radius = std::max(disc.radius, query.radius * 0x1p-20f) * std::clamp(grow, 1.25f, 4.0f);
   }
@@ -170,7 +172,7 @@ float nearest_radius(const PhotonMap& map, const GatherQuery& query, uint32_t k,
   const auto nearest = detail::nearest_distance_squared(map, query, k, guess, counters);
   if (!nearest) return query.radius;
   float radius = std::sqrt(*nearest);
-  // The root is rounded; its square must still reach the photon.
+  // The root is rounded; make sure that its square still reaches the photon.
   if (radius * radius < *nearest) radius = std::nextafter(radius, kInfinity);
   return std::min(radius, query.radius);
 }

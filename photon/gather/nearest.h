@@ -1,5 +1,5 @@
 #pragma once
-// How far it is to the k-th nearest photon that counts.
+// Distance to the k-th nearest photon that counts.
 
 #include <optional>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace kaustik::photon {
 
-// The smallest radius in metres that reaches the k-th nearest photon that counts; query.radius when fewer
-// than k are within it. Counts one query. Thread-safe.
+// The smallest radius, in metres, that reaches the k-th nearest photon that counts; query.radius if fewer
+// than k are within it. Counts as one query. Thread-safe.
 float nearest_radius(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters);
 
 namespace detail {
@@ -21,15 +21,16 @@ std::optional<float> nearest_distance_squared(const PhotonMap& map, const Gather
                                               float guess, GatherCounters& counters);
 }  // namespace detail
 
-// The k-th smallest of `size` >= k > 0 values in [0, high], which are reordered. Behind them, kSelectSlack
-// more can be written. Fast when they are spread evenly, as squared distances in a disc of even density.
+// Returns the k-th smallest of `size` >= k > 0 values in [0, high], and reorders them. There must be room for
+// kSelectSlack more values behind them. Fast if they are evenly spread, as squared distances in a disc of
+// uniform density are.
 inline constexpr size_t kSelectSlack = 64;
 float select_smallest(float* values, size_t size, size_t k, float high);
 
-// Squared distances on their way to the selection. Few need no memory of their own.
+// Buffer for squared distances; a few thousand fit without allocating memory.
 class DistanceList {
  public:
-  // Room for `more` behind the first `size`, which are kept, and for kSelectSlack.
+  // Returns an array with room for `more` values behind the first `size`, which are kept, plus kSelectSlack.
   float* reserve(size_t size, size_t more) {
     if (size + more + kSelectSlack > capacity_) {
       if (many_.empty()) many_.assign(few_, few_ + size);

@@ -1,5 +1,5 @@
 #pragma once
-// Photons side by side, for SIMD lanes: how many there are, and their columns.
+// Groups of photons for SIMD lanes: their size and columns.
 
 #include <cstddef>
 
@@ -9,14 +9,14 @@
 
 namespace kaustik::photon {
 
-// Photons that take a step together.
+// Number of photons that take a step together.
 inline constexpr size_t kPhotonLanes = kSobolLanes;
 static_assert(kPhotonLanes == accel::kRayLanes && kPhotonLanes == 64);
 
-// One number of each photon.
+// One number for each photon of a group.
 using LaneColumn = float[kPhotonLanes];
 
-// A vector or colour of photon k, by three columns.
+// Access to a vector or colour of photon k in three columns.
 inline void set_lane(LaneColumn (&columns)[3], size_t k, const glm::vec3& v) {
   columns[0][k] = v.x;
   columns[1][k] = v.y;

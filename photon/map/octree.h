@@ -1,7 +1,7 @@
 #pragma once
-// Octree over photons sorted by Morton key. Implicit: a node is a range of keys, and the photons are not
-// touched. Stored are the nodes of many photons, 16 bytes each, and where the cells of one depth begin:
-// searches enter there, and go on with the boxes of photon/map/box_tree.h.
+// Octree over photons sorted by Morton key. A node is a range of keys, so photons need not be rearranged.
+// Only nodes of many photons are stored, 16 bytes each, and a table of where the cells of one depth begin:
+// searches enter there and continue with the boxes of photon/map/box_tree.h.
 
 #include <bit>
 #include <cstdint>
@@ -14,11 +14,12 @@
 
 namespace kaustik::photon {
 
-// The children of a node lie next to each other, in octant order.
+// The children of a node are stored consecutively, in octant order.
 struct OctreeNode {
-  uint32_t begin, end;   // photons
-  uint32_t first_child;  // index of the node
-  uint32_t children;     // bit o: octant o is not empty; bits 8 + 3 o up: how many come before it
+  uint32_t begin, end;   // range of photons
+  uint32_t first_child;  // index of the first child
+  // Bit o: octant o is not empty; bits from 8 + 3 o: number of non-empty octants before it.
+  uint32_t children;
 
   bool leaf() const { return children == 0; }
   PhotonRange range() const { return {begin, end}; }
@@ -28,22 +29,22 @@ struct OctreeNode {
 };
 static_assert(sizeof(OctreeNode) == 16);
 
-// A cell of any depth, whether or not a node of its own is stored.
+// A cell of any depth, whether or not its node is stored.
 struct OctreeCell {
   PhotonRange range;
   MortonCell corner{};  // lowest coordinates at level kMortonBits
   int depth = 0;
-  int climbed = 0;  // levels climbed from the leaf
+  int climbed = 0;  // levels between the leaf and this cell
   Bounds3 bounds;   // metres
 };
 
-// Runs of photons, from the first to the last.
+// Up to eight ranges of photons, each with its first and last index.
 struct CellRanges {
   uint32_t first[8], last[8];
   size_t size = 0;
 };
 
-// The sorted photons' columns, from which keys are computed again where a cell lies below a stored leaf.
+// Positions of the sorted photons, from which keys are recomputed for cells below a stored leaf.
 struct PhotonPositions {
   const float *x = nullptr, *y = nullptr, *z = nullptr;
   Point3 operator[](uint64_t i) const { return {x[i], y[i], z[i]}; }
@@ -51,12 +52,12 @@ struct PhotonPositions {
 
 class Octree {
  public:
-  // Stored leaves hold at most so many photons, unless they lie in one cell of the deepest level.
+  // Most photons of a stored leaf, unless they all lie in one cell of the deepest level.
   static constexpr uint64_t kLeafPhotons = 256;
 
   Octree() = default;
-  // positions: of `size` photons by ascending key, fewer than 2^32. The result does not depend on the number
-  // of threads.
+  // positions: of `size` photons in ascending order of keys, fewer than 2^32. The result does not depend on
+  // the number of threads.
   Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_t size);
 
   const MortonCube& cube() const { return cube_; }
@@ -66,29 +67,32 @@ class Octree {
     return nodes_.size() * sizeof(OctreeNode) + entries_.size() * sizeof(uint32_t);
   }
 
-  // Every photon of `within` that is within radius of p, and others, ascending: those of the cells that the
-  // sphere meets, as wide as it or wider.
+  // Ranges, in ascending order, that contain every photon of `within` that is within radius of p, and others:
+  // the photons of all cells that the sphere meets, where cells are as wide as the sphere or wider.
   CellRanges ranges_near(const Point3& p, float radius, PhotonRange within) const;
 
-  // Radius in metres of a disc that holds so many photons, and some more, if those of the smallest node
-  // around p with twice as many are spread evenly over one cut through it: a guess.
+  // Estimates the radius, in metres, of a disc that holds somewhat more than `photons` photons, by assuming
+  // that those of the smallest node around p with at least twice as many are spread evenly over one plane
+  // through it.
   float guess_radius(const Point3& p, uint64_t photons) const;
 
-  // Photons of the ancestor cells of key: ranges[d] is that of depth d. Stops after the first depth at which
-  // stop(depth, range) is true, or at the deepest level; returns that depth.
+  // Finds the photons of the cells that contain the key: ranges[d] is that of depth d. Stops after the first
+  // depth at which stop(depth, range) is true, or at the deepest level; returns that depth.
   template <class Stop>
   int descend(const PhotonPositions& positions, uint64_t key, PhotonRange (&ranges)[kMortonBits + 1],
               Stop&& stop) const;
 
-  // The lecture's leaf lookup (TNCG15): from the root, a cell splits while it holds more than node_photons
-  // (N0) and its children can still hold a sphere of `radius` (r0); then the parent is taken while p is
-  // nearer than r0 to a face. Faces of the root do not count: there is nothing beyond them.
+  // The lecture's leaf lookup (TNCG15): starting at the root, a cell is split while it holds more than
+  // node_photons (N0) and its children can still hold a sphere of `radius` (r0); then ancestors are taken
+  // while p is nearer than r0 to a face of the cell. Faces of the root do not count, since there is nothing
+  // beyond them.
   OctreeCell find_cell(const PhotonPositions& positions, const Point3& p, uint32_t node_photons,
                        float radius) const;
 
-  // The rules of find_cell, shared with the shadow classifier. Children at depth + 1 can hold the sphere.
+  // The rules of find_cell(), shared with the shadow classifier. This one: whether cells at depth + 1 can
+  // hold the sphere.
   bool children_hold(float radius, int depth) const;
-  // p, of the cell of depth, is at least radius away from every face of that cell that is inside the root.
+  // Whether p is at least `radius` away from every face of its cell at this depth that is inside the root.
   bool keeps_from_faces(const Point3& p, float radius, int depth) const;
   OctreeCell make_cell(const Point3& p, PhotonRange range, int depth, int climbed) const;
 
@@ -99,8 +103,8 @@ class Octree {
 
   MortonCube cube_;
   UninitialisedArray<OctreeNode> nodes_;
-  // Where the photons of each cell of entry_depth_ begin, and the end: at most a quarter of a byte per
-  // photon.
+  // Index of the first photon of each cell at entry_depth_, followed by the number of photons. At most a
+  // quarter of a byte per photon.
   UninitialisedArray<uint32_t> entries_;
   int entry_depth_ = 0;
   uint64_t size_ = 0;

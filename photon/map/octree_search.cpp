@@ -1,4 +1,5 @@
-// Which cells a search begins with: no walk from the root, but a table of the nodes of one depth.
+// Finds the cells at which a search begins with a table of the cells at one depth, instead of descending from
+// the root.
 
 #include <algorithm>
 #include <bit>
@@ -11,16 +12,16 @@ namespace {
 
 constexpr uint64_t kPhotonsPerEntry = 16;
 
-// The table's keys have so many bits of each axis, at most: fewer than 2^32 photons.
+// Most key bits per axis of the table, for fewer than 2^32 photons.
 constexpr int kEntryBits = 9;
 static_assert(kPhotonsPerEntry << (3 * kEntryBits + 3) > uint64_t{1} << 32);
 
-// The two ends of an interval of cells, each of kEntryBits, are spread at once: their bits meet nowhere.
+// Both ends of an interval of cells, each of kEntryBits, are spread in one word: their bits do not overlap.
 constexpr int kUpperEnd = 36;
 constexpr uint64_t both_ends(uint64_t x) {
   return x | x << kUpperEnd;
 }
-// spread_bits() of either end of [lo, hi].
+// Computes spread_bits() of both ends of [lo, hi].
 constexpr uint64_t spread_ends(uint32_t lo, uint32_t hi) {
   uint64_t x = lo | uint64_t{hi} << kUpperEnd;
   x = (x | x << 16) & both_ends(0x10000ff);
@@ -29,11 +30,11 @@ constexpr uint64_t spread_ends(uint32_t lo, uint32_t hi) {
   return (x | x << 2) & both_ends(0x1249249);
 }
 
-// At most eight cells of a level, at most two along each axis, in ascending order. No step depends on a
-// branch: where it would go differs from query to query.
+// At most eight cells of a level, two along each axis, in ascending order of keys. Branchless, since branches
+// would depend on the query and be mispredicted.
 struct Cells {
   uint32_t key[8];
-  size_t stride;  // from one cell to the next: in between the same ones stand again
+  size_t stride;  // step from one cell to the next; the entries between repeat the same cell
 
   Cells(const MortonCell& lo, const MortonCell& hi, int level) {
     uint32_t first = 0, step[3];
@@ -43,7 +44,8 @@ struct Cells {
       first |= from;
       step[a] = uint32_t(ends >> kUpperEnd) - from;
     }
-    // Ascending, those of axes with one cell first: of two steps the larger is more than all others together.
+    // Sort the steps; axes with only one cell have step 0. The larger of two steps exceeds the sum of all
+    // smaller ones, so the sums below ascend.
     const uint32_t low = std::min(step[0], step[1]), high = std::max(step[0], step[1]);
     const uint32_t s0 = std::min(low, step[2]), s1 = std::max(low, std::min(high, step[2]));
     const uint32_t s2 = std::max(high, step[2]);
@@ -60,7 +62,7 @@ struct Cells {
 void Octree::make_entries(const PhotonPositions& positions) {
   while (uint64_t(8) << (3 * entry_depth_) <= size_ / kPhotonsPerEntry) ++entry_depth_;
   entries_ = UninitialisedArray<uint32_t>((size_t(1) << (3 * entry_depth_)) + 1);
-  uint64_t next = 0;  // the first cell whose entry is not set
+  uint64_t next = 0;  // the first cell whose entry is not set yet
   const auto begin_cell = [&](uint64_t cell, uint32_t photon) {
     for (; next <= cell; ++next) entries_[next] = photon;
   };
@@ -78,11 +80,11 @@ void Octree::make_entries(const PhotonPositions& positions) {
 CellRanges Octree::ranges_near(const Point3& p, float radius, PhotonRange within) const {
   CellRanges ranges;
   if (nodes_.empty() || !(radius >= 0)) return ranges;
-  // Rounding in |x - p| <= radius lets photons pass that lie up to a few units in the last place beyond; the
-  // quantisation is monotone, so the slightly larger box holds their cells.
+  // Because of rounding, |x - p| <= radius accepts photons up to a few units in the last place farther away.
+  // Quantisation is monotone, so the cells of the slightly enlarged box contain them.
   const Vector3 reach(radius * (1 + 0x1p-20f));
   const MortonCell lo = cube_.cell(p - reach), hi = cube_.cell(p + reach);
-  // Cells as wide as the box: it meets two at most along each axis.
+  // With cells at least as wide as the box, it meets at most two along each axis.
   const int narrowest = int(std::bit_width((hi[0] - lo[0]) | (hi[1] - lo[1]) | (hi[2] - lo[2])));
   const int level = std::max(narrowest, kMortonBits - entry_depth_);
   const Cells cells(lo, hi, level);
@@ -110,7 +112,7 @@ float Octree::guess_radius(const Point3& p, uint64_t photons) const {
     if (child->range().size() < 2 * photons) break;
     node = child;
   }
-  // Photons are counted, so that their number scatters by its root.
+  // Add two standard deviations, since the number of photons in a disc varies by its root.
   const float wanted = 1.2f * float(photons) + 2 * std::sqrt(float(photons));
   return std::ldexp(cube_.size, -depth) * std::sqrt(wanted / (kPi * float(node->range().size())));
 }

@@ -1,4 +1,4 @@
-// Building the columns of a map and what finds photons in them.
+// Builds the columns of a map, its octree and its boxes.
 
 #include "photon/map/photon_map.h"
 
@@ -20,7 +20,7 @@ namespace {
 using IndexBlock = tbb::blocked_range<size_t>;
 constexpr size_t kGrain = 1 << 14;
 
-// Minima and maxima do not depend on the order in which they are joined.
+// The result is deterministic, since minima and maxima do not depend on the order in which they are combined.
 Bounds3 bounds_of(std::span<const PhotonRecord> records) {
   return tbb::parallel_reduce(
       IndexBlock(0, records.size(), kGrain), Bounds3{},

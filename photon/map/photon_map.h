@@ -1,6 +1,6 @@
 #pragma once
-// Photons of one kind in Morton order, with the octree and the boxes that find those near a point. The
-// searches are in photon/gather.
+// Photons of one kind in Morton order, with the octree and the boxes that find those near a point. Searches
+// are in photon/gather.
 
 #include <cstdint>
 #include <optional>
@@ -13,20 +13,20 @@
 namespace kaustik::photon {
 
 struct MapSettings {
-  // Maps with the same bounds share one cube, so that a cell is a key range in each. Unset: the photons' own
-  // bounds. Photons outside are kept, in the nearest cells.
+  // Maps with the same bounds share one cube, so that a cell is a range of keys in each of them. Unset: the
+  // photons' own bounds. Photons outside are kept in the nearest cells.
   std::optional<Bounds3> bounds;
 };
 
-// Immutable after the build; const members may be called from any thread. Structure of arrays, 24 bytes per
-// photon and at most a tenth of that for the octree and the boxes.
+// Immutable after construction; const members may be called from any thread. Structure of arrays, 24 bytes
+// per photon plus at most a tenth of that for octree and boxes.
 class PhotonMap {
  public:
   PhotonMap() = default;
 
-  // Takes the buffer's memory and frees it. The result does not depend on the number of threads. Peak memory:
-  // 51 bytes per photon, the buffer included, and a few megabytes per thread. At most 2^32 - 1 photons
-  // (std::length_error beyond).
+  // Builds the map; takes the buffer's memory and frees it. The result does not depend on the number of
+  // threads. Peak memory: 51 bytes per photon including the buffer, plus a few megabytes per thread. At most
+  // 2^32 - 1 photons (std::length_error beyond).
   static PhotonMap build(PhotonBuffer&& buffer, const MapSettings& settings = {});
 
   uint64_t size() const { return size_; }
@@ -37,10 +37,10 @@ class PhotonMap {
   const BoxTree& boxes() const { return boxes_; }
   uint64_t memory_bytes() const;
 
-  // Photon i of the Morton order, decoded.
+  // Decodes photon i of the Morton order.
   Photon photon(uint64_t i) const;
 
-  // The lecture's cell of p: see Octree::find_cell.
+  // The lecture's cell of p, see Octree::find_cell().
   OctreeCell find_cell(const Point3& p, uint32_t node_photons, float radius) const {
     return octree_.find_cell(positions(), p, node_photons, radius);
   }
@@ -49,16 +49,16 @@ class PhotonMap {
   PhotonPositions positions() const { return {columns_.x, columns_.y, columns_.z}; }
 
  private:
-  // The columns to fill.
+  // Allocates the columns and returns where to write them.
   RecordColumns allocate(uint64_t size);
 
   Octree octree_;
   BoxTree boxes_;
-  // A block of a column is a cache line.
+  // One block of a column, which is a cache line.
   struct alignas(64) Line {
     uint32_t words[BoxTree::kBlockPhotons];
   };
-  UninitialisedArray<Line> storage_;  // all columns, one after the other
+  UninitialisedArray<Line> storage_;  // all columns, consecutively
   PhotonColumns columns_;
   uint64_t size_ = 0;
   float flux_unit_ = 1;

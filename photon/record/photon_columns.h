@@ -1,5 +1,5 @@
 #pragma once
-// Photons in Morton order, by columns, and ranges of them.
+// Columns of photons in Morton order, and ranges of photons.
 
 #include <cstdint>
 #include <limits>
@@ -14,8 +14,8 @@ struct PhotonRange {
 };
 inline constexpr PhotonRange kAllPhotons{0, std::numeric_limits<uint64_t>::max()};
 
-// The columns of a photon map, readable for kColumnPadding elements beyond the last photon, where x is NaN.
-// direction, surface and power are those of PhotonRecord.
+// Columns of a photon map. They are readable for kColumnPadding elements beyond the last photon, where x is
+// NaN. direction, surface and power are those of PhotonRecord.
 struct PhotonColumns {
   const float *x = nullptr, *y = nullptr, *z = nullptr;
   const uint32_t* direction = nullptr;

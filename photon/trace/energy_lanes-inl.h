@@ -1,4 +1,4 @@
-// The energy of photons' flux in SIMD lanes, compiled once per instruction set by foreach_target.h.
+// Ledger energy of fluxes in SIMD lanes, compiled once per instruction set by foreach_target.h.
 
 #if defined(KAUSTIK_ENERGY_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef KAUSTIK_ENERGY_LANES

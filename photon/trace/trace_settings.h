@@ -1,5 +1,5 @@
 #pragma once
-// What the tracer is told, and what it counts.
+// Settings and counters of the tracer.
 
 #include <array>
 #include <cstdint>

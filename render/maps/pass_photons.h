@@ -1,5 +1,5 @@
 #pragma once
-// The photon maps of one pass after the other, and what all passes of a process share.
+// Makes the photon maps of successive passes, and keeps what all passes of a process share.
 
 #include <memory>
 #include <optional>
@@ -34,10 +34,9 @@ class PassPhotons {
 
   // Valid until the next make().
   const PhotonMaps& maps() const { return maps_; }
-  const photon::VisibilityTree* visibility() const {
-    return visibility_.get();
-  }  // null: nothing is predicted
-  // r0 of the first pass; empty while not settled, and where the plan gathers nothing.
+  // Null: nothing is predicted.
+  const photon::VisibilityTree* visibility() const { return visibility_.get(); }
+  // r0 of the first pass; empty until it is known, and if the plan needs no photons.
   const std::optional<GatherRadii>& radii() const { return radii_; }
 
  private:
@@ -48,14 +47,14 @@ class PassPhotons {
   void set_areas(const Scene& scene);
   std::shared_ptr<const photon::SurfaceAreas> areas_for(float radius, const Scene& scene) const;
 
-  // The current pass.
+  // State of the current pass.
   PhotonMaps maps_;
 
-  // The same for all passes.
+  // State shared by all passes.
   std::optional<GatherRadii> radii_;
   RadiusShrink shrink_;
-  std::unique_ptr<const accel::EdgeIndex> edges_;  // where surfaces end; the estimates point to it
-  std::vector<SurfaceBend> bends_;                 // how surfaces curve, by surface group
+  std::unique_ptr<const accel::EdgeIndex> edges_;  // edges of surfaces; the estimates point to it
+  std::vector<SurfaceBend> bends_;                 // bend of surfaces, by surface group
   PhotonGuides guides_;
   std::unique_ptr<const photon::VisibilityTree> visibility_;
 };

@@ -19,7 +19,7 @@ struct GatherMap {
 // Maps of kinds that the plan does not need are empty.
 struct PhotonMaps {
   GatherMap direct, caustic, indirect;
-  photon::PhotonMap shadow;  // for `lecture`; for `signed`, which gathers from it with direct.estimate
+  photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which gathers from it with direct.estimate
   photon::LectureSettings lecture;
 };
 

@@ -12,8 +12,8 @@
 
 namespace kaustik::render {
 
-// What guides photons of a kind; null where the plan does not need them or nothing may be guided. A
-// function of scene and settings, so the same for all passes.
+// Guides of caustic and of indirect photons; null where the plan does not need them or nothing may be guided.
+// A function of scene and settings, so the same for all passes.
 struct PhotonGuides {
   std::unique_ptr<const photon::LearnedGuide> caustic, indirect;
 };

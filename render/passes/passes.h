@@ -1,5 +1,5 @@
 #pragma once
-// How many passes a render takes.
+// Chooses the number of passes of a render.
 
 #include <cstdint>
 

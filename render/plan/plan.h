@@ -1,5 +1,5 @@
 #pragma once
-// Which estimator computes which class of paths.
+// Chooses the estimator of each class of paths.
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// How far a render is.
+// Progress of a render.
 
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-// What every part of a render reads.
+// The inputs that every part of a render reads.
 
 #include "accel/bvh.h"
 #include "core/scene/scene.h"
