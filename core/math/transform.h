@@ -20,7 +20,6 @@ struct Transform {
   Normal3 normal(const Normal3& n) const { return glm::transpose(inverse_linear) * n; }
   Point3 inverse_point(const Point3& p) const { return inverse_linear * (p - translation); }
   Vector3 inverse_vector(const Vector3& v) const { return inverse_linear * v; }
-  bool swaps_handedness() const { return glm::determinant(linear) < 0; }
   // Whether the map and its inverse are finite and their product is near the identity.
   bool invertible() const;
 };

@@ -82,7 +82,4 @@ inline SobolSetKeys sobol_set_keys(uint64_t seed, uint64_t upper_half, uint32_t 
   return keys;
 }
 
-// The value that Sampler draws in one dimension; exposed for tests.
-float sobol_owen(uint32_t index, uint64_t seed, uint32_t dimension);
-
 }  // namespace kaustik

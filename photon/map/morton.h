@@ -50,23 +50,10 @@ constexpr uint64_t spread_bits(uint32_t v) {
   x = (x | x << 2) & 0x1249249249249249ull;
   return x;
 }
-// Inverse of spread_bits; other bits of x are ignored.
-constexpr uint32_t compact_bits(uint64_t x) {
-  x &= 0x1249249249249249ull;
-  x = (x | x >> 2) & 0x10c30c30c30c30c3ull;
-  x = (x | x >> 4) & 0x100f00f00f00f00full;
-  x = (x | x >> 8) & 0x001f0000ff0000ffull;
-  x = (x | x >> 16) & 0x001f00000000ffffull;
-  x = (x | x >> 32) & 0x00000000001fffffull;
-  return uint32_t(x);
-}
 
 // Interleaves the coordinates: x in the lowest bit of each triple, then y, then z.
 constexpr uint64_t morton_key(const MortonCell& cell) {
   return spread_bits(cell[0]) | spread_bits(cell[1]) << 1 | spread_bits(cell[2]) << 2;
-}
-constexpr MortonCell morton_cell(uint64_t key) {
-  return {compact_bits(key), compact_bits(key >> 1), compact_bits(key >> 2)};
 }
 // Octant of its parent in which the cell of this depth (1 to 21) on the way to the key lies.
 constexpr uint32_t morton_octant(uint64_t key, int depth) {

@@ -56,7 +56,6 @@ TEST(Transform, TransformsPointsVectorsAndNormals) {
   EXPECT_EQ(t.inverse_vector({3, 4, -8}), Vector3(1, 1, 1));
   // A transformed normal stays perpendicular to transformed tangents.
   EXPECT_EQ(glm::dot(t.normal({1, -1, 0}), t.vector({1, 1, 0})), 0);
-  EXPECT_TRUE(t.swaps_handedness());
   EXPECT_TRUE(t.invertible());
 }
 

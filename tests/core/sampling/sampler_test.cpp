@@ -13,6 +13,11 @@
 namespace kaustik {
 namespace {
 
+// The value that Sampler draws in one dimension.
+float sobol_owen(uint32_t index, uint64_t seed, uint32_t dimension) {
+  return Sampler(seed, index, dimension).next_1d();
+}
+
 // Counts the points 0..2^m-1 (offset by `block` blocks) in the grid of elementary intervals with 2^bits[k]
 // cells along dimension first + k.
 std::vector<int> interval_counts(uint64_t seed, uint32_t first, const std::vector<int>& bits, int m,
