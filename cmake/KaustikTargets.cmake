@@ -1,8 +1,24 @@
+# kaustik_precompile(<target>): compiles the target's sources with the precompiled cmake/precompiled.h. The first target
+# that is named, the lowest library, owns the compiled header; the others share it.
+function(kaustik_precompile target)
+  if(NOT KAUSTIK_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  get_property(owner GLOBAL PROPERTY kaustik_precompiled_owner)
+  if(owner)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  else()
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
+    set_property(GLOBAL PROPERTY kaustik_precompiled_owner ${target})
+  endif()
+endfunction()
+
 # kaustik_library(<name> [libraries...]): makes a static library of every source below the calling folder.
 function(kaustik_library name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(kaustik_${name} STATIC ${sources})
   target_link_libraries(kaustik_${name} PUBLIC kaustik_options ${ARGN})
+  kaustik_precompile(kaustik_${name})
 endfunction()
 
 # kaustik_test(<folder> [libraries...]): makes one GoogleTest program per folder, with one ctest entry per case.
