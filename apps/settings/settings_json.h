@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "apps/settings/table.h"
+#include "render/plan/plan.h"
 
 namespace kaustik::app {
 

@@ -66,9 +66,10 @@ TEST(EverySetting, SurvivesBeingShown) {
   }
 }
 
-// Rows whose default is no value, such as "none (the mean)" or "by the method", do not accept its text.
+// Rows that have no value by default say in words what then holds, such as "on if the error is asked for".
 TEST(EverySetting, HasTheDefaultThatItsRowStates) {
   for (const Setting& setting : settings_table()) {
+    if (setting.show({}).empty()) continue;
     Settings settings;
     const std::string first_word = setting.default_text.substr(0, setting.default_text.find_first_of(" ;"));
     if (!setting.assign(settings, {&first_word, 1})) {
