@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/version.h"
-#include "render/names.h"
+#include "render/settings/names.h"
 
 namespace kaustik::render {
 

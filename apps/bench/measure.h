@@ -6,7 +6,7 @@
 #include "apps/bench/bench_result.h"
 #include "apps/session/render_job.h"
 #include "core/scene/scene.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace kaustik::app {
 

@@ -9,8 +9,8 @@
 #include "apps/commands/commands.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/session/scene_loading.h"
-#include "render/names.h"
 #include "render/renderer.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 

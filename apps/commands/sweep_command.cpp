@@ -28,7 +28,7 @@
 #include "core/diagnostics/nearest_name.h"
 #include "core/files/content_hash.h"
 #include "core/version.h"
-#include "render/names.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "render/picture/tonemap.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace kaustik::app {
 

@@ -2,7 +2,7 @@
 
 #include "apps/settings/rows.h"
 #include "apps/settings/values.h"
-#include "render/names.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 

@@ -12,7 +12,7 @@
 #include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
 #include "render/film/film.h"
-#include "render/names.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 

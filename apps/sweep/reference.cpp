@@ -14,9 +14,9 @@
 #include "core/files/content_hash.h"
 #include "core/stopwatch.h"
 #include "render/camera/pixel_range.h"
-#include "render/names.h"
 #include "render/picture/image_io.h"
 #include "render/renderer.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 

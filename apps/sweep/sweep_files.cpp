@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "apps/bench/bench_json.h"
-#include "render/names.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 

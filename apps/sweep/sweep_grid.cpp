@@ -8,8 +8,8 @@
 #include "apps/settings/list_options.h"
 #include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
-#include "render/names.h"
 #include "render/plan/plan.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 

@@ -8,7 +8,7 @@
 #include "apps/settings/number_settings.h"
 #include "apps/settings/setting_options.h"
 #include "core/scene/needs.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace kaustik::app {
 

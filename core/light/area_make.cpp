@@ -24,29 +24,6 @@ TriangleEmitter make_emitter(const TriangleMesh& mesh, bool flip_normal) {
   return e;
 }
 
-// Whether the map only rotates, mirrors, translates and scales uniformly, up to the rounding of a chain of
-// float matrices.
-bool is_similarity(const glm::mat3& m) {
-  constexpr float kTolerance = gamma_bound(64);
-  const glm::mat3 gram = glm::transpose(m) * m;
-  const float size = gram[0][0];
-  for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) {
-      if (!(std::abs(gram[c][r] - (c == r ? size : 0)) <= kTolerance * size)) return false;
-    }
-  }
-  return size > 0;
-}
-
-// Whether equal areas in the quadric's own space are equal areas in the world.
-bool keeps_areas_even(const Quadric& q) {
-  if (q.kind == QuadricKind::kDisk) return true;
-  glm::mat3 m = q.to_world.linear;
-  // A cylinder may be scaled along its axis.
-  if (q.kind == QuadricKind::kCylinder) m[2] *= glm::length(m[0]) / glm::length(m[2]);
-  return is_similarity(m);
-}
-
 // pbrt's uv of triangles in meshes without uv.
 constexpr std::array<Point2, 3> kUvOfBareTriangle{Point2(0, 0), Point2(1, 0), Point2(1, 1)};
 

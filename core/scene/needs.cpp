@@ -6,10 +6,10 @@ namespace kaustik {
 
 std::vector<std::string> SceneNeeds::left_out() const {
   std::vector<std::string> lines;
-  if (!any_light) lines.push_back("no light: every estimator is off");
-  if (!specular) lines.push_back("no specular surface: no caustic pass");
-  if (!diffuse) lines.push_back("no diffuse surface: no photon map");
-  if (any_light && !infinite_light) lines.push_back("no infinite light: escaped rays carry nothing");
+  if (!any_light) lines.emplace_back("no light: every estimator is off");
+  if (!specular) lines.emplace_back("no specular surface: no caustic pass");
+  if (!diffuse) lines.emplace_back("no diffuse surface: no photon map");
+  if (any_light && !infinite_light) lines.emplace_back("no infinite light: escaped rays carry nothing");
   return lines;
 }
 

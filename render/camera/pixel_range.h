@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/camera/camera.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace kaustik::render {
 

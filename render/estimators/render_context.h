@@ -6,7 +6,7 @@
 #include "render/maps/photon_maps.h"
 #include "render/plan/pass_share.h"
 #include "render/plan/render_input.h"
-#include "render/statistics.h"
+#include "render/statistics/statistics.h"
 
 namespace kaustik::render {
 

@@ -8,7 +8,7 @@
 #include "render/plan/pass_share.h"
 #include "render/plan/progress.h"
 #include "render/plan/render_input.h"
-#include "render/statistics.h"
+#include "render/statistics/statistics.h"
 
 namespace kaustik::render {
 

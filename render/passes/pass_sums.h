@@ -6,7 +6,7 @@
 #include "render/film/film_totals.h"
 #include "render/maps/gather_radii.h"
 #include "render/passes/pass_set.h"
-#include "render/statistics.h"
+#include "render/statistics/statistics.h"
 
 namespace kaustik::render {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "render/names.h"
+#include "render/settings/names.h"
 
 namespace kaustik::render {
 

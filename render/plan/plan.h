@@ -6,7 +6,7 @@
 
 #include "core/scene/needs.h"
 #include "photon/trace/trace_settings.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace kaustik::render {
 

@@ -4,7 +4,7 @@
 #include <concepts>
 #include <ostream>
 
-#include "render/names.h"
+#include "render/settings/names.h"
 
 namespace kaustik::render {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace kaustik::render {
 

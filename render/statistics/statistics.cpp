@@ -1,6 +1,6 @@
 // Sums of statistics.
 
-#include "render/statistics.h"
+#include "render/statistics/statistics.h"
 
 #include <fmt/format.h>
 
