@@ -9,7 +9,7 @@ function(kaustik_precompile target)
     target_precompile_headers(${target} REUSE_FROM ${owner})
     # GCC 12 forgets that a precompiled standard header is a system header, and reports overlapping or overlong copies
     # inside std::string that do not happen.
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-array-bounds>)
+    target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overread;-Wno-stringop-overflow>")
   else()
     target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
     set_property(GLOBAL PROPERTY kaustik_precompiled_owner ${target})

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kFileParameters[] = {"filename", "normalmap", "emissionfilename", "lensfile"};
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     constexpr std::string_view kSpecial = "\"\\\n\t\r\b\f", kWritten = "\"\\ntrbf";
@@ -91,7 +91,7 @@ class Writer {
       out_ += ' ';
       number(p, p.numbers[i]);
     }
-    for (const std::string& s : p.strings) out_ += ' ' + quoted(file ? files_.file(s, p.location) : s);
+    for (const std::string& s : p.strings) out_ += ' ' + in_quotes(file ? files_.file(s, p.location) : s);
     out_ += " ]";
   }
 
@@ -110,7 +110,7 @@ class Writer {
 
   void directive(std::string_view word, const Directive& d, bool may_be_file = true) {
     out_.append(indent_, ' ');
-    out_ += fmt::format("{} {}", word, quoted(d.type));
+    out_ += fmt::format("{} {}", word, in_quotes(d.type));
     parameters(word, d, may_be_file);
   }
 
@@ -158,13 +158,13 @@ class Writer {
       transform(t.texture_to_world);
     }
     out_.append(indent_, ' ');
-    out_ += fmt::format("Texture {} {} {}", quoted(t.name), quoted(t.value_type), quoted(t.type));
+    out_ += fmt::format("Texture {} {} {}", in_quotes(t.name), in_quotes(t.value_type), in_quotes(t.type));
     parameters("Texture", t);
     if (moved) end();
   }
 
   void material(const MaterialDescription& m, const std::string& name) {
-    out_ += fmt::format("MakeNamedMaterial {} \"string type\" {}", quoted(name), quoted(m.type));
+    out_ += fmt::format("MakeNamedMaterial {} \"string type\" {}", in_quotes(name), in_quotes(m.type));
     parameters("Material", m);
   }
 
@@ -172,7 +172,7 @@ class Writer {
     begin();
     if (shape.object_to_world != glm::dmat4(1)) transform(shape.object_to_world);
     const MaterialReference& m = shape.material;
-    if (m.index || !m.name.empty()) line("NamedMaterial " + quoted(m.index ? names_[*m.index] : m.name));
+    if (m.index || !m.name.empty()) line("NamedMaterial " + in_quotes(m.index ? names_[*m.index] : m.name));
     if (shape.area_light) directive("AreaLightSource", scene_.area_lights[*shape.area_light]);
     if (shape.reverse_orientation) line("ReverseOrientation");
     const std::string mesh = shape.type == "trianglemesh" ? files_.mesh(shape) : "";
@@ -192,12 +192,12 @@ class Writer {
       return p.name == "P" || p.name == "N" || p.name == "uv" || p.name == "indices";
     });
     out_.append(indent_, ' ');
-    out_ += fmt::format("Shape \"plymesh\" \"string filename\" [ {} ]", quoted(file));
+    out_ += fmt::format("Shape \"plymesh\" \"string filename\" [ {} ]", in_quotes(file));
     parameters("Shape", rest);
   }
 
   void write_object(const ObjectDescription& object) {
-    begin("ObjectBegin " + quoted(object.name));
+    begin("ObjectBegin " + in_quotes(object.name));
     for (const ShapeDescription& shape : object.shapes) write_shape(shape);
     end("ObjectEnd");
   }
@@ -205,7 +205,7 @@ class Writer {
   void write_instance(const InstanceDescription& instance) {
     begin();
     if (instance.instance_to_world != glm::dmat4(1)) transform(instance.instance_to_world);
-    line("ObjectInstance " + quoted(instance.object));
+    line("ObjectInstance " + in_quotes(instance.object));
     end();
   }
 

@@ -8,7 +8,7 @@ namespace kaustik::app {
 namespace {
 
 // Text inside single quotes and inside the brackets of _arguments.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (c == '\'')
@@ -32,14 +32,14 @@ std::string value_spec(const OptionModel& option) {
     action = "_files";
   else if (option.form == ValueForm::kFolder)
     action = "_files -/";
-  return fmt::format(":{}:{}", quoted(option.value_name), action);
+  return fmt::format(":{}:{}", in_quotes(option.value_name), action);
 }
 
 // Each name of the option by itself; `*` since it may be given again.
 std::string option_specs(const OptionModel& option) {
   std::string out;
   for (const std::string& name : option.names)
-    out += fmt::format(" \\\n        '*{}[{}]{}'", name, quoted(first_sentence(option.description)),
+    out += fmt::format(" \\\n        '*{}[{}]{}'", name, in_quotes(first_sentence(option.description)),
                        value_spec(option));
   return out;
 }
@@ -51,7 +51,7 @@ std::string zsh_completion(const ProgramModel& program) {
       "#compdef kaustik\n# Completion of kaustik for zsh. Generated: `kaustik reference --format zsh`.\n"
       "_kaustik() {\n  local -a commands=(\n";
   for (const CommandModel& command : program.commands)
-    out += fmt::format("    '{}:{}'\n", command.name, quoted(command.description));
+    out += fmt::format("    '{}:{}'\n", command.name, in_quotes(command.description));
   out += "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    _arguments";
   for (const OptionModel& option : program.options) out += option_specs(option);
   out +=

@@ -67,7 +67,8 @@ void expect_matches_oracle(const Scene& scene, const Placement& place, Random& r
     EXPECT_NEAR(hit.t, expected.nearest.t, expected.t_spread) << "ray " << i;
   }
   EXPECT_GT(compared, rays * 8 / 10);
-  EXPECT_GT(hits, rays / 10);
+  EXPECT_GT(hits,
+            rays / 12);  // the scenes fill a tenth of the directions or more: the loop has compared hits
 }
 
 TEST(Bvh, MatchesBruteForceOnTriangles) {

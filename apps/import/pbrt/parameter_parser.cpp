@@ -22,7 +22,7 @@ constexpr size_t kMostParameters = 1000;  // of a directive: duplicates are foun
 // 2^53: integers are stored in doubles.
 constexpr double kLargestInteger = 9007199254740992.0;
 
-std::string quoted(const Token& token) {
+std::string in_quotes(const Token& token) {
   if (token.is(TokenKind::kEnd)) return "the end of the file";
   if (token.is(TokenKind::kString)) return fmt::format("\"{}\"", token.text.substr(0, 60));
   return fmt::format("`{}`", token.text.substr(0, 60));
@@ -55,7 +55,7 @@ std::string_view wanted(ParameterType type) {
 }
 
 void expected(const Token& token, std::string_view what, DiagnosticList& diagnostics) {
-  diagnostics.error(token.location, fmt::format("expected {}, not {}", what, quoted(token)));
+  diagnostics.error(token.location, fmt::format("expected {}, not {}", what, in_quotes(token)));
 }
 
 bool add_number(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
@@ -67,7 +67,7 @@ bool add_number(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
     return false;
   }
   if (p.type == ParameterType::kInteger && std::abs(*value) > kLargestInteger) {
-    diagnostics.error(token.location, fmt::format("{} is too large for an integer", quoted(token)));
+    diagnostics.error(token.location, fmt::format("{} is too large for an integer", in_quotes(token)));
     return false;
   }
   p.numbers.push_back(*value);
@@ -184,7 +184,7 @@ std::optional<double> parse_number(const Token& token, DiagnosticList& diagnosti
   }
   if (status == std::errc::result_out_of_range && is_tiny(text)) return 0.0;
   if (status == std::errc::result_out_of_range || std::abs(value) > std::numeric_limits<float>::max()) {
-    diagnostics.error(token.location, fmt::format("{} is beyond the range of floats", quoted(token)));
+    diagnostics.error(token.location, fmt::format("{} is beyond the range of floats", in_quotes(token)));
     return std::nullopt;
   }
   return value;
@@ -199,7 +199,7 @@ std::optional<std::vector<double>> parse_numbers(Tokenizer& tokens, size_t count
     if (!tokens.peek().is(TokenKind::kNumber)) {
       diagnostics.error(tokens.peek().location,
                         fmt::format("`{}` takes {} numbers: expected number {}, not {}", what, count,
-                                    out.size() + 1, quoted(tokens.peek())));
+                                    out.size() + 1, in_quotes(tokens.peek())));
       return std::nullopt;
     }
     const auto value = parse_number(tokens.next(), diagnostics);
@@ -233,7 +233,7 @@ bool parse_values(Tokenizer& tokens, Parameter& p, DiagnosticList& diagnostics) 
     return true;
   }
   diagnostics.error(tokens.peek().location,
-                    fmt::format("expected a value or `]`, not {}", quoted(tokens.peek())),
+                    fmt::format("expected a value or `]`, not {}", in_quotes(tokens.peek())),
                     {{open, "the list begins here"}});
   return false;
 }

@@ -160,7 +160,7 @@ void SceneParser::skip_arguments() {
   }
 }
 
-std::optional<Token> SceneParser::quoted(std::string_view what, const Token& word) {
+std::optional<Token> SceneParser::in_quotes(std::string_view what, const Token& word) {
   if (tokens_->peek().is(TokenKind::kString)) return tokens_->next();
   diagnostics_.error(tokens_->peek().location, fmt::format("`{}` needs {} in quotes", word.text, what));
   skip_arguments();
@@ -168,7 +168,7 @@ std::optional<Token> SceneParser::quoted(std::string_view what, const Token& wor
 }
 
 bool SceneParser::read_directive(const Token& word, std::string_view target, Directive& out) {
-  const auto type = quoted("a type", word);
+  const auto type = in_quotes("a type", word);
   if (!type) return false;
   out.type = unescape(type->text);
   out.location = word.location;
@@ -200,7 +200,7 @@ void SceneParser::add_defaults(std::string_view target, std::vector<Parameter>& 
 }
 
 void SceneParser::on_attribute(const Token& word) {
-  const auto target = quoted("its target, \"shape\", \"light\", \"material\" or \"texture\",", word);
+  const auto target = in_quotes("its target, \"shape\", \"light\", \"material\" or \"texture\",", word);
   if (!target) return;
   const std::string name = unescape(target->text);
   std::vector<Parameter> parameters = parse_parameters(*tokens_, diagnostics_);

@@ -50,7 +50,7 @@ class SceneParser {
   void finish(const SourceLocation& end);
 
   // Helpers that read the arguments of directives.
-  std::optional<Token> quoted(std::string_view what, const Token& word);
+  std::optional<Token> in_quotes(std::string_view what, const Token& word);
   bool read_directive(const Token& word, std::string_view target, Directive& out);
   void add_defaults(std::string_view target, std::vector<Parameter>& parameters);
   std::optional<uint32_t> open_beside(const std::string& name, std::string& error);

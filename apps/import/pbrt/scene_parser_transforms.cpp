@@ -59,12 +59,12 @@ void SceneParser::on_concat_transform(const Token& word) {
 }
 
 void SceneParser::on_coordinate_system(const Token& word) {
-  const auto name = quoted("a name", word);
+  const auto name = in_quotes("a name", word);
   if (name) coordinate_systems_[unescape(name->text)] = state_.ctm;
 }
 
 void SceneParser::on_coord_sys_transform(const Token& word) {
-  const auto name = quoted("a name", word);
+  const auto name = in_quotes("a name", word);
   if (!name) return;
   const auto found = coordinate_systems_.find(name->text);
   if (found != coordinate_systems_.end()) {
@@ -125,7 +125,7 @@ void SceneParser::on_setting(const Token& word) {
 // Reads `Option "seed" 3` or, with its type, `Option "integer seed" 3`. Dashes, underscores and case are
 // ignored.
 void SceneParser::on_option(const Token& word) {
-  const auto declaration = quoted("a name", word);
+  const auto declaration = in_quotes("a name", word);
   if (!declaration) return;
   Parameter p;
   p.location = declaration->location;
@@ -145,7 +145,7 @@ void SceneParser::on_option(const Token& word) {
 }
 
 void SceneParser::on_color_space(const Token& word) {
-  const auto name = quoted("a name", word);
+  const auto name = in_quotes("a name", word);
   if (!name) return;
   if (const ColourSpace* space = find_colour_space(unescape(name->text))) {
     state_.colour_space = space;

@@ -20,9 +20,9 @@ constexpr uint64_t kMostIncludes = 100'000;
 
 void SceneParser::on_texture(const Token& word) {
   TextureDescription texture;
-  const auto name = quoted("a name", word);
+  const auto name = in_quotes("a name", word);
   if (!name) return;
-  const auto value_type = quoted("its type, \"float\" or \"spectrum\",", word);
+  const auto value_type = in_quotes("its type, \"float\" or \"spectrum\",", word);
   if (!value_type || !read_directive(word, "texture", texture)) return;
   texture.value_type = unescape(value_type->text);
   if (texture.value_type == "color") texture.value_type = "spectrum";  // pbrt-v3's name of it
@@ -69,7 +69,7 @@ void SceneParser::on_make_named_material(const Token& word) {
 }
 
 void SceneParser::on_named_material(const Token& word) {
-  const auto name = quoted("a name", word);
+  const auto name = in_quotes("a name", word);
   if (!name) return;
   std::string text = unescape(name->text);
   if (const auto later = state_.materials.find(text); later != state_.materials.end()) text = later->second;
@@ -107,7 +107,7 @@ void SceneParser::on_shape(const Token& word) {
 }
 
 void SceneParser::on_object_begin(const Token& word) {
-  const auto name = quoted("a name", word);
+  const auto name = in_quotes("a name", word);
   if (!name) return;
   push(true, word.location);
   if (open_object_) {
@@ -134,7 +134,7 @@ void SceneParser::on_object_end(const Token& word) {
 }
 
 void SceneParser::on_object_instance(const Token& word) {
-  const auto name = quoted("a name", word);
+  const auto name = in_quotes("a name", word);
   if (!name) return;
   if (open_object_) {
     return diagnostics_.error(word.location, "an object cannot contain an instance",
@@ -157,7 +157,7 @@ std::optional<uint32_t> SceneParser::open_beside(const std::string& name, std::s
 }
 
 void SceneParser::include(const Token& word, bool keep_state) {
-  const auto name = quoted("a file name", word);
+  const auto name = in_quotes("a file name", word);
   if (!name) return;
   if (open_files_.size() >= kDeepestInclude) {
     return diagnostics_.error(name->location, fmt::format("more than {} nested includes", kDeepestInclude));

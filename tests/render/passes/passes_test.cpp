@@ -7,6 +7,7 @@
 
 #include <cstring>
 
+#include "render/plan/pass_share.h"
 #include "tests/render/support/class_agreement.h"
 
 namespace kaustik::render {
