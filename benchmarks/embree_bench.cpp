@@ -129,7 +129,7 @@ struct SceneRow {
 std::vector<SceneRow> scene_rows(bool large) {
   std::vector<SceneRow> rows = {
       {"box", [] { return room(0); }},
-      {"cornell-spheres", [] { return scene_file("cornell-spheres/square-light-2.pbrt"); }},
+      {"cornell-spheres", [] { return scene_file("cornell-spheres/square-lamp-2.pbrt"); }},
       {"tncg15-room", [] { return scene_file("tncg15-room/tncg15-room.pbrt"); }},
       {"water", water_box},
       {"sheets-1M", [] { return room(500); }}};

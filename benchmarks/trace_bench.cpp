@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
   const Scene small = room(0), large = room(300);
   settings.kinds = {true, false, true, true};
   compare("box, 14 triangles", small, settings, rounds);
-  for (const char* file : {"cornell-spheres/square-light-2.pbrt", "tncg15-room/tncg15-room.pbrt"}) {
+  for (const char* file : {"cornell-spheres/square-lamp-2.pbrt", "tncg15-room/tncg15-room.pbrt"}) {
     compare(file, scene_file(file), settings, rounds);
   }
   compare("sheets, 360k triangles", large, settings, rounds);

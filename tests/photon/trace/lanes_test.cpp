@@ -174,7 +174,9 @@ TEST(VertexLanes, ExamplesOfAllBsdfsScatterAsInScalarCode) {
 }
 
 TEST(VertexLanes, NegativeOrNonFiniteFluxIsInvalid) {
-  Vertices v = make_vertices(3);
+  // With this seed, the triangles of these lanes are larger than the rounding of their corners: none is
+  // degenerate.
+  Vertices v = make_vertices(4);
   v.shapes[2].geometry = v.shapes[0].geometry;
   v.hits[2].shape = 2;
   // White flux, so that roulette with 0.25 keeps the photons of reflectance 0.5 and above.
@@ -189,7 +191,7 @@ TEST(VertexLanes, NegativeOrNonFiniteFluxIsInvalid) {
   for (auto& column : numbers.u) std::fill(std::begin(column), std::end(column), 0.25f);
   locate_lanes(lanes, v.shapes, 8);
   scatter_lanes(lanes, numbers, 1, 8);
-  for (size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.fate[k], VertexLanes::kInvalid);
+  for (size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.fate[k], VertexLanes::kInvalid) << k;
   EXPECT_EQ(lanes.fate[3], VertexLanes::kAlive);
 }
 

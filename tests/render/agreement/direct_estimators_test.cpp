@@ -78,7 +78,7 @@ TEST(Predicted, IsUnbiasedTogetherWithPaths) {
 // On the scenes of both source documents at least 70 % fewer shadow rays are traced. The two pictures share
 // all other random numbers, and their difference is negligible.
 TEST(Predicted, SkipsMostShadowRays) {
-  for (const char* file : {"tncg15-room/tncg15-room.pbrt", "cornell-spheres/square-light-2.pbrt"}) {
+  for (const char* file : {"tncg15-room/tncg15-room.pbrt", "cornell-spheres/square-lamp-2.pbrt"}) {
     Scene scene = scene_from(file);
     scene.camera.width = scene.camera.height = 200;
     const auto rays = render_with_threads(scene, direct_settings(DirectEstimator::kShadowRays, 32));

@@ -33,7 +33,7 @@ TEST(DocumentScenes, LectureRoomAgreesWithPaths) {
 }
 
 TEST(DocumentScenes, ReportSquareLightAgreesWithPaths) {
-  expect_programs_agree_with_paths(document_scene("cornell-spheres/square-light-2.pbrt"), 256, 0.06f,
+  expect_programs_agree_with_paths(document_scene("cornell-spheres/square-lamp-2.pbrt"), 256, 0.06f,
                                    "report");
 }
 
@@ -41,7 +41,7 @@ TEST(DocumentScenes, ReportSquareLightAgreesWithPaths) {
 // other classes of the two photon programs with each other: paths that query the caustic map against indirect
 // photons.
 TEST(DocumentScenes, ReportPointLightsAgree) {
-  for (const char* name : {"point-light", "square-light-1"}) {
+  for (const char* name : {"point-lamp", "square-lamp-1"}) {
     const Scene scene = document_scene("cornell-spheres/" + std::string(name) + ".pbrt");
     const auto by_paths = films(scene, settings_of(Method::kHybrid, 256, 0.03f, 100));
     const Comparison c(scene, by_paths, Method::kPhoton, 0.06f);

@@ -89,8 +89,8 @@ TEST_P(Calibration, NinetyPercentBoundHolds) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Calibration,
-    ::testing::Values(Case{"Light2", [] { return sized("cornell-spheres/square-light-2.pbrt"); }},
-                      Case{"Light1", [] { return sized("cornell-spheres/square-light-1.pbrt"); }},
+    ::testing::Values(Case{"Light2", [] { return sized("cornell-spheres/square-lamp-2.pbrt"); }},
+                      Case{"Light1", [] { return sized("cornell-spheres/square-lamp-1.pbrt"); }},
                       Case{"Room", [] { return sized("tncg15-room/tncg15-room.pbrt"); }},
                       Case{"Waves", [] { return wave_scene(kSize); }}),
     [](const auto& c) { return std::string(c.param.name); });

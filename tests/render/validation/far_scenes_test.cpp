@@ -135,7 +135,7 @@ void expect_same_depth(const Film& film, const Film& reference, double sizes) {
 // something else: 0.1 %, and 1 % of the classes whose paths have fireflies.
 TEST(FarScenes, BoxWithSpheresKeepsItsLight) {
   const SceneDescription cornell =
-      imported(std::filesystem::path(KAUSTIK_SCENES_DIR) / "cornell-spheres/square-light-2.pbrt");
+      imported(std::filesystem::path(KAUSTIK_SCENES_DIR) / "cornell-spheres/square-lamp-2.pbrt");
   for (const Method method : {Method::kMc, Method::kPhoton}) {
     const auto settings = settings_of(method, 100'000);
     const auto reference = render_with_threads(moved(cornell, {}, Way::kTransforms, 48), settings);
