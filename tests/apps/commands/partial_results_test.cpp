@@ -232,7 +232,7 @@ TEST_F(PartialResults, ChangedSceneIsNotResumed) {
   std::filesystem::create_directories(path("elsewhere"));
   std::filesystem::copy_file(scene_, path("elsewhere/moved.pbrt"));
   std::ofstream(scene_, std::ios::app) << "# changed\n";
-  expect_refused({"resume", path("a.kpart")}, {"small.pbrt", "a.kpart", "changed"});
+  expect_refused({"resume", path("a.kpart")}, {"small.pbrt", "a.kpart", "contents of its files differ"});
   expect_done({"resume", path("a.kpart"), "--scene", path("elsewhere/moved.pbrt"), "-q"});
 }
 

@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"exr", "slide.exr", with_image(kTexture, "slide.exr"), [] { return of_gallery("slide.exr"); }},
         Kind{"sky", "light.exr",
              with_image("LightSource \"infinite\" \"string filename\" \"image\"\n", "light.exr"),
-             [] { return of_gallery("light.exr"); }},
+             [] { return of_gallery("lamp.exr"); }},
         Kind{"slide", "slide.exr",
              with_image("LightSource \"projection\" \"string filename\" \"image\"\n", "slide.exr"),
              [] { return of_gallery("slide.exr"); }},

@@ -81,7 +81,7 @@ TEST_F(ImportGltfExtensions, DiffuseTransmissionIsConverted) {
 
 TEST_F(ImportGltfExtensions, UnsupportedExtensionsAreNamed) {
   material(R"("VENDOR_materials_glitter": { "glitter": 1 })");
-  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("VENDOR_materials_glitter is left out"));
+  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("VENDOR_materials_glitter is ignored"));
 }
 
 TEST_F(ImportGltfExtensions, VertexColoursAreAveraged) {

@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
                "nodes[0].translation` must be 3 numbers, not 2"},
         Damage{R"("nodes": [ { "translation": [ 1, 2, "x" ] } ])",
                "nodes[0].translation[2]` must be a number"},
-        Damage{R"("nodes": [ { "rotation": [ 0, 0, 0, 0 ] } ])", "nodes[0].rotation` is no rotation"},
+        Damage{R"("nodes": [ { "rotation": [ 0, 0, 0, 0 ] } ])", "nodes[0].rotation` is not a rotation"},
         Damage{R"("extensionsRequired": [ "KHR_draco_mesh_compression" ])",
                "it requires the extension KHR_draco_mesh_compression, which is not supported"},
         Damage{
@@ -74,7 +74,7 @@ TEST_F(ImportGltf, IndicesOutOfRangeAreRefused) {
                      { "bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR" } ],
       "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 }, "indices": 1 } ] } ], "nodes": [ { "mesh": 0 } ])",
                          b.text())),
-              HasSubstr("meshes[0].primitives[0].indices` names vertex 9: there are 3"));
+              HasSubstr("meshes[0].primitives[0].indices` names vertex 9, but there are 3"));
 }
 
 TEST_F(ImportGltf, DamagedContainersAreRefused) {

@@ -250,7 +250,7 @@ TEST_F(SweepCommand, RefusesTheFolderOfAnotherSweep) {
                  "settings max-bounces: in the folder \"16\", now \"3\"");
   expect_refused(sweep({"--reference-time", "1s"}), "reference");
   small_scene(film(24, 16) + "\n# another");
-  expect_refused(sweep(against_file()), "scene: there");
+  expect_refused(sweep(against_file()), "scene: in the folder");
 }
 
 TEST_F(SweepCommand, BadInputExitsWithTwo) {
