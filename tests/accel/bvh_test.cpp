@@ -67,8 +67,7 @@ void expect_matches_oracle(const Scene& scene, const Placement& place, Random& r
     EXPECT_NEAR(hit.t, expected.nearest.t, expected.t_spread) << "ray " << i;
   }
   EXPECT_GT(compared, rays * 8 / 10);
-  EXPECT_GT(hits,
-            rays / 12);  // the scenes fill a tenth of the directions or more: the loop has compared hits
+  EXPECT_GT(hits, rays / 10);
 }
 
 TEST(Bvh, MatchesBruteForceOnTriangles) {
@@ -138,7 +137,7 @@ TEST(Bvh, MatchesBruteForceOnInstances) {
   for (const float size : {1.0f, 1e-4f, 3e5f}) {
     for (const Placement& place : {Placement{}, Placement{1e-4f, {0, 0, 0}}, Placement{1, {100, -200, 50}}}) {
       SCOPED_TRACE(::testing::Message() << size << " scale " << place.scale << " offset " << place.offset.x);
-      Random random(6);
+      Random random(9);
       Scene scene;
       test::add_instances(scene, random, place, 20, 30, size);
       test::add_triangles(scene, random, place, 20, 0.3f);
