@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks whether performance got worse between two revisions, by exact counts, instructions and time: see
-docs/performance.md.
+docs/guide/benchmarks.md.
 
 scripts/perf-gate BASE_REV [--only counters,instructions,time] [--rounds 15] [--time-limit 10]
 scripts/perf-gate --update-baseline
