@@ -1,4 +1,5 @@
-// Evaluation and sampling of a coated diffuse surface; the tables of rough coats are in rough_coat.cpp.
+// Evaluation and sampling of a coated diffuse surface; the tables of rough coats are in
+// core/bsdf/microfacet/rough_coat.cpp.
 
 #include "core/bsdf/coated_diffuse.h"
 

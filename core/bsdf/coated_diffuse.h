@@ -1,9 +1,10 @@
 #pragma once
 // A diffuse surface under a smooth or rough dielectric coat, with all reflections between both.
 
-#include "core/bsdf/fresnel.h"
-#include "core/bsdf/ggx.h"
-#include "core/bsdf/rough_coat.h"
+#include "core/bsdf/bsdf_types.h"
+#include "core/bsdf/microfacet/fresnel.h"
+#include "core/bsdf/microfacet/ggx.h"
+#include "core/bsdf/microfacet/rough_coat.h"
 
 namespace kaustik {
 

@@ -2,7 +2,7 @@
 
 #include "core/bsdf/conductor.h"
 
-#include "core/bsdf/fresnel.h"
+#include "core/bsdf/microfacet/fresnel.h"
 
 namespace kaustik {
 

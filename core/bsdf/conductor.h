@@ -1,7 +1,8 @@
 #pragma once
 // Smooth and rough metal.
 
-#include "core/bsdf/ggx.h"
+#include "core/bsdf/bsdf_types.h"
+#include "core/bsdf/microfacet/ggx.h"
 
 namespace kaustik {
 

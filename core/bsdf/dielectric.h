@@ -2,8 +2,9 @@
 // Smooth and rough boundaries between dielectrics, such as glass and water. Not modelled: absorption and
 // dispersion.
 
-#include "core/bsdf/fresnel.h"
-#include "core/bsdf/ggx.h"
+#include "core/bsdf/bsdf_types.h"
+#include "core/bsdf/microfacet/fresnel.h"
+#include "core/bsdf/microfacet/ggx.h"
 
 namespace kaustik {
 

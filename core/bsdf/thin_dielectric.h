@@ -2,7 +2,7 @@
 // A thin pane of glass.
 
 #include "core/bsdf/bsdf_types.h"
-#include "core/bsdf/fresnel.h"
+#include "core/bsdf/microfacet/fresnel.h"
 
 namespace kaustik {
 

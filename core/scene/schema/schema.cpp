@@ -1,8 +1,8 @@
 // Schema rows of materials: their parameters, and how each BSDF is made from them.
 
 #include "core/scene/schema/schema.h"
-#include "core/bsdf/rough_coat.h"
 
+#include "core/bsdf/microfacet/rough_coat.h"
 #include "core/scene/schema/material_spec.h"
 
 namespace kaustik {

@@ -1,6 +1,6 @@
 // Tests Fresnel's factor and Snell's law against their closed forms.
 
-#include "core/bsdf/fresnel.h"
+#include "core/bsdf/microfacet/fresnel.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/bsdf/bsdf.h"
-#include "core/bsdf/rough_coat.h"
+#include "core/bsdf/microfacet/rough_coat.h"
 #include "tests/core/support/bsdf_examples.h"
 #include "tests/core/support/chi_square.h"
 #include "tests/support/random.h"

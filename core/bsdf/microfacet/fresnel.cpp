@@ -1,6 +1,6 @@
 // Fresnel reflectance for uniform light, and of conductors.
 
-#include "core/bsdf/fresnel.h"
+#include "core/bsdf/microfacet/fresnel.h"
 
 namespace kaustik {
 

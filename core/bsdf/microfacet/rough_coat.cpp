@@ -1,10 +1,10 @@
 // The table of transmittances of rough coats: how it is integrated and interpolated.
 
-#include "core/bsdf/rough_coat.h"
+#include "core/bsdf/microfacet/rough_coat.h"
 
 #include <array>
 
-#include "core/bsdf/fresnel.h"
+#include "core/bsdf/microfacet/fresnel.h"
 
 namespace kaustik {
 

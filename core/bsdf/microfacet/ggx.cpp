@@ -1,6 +1,6 @@
 // Roughness parameters of GGX microfacets, and sampling of their visible normals.
 
-#include "core/bsdf/ggx.h"
+#include "core/bsdf/microfacet/ggx.h"
 
 #include "core/sampling/warp.h"
 

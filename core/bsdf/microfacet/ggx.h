@@ -4,7 +4,7 @@
 // on either side of the surface. Not modelled: light that is scattered by several facets, so rough surfaces
 // lose up to some ten percent, as in pbrt.
 
-#include "core/bsdf/bsdf_types.h"
+#include "core/math/vec.h"
 
 namespace kaustik {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/bsdf/ggx.h"
+#include "core/bsdf/microfacet/ggx.h"
 
 namespace kaustik {
 
