@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "accel/alpha_filter.h"
-#include "core/geometry/sphere_lanes.h"
+#include "core/geometry/analytic/sphere_lanes.h"
 #include "core/scene/alpha.h"
 
 namespace kaustik::accel {

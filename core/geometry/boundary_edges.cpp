@@ -14,7 +14,7 @@
 #include <tuple>
 
 #include "core/geometry/rims.h"
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/triangle_bounds.h"
 
 namespace kaustik {
 namespace {

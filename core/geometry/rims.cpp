@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/analytic/quadric_bounds.h"
 
 namespace kaustik {
 namespace {

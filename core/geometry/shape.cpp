@@ -2,7 +2,7 @@
 
 #include "core/geometry/shape.h"
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/triangle_bounds.h"
 
 namespace kaustik {
 namespace {

@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
-#include "core/geometry/disk.h"
-#include "core/geometry/quadric.h"
-#include "core/geometry/sphere.h"
+#include "core/geometry/analytic/disk.h"
+#include "core/geometry/analytic/quadric.h"
+#include "core/geometry/analytic/sphere.h"
 #include "core/math/bounds.h"
 #include "core/math/index.h"
 #include "core/math/transform.h"
@@ -47,8 +47,8 @@ template <ShapeGeometry... G>
 using VariantOfShapes = std::variant<G...>;
 
 // The list of all shapes. To add an analytic one: (1) write a header with the struct, and its source
-// (core/geometry/analytic_shape.h says what it must have), (2) add its name here, and below if it is a
-// SweptShape, (3) add its row to core/scene/schema/shape_rows.cpp. The tests then ask for an oracle in
+// (core/geometry/analytic/analytic_shape.h says what it must have), (2) add its name here, and below if it is
+// a SweptShape, (3) add its row to core/scene/schema/shape_rows.cpp. The tests then ask for an oracle in
 // tests/accel/support/brute_force.h and for examples in tests/core/support/shape_examples.h.
 using Geometry = VariantOfShapes<TriangleMesh, Sphere, Disk, InstancedMesh, Quadric>;
 template <SweptShape... S>

@@ -3,7 +3,8 @@
 
 #include "core/light/area.h"
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/analytic/quadric_bounds.h"
+#include "core/geometry/triangle_bounds.h"
 #include "core/sampling/warp.h"
 
 namespace kaustik {

@@ -1,6 +1,6 @@
 // Where area lights are and where they shine.
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/analytic/quadric_bounds.h"
 #include "core/light/area.h"
 
 namespace kaustik {

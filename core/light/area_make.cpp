@@ -1,6 +1,7 @@
 // Builds area lights from shapes, with a copy of the geometry.
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/analytic/quadric_bounds.h"
+#include "core/geometry/triangle_bounds.h"
 #include "core/light/area.h"
 
 namespace kaustik {

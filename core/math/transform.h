@@ -27,6 +27,14 @@ struct Transform {
 // Whether m is affine and can be inverted in float precision.
 bool is_usable_transform(const glm::dmat4& m);
 
+// The largest row sum of absolute values over the first `columns` columns: a bound on the coordinates of the
+// image of the unit box.
+inline float max_row_sum(const glm::mat3& m, int columns = 3) {
+  Vector3 sum(0);
+  for (int c = 0; c < columns; ++c) sum += glm::abs(m[c]);
+  return max_component(sum);
+}
+
 // Changes an affine map to the world into one to coordinates relative to origin.
 inline glm::dmat4 relative_to(const glm::dvec3& origin, glm::dmat4 to_world) {
   to_world[3] -= glm::dvec4(origin, 0);

@@ -11,8 +11,8 @@
 #include <compare>
 #include <utility>
 
-#include "core/geometry/surface_bounds.h"
 #include "core/geometry/tessellate.h"
+#include "core/geometry/triangle_bounds.h"
 #include "photon/gather/gather.h"
 
 namespace kaustik::photon {

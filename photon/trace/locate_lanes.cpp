@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/analytic/quadric_bounds.h"
 #include "photon/trace/vertex_lanes.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "core/geometry/surface_bounds.h"
+#include "core/math/transform.h"
 #include "render/film/for_each_pixel.h"
 
 namespace kaustik::render {

@@ -1,6 +1,6 @@
 // Properties that every analytic shape must have, run over the examples of all of them.
 
-#include "core/geometry/analytic_shape.h"
+#include "core/geometry/analytic/analytic_shape.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "core/geometry/analytic/sphere_lanes.h"
 #include "core/geometry/interaction.h"
-#include "core/geometry/sphere_lanes.h"
 #include "tests/core/support/chi_square.h"
 #include "tests/core/support/test_tracer.h"
 #include "tests/support/random.h"

@@ -1,8 +1,8 @@
 // Intersection, bounds and area of disks and annuli.
 
-#include "core/geometry/disk.h"
+#include "core/geometry/analytic/disk.h"
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/analytic/quadric_bounds.h"
 
 namespace kaustik {
 

@@ -1,10 +1,10 @@
-// Sphere intersection in SIMD lanes (Google Highway), with the operations of core/geometry/intersect.cpp in
-// the same order and no fused ones, so that the bits are the same.
+// Sphere intersection in SIMD lanes (Google Highway), with the operations of intersect_sphere() in the same
+// order and no fused ones, so that the bits are the same.
 
-#include "core/geometry/sphere_lanes.h"
+#include "core/geometry/analytic/sphere_lanes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/geometry/sphere_lanes.cpp"
+#define HWY_TARGET_INCLUDE "core/geometry/analytic/sphere_lanes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

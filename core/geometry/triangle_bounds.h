@@ -1,19 +1,12 @@
 #pragma once
-// Error bounds and normals of surfaces. Intersections and lights share them, so that a ray leaves a surface
-// by the same distance in both cases.
+// Error bounds and normals of triangles, also in instances. Intersections and lights share them, so that a
+// ray leaves a surface by the same distance in both cases.
 
 #include "core/geometry/shape.h"
 #include "core/math/error_bounds.h"
+#include "core/math/transform.h"
 
 namespace kaustik {
-
-// The largest row sum of absolute values over the first `columns` columns: a bound on the coordinates of the
-// image of the unit box.
-inline float max_row_sum(const glm::mat3& m, int columns = 3) {
-  Vector3 sum(0);
-  for (int c = 0; c < columns; ++c) sum += glm::abs(m[c]);
-  return max_component(sum);
-}
 
 // Error bound of the triangle point p = p0 + b1 e1 + b2 e2.
 inline float triangle_error(const Point3& p, const Vector3& e1, const Vector3& e2) {
@@ -35,25 +28,6 @@ inline float instance_error(const Transform& to_world, const Point3& p, const Ve
          gamma_bound(8) * condition * condition * own;
 }
 
-// Error bound of a point on a round sphere.
-inline float sphere_error(const Point3& center, float radius) {
-  return surface_error(max_abs_component(center) + radius, 2 * radius);
-}
-
-// Error bound of a point on the image of the unit sphere. The intersector works in object space, where the
-// rounding of the inverse is amplified by the condition number of the map.
-inline float sphere_error(const Transform& to_world) {
-  const float extent = max_row_sum(to_world.linear);
-  const float condition = extent * max_row_sum(to_world.inverse_linear);
-  return surface_error(max_abs_component(to_world.translation) + extent, extent * std::max(1.0f, condition));
-}
-
-// Error bound of a point on the image of the unit disk.
-inline float disk_error(const Transform& to_world) {
-  const float extent = max_row_sum(to_world.linear, 2);
-  return surface_error(max_abs_component(to_world.translation) + extent, 2 * extent);
-}
-
 // Unit normal along cross(e1, e2), computed in double because the squared length of a small triangle's cross
 // product would underflow in float. Zero for a degenerate triangle.
 inline Normal3 triangle_normal(const Vector3& e1, const Vector3& e2) {
@@ -69,26 +43,6 @@ inline float outside_of(const TriangleMesh& mesh, const std::array<uint32_t, 3>&
   if (mesh.N.empty()) return flip_normal ? -1.0f : 1.0f;
   const auto [i0, i1, i2] = triangle;
   return glm::dot(winding, mesh.N[i0] + mesh.N[i1] + mesh.N[i2]) < 0 ? -1.0f : 1.0f;
-}
-
-// +z mapped as a normal, with unit length.
-inline Normal3 disk_normal(const Transform& to_world) {
-  return Normal3(glm::normalize(glm::dvec3(to_world.normal({0, 0, 1}))));
-}
-
-inline Bounds3 bounds_about(const Point3& center, const Vector3& half, float error) {
-  Bounds3 b;
-  b.add(center - half - error);
-  b.add(center + half + error);
-  return b;
-}
-
-// Half extent of the image of the unit disk (two columns) or ball (three): the root of the sum of squares of
-// each row.
-inline Vector3 half_extent(const glm::mat3& m, int columns) {
-  glm::dvec3 sum(0);
-  for (int c = 0; c < columns; ++c) sum += glm::dvec3(m[c]) * glm::dvec3(m[c]);
-  return Vector3(glm::sqrt(sum));
 }
 
 }  // namespace kaustik

@@ -2,7 +2,7 @@
 // Cylinders, and parts of spheres and disks: cut by planes across their axis and by an angle about it. Whole
 // spheres and disks have types of their own (core/geometry/shape.h), which are faster.
 
-#include "core/geometry/analytic_shape.h"
+#include "core/geometry/analytic/analytic_shape.h"
 
 namespace kaustik {
 
@@ -23,8 +23,8 @@ struct Quadric {
 
   bool full_turn() const { return phi_max >= 2 * kPi; }
 
-  // AnalyticShape and SweptShape (core/geometry/analytic_shape.h). s leads from z_min to z_max, or from the
-  // inner rim of a disk to the outer one.
+  // AnalyticShape and SweptShape (core/geometry/analytic/analytic_shape.h). s leads from z_min to z_max, or
+  // from the inner rim of a disk to the outer one.
   float intersect(const Ray& ray, Point2* uv) const;
   SurfacePoint at_hit(const Ray& ray, float t, const Point2& uv) const;
   Bounds3 bounds() const;

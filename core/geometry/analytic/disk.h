@@ -1,7 +1,7 @@
 #pragma once
 // Whole disks and annuli.
 
-#include "core/geometry/quadric.h"
+#include "core/geometry/analytic/quadric.h"
 
 namespace kaustik {
 
@@ -14,7 +14,7 @@ struct Disk {
   Transform to_world;
   float inner = 0;  // inner radius over outer radius, in [0, 1)
 
-  // AnalyticShape (core/geometry/analytic_shape.h).
+  // AnalyticShape (core/geometry/analytic/analytic_shape.h).
   float intersect(const Ray& ray, Point2* uv) const;
   SurfacePoint at_hit(const Ray& ray, float t, const Point2& uv) const;
   Bounds3 bounds() const;

@@ -1,8 +1,8 @@
 // Intersection, bounds and area of spheres and ellipsoids.
 
-#include "core/geometry/sphere.h"
+#include "core/geometry/analytic/sphere.h"
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/analytic/quadric_bounds.h"
 
 namespace kaustik {
 

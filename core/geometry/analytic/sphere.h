@@ -1,7 +1,7 @@
 #pragma once
 // Whole spheres and ellipsoids.
 
-#include "core/geometry/quadric.h"
+#include "core/geometry/analytic/quadric.h"
 
 namespace kaustik {
 
@@ -12,7 +12,7 @@ struct Sphere {
 
   Transform to_world;
 
-  // AnalyticShape (core/geometry/analytic_shape.h).
+  // AnalyticShape (core/geometry/analytic/analytic_shape.h).
   float intersect(const Ray& ray, Point2* uv) const;
   SurfacePoint at_hit(const Ray& ray, float t, const Point2& uv) const;
   Bounds3 bounds() const;

@@ -1,6 +1,6 @@
 // Whether a linear map is a similarity.
 
-#include "core/geometry/analytic_shape.h"
+#include "core/geometry/analytic/analytic_shape.h"
 
 #include "core/math/error_bounds.h"
 

@@ -1,11 +1,11 @@
 // Intersection, sampling, bounds and area of quadrics.
 
-#include "core/geometry/quadric.h"
+#include "core/geometry/analytic/quadric.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/surface_bounds.h"
+#include "core/geometry/analytic/quadric_bounds.h"
 #include "core/sampling/warp.h"
 
 namespace kaustik {

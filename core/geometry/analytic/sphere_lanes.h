@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "core/geometry/shape.h"
+#include "core/geometry/analytic/sphere.h"
 
 namespace kaustik {
 
