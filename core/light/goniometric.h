@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/light/image/direction_map.h"
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 
 namespace kaustik {
 

@@ -1,18 +1,18 @@
 #pragma once
-// The list of all lights. To add one: (1) write a header with the struct (core/light/light_types.h says what
-// it must have), (2) add its name here, (3) add its row to core/scene/schema/light_rows.cpp. The tests then
-// ask for example values of it in tests/core/light/light_cases.cpp.
+// The list of all lights. To add one: (1) write a header with the struct (core/light/interface/light_types.h
+// says what it must have), (2) add its name here, (3) add its row to core/scene/schema/light_rows.cpp. The
+// tests then ask for example values of it in tests/core/light/light_cases.cpp.
 
 #include <variant>
 #include <vector>
 
-#include "core/light/area.h"
-#include "core/light/distant.h"
+#include "core/light/area/area.h"
 #include "core/light/goniometric.h"
-#include "core/light/infinite.h"
 #include "core/light/point.h"
-#include "core/light/portal.h"
 #include "core/light/projection.h"
+#include "core/light/sky/distant.h"
+#include "core/light/sky/infinite.h"
+#include "core/light/sky/portal.h"
 #include "core/light/spot.h"
 #include "core/sampling/discrete.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Isotropic point lights.
 
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 
 namespace kaustik {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/light/image/light_image.h"
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 #include "core/sampling/piecewise_2d.h"
 
 namespace kaustik {

@@ -1,7 +1,7 @@
 #pragma once
 // Spot lights, as in pbrt-v4.
 
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 #include "core/math/frame.h"
 
 namespace kaustik {

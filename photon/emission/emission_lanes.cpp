@@ -1,5 +1,5 @@
-// Photon starts on triangles in SIMD lanes (Google Highway): the operations of core/light/area.cpp in the
-// same order.
+// Photon starts on triangles in SIMD lanes (Google Highway): the operations of core/light/area/area.cpp in
+// the same order.
 
 #include "photon/emission/emission_lanes.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/light/light_types.h"
+#include "core/light/interface/light_types.h"
 #include "photon/record/photon.h"
 #include "photon/trace/energy_ledger.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/light/light_types.h"
+#include "core/light/interface/light_types.h"
 #include "photon/gather/kernel.h"
 
 namespace kaustik::render {

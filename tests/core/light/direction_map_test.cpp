@@ -4,9 +4,9 @@
 
 #include "core/light/goniometric.h"
 #include "core/light/image/direction_map.h"
-#include "core/light/infinite.h"
 #include "core/light/point.h"
 #include "core/light/projection.h"
+#include "core/light/sky/infinite.h"
 #include "core/sampling/equal_area.h"
 #include "tests/core/support/chi_square.h"
 #include "tests/support/random.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/light/area.h"
+#include "core/light/area/area.h"
 #include "tests/core/support/chi_square.h"
 #include "tests/core/support/test_tracer.h"
 #include "tests/support/random.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/light/portal.h"
+#include "core/light/sky/portal.h"
 #include "tests/core/support/chi_square.h"
 #include "tests/support/random.h"
 #include "tests/support/statistics.h"

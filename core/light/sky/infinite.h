@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/light/image/direction_map.h"
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 
 namespace kaustik {
 
@@ -18,7 +18,7 @@ struct InfiniteLight {
 
   static constexpr bool is_delta() { return false; }
   Rgb Le(const Ray& /*escaping*/) const { return L; }
-  // Samples directions as for uniform light (core/light/even_light.h).
+  // Samples directions as for uniform light (core/light/sky/even_light.h).
   std::optional<LightSample> sample_Li(const LightReceiver& x, const Point2& u) const;
   float pdf_Li(const LightReceiver& x, const Vector3& wi) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;
@@ -40,8 +40,8 @@ struct ImageInfiniteLight {
 
   static constexpr bool is_delta() { return false; }
   Rgb Le(const Ray& escaping) const { return scale * map->value(to_map(escaping.d)); }
-  // Samples the even part of the sky as uniform light (core/light/even_light.h), and the excess over it by
-  // luminance.
+  // Samples the even part of the sky as uniform light (core/light/sky/even_light.h), and the excess over it
+  // by luminance.
   std::optional<LightSample> sample_Li(const LightReceiver& x, const Point2& u) const;
   float pdf_Li(const LightReceiver& x, const Vector3& wi) const;
   std::optional<EmissionSample> sample_Le(const Point2& u_pos, const Point2& u_dir, EmissionMode mode) const;

@@ -1,7 +1,7 @@
 // Area lights: samples uniform points on triangles, spheres and disks, directions in the cone that a sphere
 // subtends (Pharr et al. 2023, section 6.2.4), and photon emission.
 
-#include "core/light/area.h"
+#include "core/light/area/area.h"
 
 #include "core/geometry/analytic/quadric_bounds.h"
 #include "core/geometry/triangle_bounds.h"

@@ -11,8 +11,8 @@
 //   Rgb power() const
 //     watts per channel
 //   std::optional<LightBounds> bounds() const
-//     where the light is and where it shines (core/light/light_bounds.h); nothing for lights without a
-//     position (distant, infinite)
+//     where the light is and where it shines (core/light/interface/light_bounds.h); nothing for lights
+//     without a position (distant, infinite)
 //   double brightness(double scene_size) const
 //     generous estimate of the radiance, in W/(m^2 sr), of surfaces that it lights in a scene of this radius
 //     (metres); the range of exact sums follows from it

@@ -1,7 +1,7 @@
 #pragma once
 // Bounds of sets of lights, from which their importance at a point is estimated.
 
-#include "core/light/light_types.h"
+#include "core/light/interface/light_types.h"
 #include "core/math/bounds.h"
 
 namespace kaustik {

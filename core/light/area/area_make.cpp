@@ -2,7 +2,7 @@
 
 #include "core/geometry/analytic/quadric_bounds.h"
 #include "core/geometry/triangle_bounds.h"
-#include "core/light/area.h"
+#include "core/light/area/area.h"
 
 namespace kaustik {
 namespace {

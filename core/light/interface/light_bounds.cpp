@@ -1,6 +1,6 @@
 // The union of bounds of lights, and their importance at a receiver.
 
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 
 namespace kaustik {
 namespace {

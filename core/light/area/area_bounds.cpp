@@ -1,7 +1,7 @@
 // Where area lights are and where they shine.
 
 #include "core/geometry/analytic/quadric_bounds.h"
-#include "core/light/area.h"
+#include "core/light/area/area.h"
 
 namespace kaustik {
 namespace {

@@ -1,6 +1,6 @@
 // Sampling of directions for light of uniform radiance.
 
-#include "core/light/even_light.h"
+#include "core/light/sky/even_light.h"
 
 #include "core/math/frame.h"
 #include "core/sampling/warp.h"

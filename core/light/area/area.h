@@ -6,7 +6,7 @@
 
 #include "core/geometry/interaction.h"
 #include "core/light/image/emission_image.h"
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 #include "core/sampling/discrete.h"
 #include "core/texture/texture.h"
 

@@ -1,6 +1,6 @@
 // Sampling of distant lights.
 
-#include "core/light/distant.h"
+#include "core/light/sky/distant.h"
 
 #include "core/math/frame.h"
 #include "core/sampling/warp.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Sampling of directions for light that arrives with the same radiance from everywhere.
 
-#include "core/light/light_types.h"
+#include "core/light/interface/light_types.h"
 
 namespace kaustik {
 

@@ -1,8 +1,8 @@
 // Sampling of environment light.
 
-#include "core/light/infinite.h"
+#include "core/light/sky/infinite.h"
 
-#include "core/light/even_light.h"
+#include "core/light/sky/even_light.h"
 #include "core/math/frame.h"
 #include "core/sampling/warp.h"
 

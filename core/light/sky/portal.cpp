@@ -1,6 +1,6 @@
 // Resampling of a sky over the directions through a portal, and its sampling.
 
-#include "core/light/portal.h"
+#include "core/light/sky/portal.h"
 
 namespace kaustik {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Distant lights: parallel light from one direction.
 
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 #include "core/math/bounds.h"
 
 namespace kaustik {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/light/image/direction_map.h"
-#include "core/light/light_bounds.h"
+#include "core/light/interface/light_bounds.h"
 #include "core/math/frame.h"
 #include "core/sampling/windowed_2d.h"
 
