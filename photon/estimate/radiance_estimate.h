@@ -44,10 +44,11 @@ struct BiasEstimate {
 // body's opposite surface nearer than the radius is then mistaken for this one. Zero for specular BSDFs and
 // empty maps. Thread-safe.
 //
-// bias: if not null, this estimate's bias is added to it. An O(r^2) bias is a quarter at half the radius, so
-// it is 4/3 of the difference between the estimate of this disc and that of its inner half, which shares some
-// of the photons. It is noisy; it is itself unbiased where light is smooth, and some 30 % too small at edges
-// (docs/decisions/004-error-is-measured-by-passes.md).
+// bias: if not null, this estimate's bias is added to it: 4/3 of the difference between the estimate of this
+// disc and that of half its radius, which uses some of the same photons. It is noisy. Where light is smooth
+// it is itself unbiased, since a bias in proportion to r^2 is a quarter at half the radius. Summed across an
+// edge of light the bias is in proportion to r, so that only 4/3 (1 - 1/2) = 2/3 of it is found; measured
+// shares are in docs/decisions/004-error-is-measured-by-passes.md.
 Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
                       const EstimateSettings& settings, GatherCounters& counters,
                       BiasEstimate* bias = nullptr);
