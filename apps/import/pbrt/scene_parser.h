@@ -10,8 +10,8 @@
 #include "apps/import/common/scene_files.h"
 #include "apps/import/pbrt/colours.h"
 #include "apps/import/pbrt/graphics_state.h"
-#include "apps/import/pbrt/pbrt_v3.h"
 #include "apps/import/pbrt/tokenizer.h"
+#include "apps/import/pbrt/v3/upgrader.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::pbrt {

@@ -1,11 +1,11 @@
-#include "apps/import/pbrt/pbrt_v3.h"
+#include "apps/import/pbrt/v3/upgrader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "apps/import/common/make_parameter.h"
-#include "apps/import/pbrt/pbrt_v3_materials.h"
+#include "apps/import/pbrt/v3/materials.h"
 
 namespace kaustik::pbrt {
 namespace {

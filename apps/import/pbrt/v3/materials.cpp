@@ -1,4 +1,4 @@
-#include "apps/import/pbrt/pbrt_v3_materials.h"
+#include "apps/import/pbrt/v3/materials.h"
 
 #include <algorithm>
 #include <cmath>
