@@ -4,7 +4,7 @@
 #include <array>
 
 #include "photon/record/packing_lanes.h"
-#include "photon/trace/vertex_lanes.h"
+#include "photon/trace/lanes/vertex_lanes.h"
 
 namespace kaustik::photon {
 

@@ -7,7 +7,7 @@
 
 #include "core/light/interface/light_types.h"
 #include "photon/record/photon.h"
-#include "photon/trace/energy_ledger.h"
+#include "photon/trace/energy/energy_ledger.h"
 
 namespace kaustik::photon {
 

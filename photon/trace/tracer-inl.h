@@ -13,9 +13,9 @@
 #include <variant>
 
 #include "core/scene/bsdf_at.h"
+#include "photon/trace/lanes/walker_queue.h"
 #include "photon/trace/shading_correction.h"
 #include "photon/trace/tracer.h"
-#include "photon/trace/walker_queue.h"
 
 namespace kaustik::photon {
 

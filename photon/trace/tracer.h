@@ -21,9 +21,9 @@
 #include "accel/bvh.h"
 #include "photon/emission/emission_guide.h"
 #include "photon/record/photon.h"
-#include "photon/trace/energy_lanes.h"
+#include "photon/trace/lanes/energy_lanes.h"
+#include "photon/trace/lanes/vertex_lanes.h"
 #include "photon/trace/trace_settings.h"
-#include "photon/trace/vertex_lanes.h"
 
 namespace kaustik::photon {
 

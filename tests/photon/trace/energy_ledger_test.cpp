@@ -1,6 +1,6 @@
 // Tests where the photons' flux goes: nothing is lost, and the entries match the scene.
 
-#include "photon/trace/energy_ledger.h"
+#include "photon/trace/energy/energy_ledger.h"
 
 #include <gtest/gtest.h>
 #include <tbb/blocked_range.h>

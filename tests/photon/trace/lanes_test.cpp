@@ -6,9 +6,9 @@
 #include <cstring>
 #include <set>
 
+#include "photon/trace/lanes/vertex_lanes.h"
+#include "photon/trace/lanes/walker_queue.h"
 #include "photon/trace/record_sink.h"
-#include "photon/trace/vertex_lanes.h"
-#include "photon/trace/walker_queue.h"
 #include "tests/core/support/bsdf_examples.h"
 #include "tests/photon/support/photon_sets.h"
 

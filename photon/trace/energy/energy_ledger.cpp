@@ -1,6 +1,6 @@
 // Sums of ledgers, and the choice of the unit.
 
-#include "photon/trace/energy_ledger.h"
+#include "photon/trace/energy/energy_ledger.h"
 
 #include <algorithm>
 

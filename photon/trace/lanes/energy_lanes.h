@@ -2,8 +2,8 @@
 // Conversion of photon fluxes to ledger units and the booking of energy, for a group of photons in SIMD
 // lanes.
 
-#include "photon/trace/energy_ledger.h"
-#include "photon/trace/walker_rows.h"
+#include "photon/trace/energy/energy_ledger.h"
+#include "photon/trace/lanes/walker_rows.h"
 
 namespace kaustik::photon {
 

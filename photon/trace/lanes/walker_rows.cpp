@@ -1,9 +1,9 @@
 // Transposes photons between rows and columns in SIMD lanes (Google Highway).
 
-#include "photon/trace/walker_rows.h"
+#include "photon/trace/lanes/walker_rows.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "photon/trace/walker_rows.cpp"
+#define HWY_TARGET_INCLUDE "photon/trace/lanes/walker_rows.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

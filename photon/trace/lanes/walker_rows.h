@@ -1,8 +1,8 @@
 #pragma once
 // Photons on their way as rows in memory, and their transposition from and to the columns of SIMD lanes.
 
-#include "photon/trace/vertex_lanes.h"
-#include "photon/trace/walk_state.h"
+#include "photon/trace/lanes/vertex_lanes.h"
+#include "photon/trace/lanes/walk_state.h"
 
 namespace kaustik::photon {
 

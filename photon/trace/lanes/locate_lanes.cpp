@@ -4,10 +4,10 @@
 #include <bit>
 
 #include "core/geometry/analytic/quadric_bounds.h"
-#include "photon/trace/vertex_lanes.h"
+#include "photon/trace/lanes/vertex_lanes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "photon/trace/locate_lanes.cpp"
+#define HWY_TARGET_INCLUDE "photon/trace/lanes/locate_lanes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

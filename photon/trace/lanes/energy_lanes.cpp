@@ -1,14 +1,14 @@
 // Energy booking in SIMD lanes (Google Highway). Energies are integers, so the result is the same on every
 // instruction set.
 
-#include "photon/trace/energy_lanes.h"
+#include "photon/trace/lanes/energy_lanes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "photon/trace/energy_lanes.cpp"
+#define HWY_TARGET_INCLUDE "photon/trace/lanes/energy_lanes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "photon/trace/energy_lanes-inl.h"
+#include "photon/trace/energy/energy_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {

@@ -1,6 +1,6 @@
 // Fills the rows of the surface table from shapes and materials.
 
-#include "photon/trace/surface_table.h"
+#include "photon/trace/lanes/surface_table.h"
 
 namespace kaustik::photon {
 

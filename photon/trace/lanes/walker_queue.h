@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "photon/trace/walker_rows.h"
+#include "photon/trace/lanes/walker_rows.h"
 
 namespace kaustik::photon {
 

@@ -2,14 +2,14 @@
 // tracer's scalar code in the same order. Nothing is fused and nothing approximated, so the results do not
 // depend on the instruction set.
 
-#include "photon/trace/vertex_lanes.h"
+#include "photon/trace/lanes/vertex_lanes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "photon/trace/scatter_lanes.cpp"
+#define HWY_TARGET_INCLUDE "photon/trace/lanes/scatter_lanes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "photon/trace/energy_lanes-inl.h"
+#include "photon/trace/energy/energy_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {

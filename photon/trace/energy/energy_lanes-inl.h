@@ -8,7 +8,7 @@
 #endif
 
 #include "photon/lanes/vector_lanes-inl.h"
-#include "photon/trace/energy_ledger.h"
+#include "photon/trace/energy/energy_ledger.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::photon::HWY_NAMESPACE {

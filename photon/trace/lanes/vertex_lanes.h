@@ -3,7 +3,7 @@
 // vertex normals and spheres, with diffuse, Oren-Nayar, mirror and dielectric BSDFs.
 
 #include "photon/lanes/photon_lanes.h"
-#include "photon/trace/surface_table.h"
+#include "photon/trace/lanes/surface_table.h"
 
 namespace kaustik::photon {
 
