@@ -34,7 +34,7 @@ void over_parts(int threads, const Body& body) {
 }
 
 struct Arrays {
-  photon::UninitialisedArray<double> a{kSize}, b{kSize}, c{kSize};
+  UninitialisedArray<double> a{kSize}, b{kSize}, c{kSize};
 };
 
 // doubles: number of doubles read and written per element. loop(arrays) returns the body.

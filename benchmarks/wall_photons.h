@@ -45,7 +45,7 @@ inline float room_area() {
 inline photon::PhotonBuffer wall_photons(size_t count) {
   photon::PhotonBuffer buffer;
   buffer.records.reserve(count);
-  photon::prefer_large_pages(buffer.records.data(), count * sizeof(photon::PhotonRecord));
+  prefer_large_pages(buffer.records.data(), count * sizeof(photon::PhotonRecord));
   buffer.records.resize(count);
   tbb::parallel_for(size_t(0), count, [&](size_t i) {
     float area = canonical(i, 0) * room_area();

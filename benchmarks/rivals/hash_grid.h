@@ -22,7 +22,7 @@ class HashGrid {
     grid.bounds_ = bounds_of(buffer);
     grid.cells_per_metre_ = cells_per_metre(grid.bounds_, radius);
     grid.first_.resize(std::max<size_t>(count, 1) + 1);  // as many buckets as photons
-    photon::UninitialisedArray<uint32_t> bucket(count);
+    UninitialisedArray<uint32_t> bucket(count);
     for (size_t i = 0; i < count; ++i) {
       const photon::PhotonRecord& r = buffer.records[i];
       bucket[i] = grid.bucket(grid.cell({r.x, r.y, r.z}));

@@ -20,12 +20,12 @@ struct KeyIndex {
   uint64_t key;
   uint32_t index;
 };
-using KeyIndices = photon::UninitialisedArray<KeyIndex>;
+using KeyIndices = UninitialisedArray<KeyIndex>;
 
 // Allocates large pages, as the photon map does for its columns.
 inline KeyIndices make_key_indices(size_t size) {
   KeyIndices pairs(size);
-  photon::prefer_large_pages(pairs.data(), size * sizeof(KeyIndex));
+  prefer_large_pages(pairs.data(), size * sizeof(KeyIndex));
   return pairs;
 }
 

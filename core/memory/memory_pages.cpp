@@ -9,7 +9,7 @@
 #include <cstdint>
 #endif
 
-namespace kaustik::photon {
+namespace kaustik {
 
 #ifdef __linux__
 
@@ -39,4 +39,4 @@ void give_back_pages(void*, size_t) {}
 
 #endif
 
-}  // namespace kaustik::photon
+}  // namespace kaustik

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace kaustik::photon {
+namespace kaustik {
 
 // Asks for large pages. A big array then needs few of them, so they take less time to allocate and cause
 // fewer TLB misses. Call it before the memory is first written.
@@ -13,4 +13,4 @@ void prefer_large_pages(void* data, size_t bytes);
 // afterwards. The address range remains the caller's, to be freed as usual.
 void give_back_pages(void* data, size_t bytes);
 
-}  // namespace kaustik::photon
+}  // namespace kaustik

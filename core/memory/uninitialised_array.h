@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace kaustik::photon {
+namespace kaustik {
 
 // Owns `size` values, which are uninitialised at first. Move-only.
 template <class T>
@@ -52,4 +52,4 @@ struct UninitialisedAllocator : std::allocator<T> {
   }
 };
 
-}  // namespace kaustik::photon
+}  // namespace kaustik

@@ -179,7 +179,7 @@ class PixelWindow {
         full_width_(full_width),
         full_height_(full_height),
         pixels_(size_t(width) * size_t(height)) {
-    photon::prefer_large_pages(pixels_.data(), pixels_.size() * sizeof(Pixel));
+    prefer_large_pages(pixels_.data(), pixels_.size() * sizeof(Pixel));
     clear();
   }
   int width() const { return width_; }
@@ -198,7 +198,7 @@ class PixelWindow {
  private:
   int width_ = 0, height_ = 0;
   int x0_ = 0, y0_ = 0, full_width_ = 0, full_height_ = 0;
-  std::vector<Pixel, photon::UninitialisedAllocator<Pixel>> pixels_;
+  std::vector<Pixel, UninitialisedAllocator<Pixel>> pixels_;
 };
 // A window of the same position and size, with pixels of another type.
 template <class Pixel, class Other>

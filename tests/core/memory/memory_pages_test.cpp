@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace kaustik::photon {
+namespace kaustik {
 namespace {
 
 // Pages have between 4096 and 65536 bytes. Nothing outside the given bytes may change, nor what is near their
@@ -30,4 +30,4 @@ TEST(MemoryPages, RangesBelowAPageAreLeftAlone) {
 }
 
 }  // namespace
-}  // namespace kaustik::photon
+}  // namespace kaustik
