@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/command_line/values.h"
 #include "apps/session/scene_loading.h"
-#include "apps/settings/values.h"
 
 namespace kaustik::app {
 

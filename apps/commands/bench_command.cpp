@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include "apps/bench/bench_table.h"
 #include "apps/bench/machine.h"
 #include "apps/bench/measure.h"
+#include "apps/command_line/whole_numbers.h"
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
@@ -21,7 +21,6 @@
 #include "apps/session/interrupt.h"
 #include "apps/session/output_files.h"
 #include "apps/session/scene_loading.h"
-#include "apps/settings/list_options.h"
 #include "apps/settings/settings_json.h"
 #include "core/version.h"
 
@@ -157,40 +156,39 @@ int run_bench(const Options& options, const Console& console) {
   return kDone;
 }
 
-void add_options(CLI::App& parser, Options& options) {
-  parser.add_option("SCENE", options.scene, "Scene file")->option_text(" ");
-  add_list_option(parser, "--photons", options.photons, "COUNTS",
-                  "Photon counts, separated by commas, like 1M,10M. Default: 1M");
-  add_list_option(
-      parser, "--threads", options.threads, "COUNTS",
+void add_options(Command& command, Options& options) {
+  command.add_argument("SCENE", options.scene, "Scene file").required = false;
+  command.add_list("--photons", "COUNTS", options.photons,
+                   "Photon counts, separated by commas, like 1M,10M. Default: 1M");
+  command.add_list(
+      "--threads", "COUNTS", options.threads,
       "Thread counts, separated by commas. Speed-ups are relative to the first. Default: 1, 2, 4 ... up "
       "to the usable cores");
-  parser.add_option("--repeat", options.repeat, "Runs per point. Default: 5")->option_text("COUNT");
-  parser.add_option("--json", options.json, "Write the result to this JSON file")->option_text("FILE");
-  parser
-      .add_option(
-          "--plot", options.plot,
-          "Write charts of the scaling to the page scaling.html in this folder, which is created if missing")
-      ->option_text("FOLDER");
-  CLI::Option* from =
-      parser.add_option("--from", options.from, "Read the JSON of an earlier run instead of measuring")
-          ->option_text("FILE");
-  add_setting_options(parser, options.overrides, SettingsCommand::kBench);
-  for (CLI::Option* option : parser.get_options())
-    if (option != from && option->get_name() != "--help" && option->get_name() != "--plot" &&
-        option->get_name() != "SCENE")
-      from->excludes(option);
+  command.add_text("--repeat", "COUNT", options.repeat, "Runs per point. Default: 5");
+  command.add_text("--json", "FILE", options.json, "Write the result to this JSON file");
+  command.add_text(
+      "--plot", "FOLDER", options.plot,
+      "Write charts of the scaling to the page scaling.html in this folder, which is created if missing");
+  Option from;
+  from.names = {"--from"};
+  from.value_name = "FILE";
+  from.description = "Read the JSON of an earlier run instead of measuring";
+  from.assign = [&options](const Texts& texts) { options.from = texts.front(); };
+  const size_t place = command.options.size();
+  add_setting_options(command, options.overrides, SettingsCommand::kBench);
+  for (const Option& option : command.options)
+    if (option.long_name() != "--help" && option.long_name() != "--plot")
+      from.excludes.push_back(option.long_name());
+  command.options.insert(command.options.begin() + std::ptrdiff_t(place), std::move(from));
 }
 
 }  // namespace
 
-Command make_bench_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand("bench", "Measure speed, memory and scaling on a scene");
+Command make_bench_command() {
+  Command command("bench", "Measure speed, memory and scaling on a scene");
   const auto options = std::make_shared<Options>();
-  add_options(*command.parser, *options);
-  command.parser->add_flag("-q,--quiet", *command.quiet,
-                           "Suppress log and progress, but not warnings and errors");
+  add_options(command, *options);
+  command.add_quiet();
   command.run = [options](const Console& console) { return run_bench(*options, console); };
   return command;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/commands.h"
@@ -18,8 +17,7 @@ namespace {
 struct Options {
   std::string reference, image, heatmap;
   bool json = false;
-  std::optional<double> max_relmse;
-  std::optional<float> mask_bright;
+  std::optional<float> max_relmse, mask_bright;
 };
 
 // JSON cannot represent infinity, the PSNR of equal pictures.
@@ -91,33 +89,21 @@ int run_compare(const Options& options, const Console& console) {
 
 }  // namespace
 
-Command make_compare_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand("compare", "Measure how much a picture differs from a reference");
+Command make_compare_command() {
+  Command command("compare", "Measure how much a picture differs from a reference");
   const auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("REF", options->reference, "Reference picture")->required()->option_text(" ");
-  parser.add_option("IMG", options->image, "Picture to compare, of the same size")
-      ->required()
-      ->option_text(" ");
-  parser.add_flag("--json", options->json, "Print JSON");
-  parser
-      .add_option("--heatmap", options->heatmap,
-                  "Write the relative squared error per pixel as a picture in false colours")
-      ->option_text("FILE");
-  parser
-      .add_option(
-          "--max-relmse", options->max_relmse,
-          "Exit with code 1 if relMSE, the mean of (I - R)^2 / (R^2 + 0.01), is above X. Default: no limit")
-      ->option_text("X")
-      ->check(CLI::NonNegativeNumber);
-  parser
-      .add_option(
-          "--mask-bright", options->mask_bright,
-          "Ignore reference pixels brighter than L [W/(m^2 sr)] and 2 pixels around them, such as edges of "
-          "lights. Default: ignore none")
-      ->option_text("L")
-      ->check(CLI::NonNegativeNumber);
+  command.add_argument("REF", options->reference, "Reference picture");
+  command.add_argument("IMG", options->image, "Picture to compare, of the same size");
+  command.add_flag("--json", options->json, "Print JSON");
+  command.add_text("--heatmap", "FILE", options->heatmap,
+                   "Write the relative squared error per pixel as a picture in false colours");
+  command.add_number(
+      "--max-relmse", "X", options->max_relmse,
+      "Exit with code 1 if relMSE, the mean of (I - R)^2 / (R^2 + 0.01), is above X. Default: no limit");
+  command.add_number(
+      "--mask-bright", "L", options->mask_bright,
+      "Ignore reference pixels brighter than L [W/(m^2 sr)] and 2 pixels around them, such as edges of "
+      "lights. Default: ignore none");
   command.run = [options](const Console& console) { return run_compare(*options, console); };
   return command;
 }

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/convert/ply_bytes.h"
@@ -88,20 +86,13 @@ int run_convert(const Options& options, const Console& console) {
 
 }  // namespace
 
-Command make_convert_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand("convert", "Write a scene (glTF, OBJ, pbrt) as pbrt-v4 text");
+Command make_convert_command() {
+  Command command("convert", "Write a scene (glTF, OBJ, pbrt) as pbrt-v4 text");
   const auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("SCENE", options->scene, "Scene file: .gltf, .glb, .obj or .pbrt")
-      ->required()
-      ->option_text(" ");
-  parser
-      .add_option("OUTPUT", options->output,
-                  "Scene to write, NAME.pbrt; meshes and images go to the folder NAME-files beside it")
-      ->required()
-      ->option_text(" ");
-  parser.add_flag("-q,--quiet", *command.quiet, "Suppress the log, but not warnings and errors");
+  command.add_argument("SCENE", options->scene, "Scene file: .gltf, .glb, .obj or .pbrt");
+  command.add_argument("OUTPUT", options->output,
+                       "Scene to write, NAME.pbrt; meshes and images go to the folder NAME-files beside it");
+  command.add_quiet("Suppress the log, but not warnings and errors");
   command.run = [options](const Console& console) { return run_convert(*options, console); };
   return command;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -178,13 +177,11 @@ int run_info(const Options& options, const Console& console) {
 
 }  // namespace
 
-Command make_info_command(CLI::App& program) {
-  Command command;
-  command.parser =
-      program.add_subcommand("info", "Show the contents of a scene and which estimators it needs");
+Command make_info_command() {
+  Command command("info", "Show the contents of a scene and which estimators it needs");
   const auto options = std::make_shared<Options>();
-  command.parser->add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
-  command.parser->add_flag("--json", options->json, "Print JSON");
+  command.add_argument("SCENE", options->scene, "Scene file");
+  command.add_flag("--json", options->json, "Print JSON");
   command.run = [options](const Console& console) { return run_info(*options, console); };
   return command;
 }

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/session/partial_files.h"
@@ -92,18 +90,14 @@ int run_merge(const MergeOptions& options, const Console& console) {
 
 }  // namespace
 
-Command make_merge_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand("merge", "Merge partial results into a picture");
+Command make_merge_command() {
+  Command command("merge", "Merge partial results into a picture");
   const auto options = std::make_shared<MergeOptions>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("PARTS", options->parts, "Partial results (.kpart) of one render, in any order")
-      ->required()
-      ->option_text(" ");
-  add_output_options(parser, options->outputs, "none");
-  parser.add_flag("--allow-gaps", options->allow_gaps, "Merge even if passes are missing");
-  parser.add_flag("-q,--quiet", *command.quiet, "Suppress the log, but not warnings and errors");
-  add_setting_options(parser, options->overrides, SettingsCommand::kMerge);
+  command.add_arguments("PARTS", options->parts, "Partial results (.kpart) of one render, in any order");
+  add_output_options(command, options->outputs, "none");
+  command.add_flag("--allow-gaps", options->allow_gaps, "Merge even if passes are missing");
+  command.add_quiet("Suppress the log, but not warnings and errors");
+  add_setting_options(command, options->overrides, SettingsCommand::kMerge);
   command.run = [options](const Console& console) { return run_merge(*options, console); };
   return command;
 }

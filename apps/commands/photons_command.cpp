@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 
 #include "apps/commands/commands.h"
@@ -12,7 +11,6 @@
 #include "apps/session/interrupt.h"
 #include "apps/session/output_files.h"
 #include "apps/session/scene_loading.h"
-#include "apps/settings/list_options.h"
 #include "core/diagnostics/nearest_name.h"
 #include "photon/record/ply_export.h"
 #include "photon/shoot/memory_estimate.h"
@@ -128,23 +126,19 @@ int run_photons(const Options& options, const Console& console) {
 
 }  // namespace
 
-Command make_photons_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand("photons", "Shoot photons and write them as coloured points");
+Command make_photons_command() {
+  Command command("photons", "Shoot photons and write them as coloured points");
   const auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
-  parser.add_option("-o,--output", options->cloud, "Point cloud to write, a binary .ply")
-      ->option_text("FILE");
-  parser
-      .add_option("--image", options->image, "Picture to write: the same points seen by the scene's camera")
-      ->option_text("FILE");
-  CLI::Option* kinds = add_list_option(
-      parser, "--kinds", options->kinds, "NAMES",
-      "Kinds of photons, separated by commas: direct, shadow, caustic, indirect. Default: all");
-  offer_choices(*kinds, photon::kPhotonKindNames);
-  parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
-  add_setting_options(parser, options->overrides, SettingsCommand::kPhotons);
+  command.add_argument("SCENE", options->scene, "Scene file");
+  command.add_text("-o,--output", "FILE", options->cloud, "Point cloud to write, a binary .ply");
+  command.add_text("--image", "FILE", options->image,
+                   "Picture to write: the same points seen by the scene's camera");
+  command
+      .add_list("--kinds", "NAMES", options->kinds,
+                "Kinds of photons, separated by commas: direct, shadow, caustic, indirect. Default: all")
+      .choices = choices_of(photon::kPhotonKindNames);
+  command.add_quiet();
+  add_setting_options(command, options->overrides, SettingsCommand::kPhotons);
   command.run = [options](const Console& console) { return run_photons(*options, console); };
   return command;
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -33,19 +32,22 @@ std::string file_text(const std::string& path) {
   return text.str();
 }
 
-std::string reference_text(const Options& options, const ProgramModel& program) {
+std::string reference_text(const Options& options, const Program& program) {
   if (options.format == "man") return man_page(program);
   if (options.format == "bash") return bash_completion(program);
   if (options.format == "zsh") return zsh_completion(program);
   if (options.format == "fish") return fish_completion(program);
+  if (options.format != "markdown")
+    throw ExitError(kBadCommandLine,
+                    fmt::format("--format {}: expected markdown, man, bash, zsh or fish", options.format));
   if (options.page.empty())
     throw ExitError(kBadCommandLine,
                     "--format markdown needs --page, the page whose tables are to be replaced");
   return updated_reference_page(file_text(options.page), program);
 }
 
-int run_reference(const Options& options, const CLI::App& program, const Console& console) {
-  const std::string text = reference_text(options, program_model(program));
+int run_reference(const Options& options, const Program& program, const Console& console) {
+  const std::string text = reference_text(options, program);
   if (options.output.empty())
     console.out << text;
   else
@@ -55,20 +57,13 @@ int run_reference(const Options& options, const CLI::App& program, const Console
 
 }  // namespace
 
-Command make_reference_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand("reference", "Describe the command line");
+Command make_reference_command(const Program& program) {
+  Command command("reference", "Describe the command line");
+  command.hidden = true;
   const auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.group("");
-  parser.add_option("--format", options->format, "markdown, man, bash, zsh or fish")
-      ->required()
-      ->option_text("NAME")
-      ->check(CLI::IsMember({"markdown", "man", "bash", "zsh", "fish"}));
-  parser.add_option("--page", options->page, "The page whose generated parts are to be replaced")
-      ->option_text("FILE");
-  parser.add_option("-o,--output", options->output, "File to write. Default: the output stream")
-      ->option_text("FILE");
+  command.add_text("--format", "NAME", options->format, "markdown, man, bash, zsh or fish").required = true;
+  command.add_text("--page", "FILE", options->page, "The page whose generated parts are to be replaced");
+  command.add_text("-o,--output", "FILE", options->output, "File to write. Default: the output stream");
   command.run = [options, &program](const Console& console) {
     return run_reference(*options, program, console);
   };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "apps/commands/commands.h"
@@ -76,52 +75,41 @@ int run_render(const RenderOptions& options, const Console& console) {
   return run_session(std::move(job), std::move(session), interrupt, total, console);
 }
 
-void add_pass_options(CLI::App& parser, RenderOptions& options) {
-  CLI::Option* checkpoint =
-      parser
-          .add_option(
-              "--checkpoint", options.checkpoint.path,
-              "Write the complete passes to this partial result (.kpart) from time to time and at the end. "
-              "`kaustik resume` continues from it")
-          ->option_text("FILE");
-  parser
-      .add_option_function<std::string>(
-          "--checkpoint-every",
-          [&options](const std::string& text) { options.checkpoint.every = checkpoint_interval(text); },
+void add_pass_options(Command& command, RenderOptions& options) {
+  command.add_text(
+      "--checkpoint", "FILE", options.checkpoint.path,
+      "Write the complete passes to this partial result (.kpart) from time to time and at the end. `kaustik "
+      "resume` continues from it");
+  command
+      .add_parsed(
+          "--checkpoint-every", "TIME",
           "Least time between checkpoints, like 60s, 10m or 1.5h. They are written at the end of a pass. "
-          "Default: 60s")
-      ->option_text("TIME")
-      ->needs(checkpoint);
-  parser
-      .add_option_function<std::string>(
-          "--pass-range",
-          [&options](const std::string& text) {
-            const auto passes = render::PassSet::parse(text);
-            if (!passes)
-              throw CLI::ValidationError(
-                  "--pass-range",
-                  fmt::format("`{}`: expected passes BEGIN:END, like 0:16 or 0:4,8:12", text));
-            options.passes = *passes;
-          },
-          "Render only passes A to B - 1; needs --passes. `kaustik merge` combines the parts. Default: all")
-      ->option_text("A:B");
+          "Default: 60s",
+          [&options](const std::string& text) { options.checkpoint.every = checkpoint_interval(text); })
+      .needs = {"--checkpoint"};
+  command.add_parsed(
+      "--pass-range", "A:B",
+      "Render only passes A to B - 1; needs --passes. `kaustik merge` combines the parts. Default: all",
+      [&options](const std::string& text) {
+        const auto passes = render::PassSet::parse(text);
+        if (!passes)
+          throw OptionError("--pass-range",
+                            fmt::format("`{}`: expected passes BEGIN:END, like 0:16 or 0:4,8:12", text));
+        options.passes = *passes;
+      });
 }
 
 }  // namespace
 
-Command make_render_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand("render", "Render a scene to EXR, PNG or JPEG files");
+Command make_render_command() {
+  Command command("render", "Render a scene to EXR, PNG or JPEG files");
   const auto options = std::make_shared<RenderOptions>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("SCENE", options->scene, "Scene file: .pbrt, .gltf, .glb or .obj")
-      ->required()
-      ->option_text(" ");
-  add_output_options(parser, options->outputs,
+  command.add_argument("SCENE", options->scene, "Scene file: .pbrt, .gltf, .glb or .obj");
+  add_output_options(command, options->outputs,
                      "the scene's Film \"filename\", else the scene's name with .exr");
-  add_pass_options(parser, *options);
-  parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
-  add_setting_options(parser, options->overrides, SettingsCommand::kRender);
+  add_pass_options(command, *options);
+  command.add_quiet();
+  add_setting_options(command, options->overrides, SettingsCommand::kRender);
   command.run = [options](const Console& console) { return run_render(*options, console); };
   return command;
 }

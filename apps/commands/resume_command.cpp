@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
+#include "apps/command_line/values.h"
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/session/output_files.h"
 #include "apps/session/render_session.h"
 #include "apps/session/stop_rules.h"
-#include "apps/settings/values.h"
 #include "render/plan/plan.h"
 
 namespace kaustik::app {
@@ -94,48 +92,36 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   return run_session(std::move(job), std::move(session), interrupt, total, console);
 }
 
-void add_pass_options(CLI::App& parser, ResumeOptions& options) {
-  parser
-      .add_option_function<std::string>(
-          "--passes",
-          [&options](const std::string& text) {
-            const std::optional<uint64_t> passes = parse_count(text);
-            if (!passes || *passes < 1 || *passes > render::kMostPasses)
-              throw CLI::ValidationError("--passes",
-                                         fmt::format("`{}`: expected a whole number, 1 to 2147483647", text));
-            options.passes = *passes;
-          },
-          "Total number of passes at the end, which may exceed the number that the render asked for. "
-          "Default: "
-          "that number")
-      ->option_text("COUNT");
-  parser
-      .add_option_function<std::string>(
-          "--checkpoint-every",
-          [&options](const std::string& text) { options.checkpoint_every = checkpoint_interval(text); },
-          "Least time between checkpoints, which replace PART at the end of a pass. Default: 60s")
-      ->option_text("TIME");
+void add_pass_options(Command& command, ResumeOptions& options) {
+  command.add_parsed(
+      "--passes", "COUNT",
+      "Total number of passes at the end, which may exceed the number that the render asked for. Default: "
+      "that number",
+      [&options](const std::string& text) {
+        const std::optional<uint64_t> passes = parse_count(text);
+        if (!passes || *passes < 1 || *passes > render::kMostPasses)
+          throw OptionError("--passes", fmt::format("`{}`: expected a whole number, 1 to 2147483647", text));
+        options.passes = *passes;
+      });
+  command.add_parsed(
+      "--checkpoint-every", "TIME",
+      "Least time between checkpoints, which replace PART at the end of a pass. Default: 60s",
+      [&options](const std::string& text) { options.checkpoint_every = checkpoint_interval(text); });
 }
 
 }  // namespace
 
-Command make_resume_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand("resume", "Continue a render from its checkpoint");
+Command make_resume_command() {
+  Command command("resume", "Continue a render from its checkpoint");
   const auto options = std::make_shared<ResumeOptions>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("PART", options->partial, "Partial result (.kpart): a checkpoint, or merged parts")
-      ->required()
-      ->option_text(" ");
-  add_output_options(parser, options->outputs, "the files of the interrupted render");
-  add_pass_options(parser, *options);
-  parser
-      .add_option("--scene", options->scene,
-                  "Path of the scene if it has moved; its contents must be the same. Default: the path "
-                  "stored in PART")
-      ->option_text("FILE");
-  parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
-  add_setting_options(parser, options->overrides, SettingsCommand::kResume);
+  command.add_argument("PART", options->partial, "Partial result (.kpart): a checkpoint, or merged parts");
+  add_output_options(command, options->outputs, "the files of the interrupted render");
+  add_pass_options(command, *options);
+  command.add_text("--scene", "FILE", options->scene,
+                   "Path of the scene if it has moved; its contents must be the same. Default: the path "
+                   "stored in PART");
+  command.add_quiet();
+  add_setting_options(command, options->overrides, SettingsCommand::kResume);
   command.run = [options](const Console& console) { return run_resume(*options, console); };
   return command;
 }

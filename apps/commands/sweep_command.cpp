@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cctype>
 #include <filesystem>
 
 #include "apps/bench/bench_json.h"
 #include "apps/bench/machine.h"
+#include "apps/command_line/values.h"
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
@@ -20,8 +20,6 @@
 #include "apps/session/interrupt.h"
 #include "apps/session/output_files.h"
 #include "apps/session/partial_files.h"
-#include "apps/settings/list_options.h"
-#include "apps/settings/values.h"
 #include "apps/sweep/reference.h"
 #include "apps/sweep/run_cells.h"
 #include "apps/sweep/sweep_files.h"
@@ -204,82 +202,67 @@ int run_sweep(const Options& options, const Console& console) {
 double reference_time(const std::string& text) {
   const std::optional<double> seconds = parse_duration(text);
   if (seconds && *seconds > 0) return *seconds;
-  throw CLI::ValidationError(
-      "--reference-time",
-      fmt::format("`{}`: expected a time above 0 with its unit, like 90s, 10m or 1.5h", text));
+  throw OptionError("--reference-time",
+                    fmt::format("`{}`: expected a time above 0 with its unit, like 90s, 10m or 1.5h", text));
 }
 
 render::Method method_named(const std::string& text) {
   if (const auto method = render::from_name<render::Method>(render::kMethodNames, text)) return *method;
-  throw CLI::ValidationError("--reference-method", fmt::format("unknown method `{}`{}", text,
-                                                               name_hint(text, render::kMethodNames)));
+  throw OptionError("--reference-method",
+                    fmt::format("unknown method `{}`{}", text, name_hint(text, render::kMethodNames)));
 }
 
-void add_reference_options(CLI::App& parser, Options& options) {
-  CLI::Option* file =
-      parser
-          .add_option("--reference", options.reference.file,
-                      "Reference picture, linear and of the rendered size. Default: a reference is rendered")
-          ->option_text("FILE");
-  parser
-      .add_option_function<std::string>(
-          "--reference-time",
-          [&options](const std::string& text) { options.reference.seconds = reference_time(text); },
-          "Time for rendering the reference, like 90s or 10m. Default: 60s")
-      ->option_text("TIME")
-      ->excludes(file);
-  CLI::Option* method = parser.add_option_function<std::string>(
-      "--reference-method",
-      [&options](const std::string& text) { options.reference.method = method_named(text); },
+void add_reference_options(Command& command, Options& options) {
+  command.add_text("--reference", "FILE", options.reference.file,
+                   "Reference picture, linear and of the rendered size. Default: a reference is rendered");
+  command
+      .add_parsed("--reference-time", "TIME",
+                  "Time for rendering the reference, like 90s or 10m. Default: 60s",
+                  [&options](const std::string& text) { options.reference.seconds = reference_time(text); })
+      .excludes = {"--reference"};
+  Option& method = command.add_parsed(
+      "--reference-method", "NAME",
       "Method of the reference: mc, auto ... Default: mc for scenes without mirrors and glass, else "
-      "auto");
-  method->option_text("NAME")->excludes(file);
-  offer_choices(*method, render::kMethodNames);
-  parser
-      .add_option(
-          "--mask-bright", options.mask_bright,
-          "Ignore reference pixels brighter than L [W/(m^2 sr)] and 2 pixels around them, such as edges of "
-          "lights. Default: ignore none")
-      ->option_text("L")
-      ->check(CLI::NonNegativeNumber);
+      "auto",
+      [&options](const std::string& text) { options.reference.method = method_named(text); });
+  method.excludes = {"--reference"};
+  method.choices = choices_of(render::kMethodNames);
+  command.add_number(
+      "--mask-bright", "L", options.mask_bright,
+      "Ignore reference pixels brighter than L [W/(m^2 sr)] and 2 pixels around them, such as edges of "
+      "lights. Default: ignore none");
 }
 
-void add_grid_options(CLI::App& parser, GridTexts& grid) {
-  add_list_option(parser, "--photons", grid.photons, "COUNTS",
-                  "Photon counts, separated by commas. Default: 100k,1M");
-  add_list_option(
-      parser, "--radius", grid.radii, "RADII",
+void add_grid_options(Command& command, GridTexts& grid) {
+  command.add_list("--photons", "COUNTS", grid.photons,
+                   "Photon counts, separated by commas. Default: 100k,1M");
+  command.add_list(
+      "--radius", "RADII", grid.radii,
       "Gather radii, separated by commas: auto, multiples of it like 0.5x, or metres. Default: 0.5x,auto,2x");
-  CLI::Option* methods =
-      add_list_option(parser, "--methods", grid.methods, "NAMES",
-                      "Methods, separated by commas; see `render --method`. Default: the scene's");
-  offer_choices(*methods, render::kMethodNames);
-  add_list_option(parser, "--spp", grid.spp, "COUNTS",
-                  "Samples per pixel, separated by commas. Default: the scene's");
-  parser
-      .add_option("--seeds", grid.seeds,
-                  "Renders per point, with consecutive seeds from --seed on. Default: 5")
-      ->option_text("COUNT");
+  command
+      .add_list("--methods", "NAMES", grid.methods,
+                "Methods, separated by commas; see `render --method`. Default: the scene's")
+      .choices = choices_of(render::kMethodNames);
+  command.add_list("--spp", "COUNTS", grid.spp,
+                   "Samples per pixel, separated by commas. Default: the scene's");
+  command.add_text("--seeds", "COUNT", grid.seeds,
+                   "Renders per point, with consecutive seeds from --seed on. Default: 5");
 }
 
 }  // namespace
 
-Command make_sweep_command(CLI::App& program) {
-  Command command;
-  command.parser = program.add_subcommand(
-      "sweep", "Measure error against time over photons, radii and methods, with a report");
+Command make_sweep_command() {
+  Command command("sweep", "Measure error against time over photons, radii and methods, with a report");
   const auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("SCENE", options->scene, "Scene file")->required()->option_text(" ");
-  parser
-      .add_option("-o,--output", options->folder,
-                  "Folder for the results, created if missing. An interrupted sweep in it is continued")
-      ->required()
-      ->option_text("FOLDER");
-  add_grid_options(parser, options->grid);
-  add_reference_options(parser, *options);
-  add_setting_options(parser, options->overrides, SettingsCommand::kSweep);
-  parser.add_flag("-q,--quiet", *command.quiet, "Suppress log and progress, but not warnings and errors");
+  command.add_argument("SCENE", options->scene, "Scene file");
+  command
+      .add_text("-o,--output", "FOLDER", options->folder,
+                "Folder for the results, created if missing. An interrupted sweep in it is continued")
+      .required = true;
+  add_grid_options(command, options->grid);
+  add_reference_options(command, *options);
+  add_setting_options(command, options->overrides, SettingsCommand::kSweep);
+  command.add_quiet();
   command.run = [options](const Console& console) { return run_sweep(*options, console); };
   return command;
 }

@@ -12,8 +12,8 @@
 #include <sstream>
 #include <vector>
 
+#include "apps/command_line/values.h"
 #include "apps/machine/control_groups.h"
-#include "apps/settings/values.h"
 
 namespace kaustik::app {
 

@@ -37,38 +37,38 @@ constexpr std::string_view kEnd = R"(  if [[ $values ]]; then
 complete -F _kaustik kaustik
 )";
 
-std::vector<std::string> all_names(const std::vector<OptionModel>& options) {
+std::vector<std::string> all_names(const std::vector<Option>& options) {
   std::vector<std::string> names;
-  for (const OptionModel& option : options)
-    names.insert(names.end(), option.names.begin(), option.names.end());
+  for (const Option& option : options) names.insert(names.end(), option.names.begin(), option.names.end());
   return names;
 }
 
 // What may follow the option; nothing for flags.
-std::string value_case(const OptionModel& option) {
-  if (option.form == ValueForm::kNone) return "";
+std::string value_case(const Option& option) {
+  if (option.form() == ValueForm::kNone) return "";
   std::string action = "return";  // a value that nobody can guess
   if (!option.choices.empty())
     action = fmt::format("values='{}'{}", fmt::join(option.choices, " "), option.takes_list ? " list=1" : "");
-  else if (option.form != ValueForm::kText)
-    action = option.form == ValueForm::kFolder ? "files=-d" : "files=-f";
+  else if (option.form() != ValueForm::kText)
+    action = option.form() == ValueForm::kFolder ? "files=-d" : "files=-f";
   return fmt::format("        {}) {} ;;\n", fmt::join(option.names, " | "), action);
 }
 
 }  // namespace
 
-std::string bash_completion(const ProgramModel& program) {
+std::string bash_completion(const Program& program) {
+  const std::vector<Command> commands = visible_commands(program);
   std::string out(kBegin);
   std::vector<std::string> first = all_names(program.options);
-  for (const CommandModel& command : program.commands) first.push_back(command.name);
+  for (const Command& command : commands) first.push_back(command.name);
   out += fmt::format(
       "  if ((COMP_CWORD == 1)); then\n    mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$current\")\n"
       "    return\n  fi\n  case $command in\n",
       fmt::join(first, " "));
-  for (const CommandModel& command : program.commands) {
+  for (const Command& command : commands) {
     out += fmt::format("    {})\n      options='{}'\n      case $previous in\n", command.name,
                        fmt::join(all_names(command.options), " "));
-    for (const OptionModel& option : command.options) out += value_case(option);
+    for (const Option& option : command.options) out += value_case(option);
     out += "      esac\n      ;;\n";
   }
   return out + "  esac\n" + std::string(kEnd);

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "apps/reference/command_model.h"
+#include "apps/reference/option_text.h"
 
 namespace kaustik::app {
 
-std::string bash_completion(const ProgramModel& program);
-std::string zsh_completion(const ProgramModel& program);
-std::string fish_completion(const ProgramModel& program);
+std::string bash_completion(const Program& program);
+std::string zsh_completion(const Program& program);
+std::string fish_completion(const Program& program);
 
 }  // namespace kaustik::app

@@ -33,11 +33,11 @@ std::string tagged(const std::string& label, std::string_view text) {
   return fmt::format(".TP\n\\fB{}\\fR\n{}\n", roff(label), roff(text));
 }
 
-std::string command_section(const CommandModel& command) {
-  std::string out = fmt::format(".SS {}\n{}.\n", roff(command.usage()), roff(command.description));
+std::string command_section(const Command& command) {
+  std::string out = fmt::format(".SS {}\n{}.\n", roff(usage(command)), roff(command.description));
   std::string settings;
-  for (const PositionalModel& p : command.positionals) out += tagged(p.name, p.description);
-  for (const OptionModel& option : command.options) {
+  for (const Argument& p : command.arguments) out += tagged(p.name, p.description);
+  for (const Option& option : command.options) {
     if (option.is_setting)
       settings += fmt::format("{}`{}`", settings.empty() ? "" : ", ", option.long_name());
     else
@@ -70,19 +70,20 @@ constexpr std::string_view kExamples =
 
 }  // namespace
 
-std::string man_page(const ProgramModel& program) {
+std::string man_page(const Program& program) {
+  const std::vector<Command> commands = visible_commands(program);
   std::string out =
       fmt::format(".TH KAUSTIK 1 \"\" \"kaustik {}\" \"User Commands\"\n", roff(std::string(version())));
   out += fmt::format(".SH NAME\nkaustik \\- {}\n", roff("photon-mapping renderer for the command line"));
   out += ".SH SYNOPSIS\n";
-  for (const CommandModel& command : program.commands) {
-    if (&command != &program.commands.front()) out += ".br\n";
-    out += fmt::format("\\fB{}\\fR\n", roff(command.usage()));
+  for (const Command& command : commands) {
+    if (&command != &commands.front()) out += ".br\n";
+    out += fmt::format("\\fB{}\\fR\n", roff(usage(command)));
   }
   out += fmt::format(".SH DESCRIPTION\n{}.\n", roff(program.description));
-  for (const OptionModel& option : program.options) out += tagged(option_heading(option), option.description);
+  for (const Option& option : program.options) out += tagged(option_heading(option), option.description);
   out += ".SH COMMANDS\n";
-  for (const CommandModel& command : program.commands) out += command_section(command);
+  for (const Command& command : commands) out += command_section(command);
   out +=
       ".SH SETTINGS\nEach command lists the settings that it takes. All of them are parameters of the scene "
       "file's\n"

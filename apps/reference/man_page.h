@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "apps/reference/command_model.h"
+#include "apps/reference/option_text.h"
 
 namespace kaustik::app {
 
-std::string man_page(const ProgramModel& program);
+std::string man_page(const Program& program);
 
 }  // namespace kaustik::app

@@ -19,9 +19,9 @@ std::string cell(std::string_view text) {
   return out;
 }
 
-std::string commands_table(const ProgramModel& program) {
+std::string commands_table(const std::vector<Command>& commands) {
   std::string text = "| command | does |\n| --- | --- |\n";
-  for (const CommandModel& command : program.commands)
+  for (const Command& command : commands)
     text += fmt::format("| [`{0}`](#kaustik-{0}) | {1} |\n", command.name, cell(command.description));
   return text;
 }
@@ -33,19 +33,19 @@ std::string exit_codes_table() {
   return text;
 }
 
-std::string settings_of(const CommandModel& command) {
+std::string settings_of(const Command& command) {
   std::string text;
-  for (const OptionModel& option : command.options)
+  for (const Option& option : command.options)
     if (option.is_setting) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", option.long_name());
   return text;
 }
 
-std::string command_part(const CommandModel& command) {
-  std::string text = fmt::format("```\n{}\n```\n\n{}.\n\n", command.usage(), command.description);
+std::string command_part(const Command& command) {
+  std::string text = fmt::format("```\n{}\n```\n\n{}.\n\n", usage(command), command.description);
   text += "| argument or option | meaning |\n| --- | --- |\n";
-  for (const PositionalModel& p : command.positionals)
+  for (const Argument& p : command.arguments)
     text += fmt::format("| `{}` | {} |\n", p.name, cell(p.description));
-  for (const OptionModel& option : command.options)
+  for (const Option& option : command.options)
     if (!option.is_setting)
       text += fmt::format("| {} | {} |\n", option_heading(option, true), cell(option.description));
   const std::string settings = settings_of(command);
@@ -53,17 +53,18 @@ std::string command_part(const CommandModel& command) {
   return text;
 }
 
-std::map<std::string, std::string> parts_of(const ProgramModel& program) {
-  std::map<std::string, std::string> parts = {{"commands", commands_table(program)},
+std::map<std::string, std::string> parts_of(const Program& program) {
+  const std::vector<Command> commands = visible_commands(program);
+  std::map<std::string, std::string> parts = {{"commands", commands_table(commands)},
                                               {"exit-codes", exit_codes_table()},
                                               {"settings", settings_markdown()}};
-  for (const CommandModel& command : program.commands) parts[command.name] = command_part(command);
+  for (const Command& command : commands) parts[command.name] = command_part(command);
   return parts;
 }
 
 }  // namespace
 
-std::string updated_reference_page(const std::string& page, const ProgramModel& program) {
+std::string updated_reference_page(const std::string& page, const Program& program) {
   constexpr std::string_view kBegin = "<!-- generated: ", kEndOfLine = " -->\n";
   std::map<std::string, std::string> parts = parts_of(program);
   std::string out;

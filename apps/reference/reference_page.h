@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/reference/command_model.h"
+#include "apps/reference/option_text.h"
 
 namespace kaustik::app {
 
@@ -11,6 +11,6 @@ namespace kaustik::app {
 // what the program knows today; all else is left as it is. NAME: "commands", "exit-codes", "settings", or the
 // name of a command for its usage and options. Throws std::runtime_error, which names the part, when one is
 // unknown, is missing, occurs twice or has no end.
-std::string updated_reference_page(const std::string& page, const ProgramModel& program);
+std::string updated_reference_page(const std::string& page, const Program& program);
 
 }  // namespace kaustik::app

@@ -8,7 +8,7 @@ namespace kaustik::app {
 namespace {
 
 // Text inside single quotes and inside the brackets of _arguments.
-std::string in_quotes(std::string_view text) {
+std::string zsh_quoted(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (c == '\'')
@@ -21,44 +21,45 @@ std::string in_quotes(std::string_view text) {
   return out;
 }
 
-std::string value_spec(const OptionModel& option) {
-  if (option.form == ValueForm::kNone) return "";
+std::string value_spec(const Option& option) {
+  if (option.form() == ValueForm::kNone) return "";
   std::string action;
   if (!option.choices.empty() && option.takes_list)
     action = fmt::format("_values -s , value {}", fmt::join(option.choices, " "));
   else if (!option.choices.empty())
     action = fmt::format("({})", fmt::join(option.choices, " "));
-  else if (option.form == ValueForm::kFile)
+  else if (option.form() == ValueForm::kFile)
     action = "_files";
-  else if (option.form == ValueForm::kFolder)
+  else if (option.form() == ValueForm::kFolder)
     action = "_files -/";
-  return fmt::format(":{}:{}", in_quotes(option.value_name), action);
+  return fmt::format(":{}:{}", zsh_quoted(option.value_name), action);
 }
 
 // Each name of the option by itself; `*` since it may be given again.
-std::string option_specs(const OptionModel& option) {
+std::string option_specs(const Option& option) {
   std::string out;
   for (const std::string& name : option.names)
-    out += fmt::format(" \\\n        '*{}[{}]{}'", name, in_quotes(first_sentence(option.description)),
+    out += fmt::format(" \\\n        '*{}[{}]{}'", name, zsh_quoted(first_sentence(option.description)),
                        value_spec(option));
   return out;
 }
 
 }  // namespace
 
-std::string zsh_completion(const ProgramModel& program) {
+std::string zsh_completion(const Program& program) {
+  const std::vector<Command> commands = visible_commands(program);
   std::string out =
       "#compdef kaustik\n# Completion of kaustik for zsh. Generated: `kaustik reference --format zsh`.\n"
       "_kaustik() {\n  local -a commands=(\n";
-  for (const CommandModel& command : program.commands)
-    out += fmt::format("    '{}:{}'\n", command.name, in_quotes(command.description));
+  for (const Command& command : commands)
+    out += fmt::format("    '{}:{}'\n", command.name, zsh_quoted(command.description));
   out += "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    _arguments";
-  for (const OptionModel& option : program.options) out += option_specs(option);
+  for (const Option& option : program.options) out += option_specs(option);
   out +=
       "\n    return\n  fi\n  local command=$words[2]\n  shift words\n  (( CURRENT-- ))\n  case $command in\n";
-  for (const CommandModel& command : program.commands) {
+  for (const Command& command : commands) {
     out += fmt::format("    {})\n      _arguments", command.name);
-    for (const OptionModel& option : command.options) out += option_specs(option);
+    for (const Option& option : command.options) out += option_specs(option);
     out += " \\\n        '*:file:_files'\n      ;;\n";
   }
   return out + "  esac\n}\n_kaustik \"$@\"\n";

@@ -5,7 +5,6 @@
 #include <gnu/libc-version.h>
 #endif
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "accel/embree_version.h"
@@ -85,7 +84,7 @@ SettingOverrides settings_of(const render::PartialManifest& manifest, const std:
         throw ExitError(kBadCommandLine, fmt::format("{}: it contains an unknown setting `{}`", path, name));
       try {
         overrides.add(*setting, texts);
-      } catch (const CLI::ValidationError& error) {
+      } catch (const OptionError& error) {
         throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, error.what()));
       }
     }

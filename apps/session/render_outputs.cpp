@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <exception>
 #include <nlohmann/json.hpp>
 
@@ -90,18 +89,19 @@ void report_error(const render::RenderResult& result, const render::RenderSettin
 
 }  // namespace
 
-void add_output_options(CLI::App& parser, OutputOptions& options, const std::string& by_default) {
-  parser
-      .add_option(
-          "-o,--output", options.files,
-          "File to write: .exr (float, with layers), .png, .jpg, or .kpart (a partial result). Repeat the "
-          "option for more files. Default: " +
-              by_default)
-      ->option_text("FILE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  parser.add_option("--stats", options.statistics, "Write counts, times and settings to this JSON file")
-      ->option_text("FILE");
+void add_output_options(Command& command, OutputOptions& options, const std::string& by_default) {
+  Option output;
+  output.names = {"-o", "--output"};
+  output.value_name = "FILE";
+  output.description =
+      "File to write: .exr (float, with layers), .png, .jpg, or .kpart (a partial result). Repeat the option "
+      "for more files. Default: " +
+      by_default;
+  output.assign = [&options](const Texts& texts) { options.files = texts; };
+  output.takes_list = true;
+  command.add_option(std::move(output));
+  command.add_text("--stats", "FILE", options.statistics,
+                   "Write counts, times and settings to this JSON file");
 }
 
 void check_outputs(const OutputOptions& options) {

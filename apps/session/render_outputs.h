@@ -4,15 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/command_line/command.h"
 #include "apps/console/console.h"
 #include "apps/settings/settings.h"
 #include "render/passes/partial_result.h"
 #include "render/renderer.h"
 #include "render/statistics_json.h"
-
-namespace CLI {
-class App;
-}
 
 namespace kaustik::app {
 
@@ -22,7 +19,7 @@ struct OutputOptions {
 };
 
 // Adds -o and --stats. `by_default`: names what is written without -o, for the help.
-void add_output_options(CLI::App& parser, OutputOptions& options, const std::string& by_default);
+void add_output_options(Command& command, OutputOptions& options, const std::string& by_default);
 
 // Throws ExitError (bad command line) for a file that cannot be written.
 void check_outputs(const OutputOptions& options);

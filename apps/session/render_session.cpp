@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/command_line/values.h"
 #include "apps/console/exit_code.h"
 #include "apps/console/progress_bar.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/session/render_job.h"
 #include "apps/session/stop_rules.h"
 #include "apps/session/time_plan.h"
-#include "apps/settings/values.h"
 
 namespace kaustik::app {
 
@@ -150,8 +149,8 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
 
 double checkpoint_interval(const std::string& text) {
   if (const std::optional<double> seconds = parse_duration(text)) return *seconds;
-  throw CLI::ValidationError("--checkpoint-every",
-                             fmt::format("`{}`: expected a time with its unit, like 60s, 10m or 1.5h", text));
+  throw OptionError("--checkpoint-every",
+                    fmt::format("`{}`: expected a time with its unit, like 60s, 10m or 1.5h", text));
 }
 
 }  // namespace kaustik::app

@@ -26,7 +26,7 @@ bool writes_sums(const RenderSession& session);
 int run_session(Job job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console);
 
-// Parses the value of --checkpoint-every into seconds. Throws CLI::ValidationError.
+// Parses the value of --checkpoint-every into seconds. Throws OptionError.
 double checkpoint_interval(const std::string& text);
 
 }  // namespace kaustik::app

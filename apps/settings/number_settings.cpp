@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "apps/command_line/values.h"
 #include "apps/settings/rows.h"
-#include "apps/settings/values.h"
 
 namespace kaustik::app {
 

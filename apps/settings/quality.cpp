@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "apps/settings/values.h"
+#include "apps/command_line/values.h"
 #include "core/diagnostics/nearest_name.h"
 
 namespace kaustik::app {

@@ -2,23 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-
-#include "apps/settings/list_options.h"
 
 namespace kaustik::app {
 
 void SettingOverrides::add(const Setting& setting, std::vector<std::string> texts) {
   const auto expected = static_cast<size_t>(setting.values);
   if (setting.kind != ValueKind::kNames && texts.size() != expected) {
-    throw CLI::ValidationError(fmt::format("--{}", setting.name),
-                               fmt::format("expected {} ({} value{}), got {}", setting.value_name, expected,
-                                           expected == 1 ? "" : "s", texts.size()));
+    throw OptionError(fmt::format("--{}", setting.name),
+                      fmt::format("expected {} ({} value{}), got {}", setting.value_name, expected,
+                                  expected == 1 ? "" : "s", texts.size()));
   }
   Settings scratch;
   if (const std::optional<std::string> complaint = setting.assign(scratch, texts)) {
-    throw CLI::ValidationError(fmt::format("--{}", setting.name), *complaint);
+    throw OptionError(fmt::format("--{}", setting.name), *complaint);
   }
   given_.emplace_back(&setting, std::move(texts));
 }
@@ -60,19 +57,20 @@ std::string help_text(const Setting& setting) {
 
 }  // namespace
 
-void add_setting_options(CLI::App& parser, SettingOverrides& overrides, SettingsCommand command) {
+void add_setting_options(Command& command, SettingOverrides& overrides, SettingsCommand which) {
   for (const Setting& setting : settings_table()) {
-    if (!setting.commands.has(command)) continue;
-    CLI::Option* option = parser.add_option_function<std::vector<std::string>>(
-        fmt::format("--{}", setting.name),
-        [&overrides, &setting](const std::vector<std::string>& texts) { overrides.add(setting, texts); },
-        help_text(setting));
-    option->option_text(std::string(setting.value_name))
-        ->expected(setting.values)
-        ->group(std::string(kSettingsGroup));
-    if (!setting.choices.empty()) offer_choices(*option, setting.choices);
-    option->multi_option_policy(setting.kind == ValueKind::kNames ? CLI::MultiOptionPolicy::TakeAll
-                                                                  : CLI::MultiOptionPolicy::TakeLast);
+    if (!setting.commands.has(which)) continue;
+    Option option;
+    option.names = {fmt::format("--{}", setting.name)};
+    option.value_name = setting.value_name;
+    option.description = help_text(setting);
+    option.assign = [&overrides, &setting](const Texts& texts) { overrides.add(setting, texts); };
+    option.values = setting.values;
+    option.takes_list = setting.kind == ValueKind::kNames;
+    option.last_wins = !option.takes_list;
+    option.is_setting = true;
+    option.choices = choices_of(setting.choices);
+    command.add_option(std::move(option));
   }
 }
 

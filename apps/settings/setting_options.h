@@ -6,18 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "apps/command_line/command.h"
 #include "apps/settings/table.h"
-
-namespace CLI {
-class App;
-}
 
 namespace kaustik::app {
 
 // The settings given on the command line, in their order. They are applied over the scene file's settings.
 class SettingOverrides {
  public:
-  // Adds a setting. Throws CLI::ValidationError when the values are invalid.
+  // Adds a setting. Throws OptionError when the values are invalid.
   void add(const Setting& setting, std::vector<std::string> texts);
   // Appends all settings of `others`.
   void append(const SettingOverrides& others);
@@ -33,10 +30,7 @@ class SettingOverrides {
   std::vector<std::pair<const Setting*, std::vector<std::string>>> given_;
 };
 
-// The heading of these options in the help.
-inline constexpr std::string_view kSettingsGroup = "Settings";
-
-// Adds --name for each setting of the table that names `command`. overrides must outlive parser.
-void add_setting_options(CLI::App& parser, SettingOverrides& overrides, SettingsCommand command);
+// Adds --name for each setting of the table that `which` takes. overrides must outlive the parsing.
+void add_setting_options(Command& command, SettingOverrides& overrides, SettingsCommand which);
 
 }  // namespace kaustik::app

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/settings/values.h"
+#include "apps/command_line/values.h"
 
 namespace kaustik::app {
 

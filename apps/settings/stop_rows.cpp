@@ -1,7 +1,7 @@
 #include <limits>
 
+#include "apps/command_line/values.h"
 #include "apps/settings/rows.h"
-#include "apps/settings/values.h"
 #include "render/settings/names.h"
 
 namespace kaustik::app {

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <limits>
 
+#include "apps/command_line/values.h"
 #include "apps/settings/number_settings.h"
 #include "apps/settings/quality.h"
 #include "apps/settings/rows.h"
-#include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
 #include "render/film/film.h"
 #include "render/settings/names.h"

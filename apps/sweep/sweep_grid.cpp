@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "apps/command_line/values.h"
+#include "apps/command_line/whole_numbers.h"
 #include "apps/console/exit_error.h"
-#include "apps/settings/list_options.h"
-#include "apps/settings/values.h"
 #include "core/diagnostics/nearest_name.h"
 #include "render/plan/plan.h"
 #include "render/settings/names.h"

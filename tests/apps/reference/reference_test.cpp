@@ -6,7 +6,7 @@
 #include <regex>
 #include <set>
 
-#include "apps/reference/command_model.h"
+#include "apps/reference/option_text.h"
 #include "apps/reference/reference_page.h"
 #include "tests/apps/support/program.h"
 
@@ -103,8 +103,8 @@ TEST_F(Reference, TheHelpDoesNotShowTheCommandThatGeneratesThis) {
 
 TEST_F(Reference, PagesWithDamagedMarksAreRefused) {
   const auto complaint = [](const std::string& text) {
-    ProgramModel program;
-    program.commands.push_back({"render", "", {}, {}});
+    Program program("kaustik", "");
+    program.commands.emplace_back("render", "");
     try {
       updated_reference_page(text, program);
     } catch (const std::runtime_error& error) {

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/settings/values.h"
+#include "apps/command_line/values.h"
 #include "render/passes/partial_result.h"
 #include "tests/apps/support/program.h"
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "apps/settings/values.h"
+#include "apps/command_line/values.h"
 
 namespace kaustik::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/settings/values.h"
+#include "apps/command_line/values.h"
 
 #include <fmt/format.h>
 

@@ -1,34 +1,13 @@
-#include "apps/settings/list_options.h"
+#include "apps/command_line/whole_numbers.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <set>
 
+#include "apps/command_line/values.h"
 #include "apps/console/exit_error.h"
-#include "apps/settings/values.h"
 
 namespace kaustik::app {
-
-CLI::Option* add_list_option(CLI::App& parser, const std::string& name, std::vector<std::string>& texts,
-                             const std::string& value_name, const std::string& description) {
-  return parser.add_option(name, texts, description)
-      ->option_text(value_name)
-      ->delimiter(',')
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void offer_choices(CLI::Option& option, std::span<const std::string_view> choices) {
-  option.type_name(fmt::format("{{{}}}", fmt::join(choices, ",")));
-}
-
-std::vector<std::string> offered_choices(const CLI::Option& option) {
-  const std::string text = option.get_type_name();
-  if (!text.starts_with('{') || !text.ends_with('}')) return {};
-  return CLI::detail::split(text.substr(1, text.size() - 2), ',');
-}
 
 uint64_t whole_number(std::string_view option, const std::string& text, uint64_t most) {
   const std::optional<uint64_t> value = parse_count(text);
