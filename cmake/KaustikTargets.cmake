@@ -1,18 +1,19 @@
-# kaustik_precompile(<target>): compiles the target's sources with the precompiled cmake/precompiled.h. The first target
-# that is named, the lowest library, owns the compiled header; the others share it.
-function(kaustik_precompile target)
+# kaustik_precompile(<target> <header>): compiles the target's sources with the precompiled cmake/<header>. The first
+# target that names a header, the lowest library, owns its compiled form; the others share it.
+function(kaustik_precompile target header)
   if(NOT KAUSTIK_PRECOMPILED_HEADERS)
     return()
   endif()
-  get_property(owner GLOBAL PROPERTY kaustik_precompiled_owner)
+  # GCC 12 forgets that a precompiled standard header is a system header, and reports overlapping or overlong copies
+  # inside std::string that do not happen.
+  target_compile_options(${target} PRIVATE
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overread;-Wno-stringop-overflow>")
+  get_property(owner GLOBAL PROPERTY kaustik_owner_of_${header})
   if(owner)
     target_precompile_headers(${target} REUSE_FROM ${owner})
-    # GCC 12 forgets that a precompiled standard header is a system header, and reports overlapping or overlong copies
-    # inside std::string that do not happen.
-    target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overread;-Wno-stringop-overflow>")
   else()
-    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
-    set_property(GLOBAL PROPERTY kaustik_precompiled_owner ${target})
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/${header})
+    set_property(GLOBAL PROPERTY kaustik_owner_of_${header} ${target})
   endif()
 endfunction()
 
@@ -21,7 +22,11 @@ function(kaustik_library name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(kaustik_${name} STATIC ${sources})
   target_link_libraries(kaustik_${name} PUBLIC kaustik_options ${ARGN})
-  kaustik_precompile(kaustik_${name})
+  if(name STREQUAL core)
+    kaustik_precompile(kaustik_core precompiled.h)
+  else()
+    kaustik_precompile(kaustik_${name} precompiled_scene.h)
+  endif()
 endfunction()
 
 # kaustik_test(<folder> [libraries...]): makes one GoogleTest program per folder, with one ctest entry per case.
@@ -32,6 +37,7 @@ function(kaustik_test folder)
   endif()
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gtest GTest::gmock GTest::gtest_main)
+  kaustik_precompile(test_${folder} precompiled_tests.h)
   target_compile_definitions(test_${folder} PRIVATE
     KAUSTIK_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     KAUSTIK_SCENES_DIR="${PROJECT_SOURCE_DIR}/scenes"
