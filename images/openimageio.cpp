@@ -74,7 +74,12 @@ class OpenImageIo final : public render::ImageFormats {
       error = std::move(why);
       return std::nullopt;
     };
-    auto in = OIIO::ImageInput::open(path);
+    // PFM files begin with the bottom row. OpenImageIO 2.5 forgets to turn them over if it is opened without a
+    // configuration.
+    OIIO::ImageSpec configuration;
+    configuration.attribute("pnm:pfmflip", 1);
+    configuration.attribute("oiio:UnassociatedAlpha", 1);  // keep colours as they are stored
+    auto in = OIIO::ImageInput::open(path, &configuration);
     if (!in) return fail(OIIO::geterror());
     in->threads(1);
     const OIIO::ImageSpec spec = in->spec();

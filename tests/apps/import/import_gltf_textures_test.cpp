@@ -19,7 +19,9 @@ class GltfTextures : public ImportGltf {
   std::string png(const std::vector<uint8_t>& pixels) const {
     const std::string path = (folder_ / "two.png").string();
     const auto out = OIIO::ImageOutput::create(path);
-    EXPECT_TRUE(out->open(path, OIIO::ImageSpec(2, 1, 4, OIIO::TypeDesc::UINT8)));
+    OIIO::ImageSpec spec(2, 1, 4, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);  // store the colours as they are given
+    EXPECT_TRUE(out->open(path, spec));
     out->write_image(OIIO::TypeDesc::UINT8, pixels.data());
     out->close();
     std::ifstream file(path, std::ios::binary);
