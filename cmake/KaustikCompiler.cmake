@@ -6,6 +6,9 @@ target_compile_options(kaustik_options INTERFACE
   # The same source must give the same bits in every build: no contraction into FMA, no fast-math.
   # Not setting errno changes no result and lets sqrt be one instruction.
   -ffp-contract=off -fno-fast-math -fno-math-errno)
+# GCC collects garbage when its heap exceeds 128 MiB, which the precompiled headers alone fill. A threshold of 512 MiB
+# saves a tenth to a fifth of the time of most sources, for a tenth more memory.
+target_compile_options(kaustik_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 if(KAUSTIK_WARNINGS_AS_ERRORS)
   # GCC 12 wrongly reports overlapping copies inside std::string's operator+ (its bug 105329).
   target_compile_options(kaustik_options INTERFACE -Werror $<$<CXX_COMPILER_ID:GNU>:-Wno-error=restrict>)

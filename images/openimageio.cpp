@@ -74,8 +74,8 @@ class OpenImageIo final : public render::ImageFormats {
       error = std::move(why);
       return std::nullopt;
     };
-    // PFM files begin with the bottom row. OpenImageIO 2.5 forgets to turn them over if it is opened without a
-    // configuration.
+    // PFM files begin with the bottom row. OpenImageIO 2.5 forgets to turn them over if it is opened without
+    // a configuration.
     OIIO::ImageSpec configuration;
     configuration.attribute("pnm:pfmflip", 1);
     configuration.attribute("oiio:UnassociatedAlpha", 1);  // keep colours as they are stored

@@ -141,8 +141,6 @@ void take_window(const Json& json, ReadManifest* out) {
     throw std::runtime_error("the window lies outside the image");
 }
 
-}  // namespace
-
 Json manifest_json(const PartialManifest& m, const PassSums& sums) {
   Json out;
   out["build"] = m.build;
@@ -169,7 +167,18 @@ Json manifest_json(const PartialManifest& m, const PassSums& sums) {
   return out;
 }
 
-ReadManifest manifest_from_json(const Json& json) {
+}  // namespace
+
+std::string manifest_text(const PartialManifest& manifest, const PassSums& sums) {
+  try {
+    return manifest_json(manifest, sums).dump(1);
+  } catch (const Json::exception&) {
+    throw std::runtime_error("the name of the scene or of an output is not UTF-8");
+  }
+}
+
+ReadManifest manifest_from_text(std::string_view text) {
+  const Json json = Json::parse(text);
   ReadManifest out;
   PartialManifest& m = out.result.manifest;
   PassSums& sums = out.result.sums;

@@ -1,13 +1,15 @@
 #pragma once
-// Conversion of a partial result's manifest to and from JSON.
+// Conversion of a partial result's manifest to and from the text of a JSON object.
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
 
 #include "render/passes/partial_result.h"
 
 namespace kaustik::render {
 
-nlohmann::ordered_json manifest_json(const PartialManifest& manifest, const PassSums& sums);
+// Throws std::runtime_error for a file name that is not UTF-8, as JSON must be.
+std::string manifest_text(const PartialManifest& manifest, const PassSums& sums);
 
 // A manifest as read: everything but the pixels, of which only the window is known.
 struct ReadManifest {
@@ -15,7 +17,7 @@ struct ReadManifest {
   ExactUnits units;
   int width = 0, height = 0, x0 = 0, y0 = 0, full_width = 0, full_height = 0;
 };
-// Throws std::runtime_error, or nlohmann's exceptions, if a value is missing or invalid.
-ReadManifest manifest_from_json(const nlohmann::ordered_json& json);
+// Throws std::runtime_error, or the JSON library's exceptions, if a value is missing or invalid.
+ReadManifest manifest_from_text(std::string_view text);
 
 }  // namespace kaustik::render

@@ -13,7 +13,6 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "core/files/content_hash.h"
 #include "core/files/pending_file.h"
@@ -126,7 +125,7 @@ ReadManifest read_manifest(Reader& in) {
   std::string text(read_head(in), '\0');
   in.get(text.data(), text.size());
   try {
-    return manifest_from_json(nlohmann::ordered_json::parse(text));
+    return manifest_from_text(text);
   } catch (const std::exception& error) {
     in.fail(fmt::format("its manifest is damaged: {}", error.what()));
   }
@@ -159,12 +158,12 @@ const std::vector<std::string>& find(const SettingTexts& settings, const std::st
   return none;
 }
 
-// File names may be any bytes, but JSON must be UTF-8.
-std::string manifest_text(const PartialManifest& manifest, const PassSums& sums, const std::string& path) {
+std::string checked_manifest_text(const PartialManifest& manifest, const PassSums& sums,
+                                  const std::string& path) {
   try {
-    return manifest_json(manifest, sums).dump(1);
-  } catch (const nlohmann::json::exception&) {
-    throw PartialError(path, "the name of the scene or of an output is not UTF-8");
+    return manifest_text(manifest, sums);
+  } catch (const std::runtime_error& error) {
+    throw PartialError(path, error.what());
   }
 }
 
@@ -178,7 +177,7 @@ void write_partial(const std::string& path, const PartialManifest& manifest, con
   const fs::path name(path);
   PendingFile pending(name, name.parent_path() / fmt::format(".{}.partial", name.filename().string()));
   Writer out(pending.temporary(), path);
-  const std::string json = manifest_text(manifest, sums, path);
+  const std::string json = checked_manifest_text(manifest, sums, path);
   out.put(kMagic.data(), kMagic.size());
   out.put(kVersion);
   out.put(json.size());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "apps/import/common/scene_files.h"
 
@@ -109,11 +110,11 @@ Document::Document(const std::filesystem::path& path, SourceFiles& files) {
 
 void Document::read_json(std::string_view bytes) {
   try {
-    json_ = Json::parse(bytes);
+    json_ = std::make_shared<const Json>(Json::parse(bytes));
   } catch (const Json::exception& error) {
     throw FormatError(fmt::format("its JSON cannot be read: {}", error.what()));
   }
-  if (!json_.is_object()) throw FormatError("its JSON is not an object");
+  if (!json_->is_object()) throw FormatError("its JSON is not an object");
 }
 
 // Reads a .glb file: a header of 12 bytes, then chunks of length, type and bytes. The first chunk is JSON,

@@ -3,6 +3,7 @@
 // lengths before memory is allocated for them.
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -24,7 +25,7 @@ class Document {
   // in the scene's content hash. Throws FormatError.
   Document(const std::filesystem::path& path, SourceFiles& files);
 
-  View root() const { return {json_, ""}; }
+  View root() const { return {*json_, ""}; }
   // An item of a top-level list, such as item("nodes", 3).
   View item(const char* list, uint64_t i) const { return root()[list].at(i); }
   uint64_t size(const char* list) const { return root()[list].size(); }
@@ -47,7 +48,7 @@ class Document {
   void decode(std::string_view bytes, uint64_t offset, uint64_t stride, const View& accessor,
               Elements& out) const;
 
-  Json json_;
+  std::shared_ptr<const Json> json_;
   uint32_t file_ = 0;
   std::string_view binary_;  // the binary chunk of a .glb
   bool has_binary_ = false;

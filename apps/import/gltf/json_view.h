@@ -2,10 +2,12 @@
 // Checked access to a glTF file's JSON: a value of the wrong type or an index out of range throws a
 // FormatError that names the place.
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace kaustik::gltf {
 
