@@ -113,22 +113,22 @@ float power_of_two_of(const Bounds3& bounds) {
   return std::ldexp(1.0f, std::clamp(std::ilogb(largest), -100, 100));
 }
 
-// The Embree scene of an instanced mesh, divided by a power of two of its own.
-struct OwnScene {
-  RTCScene scene = nullptr;
-  float scale = 1;
-
-  OwnScene() = default;
-  OwnScene(const OwnScene&) = delete;
-  OwnScene& operator=(const OwnScene&) = delete;
-  ~OwnScene() {
-    if (scene) rtcReleaseScene(scene);
-  }
-};
-
 }  // namespace
 
 struct Bvh::Impl {
+  // The Embree scene of an instanced mesh, divided by a power of two of its own.
+  struct OwnScene {
+    RTCScene scene = nullptr;
+    float scale = 1;
+
+    OwnScene() = default;
+    OwnScene(const OwnScene&) = delete;
+    OwnScene& operator=(const OwnScene&) = delete;
+    ~OwnScene() {
+      if (scene) rtcReleaseScene(scene);
+    }
+  };
+
   std::atomic<int64_t> bytes{0};
   EmbreeHandles embree;
   float to_scene = 1, to_embree = 1;                               // lengths, as powers of two

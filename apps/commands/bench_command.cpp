@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Options {
+struct BenchOptions {
   std::string scene, from, json, plot;
   std::vector<std::string> photons = {"1M"}, threads;
   std::string repeat = "5";
@@ -48,7 +48,7 @@ std::vector<int> doubling_threads(int usable) {
   return threads;
 }
 
-BenchPlan plan_of(const Options& options, const CoreLimits& cores) {
+BenchPlan plan_of(const BenchOptions& options, const CoreLimits& cores) {
   BenchPlan plan;
   plan.photons = whole_numbers("--photons", options.photons);
   if (options.threads.empty()) plan.threads = doubling_threads(cores.usable());
@@ -67,7 +67,7 @@ void check_plot_folder(const std::string& path) {
   check_writable(path.substr(0, path.find_last_not_of('/') + 1));
 }
 
-void check_options(const Options& options) {
+void check_options(const BenchOptions& options) {
   if (options.scene.empty() == options.from.empty())
     throw ExitError(kBadCommandLine, "give a scene to measure, or --from FILE with an earlier result");
   if (!options.json.empty()) check_writable(options.json);
@@ -75,12 +75,12 @@ void check_options(const Options& options) {
 }
 
 // The settings that all points have in common; each point has its own photons and threads.
-Json settings_of(const Settings& settings, const render::EstimatorPlan& plan) {
+Json bench_settings(const Settings& settings, const render::EstimatorPlan& plan) {
   return settings_json(settings, plan,
                        [](const Setting& setting) { return setting.commands.has(SettingsCommand::kBench); });
 }
 
-void warn_of_noise(const BenchPlan& plan, const CoreLimits& cores, const Console& console) {
+void warn_of_threads(const BenchPlan& plan, const CoreLimits& cores, const Console& console) {
   const int most = *std::max_element(plan.threads.begin(), plan.threads.end());
   if (most > cores.usable())
     console.warning(fmt::format("{} threads share {} usable core{}", most, cores.usable(),
@@ -103,7 +103,7 @@ std::vector<BenchPoint> measure_job(const Job& job, const BenchPlan& plan, const
   throw ExitError(kInterrupted, "interrupted; nothing was written");
 }
 
-BenchResult run_scene(const Options& options, const Console& console) {
+BenchResult run_scene(const BenchOptions& options, const Console& console) {
   const CoreLimits cores = core_limits();
   const BenchPlan plan = plan_of(options, cores);
   const InterruptGuard interrupt;
@@ -112,12 +112,12 @@ BenchResult run_scene(const Options& options, const Console& console) {
                     [&] { job = load_job(options.scene, options.overrides, console); });
   const render::EstimatorPlan estimators = render::make_plan(job.settings.render, job.scene.needs);
   for (const std::string& note : estimators.notes) console.note(note);
-  warn_of_noise(plan, cores, console);
+  warn_of_threads(plan, cores, console);
   BenchResult result{.scene = utf8(options.scene),
                      .version = std::string(version()),
                      .build = std::string(build_id()),
                      .machine = machine_json(),
-                     .settings = settings_of(job.settings, estimators),
+                     .settings = bench_settings(job.settings, estimators),
                      .repeat = plan.repeat,
                      .points = {}};
   result.points = measure_job(job, plan, interrupt, console);
@@ -144,7 +144,7 @@ void write_report(const BenchResult& result, const std::string& folder, const Co
   console.note("wrote " + path);
 }
 
-int run_bench(const Options& options, const Console& console) {
+int run_bench(const BenchOptions& options, const Console& console) {
   check_options(options);
   const BenchResult result = options.from.empty() ? run_scene(options, console) : read_result(options.from);
   console.out << bench_table(result);
@@ -156,7 +156,7 @@ int run_bench(const Options& options, const Console& console) {
   return kDone;
 }
 
-void add_options(Command& command, Options& options) {
+void add_options(Command& command, BenchOptions& options) {
   command.add_argument("SCENE", options.scene, "Scene file").required = false;
   command.add_list("--photons", "COUNTS", options.photons,
                    "Photon counts, separated by commas, like 1M,10M. Default: 1M");
@@ -186,7 +186,7 @@ void add_options(Command& command, Options& options) {
 
 Command make_bench_command() {
   Command command("bench", "Measure speed, memory and scaling on a scene");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchOptions>();
   add_options(command, *options);
   command.add_quiet();
   command.run = [options](const Console& console) { return run_bench(*options, console); };

@@ -14,7 +14,7 @@ namespace kaustik::app {
 
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::string reference, image, heatmap;
   bool json = false;
   std::optional<float> max_relmse, mask_bright;
@@ -57,7 +57,7 @@ std::string as_text(const render::CompareResult& r) {
 }
 
 // Compares the files. Throws ExitError (bad command line) for pictures that cannot be read or differ in size.
-render::CompareResult compare_files(const Options& options) {
+render::CompareResult compare_files(const CompareOptions& options) {
   try {
     const render::Image reference = render::read_image(options.reference);
     const render::Image image = render::read_image(options.image);
@@ -72,7 +72,7 @@ render::CompareResult compare_files(const Options& options) {
   }
 }
 
-int run_compare(const Options& options, const Console& console) {
+int run_compare(const CompareOptions& options, const Console& console) {
   if (!options.heatmap.empty()) check_image_output(options.heatmap);
   const render::CompareResult result = compare_files(options);
   if (result.compared == 0) throw ExitError(kBadCommandLine, "there is no pixel to compare");
@@ -91,7 +91,7 @@ int run_compare(const Options& options, const Console& console) {
 
 Command make_compare_command() {
   Command command("compare", "Measure how much a picture differs from a reference");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareOptions>();
   command.add_argument("REF", options->reference, "Reference picture");
   command.add_argument("IMG", options->image, "Picture to compare, of the same size");
   command.add_flag("--json", options->json, "Print JSON");

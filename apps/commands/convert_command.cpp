@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ConvertOptions {
   std::string scene, output;
 };
 
 // Meshes with at most this many corners stay in the text, where they are easier to edit.
 constexpr size_t kFewCorners = 36;
 
-void check_names(const Options& options) {
+void check_names(const ConvertOptions& options) {
   if (!options.output.ends_with(".pbrt"))
     throw ExitError(kBadCommandLine, fmt::format("{}: the output must end in .pbrt", options.output));
   check_writable(options.output);
@@ -35,7 +35,7 @@ void check_names(const Options& options) {
                     fmt::format("{} is the input itself: choose another output", options.output));
 }
 
-std::string text_of(const Options& options, const SceneDescription& scene, const SourceFiles& files,
+std::string text_of(const ConvertOptions& options, const SceneDescription& scene, const SourceFiles& files,
                     SceneFolder& folder) {
   SceneTextFiles beside;
   beside.file = [&](const std::string& name, const SourceLocation& where) {
@@ -65,7 +65,7 @@ void note_our_own(const SceneDescription& scene, const Console& console) {
     console.note(fmt::format("pbrt does not know these extensions of kaustik: {}", fmt::join(own, ", ")));
 }
 
-int run_convert(const Options& options, const Console& console) {
+int run_convert(const ConvertOptions& options, const Console& console) {
   check_names(options);
   Diagnostics diagnostics;
   const auto loaded = pbrt::load_scene(options.scene, diagnostics);
@@ -88,7 +88,7 @@ int run_convert(const Options& options, const Console& console) {
 
 Command make_convert_command() {
   Command command("convert", "Write a scene (glTF, OBJ, pbrt) as pbrt-v4 text");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvertOptions>();
   command.add_argument("SCENE", options->scene, "Scene file: .gltf, .glb, .obj or .pbrt");
   command.add_argument("OUTPUT", options->output,
                        "Scene to write, NAME.pbrt; meshes and images go to the folder NAME-files beside it");

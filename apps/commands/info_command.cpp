@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct InfoOptions {
   std::string scene;
   bool json = false;
 };
@@ -162,7 +162,7 @@ std::string info_text(const std::string& path, const Job& job) {
   return text;
 }
 
-int run_info(const Options& options, const Console& console) {
+int run_info(const InfoOptions& options, const Console& console) {
   Console quiet = console;
   quiet.quiet = true;  // the report contains what the log would say
   Job job;
@@ -179,7 +179,7 @@ int run_info(const Options& options, const Console& console) {
 
 Command make_info_command() {
   Command command("info", "Show the contents of a scene and which estimators it needs");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   command.add_argument("SCENE", options->scene, "Scene file");
   command.add_flag("--json", options->json, "Print JSON");
   command.run = [options](const Console& console) { return run_info(*options, console); };

@@ -25,10 +25,6 @@ struct MergedPart {
   render::PassSet passes;
 };
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw ExitError(kBadCommandLine, message);
-}
-
 void add_part(const std::string& path, const render::PartialResult& part, std::vector<MergedPart>& merged,
               render::PartialResult& total) {
   const std::string why = render::difference(total, part);

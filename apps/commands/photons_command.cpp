@@ -24,7 +24,7 @@ namespace {
 
 using photon::PhotonKind;
 
-struct Options {
+struct PhotonsOptions {
   std::string scene, cloud, image;
   std::vector<std::string> kinds;
   SettingOverrides overrides;
@@ -47,7 +47,7 @@ photon::KindMask mask_of(const std::vector<std::string>& kinds) {
   return mask;
 }
 
-void check_outputs(const Options& options) {
+void check_outputs(const PhotonsOptions& options) {
   if (options.cloud.empty() && options.image.empty()) {
     throw ExitError(kBadCommandLine, "nothing to write: give -o map.ply, --image view.png, or both");
   }
@@ -70,7 +70,7 @@ std::vector<photon::PlyPhotons> wanted_photons(const photon::ShootResult& shot,
   return photons;
 }
 
-int shoot_and_write(const Options& options, const photon::KindMask& mask, const Job& job,
+int shoot_and_write(const PhotonsOptions& options, const photon::KindMask& mask, const Job& job,
                     const InterruptGuard& interrupt, const Console& console) {
   const accel::Bvh bvh(job.scene, job.settings.render.threads);
   const render::RenderSettings& settings = job.settings.render;
@@ -111,7 +111,7 @@ int shoot_and_write(const Options& options, const photon::KindMask& mask, const 
   return kDone;
 }
 
-int run_photons(const Options& options, const Console& console) {
+int run_photons(const PhotonsOptions& options, const Console& console) {
   const photon::KindMask mask = mask_of(options.kinds);
   check_outputs(options);
   const InterruptGuard interrupt;
@@ -128,7 +128,7 @@ int run_photons(const Options& options, const Console& console) {
 
 Command make_photons_command() {
   Command command("photons", "Shoot photons and write them as coloured points");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PhotonsOptions>();
   command.add_argument("SCENE", options->scene, "Scene file");
   command.add_text("-o,--output", "FILE", options->cloud, "Point cloud to write, a binary .ply");
   command.add_text("--image", "FILE", options->image,

@@ -20,7 +20,7 @@ namespace kaustik::app {
 
 namespace {
 
-struct Options {
+struct ReferenceOptions {
   std::string format, page, output;
 };
 
@@ -32,7 +32,7 @@ std::string file_text(const std::string& path) {
   return text.str();
 }
 
-std::string reference_text(const Options& options, const Program& program) {
+std::string reference_text(const ReferenceOptions& options, const Program& program) {
   if (options.format == "man") return man_page(program);
   if (options.format == "bash") return bash_completion(program);
   if (options.format == "zsh") return zsh_completion(program);
@@ -46,7 +46,7 @@ std::string reference_text(const Options& options, const Program& program) {
   return updated_reference_page(file_text(options.page), program);
 }
 
-int run_reference(const Options& options, const Program& program, const Console& console) {
+int run_reference(const ReferenceOptions& options, const Program& program, const Console& console) {
   const std::string text = reference_text(options, program);
   if (options.output.empty())
     console.out << text;
@@ -60,7 +60,7 @@ int run_reference(const Options& options, const Program& program, const Console&
 Command make_reference_command(const Program& program) {
   Command command("reference", "Describe the command line");
   command.hidden = true;
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReferenceOptions>();
   command.add_text("--format", "NAME", options->format, "markdown, man, bash, zsh or fish").required = true;
   command.add_text("--page", "FILE", options->page, "The page whose generated parts are to be replaced");
   command.add_text("-o,--output", "FILE", options->output, "File to write. Default: the output stream");

@@ -92,7 +92,7 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   return run_session(std::move(job), std::move(session), interrupt, total, console);
 }
 
-void add_pass_options(Command& command, ResumeOptions& options) {
+void add_resume_options(Command& command, ResumeOptions& options) {
   command.add_parsed(
       "--passes", "COUNT",
       "Total number of passes at the end, which may exceed the number that the render asked for. Default: "
@@ -116,7 +116,7 @@ Command make_resume_command() {
   const auto options = std::make_shared<ResumeOptions>();
   command.add_argument("PART", options->partial, "Partial result (.kpart): a checkpoint, or merged parts");
   add_output_options(command, options->outputs, "the files of the interrupted render");
-  add_pass_options(command, *options);
+  add_resume_options(command, *options);
   command.add_text("--scene", "FILE", options->scene,
                    "Path of the scene if it has moved; its contents must be the same. Default: the path "
                    "stored in PART");

@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Options {
+struct SweepOptions {
   std::string scene, folder;
   GridTexts grid;
   ReferenceChoice reference;
@@ -76,14 +76,14 @@ std::string hash_of_file(const std::string& path) {
 // Extensions of picture formats that can hold any radiance.
 constexpr std::string_view kFloatPictures[] = {".exr", ".hdr", ".pfm", ".tif", ".tiff"};
 
-Json reference_mark(const Options& options, const Job& job) {
+Json reference_mark(const SweepOptions& options, const Job& job) {
   if (!options.reference.file.empty()) return {{"file", hash_of_file(options.reference.file)}};
   const render::Method method = options.reference.method.value_or(reference_method(job.scene.needs));
   return {{"method", render::name_of(method)}, {"seconds", options.reference.seconds}};
 }
 
 // What all cells of a folder share. Cells that differ in any of it must not be mixed in one table.
-Json common_of(const Options& options, const Job& job, int threads) {
+Json common_of(const SweepOptions& options, const Job& job, int threads) {
   Json out;
   out["kaustik_sweep_of"] = 1;
   out["scene"] = job.content_hash;
@@ -96,7 +96,7 @@ Json common_of(const Options& options, const Job& job, int threads) {
   return out;
 }
 
-void warn_of_reference(const Options& options, const Job& job, const Console& console) {
+void warn_of_reference(const SweepOptions& options, const Job& job, const Console& console) {
   std::string extension = fs::path(options.reference.file).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (!extension.empty() && !among(kFloatPictures, extension))
@@ -112,7 +112,7 @@ void warn_of_reference(const Options& options, const Job& job, const Console& co
 }
 
 // Makes the reference, with a progress bar. Throws ExitError when interrupted.
-Reference reference_of(const Options& options, Job& job, const SweepFolder& folder,
+Reference reference_of(const SweepOptions& options, Job& job, const SweepFolder& folder,
                        const InterruptGuard& interrupt, const Console& console) {
   ProgressBar bar(console);
   const auto progress = [&](uint64_t done, uint64_t total) {
@@ -167,7 +167,7 @@ void warn_of_noise(const SweepResult& result, const Console& console) {
           "the reference's own noise is more than a quarter of a measured error: increase --reference-time");
 }
 
-int run_sweep(const Options& options, const Console& console) {
+int run_sweep(const SweepOptions& options, const Console& console) {
   const SweepGrid grid = parse_grid(options.grid);
   const InterruptGuard interrupt;
   const int asked = options.overrides.alone().render.threads;
@@ -212,7 +212,7 @@ render::Method method_named(const std::string& text) {
                     fmt::format("unknown method `{}`{}", text, name_hint(text, render::kMethodNames)));
 }
 
-void add_reference_options(Command& command, Options& options) {
+void add_reference_options(Command& command, SweepOptions& options) {
   command.add_text("--reference", "FILE", options.reference.file,
                    "Reference picture, linear and of the rendered size. Default: a reference is rendered");
   command
@@ -253,7 +253,7 @@ void add_grid_options(Command& command, GridTexts& grid) {
 
 Command make_sweep_command() {
   Command command("sweep", "Measure error against time over photons, radii and methods, with a report");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SweepOptions>();
   command.add_argument("SCENE", options->scene, "Scene file");
   command
       .add_text("-o,--output", "FOLDER", options->folder,

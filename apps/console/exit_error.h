@@ -18,4 +18,9 @@ class ExitError : public std::runtime_error {
   ExitCode code_;
 };
 
+// Ends the command because of a bad command line.
+[[noreturn]] inline void refuse(const std::string& message) {
+  throw ExitError(kBadCommandLine, message);
+}
+
 }  // namespace kaustik::app

@@ -52,7 +52,7 @@ Setting radius_setting() {
           "Gather radius r0 of the photon maps. auto: chosen for each map to balance noise and bias. A "
           "gather in a map of M photons then finds k ~ M^(2/3) of them: with a million photons 160 (direct), "
           "232 (caustic; the radius shrinks where there are more) or 500 (indirect). 0.5x: half of auto."};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<RadiusChoice> choice = parse_radius(texts[0]);
     if (!choice)
       return fmt::format("`{}`: expected a radius in metres above 0, auto, or a multiple of auto like 0.5x",
@@ -74,7 +74,7 @@ Setting alpha_setting() {
             .doc =
                 "How the radius shrinks over the passes: r^2 of pass i + 1 is (i + A) / (i + 1) times r^2 of "
                 "pass i. 1: it stays the same. 0.667: both bias and noise vanish with the number of passes."};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<float> value = parse_number(texts[0]);
     if (!value || *value <= 0 || *value > 1)
       return fmt::format("`{}`: expected a number above 0, at most 1", texts[0]);
@@ -102,7 +102,7 @@ Setting adaptive_setting() {
                 "same part of the whole picture. Renders in several passes and methods that trace paths from "
                 "the camera "
                 "take no adaptive samples."};
-  s.assign = [usual, kMost](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [usual, kMost](Settings& settings, ValueTexts texts) -> Complaint {
     std::optional<float> value = parse_number(texts[0]);
     if (texts[0] == "off") value = 0.0f;
     if (texts[0] == "on") value = usual;
@@ -126,7 +126,7 @@ Setting cone_k_setting() {
                 "Slope of the cone kernel, whose weight at distance d is 1 - d / (K r0). With 1 it falls to "
                 "zero at r0; "
                 "larger values make it flatter."};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<float> value = parse_number(texts[0]);
     if (!value || *value < 1) return fmt::format("`{}`: expected a number, 1 or more", texts[0]);
     settings.render.cone_k = *value;
@@ -146,7 +146,7 @@ Setting exposure_setting() {
             .range = "-64 to 64",
             .default_text = "0",
             .doc = "Multiply the radiance by 2^STOPS for PNG and JPEG files. EXR files keep the radiance."};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<float> value = parse_number(texts[0]);
     if (!value || std::abs(*value) > 64) return fmt::format("`{}`: expected stops, -64 to 64", texts[0]);
     settings.tone.exposure = *value;

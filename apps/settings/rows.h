@@ -8,7 +8,7 @@
 namespace kaustik::app {
 
 using Complaint = std::optional<std::string>;
-using Texts = std::span<const std::string>;
+using ValueTexts = std::span<const std::string>;
 
 template <class... Values>
 std::vector<std::string> as_texts(const Values&... values) {

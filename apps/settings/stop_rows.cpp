@@ -22,7 +22,7 @@ struct RuleValue {
 
 Setting rule(Setting s, const RuleValue& rule) {
   s.kind = ValueKind::kChoice;
-  s.assign = [rule](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [rule](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<double> value = texts[0] == "none" ? std::nullopt : rule.parse(texts[0]);
     if (texts[0] != "none" && !(value && *value > 0 && *value <= rule.most))
       return fmt::format("`{}`: expected {}", texts[0], rule.expected);
@@ -92,7 +92,7 @@ Setting estimate_bias_row() {
                 "pixel and "
                 "pass. --target-error and the layers error and bias turn it on."};
   s.choices.assign(kOffOn.begin(), kOffOn.end());
-  s.assign = [kOffOn](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [kOffOn](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<bool> on = render::from_name<bool>(kOffOn, texts[0]);
     if (!on) return fmt::format("`{}`: expected off or on", texts[0]);
     settings.render.estimate_bias = *on;

@@ -54,7 +54,7 @@ Setting count(std::string_view name, CommandSet commands, std::string_view unit,
   s.default_text = preset == 0 && !zero.empty() ? std::string(zero) : count_text(preset);
   const bool any_size = most == std::numeric_limits<uint64_t>::max();
   s.range = any_size ? fmt::format("{} or more", least) : fmt::format("{} to {}", least, count_text(most));
-  s.assign = [=, range = s.range](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [=, range = s.range](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<T> value = whole_in_range<T>(texts[0], least, most);
     if (!value)
       return fmt::format("`{}`: expected a whole number, {} (like 250, 10k, 2.5M, 1G)", texts[0], range);
@@ -79,7 +79,7 @@ Setting choice(std::string_view name, CommandSet commands, Field RenderSettings:
   s.choices.assign(names.begin(), names.end());
   s.range = fmt::format("{}", fmt::join(names, ", "));
   s.default_text = std::move(default_text);
-  s.assign = [field, names](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [field, names](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<Enum> value = render::from_name<Enum>(names, texts[0]);
     if (!value) return not_a_choice(texts[0], names);
     settings.render.*field = *value;
@@ -110,7 +110,7 @@ Setting crop_setting() {
             .default_text = "whole image",
             .doc = "Render only columns X0 to X1 - 1 and rows Y0 to Y1 - 1. Row 0 is at the top.",
             .values = 4};
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     std::array<int, 4> edges{};
     for (size_t i = 0; i < edges.size(); ++i) {
       const std::optional<int64_t> value = parse_integer(texts[i]);
@@ -134,7 +134,7 @@ Setting crop_setting() {
   return s;
 }
 
-std::vector<std::string> split_at_commas(Texts texts) {
+std::vector<std::string> split_at_commas(ValueTexts texts) {
   std::vector<std::string> parts;
   for (const std::string& text : texts) {
     for (size_t begin = 0; begin <= text.size();) {
@@ -156,7 +156,7 @@ Setting aov_setting() {
             .doc = "Layers to write to EXR files besides the image, separated by commas."};
   s.choices.assign(render::kLayerNames.begin(), render::kLayerNames.end());
   s.choices.insert(s.choices.end(), {"all", "none"});
-  s.assign = [names = s.choices](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [names = s.choices](Settings& settings, ValueTexts texts) -> Complaint {
     std::vector<std::string> layers = split_at_commas(texts);
     for (const std::string& layer : layers) {
       if (std::find(names.begin(), names.end(), layer) == names.end()) {
@@ -184,7 +184,7 @@ Setting tonemap_setting() {
       .default_text = std::string(render::kTonemapNames[static_cast<size_t>(render::ToneSettings{}.tonemap)]),
       .doc = "How PNG and JPEG files map radiance to the range from 0 to 1. srgb: by clipping."};
   s.choices.assign(render::kTonemapNames.begin(), render::kTonemapNames.end());
-  s.assign = [](Settings& settings, Texts texts) -> Complaint {
+  s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<render::Tonemap> value = render::tonemap_from_name(texts[0]);
     if (!value) return not_a_choice(texts[0], render::kTonemapNames);
     settings.tone.tonemap = *value;

@@ -22,10 +22,6 @@ namespace {
 
 constexpr const char* kCommonName = "sweep-of.json";
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw ExitError(kBadCommandLine, message);
-}
-
 // Creates the folder if it is missing and returns its path. Throws ExitError when it cannot be written.
 fs::path made(const fs::path& folder) {
   std::error_code error;

@@ -18,10 +18,6 @@ namespace {
 constexpr uint64_t kMostSamples = 1'000'000'000;
 constexpr uint64_t kMostSeeds = 10'000;
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw ExitError(kBadCommandLine, message);
-}
-
 template <class Value>
 void add_once(std::string_view option, const std::string& text, Value value, std::vector<Value>* values) {
   if (std::find(values->begin(), values->end(), value) != values->end())

@@ -19,8 +19,8 @@ namespace kaustik::photon {
 
 namespace {
 
-// Records; a constant, so that the result does not depend on the number of threads.
-constexpr size_t kBlock = size_t(1) << 16;
+// A constant, so that the result does not depend on the number of threads.
+constexpr size_t kBlockRecords = size_t(1) << 16;
 constexpr size_t kBucketPhotons = 16384;  // on average; with their keys they take most of a megabyte
 // Upper bound of the wanted number, to keep the pieces of a block from getting too small.
 constexpr size_t kMaxBuckets = 2048;
@@ -64,9 +64,9 @@ class MortonSort {
   void write_columns();
 
  private:
-  size_t blocks() const { return (records_.size() + kBlock - 1) / kBlock; }
+  size_t blocks() const { return (records_.size() + kBlockRecords - 1) / kBlockRecords; }
   std::span<PhotonRecord> block(size_t b) const {
-    return records_.subspan(b * kBlock, std::min(kBlock, records_.size() - b * kBlock));
+    return records_.subspan(b * kBlockRecords, std::min(kBlockRecords, records_.size() - b * kBlockRecords));
   }
   // Positions in block b at which the buckets begin, followed by the end of the last one.
   std::span<uint32_t> offsets(size_t b) {

@@ -15,10 +15,6 @@ double z_of_row(int y, int height) {
   return y == 0 ? 1 : y == height ? -1 : std::cos(std::numbers::pi * y / height);
 }
 
-int cell_of(float position, int cells) {
-  return std::clamp(static_cast<int>(position * static_cast<float>(cells)), 0, cells - 1);
-}
-
 }  // namespace
 
 DirectionMap::DirectionMap(std::shared_ptr<const LightImage> image, Layout layout, Excess excess)

@@ -21,10 +21,6 @@ Point2 square_of_barycentrics(const Point2& b) {
   return b.x < b.y ? Point2(smaller, larger) : Point2(larger, smaller);
 }
 
-int cell_of(float u, int n) {
-  return std::clamp(static_cast<int>(u * static_cast<float>(n)), 0, n - 1);
-}
-
 }  // namespace
 
 EmissionImage::EmissionImage(std::shared_ptr<const LightImage> image, std::vector<Triangle> triangles)

@@ -1,6 +1,7 @@
 #pragma once
 // The pixels of an image that a light emits, and what loads them.
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,6 +20,12 @@ struct LightImage {
     return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
   }
 };
+
+// The row or column of `n` that a coordinate in [0, 1] lies in; coordinates outside belong to the nearest
+// one.
+inline int cell_of(float u, int n) {
+  return std::clamp(static_cast<int>(u * static_cast<float>(n)), 0, n - 1);
+}
 
 // The result of loading an image file: a linear Rec. 709 image, or an error.
 struct LightImageResult {

@@ -2,6 +2,8 @@
 
 #include "core/scene/description/description.h"
 
+#include <utility>
+
 namespace kaustik {
 
 std::string_view parameter_type_name(ParameterType type) {
@@ -46,6 +48,10 @@ const Parameter* Directive::find(std::string_view parameter_name) const {
     if (p.name == parameter_name) return &p;
   }
   return nullptr;
+}
+
+Parameter* Directive::find(std::string_view parameter_name) {
+  return const_cast<Parameter*>(std::as_const(*this).find(parameter_name));
 }
 
 }  // namespace kaustik

@@ -58,6 +58,7 @@ struct Directive {
 
   // Null if there is no parameter of this name.
   const Parameter* find(std::string_view name) const;
+  Parameter* find(std::string_view name);
 };
 
 struct CameraDescription : Directive {

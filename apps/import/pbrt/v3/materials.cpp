@@ -7,10 +7,6 @@
 namespace kaustik::pbrt {
 namespace {
 
-Parameter* find(Directive& d, std::string_view name) {
-  return const_cast<Parameter*>(d.find(name));
-}
-
 void erase(Directive& d, std::initializer_list<std::string_view> names) {
   std::erase_if(d.parameters, [&](const Parameter& p) {
     return std::find(names.begin(), names.end(), p.name) != names.end();
@@ -18,7 +14,7 @@ void erase(Directive& d, std::initializer_list<std::string_view> names) {
 }
 
 void rename(Directive& d, std::string_view from, std::string_view to) {
-  if (Parameter* p = find(d, from); p && !d.find(to)) p->name = to;
+  if (Parameter* p = d.find(from); p && !d.find(to)) p->name = to;
 }
 
 Parameter& add(Directive& d, ParameterType type, std::string_view name, std::vector<double> numbers) {
@@ -70,7 +66,7 @@ void keep_width(Directive& d, double otherwise, bool smooth_at_zero = false) {
   add(d, ParameterType::kBool, "remaproughness", {0});
   if (!remap) return;
   for (const std::string_view name : {"roughness", "uroughness", "vroughness"}) {
-    Parameter* p = find(d, name);
+    Parameter* p = d.find(name);
     if (p && !(smooth_at_zero && p->numbers[0] == 0)) p->numbers[0] = v3_alpha(p->numbers[0]);
   }
 }
@@ -206,7 +202,7 @@ std::string mix(Directive& d) {
   materials.name = "materials";
   materials.strings.push_back(first->strings[0]);
   if (!first->value_places.empty()) materials.value_places.push_back(first->value_places[0]);
-  Parameter* amount = find(d, "amount");
+  Parameter* amount = d.find("amount");
   if (amount && amount->strings.empty() && !amount->numbers.empty()) {
     double mean = 0;
     for (const double v : amount->numbers) mean += v / double(amount->numbers.size());

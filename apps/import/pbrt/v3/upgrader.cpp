@@ -51,10 +51,6 @@ constexpr Dropped kDropped[] = {
     {"Shape", "discarddegenerateUVs", "degenerate uv coordinates do no harm"},
 };
 
-Parameter* find(Directive& d, std::string_view name) {
-  return const_cast<Parameter*>(d.find(name));
-}
-
 void erase(Directive& d, std::string_view name) {
   std::erase_if(d.parameters, [&](const Parameter& p) { return p.name == name; });
 }
@@ -74,7 +70,7 @@ void V3Upgrader::rename_type(std::string_view word, std::string_view from, std::
 }
 
 void V3Upgrader::rename(std::string_view word, std::string_view from, std::string_view to, Directive& d) {
-  Parameter* p = find(d, from);
+  Parameter* p = d.find(from);
   if (!p || d.find(to)) return;
   p->name = to;
   warn_once(fmt::format("{}/{}", word, from), p->location,
@@ -118,7 +114,7 @@ void V3Upgrader::upgrade_material(Directive& m) {
 
 // v3's `scale` multiplies the image, as `iso` / 100 does.
 void V3Upgrader::upgrade_film(Directive& film) {
-  Parameter* scale = find(film, "scale");
+  Parameter* scale = film.find("scale");
   if (!scale || scale->numbers.size() != 1 || film.find("iso")) return;
   warn_once("Film/scale", scale->location, "`scale` of pbrt-v3's `Film` becomes `iso`, multiplied by 100");
   scale->name = "iso";
@@ -136,7 +132,7 @@ void V3Upgrader::upgrade_camera(Directive& camera) {
 // In v3, uv coordinates were declared as floats.
 void V3Upgrader::upgrade_shape(Directive& shape) {
   for (const std::string_view name : {"uv", "st"}) {
-    Parameter* p = find(shape, name);
+    Parameter* p = shape.find(name);
     if (!p || p->type != ParameterType::kFloat) continue;
     p->type = ParameterType::kPoint2;
     warn_once("Shape/float uv", p->location, "`float uv` of pbrt-v3's `Shape` becomes `point2 uv`");
@@ -151,7 +147,7 @@ void V3Upgrader::fold_intensity(Directive& light) {
   warn_once("Light/projection", I->location,
             "`I` of pbrt-v3's light \"projection\" becomes `scale`: its luminance multiplies the image");
   const double Y = 0.2126 * I->numbers[0] + 0.7152 * I->numbers[1] + 0.0722 * I->numbers[2];
-  Parameter* scale = find(light, "scale");
+  Parameter* scale = light.find("scale");
   if (scale)
     for (double& v : scale->numbers) v *= Y;
   else
@@ -181,7 +177,7 @@ void V3Upgrader::upgrade_light(Directive& light) {
                                     : "L";
   const Parameter factor = *scale;
   const bool grey = factor.numbers[0] == factor.numbers[1] && factor.numbers[1] == factor.numbers[2];
-  Parameter* colour = find(light, name);
+  Parameter* colour = light.find(name);
   if (!grey && colour && colour->type != ParameterType::kRgb) return;  // the schema check reports it
   if (!grey && colour && colour->numbers.size() != 3) return;
   erase(light, "scale");
@@ -193,7 +189,7 @@ void V3Upgrader::upgrade_light(Directive& light) {
     light.parameters.back().numbers.resize(1);
     return;
   }
-  colour = find(light, name);
+  colour = light.find(name);
   if (!colour) {
     light.parameters.push_back(factor);
     light.parameters.back().name = name;
@@ -204,7 +200,7 @@ void V3Upgrader::upgrade_light(Directive& light) {
 
 void V3Upgrader::upgrade_texture(Directive& texture) {
   if (texture.type == "uv") upgrade_uv(texture);
-  Parameter* gamma = find(texture, "gamma");
+  Parameter* gamma = texture.find("gamma");
   if (gamma && gamma->type == ParameterType::kBool && gamma->numbers.size() == 1) {
     warn_once("Texture/gamma", gamma->location, "`gamma` of pbrt-v3's `Texture` becomes `encoding`");
     gamma->name = "encoding";
