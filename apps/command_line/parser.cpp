@@ -49,7 +49,7 @@ void add_argument(CLI::App& parser, const Argument& argument) {
   CLI::Option* added =
       parser.add_option(argument.name, assigning(argument.assign, argument.name), argument.description);
   added->required(argument.required)->option_text(" ");
-  if (argument.repeats) added->expected(1, CLI::detail::expected_max_vector_size);
+  if (argument.repeats) added->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args();
 }
 
 void add_option(CLI::App& parser, const Option& option) {
