@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "apps/command_line/values.h"
-#include "apps/session/scene_loading.h"
+#include "apps/session/files/scene_loading.h"
 
 namespace kaustik::app {
 

@@ -18,9 +18,9 @@
 #include "apps/machine/thread_limit.h"
 #include "apps/machine/usable_cores.h"
 #include "apps/report/bench_report.h"
+#include "apps/session/files/output_files.h"
+#include "apps/session/files/scene_loading.h"
 #include "apps/session/interrupt.h"
-#include "apps/session/output_files.h"
-#include "apps/session/scene_loading.h"
 #include "apps/settings/settings_json.h"
 #include "core/version.h"
 

@@ -6,7 +6,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
-#include "apps/session/output_files.h"
+#include "apps/session/files/output_files.h"
 #include "render/picture/compare.h"
 #include "render/picture/image_io.h"
 

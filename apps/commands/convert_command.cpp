@@ -9,8 +9,8 @@
 #include "apps/convert/scene_folder.h"
 #include "apps/convert/scene_text.h"
 #include "apps/import/common/scene_files.h"
-#include "apps/session/output_files.h"
-#include "apps/session/scene_loading.h"
+#include "apps/session/files/output_files.h"
+#include "apps/session/files/scene_loading.h"
 
 namespace kaustik::app {
 

@@ -7,7 +7,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/machine/thread_limit.h"
-#include "apps/session/scene_loading.h"
+#include "apps/session/files/scene_loading.h"
 #include "render/renderer.h"
 #include "render/settings/names.h"
 

@@ -4,7 +4,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
-#include "apps/session/partial_files.h"
+#include "apps/session/files/partial_files.h"
 #include "apps/session/render_outputs.h"
 #include "core/stopwatch.h"
 

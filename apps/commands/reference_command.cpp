@@ -14,7 +14,7 @@
 #include "apps/reference/completions.h"
 #include "apps/reference/man_page.h"
 #include "apps/reference/reference_page.h"
-#include "apps/session/output_files.h"
+#include "apps/session/files/output_files.h"
 
 namespace kaustik::app {
 

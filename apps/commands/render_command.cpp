@@ -7,10 +7,10 @@
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
-#include "apps/session/output_files.h"
+#include "apps/session/files/output_files.h"
 #include "apps/session/render_session.h"
-#include "apps/session/stop_rules.h"
-#include "apps/session/time_plan.h"
+#include "apps/session/stopping/stop_rules.h"
+#include "apps/session/stopping/time_plan.h"
 #include "render/plan/plan.h"
 
 namespace kaustik::app {

@@ -6,9 +6,9 @@
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
-#include "apps/session/output_files.h"
+#include "apps/session/files/output_files.h"
 #include "apps/session/render_session.h"
-#include "apps/session/stop_rules.h"
+#include "apps/session/stopping/stop_rules.h"
 #include "render/plan/plan.h"
 
 namespace kaustik::app {

@@ -8,7 +8,7 @@
 
 #include "apps/import/common/scene_files.h"
 #include "apps/report/html.h"
-#include "apps/session/stop_rules.h"
+#include "apps/session/stopping/stop_rules.h"
 #include "apps/sweep/sweep_files.h"
 #include "report_assets.h"
 

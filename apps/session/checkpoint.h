@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/session/partial_files.h"
+#include "apps/session/files/partial_files.h"
 #include "core/stopwatch.h"
 
 namespace kaustik::app {

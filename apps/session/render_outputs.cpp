@@ -5,9 +5,9 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
-#include "apps/session/output_files.h"
-#include "apps/session/scene_loading.h"
-#include "apps/session/stop_rules.h"
+#include "apps/session/files/output_files.h"
+#include "apps/session/files/scene_loading.h"
+#include "apps/session/stopping/stop_rules.h"
 #include "apps/settings/settings_json.h"
 #include "core/stopwatch.h"
 #include "render/picture/image_io.h"

@@ -9,8 +9,8 @@
 #include "apps/console/progress_bar.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/session/render_job.h"
-#include "apps/session/stop_rules.h"
-#include "apps/session/time_plan.h"
+#include "apps/session/stopping/stop_rules.h"
+#include "apps/session/stopping/time_plan.h"
 
 namespace kaustik::app {
 

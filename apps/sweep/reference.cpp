@@ -7,8 +7,8 @@
 
 #include "apps/bench/bench_json.h"
 #include "apps/console/exit_error.h"
-#include "apps/session/output_files.h"
-#include "apps/session/partial_files.h"
+#include "apps/session/files/output_files.h"
+#include "apps/session/files/partial_files.h"
 #include "apps/session/render_job.h"
 #include "apps/sweep/pictures.h"
 #include "core/files/content_hash.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/session/scene_loading.h"
+#include "apps/session/files/scene_loading.h"
 #include "apps/sweep/sweep_folder.h"
 #include "render/picture/image.h"
 

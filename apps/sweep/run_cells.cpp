@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "apps/bench/measure.h"
-#include "apps/session/partial_files.h"
+#include "apps/session/files/partial_files.h"
 #include "apps/session/render_job.h"
 #include "apps/sweep/pictures.h"
 #include "render/picture/error_parts.h"

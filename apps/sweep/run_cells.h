@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "apps/session/scene_loading.h"
+#include "apps/session/files/scene_loading.h"
 #include "apps/sweep/reference.h"
 #include "apps/sweep/sweep_folder.h"
 #include "apps/sweep/sweep_grid.h"

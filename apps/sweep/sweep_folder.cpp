@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "apps/console/exit_error.h"
-#include "apps/session/output_files.h"
+#include "apps/session/files/output_files.h"
 #include "apps/sweep/sweep_files.h"
 #include "core/files/content_hash.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/session/stop_rules.h"
+#include "apps/session/stopping/stop_rules.h"
 
 namespace kaustik::app {
 

@@ -1,4 +1,4 @@
-#include "apps/session/time_plan.h"
+#include "apps/session/stopping/time_plan.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "apps/session/stop_rules.h"
+#include "apps/session/stopping/stop_rules.h"
 #include "render/camera/pixel_range.h"
 #include "render/passes/passes.h"
 

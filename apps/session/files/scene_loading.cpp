@@ -1,4 +1,4 @@
-#include "apps/session/scene_loading.h"
+#include "apps/session/files/scene_loading.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/session/scene_loading.h"
+#include "apps/session/files/scene_loading.h"
 #include "render/passes/partial_result.h"
 
 namespace kaustik::app {

@@ -1,4 +1,4 @@
-#include "apps/session/partial_files.h"
+#include "apps/session/files/partial_files.h"
 
 #include <fmt/format.h>
 #ifdef __GLIBC__

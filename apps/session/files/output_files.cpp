@@ -1,4 +1,4 @@
-#include "apps/session/output_files.h"
+#include "apps/session/files/output_files.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "apps/session/stop_rules.h"
+#include "apps/session/stopping/stop_rules.h"
 
 #include <fmt/format.h>
 
