@@ -37,9 +37,11 @@ def judge(kernel, base, head):
 def check(base, head, results):
     program = head.build("perf_kernels")
     kernels = kernel_names(program)
-    base_program = base.build("perf_kernels")
+    base_program = base.build("perf_kernels") or base.build_with_own_driver("perf_kernels")
     if not base_program:
         return [Row(CHECK, "all kernels", f"no build: {base.log('perf_kernels')}", "", "", NOT_COMPARABLE)]
+    both = set(kernel_names(base_program))
+    kernels = [kernel for kernel in kernels if kernel in both]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         counts = {(side.name, kernel): pool.submit(count, binary, kernel, results / f"callgrind.{side.name}.{kernel}")
                   for side, binary in ((base, base_program), (head, program)) for kernel in kernels}

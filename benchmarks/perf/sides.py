@@ -50,6 +50,13 @@ class Side:
         """Replaces benchmarks/ by that of `commit`, so that both sides measure the same work."""
         git(self.folder, "restore", "--source", commit, "--worktree", "--", "benchmarks")
 
+    def build_with_own_driver(self, target):
+        """Builds with the benchmarks/ of its own commit, for a revision in which those of the head do not compile."""
+        self.take_driver(self.commit)
+        git(self.folder, "clean", "--force", "-d", "--quiet", "--", "benchmarks")
+        self.targets.pop(target, None)
+        return self.build(target)
+
     def build(self, target):
         """Builds and returns the program; None if it does not build, and the log says why."""
         if target not in self.targets:

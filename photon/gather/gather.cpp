@@ -35,9 +35,9 @@ HWY_INLINE void AddSame(const PhotonColumns& c, Sphere sphere, const uint32_t* b
 
 GatherSum GatherPhotons(const PhotonMap& map, const BoxTree::Start& start, const GatherQuery& query,
                         KernelType kernel, float slope) {
-  const PhotonColumns& c = map.columns();
-  const LaneQuery q(query, map.size());
   return with_kernel(kernel, [&]<KernelType kType>() HWY_ATTR {
+    const PhotonColumns& c = map.columns();
+    const LaneQuery q(query, map.size());
     const Vf slopes = hn::Set(Floats(), slope);
     FluxSum<kType> same, others;
     GatherSum sum;
