@@ -37,7 +37,7 @@ struct Rgb9e5Power {
   }
 };
 
-// The polynomial w of kernel_value().
+// The polynomial w of kernel_value(), never negative.
 template <KernelType kType>
 HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
   constexpr KernelRow kRow = kKernels[size_t(kType)];
@@ -47,6 +47,7 @@ HWY_INLINE Vf Weight(Vf distance_squared, Vf slope) {
   Vf w = hn::Set(d, kRow.a[size_t(kRow.degree())]);
   for (int j = kRow.degree() - kRow.step(); j >= 0; j -= kRow.step())
     w = hn::MulAdd(hn::Mul(w, slope), s, hn::Set(d, kRow.a[size_t(j)]));
+  if constexpr (kRow.degree() > 0) w = hn::Max(w, hn::Zero(d));
   return w;
 }
 

@@ -12,6 +12,7 @@
 // gather's SIMD lanes, and the share of the kernel's mass behind an edge
 // (photon/estimate/boundary_correction.h).
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -114,7 +115,8 @@ auto with_kernel(KernelType type, const Fn& fn) {
   }
 }
 
-// K(d) from the squared distance in m^2, which must not exceed the squared radius.
+// K(d) from the squared distance in m^2, which must not exceed the squared radius. Never negative, though
+// rounding could make the polynomial so near the rim.
 inline float kernel_value(KernelType type, const KernelTerms& terms, float distance_squared) {
   return with_kernel(type, [&]<KernelType kType>() {
     constexpr KernelRow kRow = kKernels[size_t(kType)];
@@ -122,7 +124,7 @@ inline float kernel_value(KernelType type, const KernelTerms& terms, float dista
     float w = kRow.a[size_t(kRow.degree())];
     for (int j = kRow.degree() - kRow.step(); j >= 0; j -= kRow.step())
       w = w * terms.slope * s + kRow.a[size_t(j)];
-    return terms.scale * w;
+    return terms.scale * std::max(w, 0.0f);
   });
 }
 

@@ -80,5 +80,28 @@ TEST(Gather, EveryInstructionSetAcceptsTheSamePhotons) {
   }
 }
 
+// Where a kernel falls to zero at the rim, rounding of its polynomial must not make it negative: samples of
+// negative radiance are dropped.
+TEST(Gather, PhotonsNearTheRimHaveNoNegativeWeight) {
+  PhotonMaker make(3);
+  const Normal3 up(0, 0, 1);
+  for (int i = 0; i < 300; ++i) {
+    const float radius = make.uniform(0.1f, 1), distance = radius * (1 - 1e-5f * float(i % 100));
+    Photon photon = make.at({distance, 0, 0}, up, 0);
+    photon.flux = Rgb(1);
+    const PhotonMap map = PhotonMap::build(make_buffer({photon}));
+    for (const int64_t target : targets()) {
+      const OnlyTarget only(target);
+      for (const KernelType type : kKernelTypes) {
+        GatherCounters counters;
+        const Rgb flux = gather_flux(map, {Point3(0), up, 0, radius, kAllPhotons}, {type, 1}, counters);
+        ASSERT_GE(flux.x, 0) << hwy::TargetName(target) << ", " << kKernels[size_t(type)].name;
+        ASSERT_GE(kernel_value(type, kernel_terms({type, 1}, radius), distance * distance), 0)
+            << kKernels[size_t(type)].name;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kaustik::photon
