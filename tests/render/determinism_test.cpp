@@ -20,7 +20,12 @@ RenderSettings settings_of(Method method) {
   return settings;
 }
 
-static_assert(sizeof(PixelResult) == 26 * sizeof(float), "no padding: bytes are compared");
+constexpr size_t layer_bytes() {
+  size_t bytes = 0;
+  for (const LayerRow& row : kLayerTable) bytes += row.channels.size() * sizeof(float);
+  return bytes;
+}
+static_assert(sizeof(PixelResult) == layer_bytes(), "bytes are compared: no padding, a row for each member");
 
 bool same_bytes(const Film& a, const Film& b) {
   if (a.width() != b.width() || a.height() != b.height()) return false;

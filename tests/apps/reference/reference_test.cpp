@@ -159,9 +159,9 @@ TEST_F(Reference, BashCompletesCommandsOptionsValuesAndFiles) {
   EXPECT_EQ(completed("sw"), "sweep;");
   EXPECT_EQ(completed("render --kern"), "--kernel;");
   EXPECT_EQ(completed("bench --gui"), "--guide;");
-  EXPECT_EQ(completed("render --kernel ''"), "constant;cone;epanechnikov;");
-  EXPECT_EQ(completed("render --kernel = c"), "constant;cone;");
-  EXPECT_EQ(completed("render --kernel ="), "constant;cone;epanechnikov;");
+  EXPECT_EQ(completed("render --guide ''"), "off;on;");
+  EXPECT_EQ(completed("render --guide = of"), "off;");
+  EXPECT_EQ(completed("render --guide ="), "off;on;");
   EXPECT_EQ(completed("render --aov direct,de"), "direct,depth;");
   EXPECT_EQ(completed("sweep --methods mc,ray"), "mc,raytrace;");
   EXPECT_EQ(completed("photons --kinds sh"), "shadow;");

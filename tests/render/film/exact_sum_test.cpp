@@ -76,13 +76,12 @@ FilmSums random_film(std::mt19937_64& random) {
   FilmSums film(3, 2, 1, 1, 8, 8);
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 3; ++x) {
-      const std::vector<double> v = random_terms(23, random);
+      const std::vector<double> v = random_terms(kSumChannels, random);
       PixelSum& p = film.at(x, y);
-      const auto three = [&](size_t i) { return glm::abs(glm::dvec3(v[i], v[i + 1], v[i + 2])); };
-      p = {three(0),    three(3),  three(6),
-           three(9),    three(12), three(15),
-           v[18],       v[19],     {v[20], v[21], v[22]},
-           random() % 4};
+      for (const LayerRow& row : kLayerTable)
+        for (size_t c = 0; row.summed() && c < row.channels.size(); ++c)
+          row.in(p)[c] = v[sum_of(row.layer) + c];
+      p.count = random() % 4;
     }
   return film;
 }
