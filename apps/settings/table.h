@@ -1,8 +1,8 @@
 #pragma once
 // The one table of every render setting. From it come the options of every command that renders or traces,
 // the parameters of the scene file's Integrator "photonmap" line, the names in JSON files and partial
-// results, and the tables of docs/reference/command_line.md. A new setting is a row here and the code that
-// uses it.
+// results, and the tables of docs/reference/command_line.md. A new setting is a field of RenderSettings, a
+// row here and the code that uses the field.
 
 #include <functional>
 #include <optional>

@@ -4,40 +4,56 @@
 // flat(), and nothing for others.
 //
 // The concept AnalyticShape lists what a type in the list of core/geometry/shape.h must have:
-//   static constexpr std::string_view kName   name of its type in `kaustik info`
-//   static constexpr uint32_t kMostCrossings  how often a straight line can meet it
+//   static constexpr std::string_view kName
+//     name of its type in `kaustik info`
+//   static constexpr uint32_t kMostCrossings
+//     how often a straight line can meet it
 //   Transform to_world
-//   float intersect(ray, uv) const            t of the nearest intersection with 0 < t < ray.t_max, or
-//   kInfinity; sets
-//                                             *uv where the shape is flat
-//   SurfacePoint at_hit(ray, t, uv) const     the point of the surface that such an intersection found,
-//   rebuilt so that
-//                                             its error does not grow with the ray's length
-//   Bounds3 bounds() const                    in the world, with room for the error of points
-//   double area() const                       m^2
-//   Bounds3 local_bounds() const              in its own space
-//   swept() const                             the shape as a SweptShape: itself, or one that holds it as a
-//   special case
+//   float intersect(ray, uv) const
+//     t of the nearest intersection with 0 < t < ray.t_max, or kInfinity; sets *uv where the shape is flat
+//   SurfacePoint at_hit(ray, t, uv) const
+//     the point of the surface that such an intersection found, rebuilt so that its error does not grow with
+//     the ray's length
+//   Bounds3 bounds() const
+//     in the world, with room for the error of points
+//   double area() const
+//     m^2
+//   Bounds3 local_bounds() const
+//     in its own space
+//   swept() const
+//     the shape as a SweptShape: itself, or one that holds it as a special case
 //
 // The concept SweptShape lists what areas, edges, texture coordinates and emission are made from: the surface
 // as a grid over (s, phi), where s in [0, 1] leads from one end to the other, and the azimuth phi about the
-// local z axis from 0 to turn(). All members but error() and the members above work in local space.
-//   double turn() const                       largest azimuth, in (0, 2 pi]
+// local z axis from 0 to turn(). All members but error() and the members above work in local space:
+//   double turn() const
+//     largest azimuth, in (0, 2 pi]
 //   glm::dvec3 point_at(s, phi) const
-//   glm::dvec3 normal_at(p) const             unit normal of the outside at a point of the surface
-//   bool flat() const                         lies in z = 0 with its outside on the side of +z
-//   int strips(around) const                  strips along s that go with `around` pieces of a full turn
-//   double strip_at(t) const                  s for t in [0, 1], so that equal steps of t make even strips
-//   bool has_rim(end) const                   the surface ends at s = 0 (end 0) or s = 1 (end 1)
-//   double bend(area) const                   m: the integral over the surface (area, in m^2) of the sum of
-//   its
-//                                             principal curvatures, up to uneven scaling
-//   LocalParameters parameters(p) const       uv and derivatives at a point of the surface
-//   float error() const                       bound on the error of a point along the normal, metres
-//   bool keeps_areas_even() const             equal areas in local space are equal in the world
-//   Point3 sample_uniform(u) const            uniformly distributed in local space, for u in [0, 1)^2; phi =
-//   turn() u.y Point2 square_of(p) const                 inverse of sample_uniform float v_of(u_x) const
-//   texture coordinate v of sample_uniform({u_x, ...})
+//   glm::dvec3 normal_at(p) const
+//     unit normal of the outside at a point of the surface
+//   bool flat() const
+//     lies in z = 0 with its outside on the side of +z
+//   int strips(around) const
+//     strips along s that go with `around` pieces of a full turn
+//   double strip_at(t) const
+//     s for t in [0, 1], so that equal steps of t make even strips
+//   bool has_rim(end) const
+//     the surface ends at s = 0 (end 0) or s = 1 (end 1)
+//   double bend(area) const
+//     m: the integral over the surface (area, in m^2) of the sum of its principal curvatures, up to uneven
+//     scaling
+//   LocalParameters parameters(p) const
+//     uv and derivatives at a point of the surface
+//   float error() const
+//     bound on the error of a point along the normal, metres
+//   bool keeps_areas_even() const
+//     equal areas in local space are equal in the world
+//   Point3 sample_uniform(u) const
+//     uniformly distributed in local space, for u in [0, 1)^2; phi = turn() u.y
+//   Point2 square_of(p) const
+//     inverse of sample_uniform
+//   float v_of(u_x) const
+//     texture coordinate v of sample_uniform({u_x, ...})
 
 #include <concepts>
 #include <string_view>
