@@ -204,7 +204,6 @@ TextureTable::TextureTable(const SceneDescription& description, const ImageLoade
     : description_(description), images_(images) {
   for (const TextureDescription& texture : description.textures) add(texture, warned, diagnostics);
   load_images(diagnostics);
-  if (images.library) set_->set_images(images.library());
 }
 
 void TextureTable::add(const TextureDescription& texture, WarnedOnce& warned, DiagnosticList& diagnostics) {
@@ -308,6 +307,8 @@ std::shared_ptr<const TextureSet> TextureTable::finish(const glm::dvec3& origin)
     for (uint32_t i = 0; i < to_world_.size(); ++i)
       set_->set_transform(i, Transform::from_matrix(relative_to(origin, to_world_[i])));
   }
+  // Only now, since materials have loaded their normal maps, too.
+  if (images_.library) set_->set_images(images_.library());
   return std::move(set_);
 }
 

@@ -275,6 +275,20 @@ TEST_F(ImportTextures, ImagesOfSuccessiveScenesAreSeparate) {
   }
 }
 
+// Materials load their normal maps after all textures are made. (204, 128, 230) / 255 stands for the normal
+// (0.6, 0, 0.8) to half a level of 8 bits, which is 1/255 of it.
+TEST_F(ImportTextures, ANormalMapMayBeTheOnlyImage) {
+  write_image<uint8_t>("n.png", 1, 3, {204, 128, 230});
+  const Scene s = world(
+      "Material \"diffuse\" \"string normalmap\" \"n.png\" "
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0]");
+  SurfaceInteraction si = make_interaction(s.shapes, {}, {1, 0, 0, {0.25f, 0.25f}});
+  const BsdfAt bsdf(s, si, {0, 0, 1});
+  EXPECT_NEAR(si.ns.x, 0.6f, 0.005f);
+  EXPECT_NEAR(si.ns.y, 0, 0.005f);
+  EXPECT_NEAR(std::abs(si.ns.z), 0.8f, 0.005f);
+}
+
 TEST_F(ImportTextures, AmountsOfMixturesAreFloatTextures) {
   const std::string mix = R"(MakeNamedMaterial "a" "string type" "mirror"
     Texture "grey" "spectrum" "constant" Texture "half" "float" "constant" "float value" 0.5
