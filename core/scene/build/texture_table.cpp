@@ -204,6 +204,7 @@ TextureTable::TextureTable(const SceneDescription& description, const ImageLoade
     : description_(description), images_(images) {
   for (const TextureDescription& texture : description.textures) add(texture, warned, diagnostics);
   load_images(diagnostics);
+  if (images.library) set_->set_images(images.library());
 }
 
 void TextureTable::add(const TextureDescription& texture, WarnedOnce& warned, DiagnosticList& diagnostics) {
@@ -307,7 +308,7 @@ std::shared_ptr<const TextureSet> TextureTable::finish(const glm::dvec3& origin)
     for (uint32_t i = 0; i < to_world_.size(); ++i)
       set_->set_transform(i, Transform::from_matrix(relative_to(origin, to_world_[i])));
   }
-  // Only now, since materials have loaded their normal maps, too.
+  // Again, since a normal map may have been the first image.
   if (images_.library) set_->set_images(images_.library());
   return std::move(set_);
 }
