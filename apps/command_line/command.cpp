@@ -10,21 +10,18 @@ namespace kaustik::app {
 
 namespace {
 
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> parts;
-  for (size_t at = 0; at <= text.size();) {
-    const size_t end = std::min(text.find(',', at), text.size());
-    parts.emplace_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return parts;
+Option make_option(std::string_view names, std::string value_name, std::string description,
+                   std::function<void(const Texts&)> assign) {
+  Option option;
+  option.names = split_at_commas(names);
+  option.value_name = std::move(value_name);
+  option.description = std::move(description);
+  option.assign = std::move(assign);
+  return option;
 }
 
 Option help_option() {
-  Option option;
-  option.names = {"-h", "--help"};
-  option.description = "Print this help message and exit";
-  return option;
+  return make_option("-h,--help", "", "Print this help message and exit", nullptr);
 }
 
 }  // namespace
@@ -46,11 +43,7 @@ Argument& Command::add_arguments(std::string argument, Texts& target, std::strin
 }
 
 void Command::add_flag(std::string_view names, bool& target, std::string text) {
-  Option option;
-  option.names = split(names);
-  option.description = std::move(text);
-  option.assign = [&target](const Texts&) { target = true; };
-  add_option(std::move(option));
+  add_option(make_option(names, "", std::move(text), [&target](const Texts&) { target = true; }));
 }
 
 void Command::add_quiet(std::string text) {
@@ -65,7 +58,7 @@ Option& Command::add_text(std::string_view names, std::string value_name, std::s
 
 Option& Command::add_number(std::string_view names, std::string value_name, std::optional<float>& target,
                             std::string text) {
-  const auto parse = [&target, name = split(names).back()](const std::string& value) {
+  const auto parse = [&target, name = split_at_commas(names).back()](const std::string& value) {
     target = parse_number(value);
     if (!target || *target < 0)
       throw OptionError(name, fmt::format("`{}`: expected a number of at least 0", value));
@@ -74,23 +67,16 @@ Option& Command::add_number(std::string_view names, std::string value_name, std:
 }
 
 Option& Command::add_list(std::string_view names, std::string value_name, Texts& target, std::string text) {
-  Option option;
-  option.names = split(names);
-  option.value_name = std::move(value_name);
-  option.description = std::move(text);
+  Option& option = add_option(make_option(names, std::move(value_name), std::move(text),
+                                          [&target](const Texts& texts) { target = texts; }));
   option.takes_list = option.at_commas = true;
-  option.assign = [&target](const Texts& texts) { target = texts; };
-  return add_option(std::move(option));
+  return option;
 }
 
 Option& Command::add_parsed(std::string_view names, std::string value_name, std::string text,
                             std::function<void(const std::string&)> assign) {
-  Option option;
-  option.names = split(names);
-  option.value_name = std::move(value_name);
-  option.description = std::move(text);
-  option.assign = [assign = std::move(assign)](const Texts& texts) { assign(texts.front()); };
-  return add_option(std::move(option));
+  return add_option(make_option(names, std::move(value_name), std::move(text),
+                                [assign = std::move(assign)](const Texts& texts) { assign(texts.front()); }));
 }
 
 Option& Command::add_option(Option option) {
@@ -104,10 +90,7 @@ std::vector<std::string> choices_of(std::span<const std::string_view> names) {
 
 Program::Program(std::string its_name, std::string its_description)
     : name(std::move(its_name)), description(std::move(its_description)), options{help_option()} {
-  Option option;
-  option.names = {"--version"};
-  option.description = "Display program version information and exit";
-  options.push_back(std::move(option));
+  options.push_back(make_option("--version", "", "Display program version information and exit", nullptr));
 }
 
 }  // namespace kaustik::app

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -132,6 +133,16 @@ std::optional<double> parse_share(std::string_view text) {
   if (percent) text.remove_suffix(1);
   const std::optional<double> value = parse_double(text);
   return value && percent ? std::optional(*value / 100) : value;
+}
+
+std::vector<std::string> split_at_commas(std::string_view text) {
+  std::vector<std::string> parts;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    parts.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
 }
 
 std::optional<float> parse_number(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace kaustik::app {
 
@@ -25,6 +26,9 @@ std::optional<double> parse_duration(std::string_view text);
 
 // Parses a share such as "1%" or "0.01"; nothing for other texts.
 std::optional<double> parse_share(std::string_view text);
+
+// The parts between commas; a text without commas is the only part.
+std::vector<std::string> split_at_commas(std::string_view text);
 
 // Parses a finite decimal number within the range of a float, including subnormals; nothing for other texts.
 std::optional<float> parse_number(std::string_view text);

@@ -169,17 +169,13 @@ void add_options(Command& command, BenchOptions& options) {
   command.add_text(
       "--plot", "FOLDER", options.plot,
       "Write charts of the scaling to the page scaling.html in this folder, which is created if missing");
-  Option from;
-  from.names = {"--from"};
-  from.value_name = "FILE";
-  from.description = "Read the JSON of an earlier run instead of measuring";
-  from.assign = [&options](const Texts& texts) { options.from = texts.front(); };
   const size_t place = command.options.size();
+  command.add_text("--from", "FILE", options.from, "Read the JSON of an earlier run instead of measuring");
   add_setting_options(command, options.overrides, SettingsCommand::kBench);
+  Option& from = command.options[place];
   for (const Option& option : command.options)
-    if (option.long_name() != "--help" && option.long_name() != "--plot")
+    if (&option != &from && option.long_name() != "--help" && option.long_name() != "--plot")
       from.excludes.push_back(option.long_name());
-  command.options.insert(command.options.begin() + std::ptrdiff_t(place), std::move(from));
 }
 
 }  // namespace

@@ -90,16 +90,12 @@ void report_error(const render::RenderResult& result, const render::RenderSettin
 }  // namespace
 
 void add_output_options(Command& command, OutputOptions& options, const std::string& by_default) {
-  Option output;
-  output.names = {"-o", "--output"};
-  output.value_name = "FILE";
-  output.description =
+  Option& output = command.add_list(
+      "-o,--output", "FILE", options.files,
       "File to write: .exr (float, with layers), .png, .jpg, or .kpart (a partial result). Repeat the option "
       "for more files. Default: " +
-      by_default;
-  output.assign = [&options](const Texts& texts) { options.files = texts; };
-  output.takes_list = true;
-  command.add_option(std::move(output));
+          by_default);
+  output.at_commas = false;  // file names may hold commas
   command.add_text("--stats", "FILE", options.statistics,
                    "Write counts, times and settings to this JSON file");
 }

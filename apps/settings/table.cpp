@@ -134,18 +134,6 @@ Setting crop_setting() {
   return s;
 }
 
-std::vector<std::string> split_at_commas(ValueTexts texts) {
-  std::vector<std::string> parts;
-  for (const std::string& text : texts) {
-    for (size_t begin = 0; begin <= text.size();) {
-      const size_t end = std::min(text.find(',', begin), text.size());
-      parts.push_back(text.substr(begin, end - begin));
-      begin = end + 1;
-    }
-  }
-  return parts;
-}
-
 Setting aov_setting() {
   Setting s{.name = "aov",
             .commands = kThatWritePictures,
@@ -157,7 +145,7 @@ Setting aov_setting() {
   s.choices.assign(render::kLayerNames.begin(), render::kLayerNames.end());
   s.choices.insert(s.choices.end(), {"all", "none"});
   s.assign = [names = s.choices](Settings& settings, ValueTexts texts) -> Complaint {
-    std::vector<std::string> layers = split_at_commas(texts);
+    std::vector<std::string> layers = split_at_commas(fmt::format("{}", fmt::join(texts, ",")));
     for (const std::string& layer : layers) {
       if (std::find(names.begin(), names.end(), layer) == names.end()) {
         return fmt::format("`{}` is not a layer{}", layer, name_hint(layer, names));

@@ -37,7 +37,7 @@ def judge(kernel, base, head):
 def check(base, head, results):
     program = head.build("perf_kernels")
     kernels = kernel_names(program)
-    base_program = base.build("perf_kernels") or base.build_with_own_driver("perf_kernels")
+    base_program = base.build("perf_kernels")
     if not base_program:
         return [Row(CHECK, "all kernels", f"no build: {base.log('perf_kernels')}", "", "", NOT_COMPARABLE)]
     both = set(kernel_names(base_program))

@@ -36,6 +36,7 @@ class Side:
         self.root = root
         self.commit = None
         self.targets = {}  # name: whether it was built
+        self.borrowed = False  # benchmarks/ is another commit's
 
     def check_out(self, commit):
         self.commit = commit
@@ -49,19 +50,18 @@ class Side:
     def take_driver(self, commit):
         """Replaces benchmarks/ by that of `commit`, so that both sides measure the same work."""
         git(self.folder, "restore", "--source", commit, "--worktree", "--", "benchmarks")
-
-    def build_with_own_driver(self, target):
-        """Builds with the benchmarks/ of its own commit, for a revision in which those of the head do not compile."""
-        self.take_driver(self.commit)
-        git(self.folder, "clean", "--force", "-d", "--quiet", "--", "benchmarks")
-        self.targets.pop(target, None)
-        return self.build(target)
+        self.borrowed = commit != self.commit
 
     def build(self, target):
-        """Builds and returns the program; None if it does not build, and the log says why."""
+        """Builds and returns the program; None if it does not build, and the log says why. Where the benchmarks/ of
+        another commit do not compile, those of its own are built."""
         if target not in self.targets:
             print(f"perf-gate: building {target} of {self.name}, {self.commit[:10]}", file=sys.stderr)
             self.targets[target] = self._configure_and_build(target)
+            if self.borrowed and not self.targets[target]:
+                self.take_driver(self.commit)
+                git(self.folder, "clean", "--force", "-d", "--quiet", "--", "benchmarks")
+                self.targets[target] = self._configure_and_build(target)
         program = self.build_folder / ("kaustik" if target == "kaustik" else f"benchmarks/perf/{target}")
         return program if self.targets[target] and program.exists() else None
 

@@ -204,7 +204,7 @@ TextureTable::TextureTable(const SceneDescription& description, const ImageLoade
     : description_(description), images_(images) {
   for (const TextureDescription& texture : description.textures) add(texture, warned, diagnostics);
   load_images(diagnostics);
-  if (images.library) set_->set_images(images.library());
+  share_library();
 }
 
 void TextureTable::add(const TextureDescription& texture, WarnedOnce& warned, DiagnosticList& diagnostics) {
@@ -249,11 +249,20 @@ void TextureTable::add(const TextureDescription& texture, WarnedOnce& warned, Di
   cost_.push_back(cost);
 }
 
+ImageResult TextureTable::load_image(const std::string& filename, const SourceLocation& where,
+                                     const ImageEncoding& encoding) const {
+  if (!images_.load) return {0, "image files cannot be read here"};
+  return images_.load(filename, where, encoding);
+}
+
+void TextureTable::share_library() const {
+  if (images_.library) set_->set_images(images_.library());
+}
+
 void TextureTable::load_images(DiagnosticList& diagnostics) {
   tbb::parallel_for(size_t{0}, requests_.size(), [&](size_t i) {
     ImageRequest& request = requests_[i];
-    request.result = images_.load ? images_.load(request.filename, request.where, request.encoding)
-                                  : ImageResult{0, "image files cannot be read here"};
+    request.result = load_image(request.filename, request.where, request.encoding);
   });
   for (const ImageRequest& request : requests_) {
     Texture& texture = set_->texture(request.texture);
@@ -296,8 +305,8 @@ uint32_t TextureTable::find(const Parameter& parameter, TextureValue value,
 std::optional<uint32_t> TextureTable::load_linear_image(const std::string& filename,
                                                         const SourceLocation& where,
                                                         DiagnosticList& diagnostics) const {
-  const ImageResult result = images_.load ? images_.load(filename, where, {ImageEncoding::Kind::kLinear})
-                                          : ImageResult{0, "image files cannot be read here"};
+  const ImageResult result = load_image(filename, where, {ImageEncoding::Kind::kLinear});
+  share_library();
   if (result.error.empty()) return result.image;
   diagnostics.error(where, result.error);
   return std::nullopt;
@@ -308,8 +317,6 @@ std::shared_ptr<const TextureSet> TextureTable::finish(const glm::dvec3& origin)
     for (uint32_t i = 0; i < to_world_.size(); ++i)
       set_->set_transform(i, Transform::from_matrix(relative_to(origin, to_world_[i])));
   }
-  // Again, since a normal map may have been the first image.
-  if (images_.library) set_->set_images(images_.library());
   return std::move(set_);
 }
 

@@ -45,6 +45,10 @@ class TextureTable {
   class Maker;
 
   void add(const TextureDescription& texture, WarnedOnce& warned, DiagnosticList& diagnostics);
+  ImageResult load_image(const std::string& filename, const SourceLocation& where,
+                         const ImageEncoding& encoding) const;
+  // Gives the set the library, which exists from the first image on.
+  void share_library() const;
   void load_images(DiagnosticList& diagnostics);
   auto& names(TextureValue value) { return by_name_[value == TextureValue::kSpectrum]; }
   const auto& names(TextureValue value) const { return by_name_[value == TextureValue::kSpectrum]; }
