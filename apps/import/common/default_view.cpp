@@ -1,10 +1,13 @@
 #include "apps/import/common/default_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "apps/import/common/make_parameter.h"
+#include "apps/import/common/stand_in_sky.h"
 
 namespace kaustik {
 namespace {
@@ -58,16 +61,17 @@ glm::dmat4 camera_looking_at(const glm::dvec3& eye, const glm::dvec3& target) {
           glm::dvec4(eye, 1)};
 }
 
-void add_missing_view(SceneDescription& scene, const SourceLocation& where, DiagnosticList& diagnostics) {
+void add_missing_view(SceneDescription& scene, const SourceLocation& where, Diagnostics& diagnostics) {
   if (!scene.camera) {
     add_camera(scene, where);
     diagnostics.warning(where, "the file has no camera: one that sees the whole scene is used");
   }
-  if (scene.lights.empty() && scene.area_lights.empty()) {
+  if (const double share = emitted_share(scene, diagnostics.files); share < kLeastEmittedShare) {
     DirectiveMaker<LightDescription> sky("infinite", where);
     sky.rgb("L", glm::dvec3(1));
     scene.lights.push_back(std::move(*sky));
-    diagnostics.warning(where, "the file has no light: a white sky of radiance 1 is used");
+    diagnostics.warning(where, fmt::format("the file has no light{}: a white sky of radiance 1 is used",
+                                           share > 0 ? " that reaches its surfaces" : ""));
   }
 }
 
