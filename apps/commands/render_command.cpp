@@ -11,6 +11,7 @@
 #include "apps/session/render_session.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "apps/session/stopping/time_plan.h"
+#include "apps/settings/unread_settings.h"
 #include "render/plan/plan.h"
 
 namespace kaustik::app {
@@ -56,6 +57,11 @@ void note_checkpoint(const RenderOptions& options, const Console& console) {
                                 options.checkpoint.path));
 }
 
+void warn_of_unread(const RenderOptions& options, const Job& job, const Console& console) {
+  const render::EstimatorPlan plan = render::make_plan(job.settings.render, job.scene.needs);
+  for (const std::string& warning : unread_settings(options.overrides, plan)) console.warning(warning);
+}
+
 int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
@@ -64,6 +70,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   const int load_threads = options.overrides.alone().render.threads;
   Job job;
   with_thread_limit(load_threads, [&] { job = load_job(options.scene, options.overrides, console); });
+  warn_of_unread(options, job, console);
   RenderSession session{options.outputs, options.checkpoint, options.passes, false, {}};
   session.outputs.files = outputs_of(options, job);
   session.fill_time = options.passes.empty() &&

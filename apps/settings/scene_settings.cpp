@@ -15,10 +15,34 @@ namespace {
 
 using Names = std::span<const std::string_view>;
 
-// pbrt's integrators that are not interpreted.
-constexpr std::string_view kOtherIntegrators[] = {
-    "volpath",    "bdpt",       "mlt",           "ambientocclusion", "function", "lightpath",
-    "randomwalk", "simplepath", "simplevolpath", "directlighting",   "whitted"};
+// The integrators of pbrt-v3 and v4 that method auto stands in for.
+constexpr std::string_view kStoodInFor[] = {
+    "path",      "volpath",    "bdpt",       "mlt",           "ambientocclusion", "function",
+    "lightpath", "randomwalk", "simplepath", "simplevolpath", "directlighting",   "whitted"};
+
+// Parameters of these that change how the work is done, or nothing that is rendered here.
+constexpr std::string_view kWithoutMeaning[] = {"regularize",
+                                                "lightsampler",
+                                                "rrthreshold",
+                                                "lightsamplestrategy",
+                                                "pixelbounds",
+                                                "strategy",
+                                                "sampledirect",
+                                                "samplelights",
+                                                "samplebsdf",
+                                                "visualizestrategies",
+                                                "visualizeweights",
+                                                "bootstrapsamples",
+                                                "chains",
+                                                "mutationsperpixel",
+                                                "largestepprobability",
+                                                "sigma",
+                                                "cossample",
+                                                "nsamples",
+                                                "maxdistance",
+                                                "function",
+                                                "skipbad",
+                                                "imagefilename"};
 
 bool contains(Names names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -93,22 +117,20 @@ void assign_parameter(const Parameter& parameter, Settings& settings, Diagnostic
   }
 }
 
-// Warns of parameters that pbrt knows but kaustik ignores, and reports an error for unknown ones.
+// Warns of each parameter that is not read, with the nearest name where pbrt knows none like it: the picture
+// would be right without it.
 void check_pbrt_parameters(const Directive& integrator, Names used, Names ignored,
                            DiagnosticList& diagnostics) {
   std::vector<std::string_view> all(used.begin(), used.end());
   all.insert(all.end(), ignored.begin(), ignored.end());
   for (const Parameter& parameter : integrator.parameters) {
     if (contains(used, parameter.name)) continue;
-    if (contains(ignored, parameter.name)) {
-      diagnostics.warning(parameter.location,
-                          fmt::format("`{}` of integrator `{}` has no meaning here and is ignored",
-                                      parameter.name, integrator.type));
-    } else {
-      diagnostics.error(parameter.location,
-                        fmt::format("integrator `{}` has no parameter `{}`{}", integrator.type,
-                                    parameter.name, name_hint(parameter.name, all)));
-    }
+    diagnostics.warning(parameter.location,
+                        contains(ignored, parameter.name)
+                            ? fmt::format("`{}` of integrator `{}` has no meaning here and is ignored",
+                                          parameter.name, integrator.type)
+                            : fmt::format("integrator `{}` has no parameter `{}`{}: it is ignored",
+                                          integrator.type, parameter.name, name_hint(parameter.name, all)));
   }
 }
 
@@ -164,15 +186,25 @@ void apply_sppm(const Directive& integrator, SceneSettings& out, DiagnosticList&
       "Integrator \"sppm\": direct light by shadow rays, caustics and indirect light from photons");
 }
 
-void apply_path(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
+// Method auto renders what every other integrator of pbrt renders, whichever algorithm the file names.
+void apply_stand_in(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
   constexpr std::string_view kUsed[] = {"maxdepth", "seed"};
-  constexpr std::string_view kIgnored[] = {"regularize", "lightsampler", "rrthreshold", "lightsamplestrategy",
-                                           "pixelbounds"};
-  check_pbrt_parameters(integrator, kUsed, kIgnored, diagnostics);
-  out.settings.render.method = render::Method::kMc;
+  check_pbrt_parameters(integrator, kUsed, kWithoutMeaning, diagnostics);
   take_maxdepth(integrator, out.settings, diagnostics);
   forward(integrator, "seed", "seed", out.settings, diagnostics);
-  out.notes.push_back("Integrator \"path\": method mc");
+  out.notes.push_back(
+      fmt::format("Integrator \"{}\": rendered by method auto with at most {} bounces; --method mc traces "
+                  "paths",
+                  integrator.type, out.settings.render.max_bounces));
+}
+
+void warn_of_unknown(const Directive& integrator, DiagnosticList& diagnostics) {
+  std::vector<std::string_view> names = {"photonmap", "sppm"};
+  names.insert(names.end(), std::begin(kStoodInFor), std::end(kStoodInFor));
+  diagnostics.warning(integrator.type_location,
+                      fmt::format("unknown integrator `{}`{}: method auto is used; kaustik's own integrator "
+                                  "is `photonmap`",
+                                  integrator.type, name_hint(integrator.type, names)));
 }
 
 // Applies "quality" before the other parameters, so that explicit numbers win wherever they stand in the
@@ -190,18 +222,10 @@ void apply_integrator(const Directive& integrator, SceneSettings& out, Diagnosti
     }
   } else if (integrator.type == "sppm") {
     apply_sppm(integrator, out, diagnostics);
-  } else if (integrator.type == "path") {
-    apply_path(integrator, out, diagnostics);
-  } else if (contains(kOtherIntegrators, integrator.type)) {
-    out.notes.push_back(
-        fmt::format("Integrator \"{}\" is not supported: its parameters are ignored, and method auto is used",
-                    integrator.type));
+  } else if (contains(kStoodInFor, integrator.type)) {
+    apply_stand_in(integrator, out, diagnostics);
   } else {
-    std::vector<std::string_view> names = {"photonmap", "sppm", "path"};
-    names.insert(names.end(), std::begin(kOtherIntegrators), std::end(kOtherIntegrators));
-    diagnostics.error(integrator.type_location,
-                      fmt::format("unknown integrator `{}`{}; kaustik's own is `photonmap`", integrator.type,
-                                  name_hint(integrator.type, names)));
+    warn_of_unknown(integrator, diagnostics);
   }
 }
 

@@ -24,10 +24,10 @@ struct SceneSettings {
 // Interprets the directives. Sampler "pixelsamples" sets the samples per pixel; Film sets the size, the crop
 // and the default output. Integrator "photonmap" takes every setting of settings_table() by its name (dashes
 // may be left out). Integrator "sppm" sets shadow rays, caustic photons and indirect photons, with its
-// maxdepth, photonsperiteration and radius; "path" sets method mc with its maxdepth. In both, maxdepth
-// defaults to 5, as in pbrt. Any other integrator of pbrt gives a note, and the method stays auto. Each
-// parameter of pbrt that has no effect here gives a warning. Unknown parameters, unknown integrators and bad
-// values are errors.
+// maxdepth, photonsperiteration and radius. For any other integrator of pbrt the method stays auto, with the
+// file's maxdepth, and a note says so. maxdepth defaults to 5, as in pbrt. Each parameter of pbrt's
+// integrators that has no effect here gives a warning, as does an unknown integrator, for which auto is used
+// as well. Unknown parameters of "photonmap" and bad values are errors.
 SceneSettings settings_from_scene(const SceneDescription& description, DiagnosticList& diagnostics);
 
 }  // namespace kaustik::app

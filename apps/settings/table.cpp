@@ -218,6 +218,7 @@ void add_methods(std::vector<Setting>& table) {
 void add_photons(std::vector<Setting>& table) {
   table.push_back(count("photons", kRenderAndPhotons, "photons", &RenderSettings::photons, 1, kMaxUint64, {},
                         "Number of photons to emit."));
+  table.back().reader = SettingReader::kEmission;
   table.push_back(count(
       "passes", kRenderingCommands, "passes", &RenderSettings::passes, 0, kMaxInt, "0 (as memory allows)",
       "Number of equal passes among which photons and samples are divided; both are rounded up. Each pass "
@@ -225,34 +226,44 @@ void add_photons(std::vector<Setting>& table) {
       "photon maps of its own, so that only those of one pass are in memory. 0: one pass, or as many as "
       "needed for the maps to fit into memory."));
   table.push_back(radius_setting());
+  table.back().reader = SettingReader::kGather;
   table.push_back(alpha_setting());
+  table.back().reader = SettingReader::kGather;
   table.push_back(count("nearest", kRenderingCommands, "photons", &RenderSettings::nearest, 0, kMaxUint32,
                         "0 (off)",
                         "Shrink the radius to the COUNT-th nearest photon where more photons are in reach."));
+  table.back().reader = SettingReader::kGather;
   table.push_back(
       choice("kernel", kRenderingCommands, &RenderSettings::kernel, render::kKernelNames,
              "Weight of a photon as a function of its distance, normalised over the disc of radius r0."));
+  table.back().reader = SettingReader::kGather;
   table.push_back(cone_k_setting());
+  table.back().reader = SettingReader::kGather;
   table.push_back(
       count("min-photons", kRenderingCommands, "photons", &RenderSettings::min_photons, 0, kMaxUint32, {},
             "M0 of the lecture's test: an octree node decides only if it holds more photons than this."));
+  table.back().reader = SettingReader::kLectureTest;
   table.push_back(count("node-photons", kRenderingCommands, "photons", &RenderSettings::node_photons, 1,
                         kMaxUint32, {},
                         "N0 of the lecture: an octree node with at most this many photons is not divided."));
+  table.back().reader = SettingReader::kGather;
   table.push_back(choice(
       "lookup", kRenderingCommands, &RenderSettings::lookup, render::kLookupNames,
       "Which photons a gather uses. exact: all within the radius. leaf: those of one octree node, as in the "
       "lecture."));
+  table.back().reader = SettingReader::kGather;
   table.push_back(choice("emission", kAllThatTrace, &RenderSettings::emission, render::kEmissionNames,
                          "Distribution of photon directions at area lights. cosine: photons of equal flux. "
                          "uniform-angle: uniform in "
                          "angle and weighted, as in the lecture."));
+  table.back().reader = SettingReader::kEmission;
   table.push_back(choice("guide", kRenderingCommands, &RenderSettings::guide, render::kGuideNames,
                          "Guided emission. on: caustic photons are emitted where earlier photons reached a "
                          "diffuse surface by way of "
                          "mirrors and glass, and indirect photons where earlier photons reached visible "
                          "surfaces. off: all kinds "
                          "come from the same photons."));
+  table.back().reader = SettingReader::kGuidedEmission;
   table.push_back(count("max-bounces", kAllThatTrace, "bounces", &RenderSettings::max_bounces, 1, 65535, {},
                         "Most reflections and refractions of a photon or path."));
 }
@@ -261,6 +272,7 @@ void add_image(std::vector<Setting>& table) {
   table.push_back(count("spp", kRenderAndBench, "samples", &RenderSettings::spp, 1, kMaxInt, {},
                         "Camera samples per pixel."));
   table.push_back(adaptive_setting());
+  table.back().reader = SettingReader::kAdaptiveSamples;
   table.push_back(count("seed", kAllThatTrace, {}, &RenderSettings::seed, 0, kMaxUint64, {},
                         "Random seed. The same seed gives a bit-identical image."));
   table.push_back(count("threads", kRenderAndPhotons | SettingsCommand::kResume | SettingsCommand::kSweep,

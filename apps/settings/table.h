@@ -40,6 +40,16 @@ constexpr CommandSet operator|(SettingsCommand a, SettingsCommand b) {
 inline constexpr CommandSet kRenderingCommands =
     SettingsCommand::kRender | SettingsCommand::kBench | SettingsCommand::kSweep;
 
+// What reads a setting. A setting that is given although nothing reads it deserves a warning.
+enum class SettingReader {
+  kEveryRender,
+  kEmission,         // renders that shoot photons
+  kGather,           // renders that gather stored photons
+  kGuidedEmission,   // caustic or indirect photons
+  kLectureTest,      // the direct light of the lecture
+  kAdaptiveSamples,  // renders that trace no paths from the camera
+};
+
 enum class ValueKind { kCount, kInteger, kNumber, kChoice, kNames };
 
 struct Setting {
@@ -60,6 +70,7 @@ struct Setting {
   std::function<std::vector<std::string>(const Settings&)> show{};
   // Whether the setting affects the sums over samples, and not only the files written from them or the speed.
   bool decides_sums = true;
+  SettingReader reader = SettingReader::kEveryRender;
 };
 
 // All settings in the order of the help. Built once, immutable.
