@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 struct ConvertOptions {
   std::string scene, output;
+  SettingOverrides overrides;
 };
 
 // Meshes with at most this many corners stay in the text, where they are easier to edit.
@@ -68,7 +69,7 @@ void note_our_own(const SceneDescription& scene, const Console& console) {
 int run_convert(const ConvertOptions& options, const Console& console) {
   check_names(options);
   Diagnostics diagnostics;
-  const auto loaded = pbrt::load_scene(options.scene, diagnostics);
+  const auto loaded = pbrt::load_scene(options.scene, diagnostics, options.overrides.alone().import_options);
   console.err << diagnostics.format_all();
   if (!loaded)
     throw ExitError(kBadScene,
@@ -76,6 +77,7 @@ int run_convert(const ConvertOptions& options, const Console& console) {
   SceneFolder folder(options.output);
   const std::string text = text_of(options, loaded->description, diagnostics.files, folder);
   folder.commit(text);
+  for (const std::string& note : loaded->description.notes) console.note(note);
   note_our_own(loaded->description, console);
   console.note(fmt::format("wrote {}: {}", options.output, scene_summary(loaded->scene)));
   if (folder.meshes() + folder.copies() > 0)
@@ -93,6 +95,7 @@ Command make_convert_command() {
   command.add_argument("OUTPUT", options->output,
                        "Scene to write, NAME.pbrt; meshes and images go to the folder NAME-files beside it");
   command.add_quiet("Suppress the log, but not warnings and errors");
+  add_setting_options(command, options->overrides, SettingsCommand::kConvert);
   command.run = [options](const Console& console) { return run_convert(*options, console); };
   return command;
 }

@@ -19,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
   std::string scene;
+  SettingOverrides overrides;
   bool json = false;
 };
 
@@ -166,7 +167,7 @@ int run_info(const InfoOptions& options, const Console& console) {
   Console quiet = console;
   quiet.quiet = true;  // the report contains what the log would say
   Job job;
-  with_thread_limit(0, [&] { job = load_job(options.scene, {}, quiet); });
+  with_thread_limit(0, [&] { job = load_job(options.scene, options.overrides, quiet); });
   if (options.json) {
     console.out << info_json(options.scene, job).dump(2) << '\n';
   } else {
@@ -182,6 +183,7 @@ Command make_info_command() {
   const auto options = std::make_shared<InfoOptions>();
   command.add_argument("SCENE", options->scene, "Scene file");
   command.add_flag("--json", options->json, "Print JSON");
+  add_setting_options(command, options->overrides, SettingsCommand::kInfo);
   command.run = [options](const Console& console) { return run_info(*options, console); };
   return command;
 }

@@ -45,8 +45,9 @@ std::string content_hash(const SourceFiles& files, const NamedContents& named) {
 
 }  // namespace
 
-std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics);
+std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                             const ImportOptions& options) {
+  if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics, options);
   if (is_obj(path)) return import_obj(path, diagnostics);
   SceneFiles files(diagnostics.files);
   std::string error;
@@ -58,8 +59,9 @@ std::optional<SceneDescription> import_scene(const std::filesystem::path& path, 
   return SceneParser(path, files, diagnostics).parse(*file);
 }
 
-std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  auto description = import_scene(path, diagnostics);
+std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                      const ImportOptions& options) {
+  auto description = import_scene(path, diagnostics, options);
   if (!description) return std::nullopt;
   NamedContents named;
   const auto load_with = [&](auto load) {

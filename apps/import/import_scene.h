@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "apps/settings/import_options.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/description/description.h"
 #include "core/scene/scene.h"
@@ -14,7 +15,8 @@ namespace kaustik::pbrt {
 // Reads the file and the files that it includes into a description; meshes are not opened. After errors the
 // description holds what could be read, so that later stages can report their errors in the same run: call
 // diagnostics.has_errors(). Nothing when the file itself cannot be read. Throws only std::bad_alloc.
-std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
+std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                             const ImportOptions& options = {});
 
 struct LoadedScene {
   Scene scene;
@@ -28,6 +30,7 @@ struct LoadedScene {
 
 // Calls import_scene, then build_scene, which loads meshes and images in parallel. Nothing after any error;
 // `diagnostics` then holds all errors of both steps, sorted by location. Warnings do not make it fail.
-std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
+std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                      const ImportOptions& options = {});
 
 }  // namespace kaustik::pbrt

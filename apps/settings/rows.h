@@ -18,4 +18,7 @@ std::vector<std::string> as_texts(const Values&... values) {
 // The rows for stop rules and the bias estimate.
 std::vector<Setting> stop_rows();
 
+// The rows that decide how scene files of other programs are read.
+std::vector<Setting> import_rows();
+
 }  // namespace kaustik::app

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "apps/settings/import_options.h"
 #include "render/picture/tonemap.h"
 #include "render/settings/settings.h"
 
@@ -21,6 +22,7 @@ struct Settings {
   render::RenderSettings render;
   render::ToneSettings tone;
   StopSettings stop;
+  ImportOptions import_options;
 };
 
 }  // namespace kaustik::app

@@ -48,6 +48,7 @@ Settings reference_settings(const Job& job, render::Method method) {
   s.threads = own.threads;
   s.width = own.width, s.height = own.height, s.crop = own.crop;
   s.photon_memory = own.photon_memory;
+  settings.import_options = job.settings.import_options;
   return settings;
 }
 

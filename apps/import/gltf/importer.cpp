@@ -31,8 +31,10 @@ constexpr std::string_view kKnown[] = {"KHR_lights_punctual",        "KHR_materi
 
 class Importer {
  public:
-  Importer(const Document& document, const std::filesystem::path& path, Diagnostics& diagnostics)
+  Importer(const Document& document, const std::filesystem::path& path, const ImportOptions& options,
+           Diagnostics& diagnostics)
       : document_(document),
+        options_(options),
         warnings_({document.file(), 0, 0}, diagnostics),
         nodes_(placed_nodes(document)),
         deformation_(document, nodes_),
@@ -81,7 +83,7 @@ class Importer {
         warnings_.say("the file has several cameras: the first is used");
       }
     }
-    add_light(document_, node, m, warnings_, scene_);
+    add_light(document_, node, m, options_.light_unit, warnings_, scene_);
     const auto mesh = node["mesh"].index(document_.size("meshes"));
     if (!mesh) return;
     if (deformation_.applies_to(node)) return add_deformed(node, *mesh, m);
@@ -159,6 +161,7 @@ class Importer {
   };
 
   const Document& document_;
+  const ImportOptions& options_;
   SceneDescription scene_;
   FileWarnings warnings_;
   std::vector<PlacedNode> nodes_;
@@ -178,11 +181,12 @@ bool is_gltf(const std::filesystem::path& path) {
   return extension == ".gltf" || extension == ".glb";
 }
 
-std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, Diagnostics& diagnostics) {
+std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                            const ImportOptions& options) {
   const auto file = static_cast<uint32_t>(diagnostics.files.size());
   try {
     const Document document(path, diagnostics.files);
-    SceneDescription scene = Importer(document, path, diagnostics).run();
+    SceneDescription scene = Importer(document, path, options, diagnostics).run();
     add_missing_view(scene, scene.location, diagnostics);
     return scene;
   } catch (const FormatError& error) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "apps/settings/import_options.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/description/description.h"
 
@@ -12,7 +13,8 @@ namespace kaustik::gltf {
 // Reads a .gltf or .glb file with its buffers. Nothing, with an error in `diagnostics`, when it is damaged: a
 // byte range beyond its buffer, an index out of range, a node that is its own ancestor, too many vertices.
 // Each feature that is ignored or approximated gives one warning.
-std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, Diagnostics& diagnostics);
+std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                            const ImportOptions& options = {});
 
 // Decides by the file name's extension.
 bool is_gltf(const std::filesystem::path& path);

@@ -47,6 +47,21 @@ void add_orthographic(const View& camera, DirectiveMaker<CameraDescription>& out
   add_film(x / y, where, scene);
 }
 
+// Watts per steradian, or per square metre for directional lights, of a light's `intensity`.
+double radiant(double intensity, bool distant, LightUnit unit) {
+  constexpr double kLumenPerWatt = 683;  // of light of 555 nm, as Blender and others count all light
+  if (unit == LightUnit::kPhotometric) return intensity / kLumenPerWatt;
+  return distant ? intensity : intensity / (4 * std::numbers::pi);
+}
+
+void note_unit(LightUnit unit, SceneDescription& scene) {
+  if (!scene.lights.empty()) return;
+  scene.notes.emplace_back(unit == LightUnit::kPhotometric
+                               ? "the file's lights are read as candela and lux, 683 lm to the watt "
+                                 "(--light-unit watt reads watts)"
+                               : "the file's lights are read as watts (--light-unit watt)");
+}
+
 struct Aim {
   double inner, outer;  // degrees from the axis
 };
@@ -80,8 +95,8 @@ void add_camera(const View& camera, const glm::dmat4& to_world, FileWarnings& wa
   scene.camera = std::move(*out);
 }
 
-void add_light(const Document& document, const View& node, const glm::dmat4& to_world, FileWarnings& warnings,
-               SceneDescription& scene) {
+void add_light(const Document& document, const View& node, const glm::dmat4& to_world, LightUnit unit,
+               FileWarnings& warnings, SceneDescription& scene) {
   const View lights = document.root()["extensions"]["KHR_lights_punctual"]["lights"];
   const auto index = node["extensions"]["KHR_lights_punctual"]["light"].index(lights.size());
   if (!index) return;
@@ -90,12 +105,13 @@ void add_light(const Document& document, const View& node, const glm::dmat4& to_
   const std::vector<double> c = light["color"].numbers(3, {1, 1, 1});
   const double intensity = light["intensity"].number(1);
   if (!(intensity >= 0)) light["intensity"].fail("is negative");
-  const glm::dvec3 colour = intensity * glm::max(glm::dvec3(c[0], c[1], c[2]), 0.0);
   if (light.has("range"))
     warnings.say("the `range` of lights is ignored: light falls off with the square of the distance");
   const bool distant = type == "directional";
   if (!distant && type != "point" && type != "spot")
     light["type"].fail("is not a light type of KHR_lights_punctual");
+  note_unit(unit, scene);
+  const glm::dvec3 colour = radiant(intensity, distant, unit) * glm::max(glm::dvec3(c[0], c[1], c[2]), 0.0);
   DirectiveMaker<LightDescription> out(distant ? "distant" : type, warnings.where());
   out.rgb(distant ? "L" : "I", colour);
   if (type != "point")

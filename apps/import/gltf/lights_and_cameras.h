@@ -1,6 +1,7 @@
 #pragma once
 #include "apps/import/common/warnings.h"
 #include "apps/import/gltf/document.h"
+#include "apps/settings/import_options.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
@@ -10,9 +11,9 @@ namespace kaustik::gltf {
 void add_camera(const View& camera, const glm::dmat4& to_world, FileWarnings& warnings,
                 SceneDescription& scene);
 
-// Adds the node's light of KHR_lights_punctual, if it has one. Candela and lux are read as W/sr and W/m^2, as
-// pbrt reads photometric units.
-void add_light(const Document& document, const View& node, const glm::dmat4& to_world, FileWarnings& warnings,
-               SceneDescription& scene);
+// Adds the node's light of KHR_lights_punctual, if it has one. `unit`: what its intensity means; candela and
+// lux are divided by 683 lm/W, of which the first light adds a note to the scene.
+void add_light(const Document& document, const View& node, const glm::dmat4& to_world, LightUnit unit,
+               FileWarnings& warnings, SceneDescription& scene);
 
 }  // namespace kaustik::gltf

@@ -33,12 +33,12 @@ bool names_place(const DiagnosticList& diagnostics, const SourceLocation& place)
 
 // Reports a scene that could not be built, together with the errors of its settings. An error that both the
 // schema and the settings find is reported once.
-[[noreturn]] void report_broken_scene(const std::string& path, const Diagnostics& diagnostics,
-                                      const Console& console) {
+[[noreturn]] void report_broken_scene(const std::string& path, const ImportOptions& options,
+                                      const Diagnostics& diagnostics, const Console& console) {
   print_diagnostics(diagnostics, console);
   Diagnostics again;
   DiagnosticList settings_only;
-  if (const auto description = pbrt::import_scene(path, again))
+  if (const auto description = pbrt::import_scene(path, again, options))
     settings_from_scene(*description, settings_only);
   size_t errors = diagnostics.error_count();
   for (const Diagnostic& diagnostic : settings_only.entries()) {
@@ -109,9 +109,10 @@ std::string scene_summary(const Scene& scene) {
 
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console) {
   const Stopwatch watch;
+  const ImportOptions options = overrides.alone().import_options;
   Diagnostics diagnostics;
-  std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics);
-  if (!loaded) report_broken_scene(path, diagnostics, console);
+  std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics, options);
+  if (!loaded) report_broken_scene(path, options, diagnostics, console);
   const SceneSettings file = settings_from_scene(loaded->description, diagnostics);
   print_diagnostics(diagnostics, console);
   if (diagnostics.has_errors()) refuse_scene(path, diagnostics.error_count());
@@ -129,6 +130,7 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
   job.settings.render.height = job.scene.camera.height;
   job.load_seconds = watch.seconds();
   console.note(fmt::format("{}: {}", path, scene_summary(job.scene)));
+  for (const std::string& note : loaded->description.notes) console.note(note);
   for (const std::string& note : file.notes) console.note(note);
   return job;
 }

@@ -94,9 +94,9 @@ TEST_F(ImportGltf, CamerasAreConverted) {
   const auto s = describe(gltf(R"("cameras": [ { "type": "perspective",
         "perspective": { "yfov": 1.0471975511965976, "aspectRatio": 2, "znear": 0.1 } } ],
       "extensions": { "KHR_lights_punctual": { "lights": [
-        { "type": "point", "color": [ 1, 0.5, 0.25 ], "intensity": 8 },
-        { "type": "spot", "intensity": 2, "spot": { "innerConeAngle": 0.1, "outerConeAngle": 0.2 } },
-        { "type": "directional", "intensity": 3 } ] } },
+        { "type": "point", "color": [ 1, 0.5, 0.25 ], "intensity": 5464 },
+        { "type": "spot", "intensity": 1366, "spot": { "innerConeAngle": 0.1, "outerConeAngle": 0.2 } },
+        { "type": "directional", "intensity": 2049 } ] } },
       "nodes": [ { "camera": 0, "translation": [ 1, 2, 3 ] },
                  { "extensions": { "KHR_lights_punctual": { "light": 0 } }, "translation": [ 0, 5, 0 ] },
                  { "extensions": { "KHR_lights_punctual": { "light": 1 } } },
@@ -108,10 +108,28 @@ TEST_F(ImportGltf, CamerasAreConverted) {
   ASSERT_EQ(s.lights.size(), 3u);
   EXPECT_THAT(numbers(s.lights[0], "I"), ElementsAre(8, 4, 2));
   EXPECT_EQ(s.lights[0].light_to_world[3].y, 5);
+  EXPECT_THAT(numbers(s.lights[1], "I"), ElementsAre(2, 2, 2));
+  EXPECT_THAT(numbers(s.lights[2], "L"), ElementsAre(3, 3, 3));
+  ASSERT_EQ(s.notes.size(), 1u);
+  EXPECT_THAT(s.notes[0], testing::HasSubstr("683 lm to the watt (--light-unit watt"));
   EXPECT_NEAR(numbers(s.lights[1], "coneangle").at(0), 0.2 * 180 / std::numbers::pi, 1e-12);
   EXPECT_NEAR(numbers(s.lights[1], "conedeltaangle").at(0), 0.1 * 180 / std::numbers::pi, 1e-12);
   EXPECT_THAT(numbers(s.lights[2], "to"), ElementsAre(0, 0, -1));
   EXPECT_EQ(diagnostics_.warning_count(), 0u) << diagnostics_.format_all();
+}
+
+// Old exporters wrote the power of point and spot lights, which shine 1 / (4 pi) of it per steradian.
+TEST_F(ImportGltf, LightsCanBeReadInWatts) {
+  const auto path = gltf(R"("extensions": { "KHR_lights_punctual": { "lights": [
+        { "type": "point", "intensity": 100 }, { "type": "directional", "intensity": 3 } ] } },
+      "nodes": [ { "extensions": { "KHR_lights_punctual": { "light": 0 } } },
+                 { "extensions": { "KHR_lights_punctual": { "light": 1 } } } ])");
+  const auto s = import_scene(path, diagnostics_, {.light_unit = LightUnit::kWatt});
+  ASSERT_TRUE(s && s->lights.size() == 2u) << diagnostics_.format_all();
+  EXPECT_NEAR(numbers(s->lights[0], "I").at(0), 100 / (4 * std::numbers::pi), 1e-12);
+  EXPECT_THAT(numbers(s->lights[1], "L"), ElementsAre(3, 3, 3));
+  ASSERT_EQ(s->notes.size(), 1u);
+  EXPECT_THAT(s->notes[0], testing::HasSubstr("watts"));
 }
 
 // A quarter turn about z after scaling by 2, below a parent with a translation: (1, 0, 0) -> (0, 2, 0) + (10,

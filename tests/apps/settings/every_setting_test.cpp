@@ -137,9 +137,9 @@ std::vector<std::string> settings_in_help(const std::string& command) {
 
 TEST(EverySetting, IsAnOptionOfExactlyTheCommandsOfItsRow) {
   using enum SettingsCommand;
-  const std::pair<SettingsCommand, const char*> commands[] = {{kRender, "render"}, {kResume, "resume"},
-                                                              {kMerge, "merge"},   {kPhotons, "photons"},
-                                                              {kBench, "bench"},   {kSweep, "sweep"}};
+  const std::pair<SettingsCommand, const char*> commands[] = {
+      {kRender, "render"}, {kResume, "resume"}, {kMerge, "merge"}, {kPhotons, "photons"},
+      {kBench, "bench"},   {kSweep, "sweep"},   {kInfo, "info"},   {kConvert, "convert"}};
   for (const auto& [command, name] : commands) {
     std::vector<std::string> expected;
     for (const Setting& setting : settings_table())
