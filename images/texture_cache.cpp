@@ -62,19 +62,24 @@ std::shared_ptr<T> lent(const std::shared_ptr<T>& library) {
   return library;
 }
 
-Options options_of(const ImageSampling& sampling, bool point) {
-  Options o;
-  switch (sampling.wrap) {
-    case ImageWrap::kRepeat:
-      o.swrap = o.twrap = Options::WrapPeriodic;
-      break;
+Options::Wrap wrap_of(ImageWrap wrap) {
+  switch (wrap) {
     case ImageWrap::kBlack:
-      o.swrap = o.twrap = Options::WrapBlack;
-      break;
+      return Options::WrapBlack;
     case ImageWrap::kClamp:
-      o.swrap = o.twrap = Options::WrapClamp;
+      return Options::WrapClamp;
+    case ImageWrap::kMirror:
+      return Options::WrapMirror;
+    case ImageWrap::kRepeat:
       break;
   }
+  return Options::WrapPeriodic;
+}
+
+Options options_of(const ImageSampling& sampling, bool point) {
+  Options o;
+  o.swrap = wrap_of(sampling.wrap);
+  o.twrap = wrap_of(sampling.vwrap);
   const bool nearest = sampling.filter == ImageFilter::kPoint;
   o.interpmode = nearest ? Options::InterpClosest : Options::InterpBilinear;
   o.mipmode = sampling.filter == ImageFilter::kEwa         ? Options::MipModeAniso
@@ -88,6 +93,7 @@ Options options_of(const ImageSampling& sampling, bool point) {
 // Moves a coordinate into the range in which the library computes accurately; the texels read are the same.
 float reduced(float x, ImageWrap wrap) {
   if (wrap == ImageWrap::kRepeat) return x - std::floor(x);
+  if (wrap == ImageWrap::kMirror) return x - 2 * std::floor(x / 2);
   return std::clamp(x, -2.0f, 3.0f);
 }
 
@@ -203,7 +209,7 @@ Rgb TextureCache::lookup(uint32_t image, const ImageSampling& sampling, const Po
   const Entry& entry = entries_[image];
   float value[3] = {};
   system_.textures->texture(entry.handle, nullptr, options, reduced(st.x, sampling.wrap),
-                            reduced(st.y, sampling.wrap), dx.x, dx.y, dy.x, dy.y, entry.channels, value);
+                            reduced(st.y, sampling.vwrap), dx.x, dx.y, dy.x, dy.y, entry.channels, value);
   return entry.channels == 1 ? Rgb(value[0]) : Rgb(value[0], value[1], value[2]);
 }
 

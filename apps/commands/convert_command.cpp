@@ -61,6 +61,13 @@ void note_our_own(const SceneDescription& scene, const Console& console) {
   for (const MaterialDescription& m : scene.materials) {
     if (m.type == "mirror" || m.type == "orennayar") own.insert(fmt::format("material \"{}\"", m.type));
   }
+  for (const TextureDescription& t : scene.textures) {
+    if (t.type == "vertexcolor") own.insert("texture \"vertexcolor\"");
+    for (const char* name : {"ushear", "vshear", "vwrap"})
+      if (t.find(name)) own.insert(fmt::format("`{}` of textures", name));
+    const Parameter* wrap = t.find("wrap");
+    if (wrap && wrap->strings == std::vector<std::string>{"mirror"}) own.insert("wrap \"mirror\"");
+  }
   if (scene.integrator && scene.integrator->type == "photonmap") own.insert("integrator \"photonmap\"");
   if (!own.empty())
     console.note(fmt::format("pbrt does not know these extensions of kaustik: {}", fmt::join(own, ", ")));

@@ -30,14 +30,16 @@ const std::vector<double>* values_of(const ShapeDescription& mesh, std::string_v
 }
 
 struct Parts {
-  const std::vector<double>*P, *N, *uv, *indices;
+  const std::vector<double>*P, *N, *uv, *colours, *indices;
   size_t vertices = 0;
 
   bool sound() const {
     const bool lists =
         P && !P->empty() && P->size() % 3 == 0 && indices && !indices->empty() && indices->size() % 3 == 0;
-    if (!lists || (N && N->size() != P->size()) || (uv && uv->size() != 2 * (P->size() / 3))) return false;
-    for (const auto* values : {P, N, uv}) {
+    if (!lists || (N && N->size() != P->size()) || (uv && uv->size() != 2 * (P->size() / 3)) ||
+        (colours && colours->size() != 4 * (P->size() / 3)))
+      return false;
+    for (const auto* values : {P, N, uv, colours}) {
       if (values && !are_floats(*values)) return false;
     }
     return std::all_of(indices->begin(), indices->end(),
@@ -55,6 +57,9 @@ std::string header(const Parts& parts) {
   for (const char* name : {"u", "v"}) {
     if (parts.uv) out += fmt::format("property float {}\n", name);
   }
+  for (const char* name : {"red", "green", "blue", "alpha"}) {
+    if (parts.colours) out += fmt::format("property float {}\n", name);
+  }
   return out + fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n",
                            parts.indices->size() / 3);
 }
@@ -62,7 +67,8 @@ std::string header(const Parts& parts) {
 }  // namespace
 
 std::optional<std::string> ply_bytes(const ShapeDescription& mesh) {
-  Parts parts{values_of(mesh, "P"), values_of(mesh, "N"), values_of(mesh, "uv"), values_of(mesh, "indices")};
+  Parts parts{values_of(mesh, "P"), values_of(mesh, "N"), values_of(mesh, "uv"), values_of(mesh, "Cd"),
+              values_of(mesh, "indices")};
   parts.vertices = parts.P ? parts.P->size() / 3 : 0;
   if (mesh.find("faceIndices") || mesh.find("S") || !parts.sound()) return std::nullopt;
   std::string out = header(parts);
@@ -70,6 +76,7 @@ std::optional<std::string> ply_bytes(const ShapeDescription& mesh) {
     for (size_t k = 0; k < 3; ++k) append_float(out, (*parts.P)[3 * i + k]);
     for (size_t k = 0; parts.N && k < 3; ++k) append_float(out, (*parts.N)[3 * i + k]);
     for (size_t k = 0; parts.uv && k < 2; ++k) append_float(out, (*parts.uv)[2 * i + k]);
+    for (size_t k = 0; parts.colours && k < 4; ++k) append_float(out, (*parts.colours)[4 * i + k]);
   }
   for (size_t i = 0; i < parts.indices->size(); ++i) {
     if (i % 3 == 0) out += '\x03';

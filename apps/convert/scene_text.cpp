@@ -189,7 +189,7 @@ class Writer {
     ShapeDescription rest = shape;
     rest.type = "plymesh";
     std::erase_if(rest.parameters, [](const Parameter& p) {
-      return p.name == "P" || p.name == "N" || p.name == "uv" || p.name == "indices";
+      return p.name == "P" || p.name == "N" || p.name == "uv" || p.name == "Cd" || p.name == "indices";
     });
     out_.append(indent_, ' ');
     out_ += fmt::format("Shape \"plymesh\" \"string filename\" [ {} ]", in_quotes(file));

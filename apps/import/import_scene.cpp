@@ -1,5 +1,6 @@
 #include "apps/import/import_scene.h"
 
+#include <algorithm>
 #include <mutex>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "apps/import/ply/ply.h"
 #include "core/files/content_hash.h"
 #include "core/scene/build/builder.h"
+#include "core/texture/texture.h"
 
 namespace kaustik::pbrt {
 
@@ -43,6 +45,12 @@ std::string content_hash(const SourceFiles& files, const NamedContents& named) {
   return hash.text();
 }
 
+// Colours of meshes take memory, so they are read only if a texture shows them.
+bool shows_vertex_colours(const SceneDescription& scene) {
+  return std::any_of(scene.textures.begin(), scene.textures.end(),
+                     [](const TextureDescription& t) { return t.type == VertexColourTexture::kName; });
+}
+
 }  // namespace
 
 std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
@@ -73,6 +81,10 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
       return result;
     };
   };
+  const auto load_mesh = [colours = shows_vertex_colours(*description)](const std::filesystem::path& file,
+                                                                        std::string* content) {
+    return load_ply(file, content, colours);
+  };
   SceneTextures textures;
   const auto load_texture = [&](const std::string& name, const SourceLocation& where,
                                 const ImageEncoding& encoding) {
@@ -81,7 +93,7 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
     };
     return load_with(load)(name, where);
   };
-  auto scene = build_scene(*description, load_with(load_ply), diagnostics, load_with(load_light_image),
+  auto scene = build_scene(*description, load_with(load_mesh), diagnostics, load_with(load_light_image),
                            {load_texture, [&] { return textures.library(); }});
   diagnostics.sort_by_location();
   if (!scene || diagnostics.has_errors()) return std::nullopt;

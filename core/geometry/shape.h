@@ -19,8 +19,9 @@
 
 namespace kaustik {
 
-// Indexed triangles. N and uv are empty or have one entry per vertex. The outside is the side of cross(p1 -
-// p0, p2 - p0); where N is given, the geometric normal is turned into the hemisphere of N (pbrt's rule).
+// Indexed triangles. N, uv and colours are empty or have one entry per vertex. The outside is the side of
+// cross(p1 - p0, p2 - p0); where N is given, the geometric normal is turned into the hemisphere of N (pbrt's
+// rule).
 struct TriangleMesh {
   static constexpr std::string_view kName = "trianglemesh";
 
@@ -28,6 +29,7 @@ struct TriangleMesh {
   std::vector<Normal3> N;
   std::vector<Point2> uv;
   std::vector<std::array<uint32_t, 3>> indices;
+  std::vector<glm::vec4> colours{};  // linear red, green and blue, and alpha
 };
 
 // A mesh in a space of its own, placed by to_world; any number of instances share it. If N is given, its

@@ -40,6 +40,8 @@ SurfaceParameters of_triangle(const TriangleMesh& mesh, const SurfaceInteraction
   system.determinant = system.duv1.x * system.duv2.y - system.duv1.y * system.duv2.x;
   SurfaceParameters s;
   s.uv = uv[0] + (b1 * system.duv1 + b2 * system.duv2);
+  if (!mesh.colours.empty())
+    s.colour = (1 - b1 - b2) * mesh.colours[i0] + b1 * mesh.colours[i1] + b2 * mesh.colours[i2];
   if (system.regular()) {
     s.dpdu = system.per_u(e1, e2);
     s.dpdv = system.per_v(e1, e2);

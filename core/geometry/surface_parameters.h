@@ -13,6 +13,7 @@ struct SurfaceParameters {
   // Metres per unit of u and v; never parallel. Where uv is degenerate, two arbitrary tangents.
   Vector3 dpdu{1, 0, 0}, dpdv{0, 1, 0};
   Vector3 dndu{0}, dndv{0};  // derivatives of the shading normal
+  glm::vec4 colour{1};       // of the mesh's vertices, interpolated; 1 where it has none
 };
 
 // Computes the parametrisation of `shape`, on which si lies, from the data that the hit left in si.

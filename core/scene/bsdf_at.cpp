@@ -19,6 +19,7 @@ Vector2 steps_of(const Vector3& v, const SurfaceParameters& s) {
 
 TexturePoint point_of(const SurfaceInteraction& si, const SurfaceParameters& s, const Footprint& footprint) {
   TexturePoint x{si.p, si.n, s.uv, footprint.dpdx, footprint.dpdy};
+  x.colour = s.colour;
   if (!is_black(footprint.dpdx) || !is_black(footprint.dpdy)) {
     x.duvdx = steps_of(footprint.dpdx, s);
     x.duvdy = steps_of(footprint.dpdy, s);

@@ -13,13 +13,13 @@
 
 namespace kaustik {
 
-enum class ImageWrap { kRepeat, kBlack, kClamp };
+enum class ImageWrap { kRepeat, kBlack, kClamp, kMirror };
 // The filters of pbrt-v4: the nearest texel, bilinear on one level, trilinear between two levels, or an
 // elliptical average.
 enum class ImageFilter { kPoint, kBilinear, kTrilinear, kEwa };
 
 struct ImageSampling {
-  ImageWrap wrap = ImageWrap::kRepeat;
+  ImageWrap wrap = ImageWrap::kRepeat, vwrap = ImageWrap::kRepeat;  // along s and t
   ImageFilter filter = ImageFilter::kBilinear;
   float max_anisotropy = 8;  // kEwa: limit on the ratio of the longer to the shorter axis
 };

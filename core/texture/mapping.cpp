@@ -23,7 +23,8 @@ TextureSpace to_texture_space(const Transform& to_world, const TexturePoint& x) 
 }
 
 TextureCoordinates map(const UvMapping& m, const Transform& /*to_world*/, const TexturePoint& x) {
-  return {m.scale * x.uv + m.delta, m.scale * x.duvdx, m.scale * x.duvdy};
+  const auto turned = [&m](const Vector2& v) { return m.scale * v + m.shear * Vector2(v.y, v.x); };
+  return {turned(x.uv) + m.delta, turned(x.duvdx), turned(x.duvdy)};
 }
 
 TextureCoordinates map(const SphereMapping&, const Transform& to_world, const TexturePoint& x) {

@@ -14,9 +14,9 @@ struct TextureCoordinates {
   Vector2 dstdx{0}, dstdy{0};
 };
 
-// scale * uv + delta, where uv are the shape's own parameters.
+// scale * (u, v) + shear * (v, u) + delta, where u and v are the shape's own parameters.
 struct UvMapping {
-  Vector2 scale{1}, delta{0};
+  Vector2 scale{1}, delta{0}, shear{0};
 };
 // Spherical coordinates about the origin of texture space: s = theta / pi from +z, t = phi / (2 pi) from +x
 // towards +y.

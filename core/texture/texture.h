@@ -133,9 +133,16 @@ struct MarbleTexture {
   Rgb evaluate(const TextureContext& c) const;
 };
 
+// The colour of the mesh's vertices, interpolated. A float texture is their alpha.
+struct VertexColourTexture {
+  static constexpr std::string_view kName = "vertexcolor";
+  bool alpha = false;
+  Rgb evaluate(const TextureContext& c) const { return alpha ? Rgb(c.x.colour.w) : Rgb(c.x.colour); }
+};
+
 using Texture = std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture,
                              CheckerboardTexture, DotsTexture, BilerpTexture, ImageTexture, FbmTexture,
-                             WrinkledTexture, WindyTexture, MarbleTexture>;
+                             WrinkledTexture, WindyTexture, MarbleTexture, VertexColourTexture>;
 
 // All textures of a scene. Thread-safe once it is built and no longer changed.
 class TextureSet {

@@ -14,6 +14,7 @@ struct TexturePoint {
   // finest level.
   Vector3 dpdx{0}, dpdy{0};
   Vector2 duvdx{0}, duvdy{0};
+  glm::vec4 colour{1};  // red, green, blue and alpha of the mesh's vertices; 1 where it has none
 };
 
 }  // namespace kaustik

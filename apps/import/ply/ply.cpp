@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <span>
 
 #include "apps/import/common/gzip.h"
@@ -41,9 +42,19 @@ class BareFaces {
   std::atomic<bool> shared_ = false;
 };
 
+// Colours of whole numbers are encoded in sRGB, but not alpha; floats are linear. Not a number becomes 1.
+float linear_colour(double value, PlyType type, bool alpha) {
+  if (is_integer(type)) value /= size_of(type) == 1 ? 255 : 65535;
+  if (!(value >= 0)) return value < 0 ? 0.0f : 1.0f;
+  if (is_integer(type) && !alpha)
+    value = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  return static_cast<float>(std::min(value, 1.0));
+}
+
 class MeshReader {
  public:
-  MeshReader(std::string_view bytes, const PlyHeader& header) : bytes_(bytes), header_(header) {}
+  MeshReader(std::string_view bytes, const PlyHeader& header, bool colours)
+      : bytes_(bytes), header_(header), colours_(colours) {}
 
   MeshResult read() {
     std::vector<PlyExtent> extents;
@@ -82,13 +93,26 @@ class MeshReader {
     return found;
   }
 
+  // The colour of a vertex; alpha is 1 where `columns` has no fourth entry.
+  glm::vec4 colour_of(const PlyValues& v, const std::vector<size_t>& columns) const {
+    glm::vec4 colour(1);
+    for (size_t k = 0; k < columns.size(); ++k)
+      colour[static_cast<int>(k)] =
+          linear_colour(v.scalars[columns[k]], vertex().properties[columns[k]].type, k == 3);
+    return colour;
+  }
+
   bool read_vertices(const PlyExtent& extent) {
     const auto P = *columns({"x", "y", "z"});
     const auto N = columns({"nx", "ny", "nz"});
     auto uv = columns({"u", "v"});
     for (const auto& [u, v] : {std::pair{"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}})
       if (!uv) uv = columns({u, v});
+    auto colour = columns({"red", "green", "blue", "alpha"});
+    if (!colour) colour = columns({"red", "green", "blue"});
+    if (!colours_) colour.reset();
     mesh_.P.resize(vertex().count);
+    if (colour) mesh_.colours.resize(vertex().count);
     if (N) mesh_.N.resize(vertex().count);
     if (uv) mesh_.uv.resize(vertex().count);
     return for_each_block(extent, [&](const PlyBlock& block) {
@@ -98,6 +122,7 @@ class MeshReader {
         p = {at(P[0]), at(P[1]), at(P[2])};
         if (N) mesh_.N[v.number] = {at((*N)[0]), at((*N)[1]), at((*N)[2])};
         if (uv) mesh_.uv[v.number] = {at((*uv)[0]), at((*uv)[1])};
+        if (colour) mesh_.colours[v.number] = colour_of(v, *colour);
         if (is_finite(p)) return std::string();
         return ply_error(v.position, fmt::format("the position of vertex {} is not finite", v.number));
       });
@@ -135,25 +160,26 @@ class MeshReader {
 
   std::string_view bytes_;
   const PlyHeader& header_;
+  bool colours_;
   TriangleMesh mesh_;
   std::string error_;
 };
 
-MeshResult read_mesh(std::string_view bytes) {
+MeshResult read_mesh(std::string_view bytes, bool colours) {
   std::string error;
   const auto header = read_ply_header(bytes, error);
-  return header ? MeshReader(bytes, *header).read() : MeshResult{{}, std::move(error)};
+  return header ? MeshReader(bytes, *header, colours).read() : MeshResult{{}, std::move(error)};
 }
 
-MeshResult read_packed(std::string_view bytes) {
+MeshResult read_packed(std::string_view bytes, bool colours) {
   std::string error;
   const auto unpacked = unpack_gzip(bytes, error);
-  return unpacked ? read_mesh(*unpacked) : MeshResult{{}, std::move(error)};
+  return unpacked ? read_mesh(*unpacked, colours) : MeshResult{{}, std::move(error)};
 }
 
 }  // namespace
 
-MeshResult load_ply(const std::filesystem::path& path, std::string* content) {
+MeshResult load_ply(const std::filesystem::path& path, std::string* content, bool colours) {
   std::string error;
   const auto bytes = read_bytes(path, kLargestMeshFile, error);
   if (!bytes) return {{}, std::move(error)};
@@ -162,7 +188,7 @@ MeshResult load_ply(const std::filesystem::path& path, std::string* content) {
     hash.add(*bytes);
     *content = hash.text();
   }
-  MeshResult result = is_gzip(*bytes) ? read_packed(*bytes) : read_mesh(*bytes);
+  MeshResult result = is_gzip(*bytes) ? read_packed(*bytes, colours) : read_mesh(*bytes, colours);
   if (!result.error.empty())
     result.error = fmt::format("cannot read \"{}\": {}", path.string(), result.error);
   return result;

@@ -96,6 +96,7 @@ class TextureTable::Maker {
     if (type == "windy") return WindyTexture{};
     if (type == "marble")
       return MarbleTexture{octaves(), float(p_.number("scale")), float(p_.number("variation"))};
+    if (type == "vertexcolor") return VertexColourTexture{value_ == TextureValue::kFloat};
     return image();
   }
 
@@ -157,7 +158,7 @@ class TextureTable::Maker {
         {"uv", kUv}, {"spherical", kSpherical}, {"cylindrical", kCylindrical}, {"planar", kPlanar}};
     switch (choose(p_, "mapping", kMappings, &ok_, diagnostics_)) {
       case kUv:
-        return UvMapping{pair("uscale", "vscale"), pair("udelta", "vdelta")};
+        return UvMapping{pair("uscale", "vscale"), pair("udelta", "vdelta"), pair("ushear", "vshear")};
       case kSpherical:
         return SphereMapping{};
       case kCylindrical:
@@ -169,8 +170,10 @@ class TextureTable::Maker {
   }
 
   Texture image() {
-    static constexpr Choice<ImageWrap> kWraps[] = {
-        {"repeat", ImageWrap::kRepeat}, {"black", ImageWrap::kBlack}, {"clamp", ImageWrap::kClamp}};
+    static constexpr Choice<ImageWrap> kWraps[] = {{"repeat", ImageWrap::kRepeat},
+                                                   {"black", ImageWrap::kBlack},
+                                                   {"clamp", ImageWrap::kClamp},
+                                                   {"mirror", ImageWrap::kMirror}};
     static constexpr Choice<ImageFilter> kFilters[] = {{"bilinear", ImageFilter::kBilinear},
                                                        {"point", ImageFilter::kPoint},
                                                        {"trilinear", ImageFilter::kTrilinear},
@@ -178,6 +181,7 @@ class TextureTable::Maker {
     ImageTexture t;
     t.mapping = mapping();
     t.sampling.wrap = choose(p_, "wrap", kWraps, &ok_, diagnostics_);
+    t.sampling.vwrap = p_.has("vwrap") ? choose(p_, "vwrap", kWraps, &ok_, diagnostics_) : t.sampling.wrap;
     t.sampling.filter = choose(p_, "filter", kFilters, &ok_, diagnostics_);
     t.sampling.max_anisotropy = static_cast<float>(p_.number("maxanisotropy"));
     t.scale = static_cast<float>(p_.number("scale"));
@@ -255,6 +259,14 @@ ImageResult TextureTable::load_image(const std::string& filename, const SourceLo
   return images_.load(filename, where, encoding);
 }
 
+void TextureTable::report_unreadable(const SourceLocation& where, const std::string& error,
+                                     DiagnosticList& diagnostics) const {
+  if (description_.grey_for_unreadable_images)
+    diagnostics.warning(where, error + ": grey is shown in its place");
+  else
+    diagnostics.error(where, error);
+}
+
 void TextureTable::share_library() const {
   if (images_.library) set_->set_images(images_.library());
 }
@@ -269,8 +281,8 @@ void TextureTable::load_images(DiagnosticList& diagnostics) {
     if (request.result.error.empty()) {
       std::get<ImageTexture>(texture).image = request.result.image;
     } else {
-      diagnostics.error(request.where, request.result.error);
-      texture = ConstantTexture{};  // materials that are checked later may refer to it
+      report_unreadable(request.where, request.result.error, diagnostics);
+      texture = ConstantTexture{{Rgb(0.5f)}};  // materials that are checked later may refer to it
     }
   }
 }
@@ -308,7 +320,7 @@ std::optional<uint32_t> TextureTable::load_linear_image(const std::string& filen
   const ImageResult result = load_image(filename, where, {ImageEncoding::Kind::kLinear});
   share_library();
   if (result.error.empty()) return result.image;
-  diagnostics.error(where, result.error);
+  report_unreadable(where, result.error, diagnostics);
   return std::nullopt;
 }
 

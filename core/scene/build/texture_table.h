@@ -50,6 +50,8 @@ class TextureTable {
   // Gives the set the library, which exists from the first image on.
   void share_library() const;
   void load_images(DiagnosticList& diagnostics);
+  void report_unreadable(const SourceLocation& where, const std::string& error,
+                         DiagnosticList& diagnostics) const;
   auto& names(TextureValue value) { return by_name_[value == TextureValue::kSpectrum]; }
   const auto& names(TextureValue value) const { return by_name_[value == TextureValue::kSpectrum]; }
 

@@ -125,6 +125,8 @@ struct SceneDescription {
   std::vector<LightDescription> lights;
   std::vector<ObjectDescription> objects;
   std::vector<InstanceDescription> instances;
+  // Images of textures that cannot be read give a warning, and grey in their place, instead of an error.
+  bool grey_for_unreadable_images = false;
   // What became of the file that a user may want to know, one sentence each, for the log.
   std::vector<std::string> notes;
   // Owner of temporary files that the description names, such as images that were embedded in a scene file.

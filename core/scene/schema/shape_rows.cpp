@@ -90,6 +90,9 @@ std::vector<ShapeRow> make_shape_rows() {
   const ParameterSpec N =
       list(Type::kNormal, "N", 1, "none", "", "normals, one per vertex; they also choose the outside");
   const ParameterSpec uv = list(Type::kPoint2, "uv", 1, "none", "", "texture coordinates, one per vertex");
+  const ParameterSpec colours = list(Type::kFloat, "Cd", 4, "none", "",
+                                     "colours for `vertexcolor` textures: linear red, green, blue and alpha "
+                                     "of each vertex. Not in pbrt");
   const ParameterSpec face_indices =
       ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
   const Range turn{0, 360, true, false};
@@ -99,8 +102,9 @@ std::vector<ShapeRow> make_shape_rows() {
         shape({P,
                list(Type::kInteger, "indices", 3, "0 1 2 when there are three vertices", "",
                     "three vertex indices per triangle, counted from zero"),
-               N, uv, ignored("S", {Type::kVector3}, "tangents"), face_indices})}},
-      {{"plymesh", "Triangles, quads and polygons of a PLY file (ascii or binary), with normals and uv.",
+               N, uv, colours, ignored("S", {Type::kVector3}, "tangents"), face_indices})}},
+      {{"plymesh",
+        "Triangles, quads and polygons of a PLY file (ascii or binary), with normals, uv and colours.",
         shape({text("filename", "required", "path, relative to the scene file"),
                ignored("displacement", {Type::kTexture, Type::kFloat}, "displacement is not supported", 0),
                ignored("edgelength", {Type::kFloat}, "displacement is not supported")})}},

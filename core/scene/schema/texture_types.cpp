@@ -29,6 +29,8 @@ std::vector<ParameterSpec> mapped(std::vector<ParameterSpec> own) {
   own.push_back(number("vscale", 1, "", kAnyNumber, "for `uv`: t = vscale v + vdelta"));
   own.push_back(number("udelta", 0, "", kAnyNumber, "for `uv` and `planar`: offset of s"));
   own.push_back(number("vdelta", 0, "", kAnyNumber, "for `uv` and `planar`: offset of t"));
+  own.push_back(number("ushear", 0, "", kAnyNumber, "for `uv`: s grows by ushear v. Not in pbrt"));
+  own.push_back(number("vshear", 0, "", kAnyNumber, "for `uv`: t grows by vshear u. Not in pbrt"));
   own.push_back(axis("v1", {1, 0, 0}, "for `planar`: s = v1 . p + udelta, p in texture space"));
   own.push_back(axis("v2", {0, 1, 0}, "for `planar`: t = v2 . p + vdelta"));
   return own;
@@ -73,7 +75,8 @@ std::vector<TypeSpec> make_texture_types() {
       {"imagemap", "An image; t points up. Float textures use the first channel.",
        mapped(
            {text("filename", "required", "path, relative to the scene file"),
-            text("wrap", "repeat", "outside [0, 1]: `repeat`, `black` or `clamp`"),
+            text("wrap", "repeat", "outside [0, 1]: `repeat`, `black` or `clamp`; `mirror` is not in pbrt"),
+            text("vwrap", "wrap", "the same along t. Not in pbrt"),
             text("filter", "bilinear", "`point`, `bilinear`, `trilinear` or `EWA`, with MIP levels"),
             number("maxanisotropy", 8, "", {1, 64}, "for `EWA`: limit on the longest over the shortest axis"),
             text(
@@ -88,6 +91,11 @@ std::vector<TypeSpec> make_texture_types() {
       {"marble", "Marble veins across the y axis of texture space.",
        octaves({number("scale", 1, "1/m", kAnyNumber, "factor on the coordinates of the point"),
                 number("variation", 0.2, "", kAnyNumber, "strength of the noise that displaces the veins")})},
+      {"vertexcolor",
+       "The colour of a mesh's vertices, interpolated; as a float texture their alpha. 1 where there is "
+       "none. "
+       "Not in pbrt.",
+       {}},
   };
 }
 

@@ -94,8 +94,10 @@ std::optional<ShapeSource> make_trianglemesh(const Context& c) {
   mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
   const bool complete = check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) &&
                         check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
+  mesh.colours = vectors<glm::vec4, 4>(c.shape.find("Cd"));
   auto indices = faces<3>(c, mesh.P.size());
-  if (!complete || !indices) return std::nullopt;
+  if (!complete || !check_per_vertex(c, "Cd", mesh.colours.size(), mesh.P.size()) || !indices)
+    return std::nullopt;
   mesh.indices = std::move(*indices);
   return ShapeSource{std::move(mesh), glm::translate(glm::dmat4(1), c.mesh_origin)};
 }

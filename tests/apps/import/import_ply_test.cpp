@@ -146,6 +146,25 @@ TEST_F(ImportPly, QuadsHaveTheUvOfPatches) {
   EXPECT_TRUE(read(head + "3 0 1 2\n3 0 1 2\n").mesh.uv.empty());
 }
 
+// Whole numbers are sRGB: 188 / 255 decodes to 0.5029 (IEC 61966-2-1); alpha is linear, and so are floats.
+TEST_F(ImportPly, ReadsColoursWhereTheyAreShown) {
+  const std::string face = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string xyz =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string bytes =
+      xyz + "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n" + face +
+      "0 0 0 255 0 188 51\n1 0 0 0 0 0 0\n0 1 0 0 0 0 0\n3 0 1 2\n";
+  EXPECT_TRUE(read(bytes).mesh.colours.empty());
+  const TriangleMesh mesh = load_ply(write("mesh.ply", bytes), nullptr, true).mesh;
+  ASSERT_EQ(mesh.colours.size(), 3u);
+  EXPECT_EQ(mesh.colours[0].x, 1);
+  EXPECT_NEAR(mesh.colours[0].z, 0.5029f, 1e-4f);
+  EXPECT_NEAR(mesh.colours[0].w, 0.2f, 1e-6f);
+  const std::string floats = xyz + "property float red\nproperty float green\nproperty float blue\n" + face +
+                             "0 0 0 0.25 0 1\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n";
+  EXPECT_EQ(load_ply(write("mesh.ply", floats), nullptr, true).mesh.colours.at(0), glm::vec4(0.25f, 0, 1, 1));
+}
+
 TEST_F(ImportPly, ReadsCarriageReturns) {
   std::string text;
   for (const char c : kTriangle) text += c == '\n' ? std::string("\r\n") : std::string(1, c);

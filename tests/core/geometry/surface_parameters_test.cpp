@@ -99,6 +99,15 @@ TEST(SurfaceParameters, TriangleWithUvInterpolatesThem) {
   EXPECT_EQ(s.dpdv, Vector3(2, 0, 0));
 }
 
+TEST(SurfaceParameters, ColoursAreInterpolatedAlsoWhereUvAreDegenerate) {
+  for (const auto& uv : {std::vector<Point2>{}, std::vector<Point2>{{0, 0}, {1, 1}, {2, 2}}}) {
+    Shape shape = triangle_of(uv);
+    EXPECT_EQ(on_triangle(shape, 0.25f, 0.5f).colour, glm::vec4(1));
+    std::get<TriangleMesh>(shape.geometry).colours = {{1, 0, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, 0.5f}};
+    EXPECT_EQ(on_triangle(shape, 0.25f, 0.5f).colour, glm::vec4(0.25f, 0.25f, 0.5f, 0.5f));
+  }
+}
+
 // Where uv lie on one line the tangents are two perpendicular vectors of the triangle's size.
 TEST(SurfaceParameters, DegenerateUvGiveAnyTangentFrame) {
   const SurfaceParameters s = on_triangle(triangle_of({{0, 0}, {1, 1}, {2, 2}}), 0.5f, 0.25f);

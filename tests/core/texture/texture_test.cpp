@@ -42,6 +42,15 @@ TEST(TextureMapping, Uv) {
   EXPECT_EQ(c.dstdy, Vector2(1, 0.75f));
 }
 
+TEST(TextureMapping, UvWithShear) {
+  const UvMapping mapping{{0, 0}, {0.5f, -1}, {2, 3}};
+  TexturePoint x = at_uv(0.25f, 0.5f);
+  x.duvdx = {1, 0.5f};
+  const TextureCoordinates c = map_to_texture(mapping, Transform(), x);
+  EXPECT_EQ(c.st, Point2(1.5f, -0.25f));
+  EXPECT_EQ(c.dstdx, Vector2(1, 3));
+}
+
 // pbrt-v4's formula: s = theta / pi, t = phi / (2 pi).
 TEST(TextureMapping, Spherical) {
   expect_near(mapped(SphereMapping{}, {0, 0, 5}), {0, 0});
@@ -100,6 +109,14 @@ TEST(Texture, MixScaleAndBilerp) {
   EXPECT_EQ(value(corners, at_uv(1, 0)), Rgb(2));
   EXPECT_EQ(value(corners, at_uv(0, 1)), Rgb(1));
   EXPECT_EQ(value(corners, at_uv(0.5f, 0.25f)), Rgb(1.25f));
+}
+
+TEST(Texture, VertexColoursAreThoseOfThePoint) {
+  TexturePoint x;
+  EXPECT_EQ(value(VertexColourTexture{}, x), Rgb(1));
+  x.colour = {0.1f, 0.2f, 0.3f, 0.4f};
+  EXPECT_EQ(value(VertexColourTexture{}, x), Rgb(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(value(VertexColourTexture{true}, x), Rgb(0.4f));
 }
 
 TEST(Texture, DirectionMixFollowsTheNormal) {
