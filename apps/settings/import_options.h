@@ -2,6 +2,7 @@
 // What a user may choose about how scene files of other programs are read.
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 namespace kaustik {
@@ -13,6 +14,8 @@ inline constexpr std::array<std::string_view, 2> kLightUnitNames = {"photometric
 
 struct ImportOptions {
   LightUnit light_unit = LightUnit::kPhotometric;
+  // The moment at which an animated file is shown; unset = its beginning.
+  std::optional<float> seconds;
 };
 
 }  // namespace kaustik

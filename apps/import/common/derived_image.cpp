@@ -70,14 +70,25 @@ std::optional<std::string> write_channel(const std::filesystem::path& from, cons
   return write(to, out, 16);
 }
 
-std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error) {
+std::optional<ImageMeans> image_means(const std::filesystem::path& from, std::string& error) {
   const auto image = read(from, error);
   if (!image) return std::nullopt;
-  glm::dvec3 sum(0);
+  ImageMeans sum;
   for (size_t i = 0; i < image->count(); ++i) {
-    for (int c = 0; c < 3; ++c) sum[c] += srgb ? linear(at(*image, i, c)) : at(*image, i, c);
+    for (int c = 0; c < 4; ++c) {
+      const double stored = at(*image, i, c);
+      sum.stored[c] += stored;
+      if (c < 3) sum.linear[c] += linear(stored);
+    }
   }
-  return sum / double(image->count());
+  const double count = double(image->count());
+  return ImageMeans{sum.linear / count, sum.stored / count};
+}
+
+std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error) {
+  const auto means = image_means(from, error);
+  if (!means) return std::nullopt;
+  return srgb ? means->linear : glm::dvec3(means->stored);
 }
 
 }  // namespace kaustik::gltf

@@ -16,8 +16,14 @@ std::optional<std::string> write_tinted(const std::filesystem::path& from, const
 // counts as 1. Constant results are written too.
 std::optional<std::string> write_channel(const std::filesystem::path& from, const std::filesystem::path& to,
                                          int channel, const std::function<double(double)>& map);
-// The mean of all pixels, in linear light: sRGB values are decoded first. Nothing, with a message in `error`,
-// when the image cannot be read.
+// Means over all pixels of an image.
+struct ImageMeans {
+  glm::dvec3 linear{0};  // in linear light: sRGB values are decoded first
+  glm::dvec4 stored{0};  // of the stored numbers; a missing alpha counts as 1
+};
+// Nothing, with a message in `error`, when the image cannot be read. The second function returns the mean
+// colour, in linear light or as stored.
+std::optional<ImageMeans> image_means(const std::filesystem::path& from, std::string& error);
 std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error);
 
 }  // namespace kaustik::gltf

@@ -20,7 +20,7 @@ std::optional<std::vector<double>> attribute(const Document& document, const Vie
                                              const char* name, int components, uint64_t vertices) {
   const auto accessor = attributes[name].index(document.size("accessors"));
   if (!accessor) return std::nullopt;
-  if (document.item("accessors", *accessor)["count"].count() != vertices)
+  if (document.count(*accessor) != vertices)
     attributes[name].fail(fmt::format("must have as many vertices as the positions, {}", vertices));
   return document.elements(*accessor, components).values;
 }
@@ -35,29 +35,32 @@ void set(std::vector<double>& v, size_t i, const glm::dvec3& x) {
 
 }  // namespace
 
-Deformation::Deformation(const Document& document, const std::vector<PlacedNode>& nodes)
-    : document_(document) {
+Deformation::Deformation(const Document& document, const Pose& pose, const std::vector<PlacedNode>& nodes)
+    : document_(document), pose_(pose) {
   for (const PlacedNode& n : nodes) to_world_.emplace(n.node, n.to_world);
 }
 
-// The morph weights of the node, or else of its mesh; empty if all are zero.
-std::vector<double> Deformation::weights_of(const View& node) const {
+// The morph weights of the node in its pose, or else of its mesh; empty if all are zero.
+std::vector<double> Deformation::weights_of(uint64_t index) const {
+  const View node = document_.item("nodes", index);
+  const NodePose* pose = pose_.of(index);
   const auto mesh = node["mesh"].index(document_.size("meshes"));
   View list = node["weights"];
   if (!list && mesh) list = document_.item("meshes", *mesh)["weights"];
   std::vector<double> weights;
   for (uint64_t i = 0; i < list.size(); ++i) weights.push_back(list.at(i).number());
+  if (pose && pose->weights) weights = *pose->weights;
   const bool none = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; });
   return none ? std::vector<double>() : weights;
 }
 
-bool Deformation::applies_to(const View& node) const {
-  return node.has("skin") || !weights_of(node).empty();
+bool Deformation::applies_to(uint64_t node) const {
+  return document_.item("nodes", node).has("skin") || !weights_of(node).empty();
 }
 
-bool Deformation::apply(const View& node, const View& primitive, ShapeDescription& shape) const {
+bool Deformation::apply(uint64_t node, const View& primitive, ShapeDescription& shape) const {
   morph(primitive, weights_of(node), shape);
-  const auto skin = node["skin"].index(document_.size("skins"));
+  const auto skin = document_.item("nodes", node)["skin"].index(document_.size("skins"));
   if (!skin || !primitive["attributes"].has("JOINTS_0") || !primitive["attributes"].has("WEIGHTS_0"))
     return false;
   bend(primitive, joints_of(document_.item("skins", *skin)), shape);

@@ -6,8 +6,10 @@
 #include <map>
 
 #include "apps/import/common/default_view.h"
+#include "apps/import/common/make_parameter.h"
 #include "apps/import/gltf/deformation.h"
 #include "apps/import/gltf/lights_and_cameras.h"
+#include "apps/import/gltf/material_warnings.h"
 #include "apps/import/gltf/materials.h"
 #include "apps/import/gltf/meshes.h"
 #include "apps/import/gltf/nodes.h"
@@ -15,65 +17,45 @@
 namespace kaustik::gltf {
 namespace {
 
-// Extensions that a file may require: they are supported, or ignoring them leaves a usable scene.
-constexpr std::string_view kKnown[] = {"KHR_lights_punctual",        "KHR_materials_emissive_strength",
-                                       "KHR_materials_ior",          "KHR_materials_specular",
-                                       "KHR_materials_transmission", "KHR_materials_volume",
-                                       "KHR_materials_clearcoat",    "KHR_materials_sheen",
-                                       "KHR_materials_unlit",        "KHR_materials_anisotropy",
-                                       "KHR_materials_iridescence",  "KHR_materials_dispersion",
-                                       "KHR_mesh_quantization",      "KHR_texture_transform",
-                                       "EXT_texture_webp",           "KHR_materials_variants",
-                                       "EXT_mesh_gpu_instancing",    "KHR_materials_diffuse_transmission",
-                                       "KHR_node_visibility",        "KHR_materials_pbrSpecularGlossiness",
-                                       "KHR_texture_basisu",         "KHR_materials_diffuse_roughness",
-                                       "KHR_animation_pointer",      "KHR_xmp_json_ld"};
-
 class Importer {
  public:
-  Importer(const Document& document, const std::filesystem::path& path, const ImportOptions& options,
+  Importer(Document& document, const std::filesystem::path& path, const ImportOptions& options,
            Diagnostics& diagnostics)
       : document_(document),
         options_(options),
         warnings_({document.file(), 0, 0}, diagnostics),
-        nodes_(placed_nodes(document)),
-        deformation_(document, nodes_),
+        pose_(document, double(options.seconds.value_or(0)), warnings_),
+        nodes_(placed_nodes(document, pose_, warnings_)),
+        deformation_(document, pose_, nodes_),
         textures_(document, path, warnings_, diagnostics.files, scene_),
         materials_(document, textures_, warnings_, scene_) {
     scene_.location = warnings_.where();
+    scene_.grey_for_unreadable_images = true;
   }
 
   SceneDescription run() {
-    check_extensions();
+    check_required_extensions(document_.root(), warnings_);
     for (const PlacedNode& n : nodes_) {
       const View node = document_.item("nodes", n.node);
       const auto mesh = node["mesh"].index(document_.size("meshes"));
-      if (mesh && !deformation_.applies_to(node)) uses_[*mesh] += instances_of(document_, node).size();
+      if (mesh && !deformation_.applies_to(n.node))
+        uses_[*mesh] += instances_of(document_, node, warnings_).size();
     }
     for (const PlacedNode& n : nodes_) add_node(n);
-    if (document_.size("animations") > 0)
-      warnings_.say("animations are ignored: the scene is rendered in the pose that the file states");
+    if (pose_.animated())
+      scene_.notes.push_back(
+          fmt::format("the file is animated, up to {:.3g} s: it is shown at {:.3g} s (--at)",
+                      pose_.duration(), options_.seconds.value_or(0)));
     return std::move(scene_);
   }
 
  private:
-  void check_extensions() {
-    const View required = document_.root()["extensionsRequired"];
-    for (uint64_t i = 0; i < required.size(); ++i) {
-      const std::string name = required.at(i).text();
-      if (std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown))
-        throw FormatError(
-            fmt::format("it requires the extension {}, which is not supported", name.substr(0, 60)));
-    }
-  }
-
   void add_node(const PlacedNode& placed) {
     const View node = document_.item("nodes", placed.node);
     const auto& m = placed.to_world;
     if (!(std::isfinite(glm::determinant(m)) && glm::determinant(glm::dmat3(m)) != 0)) {
       if (node.has("mesh"))
-        warnings_.say(
-            fmt::format("node {} has a transform without an inverse: its mesh is ignored", placed.node));
+        warnings_.count("nodes whose transform has no inverse are left out with their meshes", "node");
       return;
     }
     if (const auto camera = node["camera"].index(document_.size("cameras"))) {
@@ -86,18 +68,24 @@ class Importer {
     add_light(document_, node, m, options_.light_unit, warnings_, scene_);
     const auto mesh = node["mesh"].index(document_.size("meshes"));
     if (!mesh) return;
-    if (deformation_.applies_to(node)) return add_deformed(node, *mesh, m);
-    for (const glm::dmat4& instance : instances_of(document_, node)) add_mesh(*mesh, m * instance);
+    if (deformation_.applies_to(placed.node)) return add_deformed(placed.node, *mesh, m);
+    for (const glm::dmat4& instance : instances_of(document_, node, warnings_)) add_mesh(*mesh, m * instance);
   }
 
   std::optional<ShapeDescription> shape_of(const View& primitive) {
-    const glm::dvec3 tint = mean_vertex_colour(document_, primitive, warnings_);
-    const Look& look = materials_.look(primitive["material"].index(document_.size("materials")), tint);
+    if (!has_triangles(primitive, warnings_)) return std::nullopt;
+    document_.decompress(primitive);
+    VertexColours colours = vertex_colours(document_, primitive, total_);
+    const Look& look = materials_.look(primitive["material"].index(document_.size("materials")),
+                                       {colours.common, !colours.each.empty()});
     auto shape = triangles_of(document_, primitive, look.uv_set, total_, warnings_);
     if (!shape) return std::nullopt;
     shape->material = look.material;
     shape->area_light = look.area_light;
     if (look.alpha) shape->parameters.push_back(*look.alpha);
+    if (look.by_vertex)
+      shape->parameters.push_back(
+          make_parameter(ParameterType::kFloat, "Cd", std::move(colours.each), warnings_.where()));
     if (look.emits_image && leaves_image(*shape))
       warnings_.say("emission textures are not repeated beyond their edges");
     return shape;
@@ -112,7 +100,7 @@ class Importer {
     return shapes;
   }
 
-  void add_deformed(const View& node, uint64_t mesh, const glm::dmat4& to_world) {
+  void add_deformed(uint64_t node, uint64_t mesh, const glm::dmat4& to_world) {
     const View primitives = document_.item("meshes", mesh)["primitives"];
     for (uint64_t i = 0; i < primitives.size(); ++i) {
       auto shape = shape_of(primitives.at(i));
@@ -160,10 +148,11 @@ class Importer {
     std::vector<ShapeDescription> lights;
   };
 
-  const Document& document_;
+  Document& document_;
   const ImportOptions& options_;
   SceneDescription scene_;
   FileWarnings warnings_;
+  Pose pose_;
   std::vector<PlacedNode> nodes_;
   Deformation deformation_;
   Textures textures_;
@@ -185,7 +174,7 @@ std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, D
                                             const ImportOptions& options) {
   const auto file = static_cast<uint32_t>(diagnostics.files.size());
   try {
-    const Document document(path, diagnostics.files);
+    Document document(path, diagnostics.files);
     SceneDescription scene = Importer(document, path, options, diagnostics).run();
     add_missing_view(scene, scene.location, diagnostics);
     return scene;

@@ -1,6 +1,6 @@
 #pragma once
 #include "apps/import/common/warnings.h"
-#include "apps/import/gltf/document.h"
+#include "apps/import/gltf/file/document.h"
 #include "apps/settings/import_options.h"
 #include "core/scene/description/description.h"
 

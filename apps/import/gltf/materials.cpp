@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/import/common/make_parameter.h"
+#include "apps/import/gltf/material_warnings.h"
 
 namespace kaustik::gltf {
 namespace {
@@ -32,25 +33,63 @@ double index_of(const View& material) {
 
 }  // namespace
 
-const Look& Materials::look(std::optional<uint64_t> index, const glm::dvec3& tint) {
-  const std::pair key{index, std::array<double, 3>{tint.x, tint.y, tint.z}};
+const Look& Materials::look(std::optional<uint64_t> index, const VertexTint& tint) {
+  const std::pair key{index, tint.key()};
   const auto found = looks_.find(key);
   if (found != looks_.end()) return found->second;
   const View material = index ? document_.item("materials", *index) : View();
   std::string name = index ? fmt::format("{} {}", material["name"].text("material"), *index) : "default";
-  if (tint != glm::dvec3(1)) name += fmt::format(" tinted {}", looks_.size());
+  if (tint.key() != VertexTint{}.key()) name += fmt::format(" tinted {}", looks_.size());
   tint_ = tint;
   return looks_.emplace(key, make(material, name)).first->second;
 }
 
 Look Materials::make(const View& material, const std::string& name) {
-  warn_of_extensions(material);
+  warn_of_extensions(material, warnings_);
   Look look;
-  look.uv_set = base_of(material).texture["texCoord"].count(0);
-  look.material = {std::nullopt, surface(material, name), warnings_.where()};
+  look.uv_set = uv_set_of(material);
+  look.by_vertex = tint_.each;
+  const bool is_unlit = extension(material, "KHR_materials_unlit").exists();
+  look.material = {std::nullopt, is_unlit ? unlit(material, name, look) : surface(material, name),
+                   warnings_.where()};
   look.alpha = alpha_of(material);
-  add_light(material, look);
+  const View strength = extension(material, "KHR_materials_emissive_strength")["emissiveStrength"];
+  if (!is_unlit)
+    add_light(material, material["emissiveTexture"],
+              strength.number(1) * colour(material["emissiveFactor"].numbers(3, {0, 0, 0})), look);
   return look;
+}
+
+// The set of texture coordinates of the material's first texture, which all of them have to share.
+uint64_t Materials::uv_set_of(const View& material) {
+  std::optional<uint64_t> set;
+  const View pbr = metallic_roughness(material);
+  for (const View& info : {base_of(material).texture, pbr["metallicRoughnessTexture"],
+                           material["normalTexture"], material["emissiveTexture"]}) {
+    if (!info) continue;
+    const uint64_t own = gltf::uv_set_of(info);
+    if (own != set.value_or(own))
+      warnings_.count("textures with texture coordinates of their own use those of the base colour",
+                      "texture");
+    if (!set) set = own;
+  }
+  return set.value_or(0);
+}
+
+// KHR_materials_unlit: the picture shows the base colour whatever the light, so the surface is black and
+// emits it. Colours that vary from vertex to vertex cannot be emitted: those are lit.
+std::string Materials::unlit(const View& material, const std::string& name, Look& look) {
+  Maker m("diffuse", warnings_.where());
+  const Base base = base_of(material);
+  if (tint_.each) {
+    warnings_.count("KHR_materials_unlit with colours of vertices is rendered as a diffuse surface",
+                    "material");
+    add_base("reflectance", base, 1, *m);
+  } else {
+    m.rgb("reflectance", glm::dvec3(0));
+    add_light(material, base.texture, base.colour(), look);
+  }
+  return add(std::move(*m), name, View());
 }
 
 // The whole surface: a mix of its opaque and its transmissive part. Returns the material's name.
@@ -70,10 +109,8 @@ Materials::Base Materials::base_of(const View& material) const {
   Base base = glossiness
                   ? Base{glossiness["diffuseTexture"], glossiness["diffuseFactor"].numbers(4, {1, 1, 1, 1})}
                   : Base{pbr["baseColorTexture"], pbr["baseColorFactor"].numbers(4, {1, 1, 1, 1})};
-  for (size_t k = 0; k < 4; ++k) {
-    if (k < 3) base.factor[k] *= tint_[static_cast<int>(k)];
-    base.factor[k] = std::clamp(base.factor[k], 0.0, 1.0);
-  }
+  for (size_t k = 0; k < 4; ++k)
+    base.factor[k] = std::clamp(base.factor[k] * tint_.factor[static_cast<int>(k)], 0.0, 1.0);
   return base;
 }
 
@@ -83,18 +120,18 @@ std::string Materials::opaque(const View& material, const std::string& name) {
   const View pbr = metallic_roughness(material);
   const double metallic = std::clamp(pbr["metallicFactor"].number(1), 0.0, 1.0);
   const Share share = share_of(metallic, pbr["metallicRoughnessTexture"], 2);
-  if (share.is(0)) return dielectric_part(material, name);
+  if (share.is(0)) return dielectric_part(material, name, specular_index(material));
   if (share.is(1)) return metal_part(material, name);
-  const std::string dielectric = dielectric_part(material, name + " dielectric");
+  const std::string dielectric = dielectric_part(material, name + " dielectric", specular_index(material));
   const std::string metal = metal_part(material, name + " metal");
   return mixed(name, dielectric, metal, share);
 }
 
 // Textures that are 0 or 1 everywhere are common and need no mixture; their mean shows it.
 Materials::Share Materials::share_of(double factor, const View& texture, int channel) {
-  const auto mean = factor > 0 ? textures_.mean(texture, false) : std::nullopt;
+  const auto mean = factor > 0 ? textures_.mean_of_channel(texture, channel) : std::nullopt;
   if (!mean) return {factor, std::nullopt};
-  const double share = factor * std::clamp((*mean)[channel], 0.0, 1.0);
+  const double share = factor * std::clamp(*mean, 0.0, 1.0);
   if (share == 0 || share == 1) return {share, std::nullopt};
   return {share, textures_.channel(texture, channel, [factor](double v) { return factor * v; })};
 }
@@ -139,7 +176,7 @@ std::string Materials::sheet(const View& material, const std::string& name) {
     warnings_.say("KHR_materials_diffuse_transmission is rendered without diffuseTransmissionTexture");
   const Base base = base_of(material);
   Maker m("diffusetransmission", warnings_.where());
-  add_colour("reflectance", base.texture, (1 - through) * base.colour(), *m);
+  add_base("reflectance", base, 1 - through, *m);
   add_colour(
       "transmittance", transmission["diffuseTransmissionColorTexture"],
       through *
@@ -148,20 +185,33 @@ std::string Materials::sheet(const View& material, const std::string& name) {
   return add(std::move(*m), name, material);
 }
 
-std::string Materials::dielectric_part(const View& material, const std::string& name) {
-  return dielectric_part(material, name, index_of(material));
+// The index of refraction whose reflection at normal incidence is that of KHR_materials_ior, times the factor
+// and the mean colour of KHR_materials_specular.
+double Materials::specular_index(const View& material) {
+  const double eta = index_of(material);
+  const View specular = extension(material, "KHR_materials_specular");
+  if (!specular) return eta;
+  const glm::dvec3 tint = glm::max(colour(specular["specularColorFactor"].numbers(3, {1, 1, 1})), 0.0) *
+                          textures_.mean(specular["specularColorTexture"]).value_or(glm::dvec3(1));
+  const double factor = std::clamp(specular["specularFactor"].number(1), 0.0, 1.0) *
+                        textures_.mean_of_channel(specular["specularTexture"], 3).value_or(1);
+  if (tint.x != tint.y || tint.y != tint.z)
+    warnings_.count("the colour of KHR_materials_specular is replaced by its mean", "material");
+  const double F0 = std::pow((eta - 1) / (eta + 1), 2);
+  const double root = std::sqrt(std::min(factor * F0 * (tint.x + tint.y + tint.z) / 3, 0.36));
+  return (1 + root) / (1 - root);
 }
 
 // A diffuse base under a dielectric coat. With KHR_materials_clearcoat the clear coat replaces the base's own
 // reflection.
 std::string Materials::dielectric_part(const View& material, const std::string& name, double eta) {
   const bool coat = extension(material, kClearcoat)["clearcoatFactor"].number(0) >= 0.5;
-  const bool dull = !coat && extension(material, "KHR_materials_specular")["specularFactor"].number(1) == 0;
+  const bool dull = !coat && eta == 1;
   Maker m(dull ? "diffuse" : "coateddiffuse", warnings_.where());
   const Base base = base_of(material);
-  add_colour("reflectance", base.texture, base.colour(), *m);
+  add_base("reflectance", base, 1, *m);
   if (!dull) {
-    m.number("eta", coat ? 1.5 : eta);
+    m.number("eta", coat ? 1.5 : std::clamp(eta, 1.01, 4.0));
     add_roughness(material, coat, *m);
   }
   return add(std::move(*m), name, material);
@@ -170,7 +220,7 @@ std::string Materials::dielectric_part(const View& material, const std::string& 
 std::string Materials::metal_part(const View& material, const std::string& name) {
   Maker m("conductor", warnings_.where());
   const Base base = base_of(material);
-  add_colour("reflectance", base.texture, base.colour(), *m);
+  add_base("reflectance", base, 1, *m);
   add_roughness(material, false, *m);
   return add(std::move(*m), name, material);
 }
@@ -190,13 +240,22 @@ std::string Materials::clear_part(const View& material, const std::string& name)
   return add(std::move(*m), name, material);
 }
 
+// A texture that cannot be read is grey.
 void Materials::add_colour(const std::string& parameter, const View& texture, const glm::dvec3& factor,
                            MaterialDescription& m) {
   const auto named = textures_.colour(texture, factor);
+  const glm::dvec3 c = texture ? 0.5 * factor : factor;
   m.parameters.push_back(named ? textures_.parameter(parameter, *named)
                                : make_parameter(ParameterType::kRgb, parameter,
-                                                std::vector<double>{factor.x, factor.y, factor.z},
-                                                warnings_.where()));
+                                                std::vector<double>{c.x, c.y, c.z}, warnings_.where()));
+}
+
+void Materials::add_base(const std::string& parameter, const Base& base, double share,
+                         MaterialDescription& m) {
+  const glm::dvec3 factor = share * base.colour();
+  if (!tint_.each) return add_colour(parameter, base.texture, factor, m);
+  const auto named = textures_.colour(base.texture, factor);
+  m.parameters.push_back(textures_.parameter(parameter, textures_.by_vertex(named, factor)));
 }
 
 // glTF's roughness is the square root of the GGX width; pbrt takes the width itself when "remaproughness" is
@@ -265,20 +324,24 @@ std::optional<Parameter> Materials::alpha_of(const View& material) {
   const double cutoff = mode == "MASK" ? material["alphaCutoff"].number(0.5) : -1;
   const auto covered = [=](double v) { return cutoff < 0 ? factor * v : factor * v >= cutoff ? 1.0 : 0.0; };
   const auto texture = textures_.channel(base.texture, 3, covered);
+  if (tint_.each) {
+    if (cutoff >= 0)
+      warnings_.count("masks by the alpha of vertices are rendered as partly transparent", "material");
+    return textures_.parameter("alpha", textures_.by_vertex_alpha(texture, covered(1)));
+  }
   if (texture) return textures_.parameter("alpha", *texture);
   if (covered(1) == 1) return std::nullopt;
   return make_parameter(ParameterType::kFloat, "alpha", std::vector<double>{covered(1)}, warnings_.where());
 }
 
-void Materials::add_light(const View& material, Look& look) {
-  const View strength = extension(material, "KHR_materials_emissive_strength")["emissiveStrength"];
-  const glm::dvec3 L =
-      glm::max(strength.number(1) * colour(material["emissiveFactor"].numbers(3, {0, 0, 0})), 0.0);
+void Materials::add_light(const View& material, const View& texture, const glm::dvec3& radiance, Look& look) {
+  const glm::dvec3 L = glm::max(radiance, 0.0);
   if (L == glm::dvec3(0)) return;
   DirectiveMaker<Directive> light("diffuse", warnings_.where());
-  look.emits_image = add_emitted_image(material, L, look.uv_set, *light);
+  look.emits_image = add_emitted_image(texture, L, look.uv_set, *light);
   if (!look.emits_image) {
-    const glm::dvec3 mean = textures_.mean(material["emissiveTexture"]).value_or(glm::dvec3(1));
+    // An emission texture that cannot be read is taken for black, which most of them mostly are.
+    const glm::dvec3 mean = texture ? textures_.mean(texture).value_or(glm::dvec3(0)) : glm::dvec3(1);
     if (L * mean == glm::dvec3(0)) return;
     light.rgb("L", L * mean);
   }
@@ -289,11 +352,10 @@ void Materials::add_light(const View& material, Look& look) {
 
 // Adds the emission texture to `light`; false if there is none that can be shown. pbrt's area lights show
 // their image once, by the shape's own uv.
-bool Materials::add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set,
+bool Materials::add_emitted_image(const View& texture, const glm::dvec3& L, uint64_t uv_set,
                                   Directive& light) {
-  const View texture = material["emissiveTexture"];
   if (!texture || textures_.mean(texture).value_or(glm::dvec3(0)) == glm::dvec3(0)) return false;
-  if (texture["extensions"].has("KHR_texture_transform") || texture["texCoord"].count(0) != uv_set) {
+  if (texture["extensions"].has("KHR_texture_transform") || gltf::uv_set_of(texture) != uv_set) {
     warnings_.say(
         "emission textures with a transform or with texture coordinates of their own are rendered as their "
         "mean");
@@ -306,34 +368,6 @@ bool Materials::add_emitted_image(const View& material, const glm::dvec3& L, uin
   light.parameters.push_back(
       make_parameter(ParameterType::kFloat, "scale", std::vector<double>{brightest}, warnings_.where()));
   return true;
-}
-
-void Materials::warn_of_extensions(const View& material) {
-  constexpr std::string_view kRendered[] = {kClearcoat,
-                                            kGlossiness,
-                                            kSheet,
-                                            "KHR_materials_anisotropy",
-                                            "KHR_materials_emissive_strength",
-                                            "KHR_materials_ior",
-                                            "KHR_materials_specular",
-                                            "KHR_materials_transmission",
-                                            "KHR_materials_volume"};
-  for (const std::string& name : material["extensions"].names()) {
-    if (std::find(std::begin(kRendered), std::end(kRendered), name) == std::end(kRendered))
-      warnings_.say(fmt::format("{} is ignored", name.substr(0, 60)));
-  }
-  const View specular = extension(material, "KHR_materials_specular");
-  if (specular && specular["specularFactor"].number(1) != 0)
-    warnings_.say(
-        "KHR_materials_specular is ignored unless its factor is 0: reflection follows from the index of "
-        "refraction");
-  if (extension(material, kClearcoat)["clearcoatFactor"].number(0) > 0)
-    warnings_.say(
-        "KHR_materials_clearcoat replaces the base's own reflection if its factor is 0.5 or more; otherwise, "
-        "and "
-        "over metal, it is ignored");
-  if (material.has("occlusionTexture"))
-    warnings_.say("occlusion textures are ignored: the renderer computes occlusion itself");
 }
 
 }  // namespace kaustik::gltf

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "apps/import/common/warnings.h"
-#include "apps/import/gltf/document.h"
+#include "apps/import/gltf/file/document.h"
 #include "apps/import/gltf/textures.h"
 #include "core/scene/description/description.h"
 
@@ -18,7 +18,15 @@ struct Look {
   std::optional<uint32_t> area_light;
   std::optional<Parameter> alpha;
   uint64_t uv_set = 0;
+  bool by_vertex = false;    // shows the colours of vertices
   bool emits_image = false;  // shown once, over uv from 0 to 1
+};
+
+// What the colours of its vertices do to a primitive's base colour and alpha.
+struct VertexTint {
+  glm::dvec4 factor{1};  // of all vertices
+  bool each = false;     // colours differ from vertex to vertex
+  auto key() const { return std::array<double, 5>{factor.x, factor.y, factor.z, factor.w, each ? 1.0 : 0.0}; }
 };
 
 class Materials {
@@ -27,9 +35,8 @@ class Materials {
   Materials(const Document& document, Textures& textures, FileWarnings& warnings, SceneDescription& scene)
       : document_(document), textures_(textures), warnings_(warnings), scene_(scene) {}
 
-  // The look of the material with this index; without an index, of glTF's default material. `tint` multiplies
-  // the base colour.
-  const Look& look(std::optional<uint64_t> index, const glm::dvec3& tint);
+  // The look of the material with this index; without an index, of glTF's default material.
+  const Look& look(std::optional<uint64_t> index, const VertexTint& tint);
 
  private:
   Look make(const View& material, const std::string& name);
@@ -48,10 +55,12 @@ class Materials {
     int channel;
     std::function<double(double)> width;
   };
+  uint64_t uv_set_of(const View& material);
+  std::string unlit(const View& material, const std::string& name, Look& look);
   static Width width_of(const View& material, bool coat);
   std::string glossy(const View& material, const std::string& name);
   std::string sheet(const View& material, const std::string& name);
-  std::string dielectric_part(const View& material, const std::string& name);
+  double specular_index(const View& material);
   std::string dielectric_part(const View& material, const std::string& name, double eta);
   std::string metal_part(const View& material, const std::string& name);
   std::string clear_part(const View& material, const std::string& name);
@@ -68,19 +77,21 @@ class Materials {
   std::string add(MaterialDescription m, const std::string& name, const View& material);
   void add_colour(const std::string& parameter, const View& texture, const glm::dvec3& factor,
                   MaterialDescription& m);
+  // Adds the base colour times `share`, and times the colours of vertices if they differ.
+  void add_base(const std::string& parameter, const Base& base, double share, MaterialDescription& m);
   void add_width(const std::string& parameter, const Width& width, MaterialDescription& m);
   void add_roughness(const View& material, bool coat, MaterialDescription& m);
   std::optional<Parameter> alpha_of(const View& material);
-  void add_light(const View& material, Look& look);
-  bool add_emitted_image(const View& material, const glm::dvec3& L, uint64_t uv_set, Directive& light);
-  void warn_of_extensions(const View& material);
+  // Makes the look emit L, times a texture if `texture` names one.
+  void add_light(const View& material, const View& texture, const glm::dvec3& L, Look& look);
+  bool add_emitted_image(const View& texture, const glm::dvec3& L, uint64_t uv_set, Directive& light);
 
   const Document& document_;
   Textures& textures_;
   FileWarnings& warnings_;
   SceneDescription& scene_;
-  glm::dvec3 tint_{1};  // of the look under construction
-  std::map<std::pair<std::optional<uint64_t>, std::array<double, 3>>, Look> looks_;
+  VertexTint tint_;  // of the look under construction
+  std::map<std::pair<std::optional<uint64_t>, std::array<double, 5>>, Look> looks_;
 };
 
 }  // namespace kaustik::gltf

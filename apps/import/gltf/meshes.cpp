@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/import/common/make_parameter.h"
 
@@ -16,7 +17,7 @@ enum class Mode { kTriangles = 4, kStrip = 5, kFan = 6 };
 
 // Converts corners to a list of triangles with three corners each. Every second triangle of a strip winds the
 // other way.
-std::vector<double> as_triangles(const std::vector<double>& corners, Mode mode) {
+std::vector<double> as_triangles(std::vector<double> corners, Mode mode) {
   if (mode == Mode::kTriangles) return corners;
   std::vector<double> out;
   for (size_t i = 2; i < corners.size(); ++i) {
@@ -27,7 +28,8 @@ std::vector<double> as_triangles(const std::vector<double>& corners, Mode mode) 
   return out;
 }
 
-std::vector<double> corners_of(const Document& document, const View& primitive, uint64_t vertices) {
+std::vector<double> corners_of(const Document& document, const View& primitive, uint64_t vertices,
+                               FileWarnings& warnings) {
   const auto accessor = primitive["indices"].index(document.size("accessors"));
   std::vector<double> corners;
   if (accessor) {
@@ -40,9 +42,11 @@ std::vector<double> corners_of(const Document& document, const View& primitive, 
     for (uint64_t i = 0; i < vertices; ++i) corners.push_back(double(i));
   }
   const auto mode = static_cast<Mode>(primitive["mode"].count(4));
-  if (mode == Mode::kTriangles && corners.size() % 3 != 0)
-    primitive.fail(fmt::format("has {} corners, which is not a multiple of 3", corners.size()));
-  return as_triangles(corners, mode);
+  if (mode == Mode::kTriangles && corners.size() % 3 != 0) {
+    warnings.count("triangles of fewer than three corners are left out", "primitive");
+    corners.resize(corners.size() / 3 * 3);
+  }
+  return as_triangles(std::move(corners), mode);
 }
 
 void add_numbers(uint64_t n, const View& primitive, uint64_t& total) {
@@ -55,68 +59,79 @@ void add_numbers(uint64_t n, const View& primitive, uint64_t& total) {
 // vertices.
 std::optional<std::vector<double>> attribute(const Document& document, const View& primitive,
                                              const char* name, int components, uint64_t vertices,
-                                             uint64_t& total) {
+                                             uint64_t& total, FileWarnings& warnings) {
   const View attributes = primitive["attributes"];
   const auto accessor = attributes[name].index(document.size("accessors"));
   if (!accessor) return std::nullopt;
-  add_numbers(document.item("accessors", *accessor)["count"].count() * static_cast<uint64_t>(components),
-              primitive, total);
-  Elements e = document.elements(*accessor, components);
+  add_numbers(document.count(*accessor) * static_cast<uint64_t>(components), primitive, total);
+  const bool position = std::string_view(name) == "POSITION";
+  Elements e = document.elements(*accessor, components, !position);
   if (e.count != vertices)
     attributes[name].fail(fmt::format("has {} vertices, but the positions have {}", e.count, vertices));
+  const auto bad = [](double v) { return !std::isfinite(v); };
+  if (std::any_of(e.values.begin(), e.values.end(), bad)) {
+    warnings.count(fmt::format("numbers of {} that are not finite are taken for 0", name), "primitive");
+    std::replace_if(e.values.begin(), e.values.end(), bad, 0.0);
+  }
   return std::move(e.values);
 }
 
 }  // namespace
 
-std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive, uint64_t uv_set,
-                                             uint64_t& total, FileWarnings& warnings) {
-  if (primitive["extensions"].has("KHR_draco_mesh_compression"))
-    primitive.fail("is compressed by KHR_draco_mesh_compression, which is not supported");
+bool has_triangles(const View& primitive, FileWarnings& warnings) {
   const uint64_t mode = primitive["mode"].count(4);
   if (mode > 6) primitive["mode"].fail(fmt::format("is {}, which glTF does not define", mode));
-  if (mode < 4) {
-    warnings.say("points and lines are ignored: only triangles are rendered");
-    return std::nullopt;
-  }
+  if (mode < 4) warnings.count("points and lines are left out: only triangles are rendered", "primitive");
+  return mode >= 4;
+}
+
+std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive, uint64_t uv_set,
+                                             uint64_t& total, FileWarnings& warnings) {
   const View position = primitive["attributes"]["POSITION"];
   const auto accessor = position.index(document.size("accessors"));
   if (!accessor) {
-    warnings.say("primitives without positions are ignored");
+    warnings.count("meshes without positions are left out", "primitive");
     return std::nullopt;
   }
-  const uint64_t vertices = document.item("accessors", *accessor)["count"].count();
-  auto P = attribute(document, primitive, "POSITION", 3, vertices, total);
-  std::vector<double> corners = corners_of(document, primitive, vertices);
+  const uint64_t vertices = document.count(*accessor);
+  auto P = attribute(document, primitive, "POSITION", 3, vertices, total, warnings);
+  std::vector<double> corners = corners_of(document, primitive, vertices, warnings);
   add_numbers(corners.size(), primitive, total);
   if (corners.empty()) return std::nullopt;
   DirectiveMaker<ShapeDescription> shape("trianglemesh", warnings.where());
   shape.add(ParameterType::kPoint3, "P", std::move(*P));
   shape.add(ParameterType::kInteger, "indices", std::move(corners));
-  if (auto N = attribute(document, primitive, "NORMAL", 3, vertices, total))
+  if (auto N = attribute(document, primitive, "NORMAL", 3, vertices, total, warnings))
     shape.add(ParameterType::kNormal, "N", std::move(*N));
   const std::string uv_name = fmt::format("TEXCOORD_{}", uv_set);
-  if (auto uv = attribute(document, primitive, uv_name.c_str(), 2, vertices, total)) {
+  if (auto uv = attribute(document, primitive, uv_name.c_str(), 2, vertices, total, warnings)) {
     for (size_t i = 1; i < uv->size(); i += 2) (*uv)[i] = 1 - (*uv)[i];
     shape.add(ParameterType::kPoint2, "uv", std::move(*uv));
   }
   return std::move(*shape);
 }
 
-glm::dvec3 mean_vertex_colour(const Document& document, const View& primitive, FileWarnings& warnings) {
+VertexColours vertex_colours(const Document& document, const View& primitive, uint64_t& total) {
   const auto accessor = primitive["attributes"]["COLOR_0"].index(document.size("accessors"));
-  if (!accessor) return glm::dvec3(1);
-  const bool with_alpha = document.item("accessors", *accessor)["type"].text() == "VEC4";
-  const size_t n = with_alpha ? 4 : 3;
-  const std::vector<double> c = document.elements(*accessor, static_cast<int>(n)).values;
-  glm::dvec3 sum(0);
+  if (!accessor) return {};
+  const int n = document.components(*accessor);
+  if (n != 3 && n != 4) primitive["attributes"]["COLOR_0"].fail("is no colour of three or four numbers");
+  add_numbers(4 * document.count(*accessor), primitive, total);
+  const std::vector<double> c = document.elements(*accessor, n, true).values;
+  VertexColours colours;
   bool differ = false;
-  for (size_t i = 0; i + n <= c.size(); i += n) {
-    sum += glm::dvec3(c[i], c[i + 1], c[i + 2]);
-    differ = differ || !std::equal(c.begin(), c.begin() + 3, c.begin() + static_cast<std::ptrdiff_t>(i));
+  for (size_t i = 0; i < c.size(); i += static_cast<size_t>(n)) {
+    for (size_t k = 0; k < 4; ++k) {
+      const double v = k < static_cast<size_t>(n) ? c[i + k] : 1;
+      colours.each.push_back(std::isfinite(v) ? std::clamp(v, 0.0, 1.0) : 1);
+      differ = differ || colours.each.back() != colours.each[k];
+    }
   }
-  if (differ) warnings.say("vertex colours are replaced by their mean over the mesh");
-  return c.empty() ? glm::dvec3(1) : glm::clamp(sum / (double(c.size()) / double(n)), 0.0, 1.0);
+  if (differ) return colours;
+  for (size_t k = 0; k < 4 && !colours.each.empty(); ++k)
+    colours.common[static_cast<int>(k)] = colours.each[k];
+  colours.each.clear();
+  return colours;
 }
 
 }  // namespace kaustik::gltf

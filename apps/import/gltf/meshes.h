@@ -2,18 +2,25 @@
 // Converts the meshes of a glTF file to pbrt triangle meshes.
 
 #include "apps/import/common/warnings.h"
-#include "apps/import/gltf/document.h"
+#include "apps/import/gltf/file/document.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
 
-// P, N, uv and indices of a primitive; nothing, with a warning, for points and lines. `uv_set`: which set of
+// Whether the primitive has triangles; points and lines give a warning.
+bool has_triangles(const View& primitive, FileWarnings& warnings);
+
+// P, N, uv and indices of a primitive that has triangles; nothing if there are none. `uv_set`: which set of
 // texture coordinates to read; they are flipped so that t points up, as in pbrt. `total`: the numbers read so
 // far for the scene; grows here, and beyond a limit the file is refused (FormatError).
 std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive, uint64_t uv_set,
                                              uint64_t& total, FileWarnings& warnings);
 
-// The mean of the primitive's vertex colours, by which the base colour is multiplied; 1 if it has none.
-glm::dvec3 mean_vertex_colour(const Document& document, const View& primitive, FileWarnings& warnings);
+// The colours of a primitive's vertices, by which the base colour is multiplied.
+struct VertexColours {
+  glm::dvec4 common{1};      // red, green, blue and alpha of all vertices, unless they differ
+  std::vector<double> each;  // four numbers a vertex; empty unless they differ
+};
+VertexColours vertex_colours(const Document& document, const View& primitive, uint64_t& total);
 
 }  // namespace kaustik::gltf

@@ -7,13 +7,13 @@
 namespace kaustik::gltf {
 namespace {
 
-// The matrix of a translation, a rotation (quaternion x, y, z, w) and a scale. `rotation` names the place for
-// errors.
+// The matrix of a translation, a rotation (quaternion x, y, z, w, of any length) and a scale.
 glm::dmat4 transform_of(const std::vector<double>& t, const std::vector<double>& r,
-                        const std::vector<double>& s, const View& rotation) {
+                        const std::vector<double>& s, FileWarnings& warnings) {
   const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-  if (!(length > 0)) rotation.fail("is not a rotation: it is zero");
-  const glm::dquat q(r[3] / length, r[0] / length, r[1] / length, r[2] / length);
+  const bool turns = length > 0;
+  if (!turns) warnings.count("rotations by a quaternion of zeros are left out", "node");
+  const glm::dquat q = turns ? glm::dquat(r[3], r[0], r[1], r[2]) / length : glm::dquat(1, 0, 0, 0);
   glm::dmat3 m = glm::mat3_cast(q);
   for (int k = 0; k < 3; ++k) m[k] *= s[static_cast<size_t>(k)];
   glm::dmat4 out(m);
@@ -21,17 +21,24 @@ glm::dmat4 transform_of(const std::vector<double>& t, const std::vector<double>&
   return out;
 }
 
-glm::dmat4 local_transform(const View& node) {
-  if (const View matrix = node["matrix"]) {
+glm::dmat4 local_transform(const View& node, const NodePose* pose, FileWarnings& warnings) {
+  const View matrix = node["matrix"];
+  const bool moved = pose && (pose->translation || pose->rotation || pose->scale);
+  if (matrix && !moved) {
     const std::vector<double> m = matrix.numbers(16, {});
     glm::dmat4 out;
     for (int i = 0; i < 16; ++i) out[i / 4][i % 4] = m[static_cast<size_t>(i)];
     return out;
   }
-  const std::vector<double> t = node["translation"].numbers(3, {0, 0, 0});
-  const std::vector<double> r = node["rotation"].numbers(4, {0, 0, 0, 1});
-  const std::vector<double> s = node["scale"].numbers(3, {1, 1, 1});
-  return transform_of(t, r, s, node["rotation"]);
+  std::vector<double> t = node["translation"].numbers(3, {0, 0, 0});
+  std::vector<double> r = node["rotation"].numbers(4, {0, 0, 0, 1});
+  std::vector<double> s = node["scale"].numbers(3, {1, 1, 1});
+  if (moved) {
+    t = pose->translation.value_or(t);
+    r = pose->rotation.value_or(r);
+    s = pose->scale.value_or(s);
+  }
+  return transform_of(t, r, s, warnings);
 }
 
 bool is_visible(const View& node) {
@@ -61,7 +68,7 @@ std::vector<uint64_t> roots_of(const Document& document) {
 
 }  // namespace
 
-std::vector<PlacedNode> placed_nodes(const Document& document) {
+std::vector<PlacedNode> placed_nodes(const Document& document, const Pose& pose, FileWarnings& warnings) {
   const uint64_t nodes = document.size("nodes");
   std::vector<bool> met(nodes, false);
   std::vector<PlacedNode> out, waiting;
@@ -77,7 +84,7 @@ std::vector<PlacedNode> placed_nodes(const Document& document) {
     waiting.pop_back();
     const View node = document.item("nodes", at.node);
     if (!is_visible(node)) continue;
-    at.to_world = at.to_world * local_transform(node);
+    at.to_world = at.to_world * local_transform(node, pose.of(at.node), warnings);
     out.push_back(at);
     const View children = node["children"];
     for (uint64_t i = children.size(); i-- > 0;) push(*children.at(i).index(nodes), at.to_world);
@@ -85,7 +92,7 @@ std::vector<PlacedNode> placed_nodes(const Document& document) {
   return out;
 }
 
-std::vector<glm::dmat4> instances_of(const Document& document, const View& node) {
+std::vector<glm::dmat4> instances_of(const Document& document, const View& node, FileWarnings& warnings) {
   const View attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
   if (!attributes) return {glm::dmat4(1)};
   std::optional<uint64_t> count;
@@ -108,7 +115,7 @@ std::vector<glm::dmat4> instances_of(const Document& document, const View& node)
   std::vector<glm::dmat4> out;
   for (uint64_t i = 0; i < count.value_or(0); ++i)
     out.push_back(transform_of(part(t, i, 3, {0, 0, 0}), part(r, i, 4, {0, 0, 0, 1}),
-                               part(s, i, 3, {1, 1, 1}), attributes["ROTATION"]));
+                               part(s, i, 3, {1, 1, 1}), warnings));
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "apps/import/gltf/document.h"
+#include "apps/import/gltf/animation.h"
 
 namespace kaustik::gltf {
 
@@ -13,11 +13,11 @@ struct PlacedNode {
   glm::dmat4 to_world{1};
 };
 
-// All visible nodes of the file's scene, parents before children, in the order of the file. Throws
-// FormatError for a node that has two parents or is its own ancestor.
-std::vector<PlacedNode> placed_nodes(const Document& document);
+// All visible nodes of the file's scene in this pose, parents before children, in the order of the file.
+// Throws FormatError for a node that has two parents or is its own ancestor.
+std::vector<PlacedNode> placed_nodes(const Document& document, const Pose& pose, FileWarnings& warnings);
 
 // Transforms from mesh to node: the identity, or one per instance of EXT_mesh_gpu_instancing.
-std::vector<glm::dmat4> instances_of(const Document& document, const View& node);
+std::vector<glm::dmat4> instances_of(const Document& document, const View& node, FileWarnings& warnings);
 
 }  // namespace kaustik::gltf

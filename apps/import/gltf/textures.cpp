@@ -2,24 +2,59 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <fstream>
 
 #include "apps/import/common/derived_image.h"
-#include "apps/import/common/make_parameter.h"
 #include "apps/import/common/scene_files.h"
 
 namespace kaustik::gltf {
 namespace {
 
-// The file extension that fits the image's first bytes: OpenImageIO chooses the format by it.
+// The file extension that fits the image's first bytes, by which the format is chosen; empty for formats that
+// cannot be read, such as KTX2.
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return ".png";
   if (bytes.starts_with("\xff\xd8")) return ".jpg";
   if (bytes.size() > 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return ".webp";
+  if (bytes.size() > 12 && bytes.substr(4, 8) == "ftypavif") return ".avif";
+  if (bytes.starts_with("GIF8")) return ".gif";
+  if (bytes.starts_with("BM")) return ".bmp";
+  if (bytes.starts_with("DDS ")) return ".dds";
   return "";
 }
 
+// The name of a wrap mode of glTF.
+std::string wrap_of(const View& mode) {
+  const uint64_t number = mode.count(10497);
+  return number == 33071 ? "clamp" : number == 33648 ? "mirror" : "repeat";
+}
+
+// The image of a texture: the extensions name images of other formats, which are better or the only ones.
+std::optional<uint64_t> source_of(const View& texture, uint64_t images) {
+  auto source = texture["source"].index(images);
+  for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"})
+    if (!source) source = texture["extensions"][name]["source"].index(images);
+  return source;
+}
+
+// glTF samples at (u', v') = offset + R (scale * (u, v)), where R turns counter-clockwise as v points down,
+// and v = 1 - t; in pbrt's t that is t' = 1 - v'.
+void add_transform(const View& transform, DirectiveMaker<TextureDescription>& texture) {
+  const auto offset = transform["offset"].numbers(2, {0, 0}), scale = transform["scale"].numbers(2, {1, 1});
+  const double angle = transform["rotation"].number(0);
+  const double c = std::cos(angle), s = std::sin(angle);
+  texture.number("uscale", c * scale[0]).number("vscale", c * scale[1]);
+  texture.number("udelta", s * scale[1] + offset[0]).number("vdelta", 1 - c * scale[1] - offset[1]);
+  if (angle != 0) texture.number("ushear", -s * scale[1]).number("vshear", s * scale[0]);
+}
+
 }  // namespace
+
+uint64_t uv_set_of(const View& info) {
+  return info["extensions"]["KHR_texture_transform"]["texCoord"].count(info["texCoord"].count(0));
+}
 
 Parameter Textures::parameter(const std::string& name, const std::string& texture) const {
   return make_parameter(ParameterType::kTexture, name, texture, warnings_.where());
@@ -32,11 +67,8 @@ Parameter Textures::file_parameter(const std::string& name, const ImageFile& fil
 std::optional<uint64_t> Textures::image_of(const View& info) {
   const auto texture = info["index"].index(document_.size("textures"));
   if (!texture) return std::nullopt;
-  const View t = document_.item("textures", *texture);
-  auto source = t["source"].index(document_.size("images"));
-  if (!source) source = t["extensions"]["EXT_texture_webp"]["source"].index(document_.size("images"));
-  if (!source)
-    warnings_.say("textures without a PNG, JPEG or WebP image (such as KHR_texture_basisu) are ignored");
+  const auto source = source_of(document_.item("textures", *texture), document_.size("images"));
+  if (!source) warnings_.say("textures without an image are shown as grey");
   return source;
 }
 
@@ -61,19 +93,38 @@ std::optional<ImageFile> Textures::file_of_image(uint64_t index) {
   std::optional<std::string> data;
   if (uri) {
     data = Document::data_of_uri(uri);
-    if (!data) return images_[index] = ImageFile{Document::file_of_uri(uri.text()), {document_.file(), 0, 0}};
+    if (!data) return images_[index] = find_file(index, Document::file_of_uri(uri.text()));
   } else if (const auto view = image["bufferView"].index(document_.size("bufferViews"))) {
     data = std::string(document_.bytes_of_view(*view));
   }
   const std::string extension = data ? extension_of(*data) : "";
   if (extension.empty()) {
-    warnings_.say(fmt::format("image {} is neither PNG nor JPEG nor WebP and is ignored", index));
-    images_[index] = std::nullopt;
-    return std::nullopt;
+    warnings_.say(fmt::format("image {} has a format that cannot be read and is shown as grey", index));
+    return images_[index] = std::nullopt;
   }
   const ImageFile file = in_folder(fmt::format("image{}{}", index, extension));
   std::ofstream(path_of(file), std::ios::binary) << *data;
   return images_[index] = file;
+}
+
+// The file of this name, or else one of its last name beside the glTF file. Nothing, with a warning, when
+// there is none or its format cannot be read.
+std::optional<ImageFile> Textures::find_file(uint64_t index, const std::string& name) {
+  const SourceLocation beside{document_.file(), 0, 0};
+  const auto last = std::filesystem::path(name).filename().string();
+  for (const std::string& candidate : {name, last}) {
+    const ImageFile file{candidate, beside};
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path_of(file), ignored)) continue;
+    std::array<char, 8> head{};
+    std::ifstream(path_of(file), std::ios::binary).read(head.data(), head.size());
+    if (std::string_view(head.data(), head.size()).find("KTX") == std::string_view::npos) return file;
+    warnings_.say(
+        fmt::format("image {}, \"{}\", is KTX, which cannot be read, and is shown as grey", index, name));
+    return std::nullopt;
+  }
+  warnings_.say(fmt::format("image {}, \"{}\", does not exist and is shown as grey", index, name));
+  return std::nullopt;
 }
 
 std::optional<ImageFile> Textures::file(const View& info) {
@@ -81,30 +132,66 @@ std::optional<ImageFile> Textures::file(const View& info) {
   return image ? file_of_image(*image) : std::nullopt;
 }
 
+DirectiveMaker<TextureDescription> Textures::start(const std::string& type, const std::string& value_type) {
+  DirectiveMaker<TextureDescription> texture(type, warnings_.where());
+  texture->name = fmt::format("texture {}", scene_.textures.size());
+  texture->name_location = texture->value_type_location = warnings_.where();
+  texture->value_type = value_type;
+  return texture;
+}
+
+// The texture of the colours ("spectrum") or the alpha ("float") of vertices, made on first use.
+std::string Textures::vertex_texture(const std::string& value_type) {
+  std::string& name = vertex_textures_[value_type];
+  if (name.empty()) {
+    auto texture = start("vertexcolor", value_type);
+    name = texture->name;
+    scene_.textures.push_back(std::move(*texture));
+  }
+  return name;
+}
+
+std::string Textures::scaled(const std::string& value_type, Parameter value, const std::string& scale) {
+  auto texture = start("scale", value_type);
+  texture.add(std::move(value)).add(parameter("scale", scale));
+  scene_.textures.push_back(std::move(*texture));
+  return scene_.textures.back().name;
+}
+
+std::string Textures::by_vertex(const std::optional<std::string>& texture, const glm::dvec3& factor) {
+  const std::string colours = vertex_texture("spectrum");
+  if (texture) return scaled("spectrum", parameter("tex", *texture), colours);
+  if (factor == glm::dvec3(1)) return colours;
+  return scaled("spectrum",
+                make_parameter(ParameterType::kRgb, "tex", std::vector<double>{factor.x, factor.y, factor.z},
+                               warnings_.where()),
+                colours);
+}
+
+std::string Textures::by_vertex_alpha(const std::optional<std::string>& texture, double factor) {
+  const std::string alpha = vertex_texture("float");
+  if (texture) return scaled("float", parameter("tex", *texture), alpha);
+  if (factor == 1) return alpha;
+  return scaled("float",
+                make_parameter(ParameterType::kFloat, "tex", std::vector<double>{factor}, warnings_.where()),
+                alpha);
+}
+
 // Adds an "imagemap" with glTF's sampler and texture transform, as far as pbrt can express them. t points up
 // in pbrt and down in glTF.
 std::string Textures::add(const std::string& value_type, const ImageFile& file, const std::string& encoding,
                           const View& info) {
-  DirectiveMaker<TextureDescription> texture("imagemap", warnings_.where());
-  texture->name = fmt::format("texture {}", scene_.textures.size());
-  texture->name_location = texture->value_type_location = warnings_.where();
-  texture->value_type = value_type;
+  auto texture = start("imagemap", value_type);
   texture.add(file_parameter("filename", file));
   if (!encoding.empty()) texture.text("encoding", encoding);
   const View t = document_.item("textures", *info["index"].index(document_.size("textures")));
   if (const auto sampler = t["sampler"].index(document_.size("samplers"))) {
     const View s = document_.item("samplers", *sampler);
-    const uint64_t wrap = s["wrapS"].count(10497);
-    if (wrap == 33071) texture.text("wrap", "clamp");
-    if (wrap == 33648) warnings_.say("mirrored textures are repeated without mirroring");
+    const std::string wrap = wrap_of(s["wrapS"]), vwrap = wrap_of(s["wrapT"]);
+    if (wrap != "repeat") texture.text("wrap", wrap);
+    if (vwrap != wrap) texture.text("vwrap", vwrap);
   }
-  if (const View transform = info["extensions"]["KHR_texture_transform"]) {
-    const auto offset = transform["offset"].numbers(2, {0, 0}), scale = transform["scale"].numbers(2, {1, 1});
-    if (transform["rotation"].number(0) != 0) warnings_.say("rotations of KHR_texture_transform are ignored");
-    // glTF samples at v' = v scale + offset with v = 1 - t; in pbrt's t that is t' = 1 - v'.
-    texture.number("uscale", scale[0]).number("vscale", scale[1]);
-    texture.number("udelta", offset[0]).number("vdelta", 1 - scale[1] - offset[1]);
-  }
+  if (const View transform = info["extensions"]["KHR_texture_transform"]) add_transform(transform, texture);
   scene_.textures.push_back(std::move(*texture));
   return scene_.textures.back().name;
 }
@@ -138,13 +225,27 @@ std::optional<std::string> Textures::channel(const View& info, int channel,
   return add("float", grey, "linear", info);
 }
 
-std::optional<glm::dvec3> Textures::mean(const View& info, bool srgb) {
-  const auto image = file(info);
-  if (!image) return std::nullopt;
+// Means are read once a file.
+const std::optional<ImageMeans>& Textures::means(const ImageFile& file) {
+  const std::filesystem::path path = path_of(file);
+  const auto [found, is_new] = means_.try_emplace(path);
+  if (!is_new) return found->second;
   std::string error;
-  const auto mean = mean_colour(path_of(*image), srgb, error);
-  if (!mean) warnings_.say(error);
-  return mean;
+  found->second = image_means(path, error);
+  if (!found->second) warnings_.say(error + ": grey is shown in its place");
+  return found->second;
+}
+
+std::optional<glm::dvec3> Textures::mean(const View& info) {
+  const auto image = file(info);
+  const auto means_of_file = image ? means(*image) : std::nullopt;
+  return means_of_file ? std::optional(means_of_file->linear) : std::nullopt;
+}
+
+std::optional<double> Textures::mean_of_channel(const View& info, int channel) {
+  const auto image = file(info);
+  const auto means_of_file = image ? means(*image) : std::nullopt;
+  return means_of_file ? std::optional(means_of_file->stored[channel]) : std::nullopt;
 }
 
 }  // namespace kaustik::gltf

@@ -6,12 +6,17 @@
 #include <functional>
 #include <map>
 
+#include "apps/import/common/derived_image.h"
+#include "apps/import/common/make_parameter.h"
 #include "apps/import/common/temporary_folder.h"
 #include "apps/import/common/warnings.h"
-#include "apps/import/gltf/document.h"
+#include "apps/import/gltf/file/document.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
+
+// The set of texture coordinates that a textureInfo of glTF uses; KHR_texture_transform may override it.
+uint64_t uv_set_of(const View& info);
 
 // An image file; its name is relative to the folder of the file at `where`.
 struct ImageFile {
@@ -36,8 +41,15 @@ class Textures {
   // The image file; the second function returns a copy with its colours multiplied by `factor`.
   std::optional<ImageFile> file(const View& info);
   std::optional<ImageFile> tinted_file(const View& info, const glm::dvec3& factor);
-  // The mean colour in linear light; with srgb = false, the mean of the stored numbers.
-  std::optional<glm::dvec3> mean(const View& info, bool srgb = true);
+  // The mean colour in linear light.
+  std::optional<glm::dvec3> mean(const View& info);
+  // The mean of the stored numbers of one channel (0 to 3).
+  std::optional<double> mean_of_channel(const View& info, int channel);
+
+  // Adds a texture of the colours of vertices, times a texture or else a constant, and returns its name. The
+  // second function does so for their alpha.
+  std::string by_vertex(const std::optional<std::string>& texture, const glm::dvec3& factor);
+  std::string by_vertex_alpha(const std::optional<std::string>& texture, double factor);
 
   // The parameter `"texture name" [ texture ]`.
   Parameter parameter(const std::string& name, const std::string& texture) const;
@@ -46,6 +58,11 @@ class Textures {
  private:
   std::optional<uint64_t> image_of(const View& info);
   std::optional<ImageFile> file_of_image(uint64_t image);
+  std::optional<ImageFile> find_file(uint64_t image, const std::string& name);
+  const std::optional<ImageMeans>& means(const ImageFile& file);
+  std::string vertex_texture(const std::string& value_type);
+  std::string scaled(const std::string& value_type, Parameter value, const std::string& scale);
+  DirectiveMaker<TextureDescription> start(const std::string& type, const std::string& value_type);
   std::filesystem::path path_of(const ImageFile& file) const;
   ImageFile in_folder(const std::string& name);
   std::string add(const std::string& value_type, const ImageFile& file, const std::string& encoding,
@@ -60,6 +77,8 @@ class Textures {
   uint32_t folder_file_ =
       0;  // id of a placeholder in the folder, to which the names of its files are relative
   std::map<uint64_t, std::optional<ImageFile>> images_;
+  std::map<std::filesystem::path, std::optional<ImageMeans>> means_;
+  std::map<std::string, std::string> vertex_textures_;  // names by the type of value
   uint64_t derived_ = 0;
 };
 

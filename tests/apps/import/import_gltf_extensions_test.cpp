@@ -1,6 +1,6 @@
-// Tests extensions of glTF's materials and nodes, vertex colours, skins and morph targets.
+// Tests extensions of glTF's materials and nodes, skins and morph targets.
 
-#include "gltf_support.h"
+#include "tests/apps/import/gltf/triangle_with.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -13,28 +13,12 @@ std::vector<double> numbers(const Directive& d, std::string_view name) {
   return p ? p->numbers : std::vector<double>{};
 }
 
-class ImportGltfExtensions : public ImportGltf {
+class ImportGltfExtensions : public GltfTriangleWith {
  protected:
   MaterialDescription material(const std::string& extensions, const std::string& factors = "") {
     return describe(triangle(R"({ "pbrMetallicRoughness": { "roughnessFactor": 0.5)" + factors +
                              R"( }, "extensions": { )" + extensions + " } }"))
         .materials.at(0);
-  }
-  // The triangle with more attributes, whose bytes follow those of triangle_bytes().
-  std::filesystem::path triangle_with(const std::string& attributes, const std::string& accessors,
-                                      const std::string& more, const std::string& bytes) {
-    std::string parts(kTriangleParts);
-    const auto replace = [&](const std::string& from, const std::string& to) {
-      const size_t at = parts.find(from);
-      ASSERT_NE(at, parts.npos) << from;
-      parts.replace(at, from.size(), to);
-    };
-    replace(R"("TEXCOORD_0": 2 })", R"("TEXCOORD_0": 2, )" + attributes + " }");
-    replace(R"("type": "SCALAR" } ])", R"("type": "SCALAR" }, )" + accessors + " ]");
-    replace(R"("byteLength": 6 } ])",
-            R"("byteLength": 6 }, { "buffer": 0, "byteOffset": 104, "byteLength": )" +
-                std::to_string(bytes.size()) + " } ]");
-    return gltf(parts + R"("materials": [ {} ], )" + more, triangle_bytes() + bytes);
   }
 };
 
@@ -82,17 +66,6 @@ TEST_F(ImportGltfExtensions, DiffuseTransmissionIsConverted) {
 TEST_F(ImportGltfExtensions, UnsupportedExtensionsAreNamed) {
   material(R"("VENDOR_materials_glitter": { "glitter": 1 })");
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("VENDOR_materials_glitter is ignored"));
-}
-
-TEST_F(ImportGltfExtensions, VertexColoursAreAveraged) {
-  Bytes colours;
-  colours.floats({1, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0.75f});
-  const auto s = describe(triangle_with(
-      R"("COLOR_0": 4)", R"({ "bufferView": 4, "componentType": 5126, "count": 3, "type": "VEC3" })",
-      R"("nodes": [ { "mesh": 0 } ])", colours.text()));
-  EXPECT_THAT(numbers(s.materials.at(0), "reflectance"), ElementsAre(0.5, 0.5, 0.25));
-  EXPECT_THAT(diagnostics_.format_all(),
-              HasSubstr("vertex colours are replaced by their mean over the mesh"));
 }
 
 // Joints a and b each have half of the weight of every vertex: the result is the mean of two translations,

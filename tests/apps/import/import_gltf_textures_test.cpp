@@ -183,14 +183,43 @@ TEST_F(GltfTextures, BlackEmissionMakesNoLight) {
   EXPECT_TRUE(s.area_lights.empty());
 }
 
-TEST_F(GltfTextures, DamagedImagesAreRefused) {
+TEST_F(GltfTextures, DamagedImagesAreGrey) {
   const auto s = textured(R"({ "pbrMetallicRoughness": { "baseColorFactor": [ 0.5, 1, 1, 1 ],
       "baseColorTexture": { "index": 0 } } })",
                           png(kTwo).substr(0, 40));
   EXPECT_TRUE(s.textures.empty());
+  EXPECT_EQ(s.materials.at(0).find("reflectance")->numbers, (std::vector<double>{0.25, 0.5, 0.5}));
   EXPECT_THAT(diagnostics_.format_all(), HasSubstr("cannot read"));
   textured(R"({ "normalTexture": { "index": 0 } })", "no image");
-  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("image 0 is neither PNG nor JPEG nor WebP"));
+  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("image 0 has a format that cannot be read"));
+}
+
+// An image file that is absent, one of a format that cannot be read, and one that ends early.
+TEST_F(GltfTextures, FilesThatCannotBeReadAreGrey) {
+  write("packed.ktx2", "\xabKTX 20\xbb\r\n\x1a\n");
+  write("cut.png", png(kTwo).substr(0, 40));
+  for (const char* name : {"absent.png", "packed.ktx2", "cut.png"}) {
+    const auto path = triangle(
+        R"({ "pbrMetallicRoughness": { "metallicFactor": 0, "baseColorTexture": { "index": 0 } } })",
+        fmt::format(R"(, "textures": [ {{ "source": 0 }} ], "images": [ {{ "uri": "{}" }} ])", name));
+    diagnostics_ = Diagnostics();
+    EXPECT_TRUE(load_scene(path, diagnostics_)) << name << diagnostics_.format_all();
+    EXPECT_THAT(diagnostics_.format_all(), HasSubstr("grey")) << name;
+    EXPECT_THAT(diagnostics_.format_all(), HasSubstr(name));
+  }
+}
+
+// A quarter turn: u' = v, v' = -u as v points down; in t, which points up, s' = 1 - t and t' = 1 + s.
+TEST_F(GltfTextures, TransformsMayTurn) {
+  const auto s =
+      textured(R"({ "pbrMetallicRoughness": { "metallicFactor": 0, "baseColorTexture": { "index": 0,
+      "extensions": { "KHR_texture_transform": { "rotation": 1.5707963267948966, "texCoord": 0 } } } } })",
+               png(kTwo));
+  const auto near = [&](const char* name, double expected) {
+    EXPECT_NEAR(s.textures.at(0).find(name)->numbers.at(0), expected, 1e-12) << name;
+  };
+  near("uscale", 0), near("vscale", 0), near("ushear", -1), near("vshear", 1), near("udelta", 1),
+      near("vdelta", 1);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "apps/import/gltf/document.h"
+#include "apps/import/gltf/file/document.h"
 
 #include <fmt/format.h>
 
@@ -63,6 +63,17 @@ int components_of(const View& accessor) {
     if (text == name) return n;
   }
   type.fail(fmt::format("is \"{}\", which cannot be read", text.substr(0, 20)));
+}
+
+// The views of some compressed files name two kinds of bytes; a buffer that only readers without the
+// extension need may be absent.
+View meshopt_of(const View& object) {
+  const View extensions = object["extensions"];
+  const View own = extensions["EXT_meshopt_compression"];
+  return own ? own : extensions["KHR_meshopt_compression"];
+}
+bool is_fallback(const View& buffer) {
+  return meshopt_of(buffer)["fallback"].flag(false);
 }
 
 int base64_digit(char c) {
@@ -179,8 +190,14 @@ void Document::read_buffers(const std::filesystem::path& path, SourceFiles& file
     const uint64_t length = buffer["byteLength"].count();
     std::string_view bytes;
     if (!uri) {
-      if (i != 0 || !has_binary_) buffer.fail("has no `uri`");
-      bytes = binary_;
+      if (i == 0 && has_binary_) {
+        bytes = binary_;
+      } else if (is_fallback(buffer)) {
+        buffers_.emplace_back();
+        continue;
+      } else {
+        buffer.fail("has no `uri`");
+      }
     } else if (auto data = data_of_uri(uri)) {
       bytes = files.text(files.add(path.string(), std::move(*data)));
     } else {
@@ -198,6 +215,14 @@ void Document::read_buffers(const std::filesystem::path& path, SourceFiles& file
 
 std::string_view Document::bytes_of_view(uint64_t i) const {
   const View view = item("bufferViews", i);
+  const View compressed = meshopt_of(view);
+  if (!compressed) return bytes_in_buffer(view);
+  const auto found = unpacked_.find(i);
+  if (found != unpacked_.end()) return found->second;
+  return unpacked_[i] = decode_meshopt(compressed, bytes_in_buffer(compressed));
+}
+
+std::string_view Document::bytes_in_buffer(const View& view) const {
   const auto buffer = view["buffer"].index(buffers_.size());
   if (!buffer) view.fail("names no buffer");
   const uint64_t offset = view["byteOffset"].count(0), length = view["byteLength"].count();
@@ -227,19 +252,39 @@ void Document::decode(std::string_view bytes, uint64_t offset, uint64_t stride, 
   for (uint64_t i = 0; i < out.count; ++i) {
     for (uint64_t k = 0; k < n; ++k) {
       double v = component.read(bytes.data() + offset + i * stride + k * component.bytes);
-      if (!std::isfinite(v)) accessor.fail(fmt::format("has a number that is not finite, in element {}", i));
       if (normalised) v = std::max(v / component.largest, -1.0);
       out.values[i * n + k] = v;
     }
   }
 }
 
-Elements Document::elements(uint64_t index, int components) const {
+uint64_t Document::count(uint64_t accessor) const {
+  const auto found = decoded_.find(accessor);
+  return found != decoded_.end() ? found->second.count : item("accessors", accessor)["count"].count();
+}
+
+int Document::components(uint64_t accessor) const {
+  const auto found = decoded_.find(accessor);
+  return found != decoded_.end() ? found->second.components : components_of(item("accessors", accessor));
+}
+
+Elements Document::elements(uint64_t index, int components, bool any) const {
   const View accessor = item("accessors", index);
+  if (const int n = this->components(index); n != components)
+    accessor.fail(fmt::format("has {} numbers per element instead of {}", n, components));
+  Elements out = read(index, accessor, components);
+  const auto bad =
+      std::find_if_not(out.values.begin(), out.values.end(), [](double v) { return std::isfinite(v); });
+  if (!any && bad != out.values.end())
+    accessor.fail(fmt::format("has a number that is not finite, in element {}",
+                              (bad - out.values.begin()) / std::ptrdiff_t{components}));
+  return out;
+}
+
+Elements Document::read(uint64_t index, const View& accessor, int components) const {
+  if (const auto found = decoded_.find(index); found != decoded_.end()) return found->second;
   Elements out;
-  out.components = components_of(accessor);
-  if (out.components != components)
-    accessor.fail(fmt::format("has {} numbers per element instead of {}", out.components, components));
+  out.components = components;
   out.count = accessor["count"].count();
   if (const auto view = accessor["bufferView"].index(size("bufferViews"))) {
     decode(bytes_of_view(*view), accessor["byteOffset"].count(0),
@@ -250,6 +295,27 @@ Elements Document::elements(uint64_t index, int components) const {
   }
   if (accessor.has("sparse")) apply_sparse(accessor, out);
   return out;
+}
+
+void Document::decompress(const View& primitive) {
+  const View extension = primitive["extensions"]["KHR_draco_mesh_compression"];
+  if (!extension) return;
+  const auto view = extension["bufferView"].index(size("bufferViews"));
+  if (!view) extension.fail("names no bytes");
+  const DracoMesh mesh(extension, bytes_of_view(*view));
+  if (const auto indices = primitive["indices"].index(size("accessors"))) decoded_[*indices] = mesh.indices();
+  for (const std::string& name : extension["attributes"].names()) {
+    const View id = extension["attributes"][name.c_str()];
+    const auto accessor = primitive["attributes"][name.c_str()].index(size("accessors"));
+    if (!accessor) continue;
+    Elements values = mesh.values(id, id.count());
+    const View type = item("accessors", *accessor);
+    const double largest = component_of(type).largest;
+    if (type["normalized"].flag(false)) {
+      for (double& v : values.values) v = std::max(v / largest, -1.0);
+    }
+    decoded_[*accessor] = std::move(values);
+  }
 }
 
 // Replaces some elements by those of the accessor's `sparse` part.

@@ -1,4 +1,4 @@
-#include "apps/import/gltf/json_view.h"
+#include "apps/import/gltf/file/json_view.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +30,10 @@ std::vector<std::string> View::names() const {
     for (const auto& member : json_->items()) out.push_back(member.key());
   }
   return out;
+}
+
+bool View::is_list() const {
+  return json_ && json_->is_array();
 }
 
 View View::at(uint64_t i) const {

@@ -33,6 +33,7 @@ class View {
   // A member of an object; a View of nothing when it is absent. Throws if this is not an object.
   View operator[](const char* name) const;
   bool has(const char* name) const { return (*this)[name].exists(); }
+  bool is_list() const;
   // The names of an object's members; empty when the object is absent.
   std::vector<std::string> names() const;
   // An item of a list; throws when i is out of range.
