@@ -3,13 +3,14 @@
 // dispersion.
 
 #include "core/bsdf/bsdf_types.h"
+#include "core/bsdf/lobe_tints.h"
 #include "core/bsdf/microfacet/fresnel.h"
 #include "core/bsdf/microfacet/ggx.h"
 
 namespace kaustik {
 
 // Boundary between two dielectrics, at a smooth surface or at GGX microfacets (Pharr 2023, sections 9.5 and
-// 9.7). Fresnel reflection or refraction is chosen in proportion to the Fresnel factors.
+// 9.7). Fresnel reflection or refraction is chosen in proportion to the Fresnel factors and the tints.
 struct Dielectric {
   static constexpr std::string_view kName = "dielectric";
   static constexpr bool kTransmits = true;
@@ -19,6 +20,7 @@ struct Dielectric {
 
   float eta = 1.5f;  // of the inside (below the surface) relative to the outside
   Ggx facets{};      // smooth if eta is one, where there is no boundary
+  LobeTints tints{};
 
   bool anisotropic() const { return facets.anisotropic(); }
   Lobes lobes() const {
@@ -36,6 +38,7 @@ struct Dielectric {
   std::optional<BsdfSample> sample_f(const Vector3& wo, float uc, const Point2& u, TransportMode mode) const {
     if (wo.z == 0) return std::nullopt;
     if (!facets.smooth()) return sample_rough(wo, uc, u, mode);
+    if (tints.tinted()) return sample_tinted(wo, uc, mode);
     if (eta == 1) return BsdfSample{-wo, Rgb(1), 1, true, true};
     const float relative = wo.z > 0 ? eta : 1 / eta;
     const float cos_i = std::min(std::abs(wo.z), 1.0f);
@@ -44,13 +47,17 @@ struct Dielectric {
     // The probability of each lobe is its factor, so the weight is exactly one (before eta^2).
     if (uc < reflectance) return BsdfSample{{-wo.x, -wo.y, wo.z}, Rgb(1), reflectance, true, false};
     const float inverse = 1 / relative;
-    const Vector3 wi(-wo.x * inverse, -wo.y * inverse, wo.z > 0 ? -cos_t : cos_t);
     const float scale = mode == TransportMode::kRadiance ? inverse * inverse : 1.0f;
-    return BsdfSample{wi, Rgb(scale), 1 - reflectance, true, true};
+    return BsdfSample{refracted(wo, inverse, cos_t), Rgb(scale), 1 - reflectance, true, true};
   }
-  Rgb albedo() const { return Rgb(1); }
+  Rgb albedo() const { return tints.tinted() ? tints.albedo(eta) : Rgb(1); }
 
  private:
+  static Vector3 refracted(const Vector3& wo, float inverse, float cos_t) {
+    return {-wo.x * inverse, -wo.y * inverse, wo.z > 0 ? -cos_t : cos_t};
+  }
+  // A sample of the smooth surface with tints.
+  std::optional<BsdfSample> sample_tinted(const Vector3& wo, float uc, TransportMode mode) const;
   // The lobes of the rough surface, whether they are diffuse or glossy.
   Rgb f_rough(const Vector3& wo, const Vector3& wi) const;
   float pdf_rough(const Vector3& wo, const Vector3& wi) const;

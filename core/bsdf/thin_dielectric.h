@@ -2,6 +2,7 @@
 // A thin pane of glass.
 
 #include "core/bsdf/bsdf_types.h"
+#include "core/bsdf/lobe_tints.h"
 #include "core/bsdf/microfacet/fresnel.h"
 
 namespace kaustik {
@@ -16,6 +17,7 @@ struct ThinDielectric {
   static constexpr bool kScattersAboutN = false;
 
   float eta = 1.5f;  // of the pane relative to its surroundings
+  LobeTints tints{};
 
   static constexpr bool anisotropic() { return false; }
   static constexpr Lobes lobes() { return kDeltaLobes; }
@@ -26,10 +28,21 @@ struct ThinDielectric {
     if (wo.z == 0) return std::nullopt;
     // R + T^2 R + T^2 R^3 + ..., with T = 1 - R.
     const float R = fresnel_dielectric(std::abs(wo.z), eta), reflectance = 2 * R / (1 + R);
+    if (tints.tinted()) return sample_tinted(wo, uc, reflectance);
     if (uc < reflectance) return BsdfSample{{-wo.x, -wo.y, wo.z}, Rgb(1), reflectance, true, false};
     return BsdfSample{-wo, Rgb(1), 1 - reflectance, true, true};
   }
-  Rgb albedo() const { return Rgb(1); }
+  Rgb albedo() const { return tints.tinted() ? tints.albedo(eta) : Rgb(1); }
+
+ private:
+  std::optional<BsdfSample> sample_tinted(const Vector3& wo, float uc, float fresnel) const {
+    const auto [reflection, transmission] = tints.chances(fresnel);
+    if (uc < reflection)
+      return BsdfSample{
+          {-wo.x, -wo.y, wo.z}, tints.weight(false, fresnel, reflection), reflection, true, false};
+    if (!(transmission > 0)) return std::nullopt;
+    return BsdfSample{-wo, tints.weight(true, fresnel, transmission), transmission, true, true};
+  }
 };
 
 }  // namespace kaustik

@@ -65,6 +65,12 @@ class SceneParser {
                      std::set<std::string>& known, LaterNames& later);
   void resolve_names(std::string_view word, Directive& directive, bool of_float_texture = false) const;
 
+  // Materials of pbrt-v3 that are more than one of ours (scene_v3_extras.cpp).
+  void add_material(MaterialDescription material);
+  void add_opacity(const MaterialDescription& material, Parameter opacity);
+  std::optional<Parameter> alpha_of(const Parameter& opacity);
+  void apply_opacity(ShapeDescription& shape) const;
+
   // Handlers of transforms (scene_parser_transforms.cpp).
   void on_identity(const Token& word);
   void on_translate(const Token& word);
@@ -119,7 +125,10 @@ class SceneParser {
   GraphicsState state_;
   std::vector<Open> stack_;
   std::map<std::string, glm::dmat4, std::less<>> coordinate_systems_;
-  std::map<std::string, size_t, std::less<>> objects_;                    // indices into scene_.objects
+  // `alpha` for the shapes of a material, by its index.
+  std::map<size_t, Parameter> alpha_of_material_;
+  std::map<std::string, size_t, std::less<>> seen_through_;  // indices of named materials that have an alpha
+  std::map<std::string, size_t, std::less<>> objects_;       // indices into scene_.objects
   std::set<std::string> float_textures_, spectrum_textures_, materials_;  // names defined so far
   std::set<std::string> warned_;
   std::optional<size_t> open_object_;

@@ -41,9 +41,9 @@ void SceneParser::on_texture(const Token& word) {
 void SceneParser::on_material(const Token& word) {
   MaterialDescription material;
   if (!read_directive(word, "material", material)) return;
-  colours_.reduce("Material", *state_.colour_space, material);
-  state_.material = {static_cast<uint32_t>(scene_.materials.size()), {}, material.location};
-  scene_.materials.push_back(std::move(material));
+  const SourceLocation where = material.location;
+  add_material(std::move(material));
+  state_.material = {static_cast<uint32_t>(scene_.materials.size() - 1), {}, where};
 }
 
 void SceneParser::on_make_named_material(const Token& word) {
@@ -64,8 +64,7 @@ void SceneParser::on_make_named_material(const Token& word) {
   v3_.upgrade("Material", material);
   resolve_names("Material", material);
   material.name = define("material", material.name, material.name_location, materials_, state_.materials);
-  colours_.reduce("Material", *state_.colour_space, material);
-  scene_.materials.push_back(std::move(material));
+  add_material(std::move(material));
 }
 
 void SceneParser::on_named_material(const Token& word) {
@@ -103,6 +102,7 @@ void SceneParser::on_shape(const Token& word) {
   shape.reverse_orientation = state_.reverse_orientation;
   shape.material = state_.material;
   shape.area_light = state_.area_light;
+  apply_opacity(shape);
   (open_object_ ? scene_.objects[*open_object_].shapes : scene_.shapes).push_back(std::move(shape));
 }
 

@@ -16,6 +16,18 @@ std::vector<ParameterSpec> coat(std::vector<ParameterSpec> own) {
   return rough_material(std::move(own));
 }
 
+// Adds the colours of a dielectric's lobes.
+std::vector<ParameterSpec> with_tints(std::vector<ParameterSpec> own) {
+  own.push_back(rgb("reflectance", 1, "", kUnit, "factor on the light that is reflected. Not in pbrt-v4"));
+  own.push_back(
+      rgb("transmittance", 1, "", kUnit, "factor on the light that is transmitted. Not in pbrt-v4"));
+  return own;
+}
+
+LobeTints tints_of(const MaterialInputs& p) {
+  return {p.rgb("reflectance"), p.rgb("transmittance")};
+}
+
 ParameterSpec two_names(std::string_view name, std::string_view doc) {
   ParameterSpec p = text(name, "none", doc);
   p.min_items = p.max_items = 2;
@@ -34,7 +46,11 @@ Bsdf make_diffuse_transmission(const MaterialInputs& p) {
 
 Bsdf make_dielectric(const MaterialInputs& p) {
   const auto eta = static_cast<float>(p.number("eta"));
-  return Dielectric{eta, eta == 1 ? Ggx{} : facets_of(p)};
+  return Dielectric{eta, eta == 1 ? Ggx{} : facets_of(p), tints_of(p)};
+}
+
+Bsdf make_thin_dielectric(const MaterialInputs& p) {
+  return ThinDielectric{static_cast<float>(p.number("eta")), tints_of(p)};
 }
 
 std::vector<MaterialRow> make_material_rows() {
@@ -50,7 +66,8 @@ std::vector<MaterialRow> make_material_rows() {
          return OrenNayar::from_sigma_degrees(p.rgb("reflectance"), static_cast<float>(p.number("sigma")));
        }},
       {{"dielectric", "Glass or water, smooth or rough: Fresnel reflection and refraction.",
-        rough_material({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")})},
+        rough_material(
+            with_tints({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")}))},
        make_dielectric},
       {{"conductor", "Metal, smooth or rough: give `reflectance`, or `eta` and `k`.",
         rough_material(
@@ -63,9 +80,9 @@ std::vector<MaterialRow> make_material_rows() {
        [](const MaterialInputs& p) -> Bsdf { return Mirror{p.rgb("reflectance")}; }},
       {{"thindielectric",
         "A pane of glass without thickness: straight transmission, and all reflections inside it.",
-        material(
-            {number("eta", 1.5, "", kPositive, "index of refraction of the pane over its surroundings")})},
-       [](const MaterialInputs& p) -> Bsdf { return ThinDielectric{static_cast<float>(p.number("eta"))}; }},
+        material(with_tints(
+            {number("eta", 1.5, "", kPositive, "index of refraction of the pane over its surroundings")}))},
+       make_thin_dielectric},
       {{"diffusetransmission",
         "A sheet that scatters light evenly to both sides. Shares that add up to more than one are scaled to "
         "one; pbrt lets such a sheet create light.",

@@ -35,7 +35,7 @@ void set_bsdf(SurfaceRow& row, const Mirror& bsdf) {
   row.traits |= kSpecularTrait;
 }
 void set_bsdf(SurfaceRow& row, const Dielectric& bsdf) {
-  if (!bsdf.facets.smooth()) row.traits |= kScalarTrait;
+  if (!bsdf.facets.smooth() || bsdf.tints.tinted()) row.traits |= kScalarTrait;
   row.parameter[0] = bsdf.eta;
   row.traits |= kSpecularTrait | kDielectricTrait;
 }

@@ -65,6 +65,10 @@ TEST_F(ImportV3, GlassAndMetalAreConverted) {
   EXPECT_THAT(numbers(glass, "eta"), ElementsAre(1.33));
   EXPECT_THAT(numbers(glass, "roughness"), ElementsAre(0));
   EXPECT_FALSE(glass.find("Kr") || glass.find("Kt"));
+  EXPECT_THAT(numbers(material("Material \"glass\" \"rgb Kr\" [ .1 .2 .3 ]"), "reflectance"),
+              ElementsAre(.1, .2, .3));
+  EXPECT_THAT(numbers(material("Material \"glass\" \"rgb Kt\" [ .4 .5 2 ]"), "transmittance"),
+              ElementsAre(.4, .5, 1));
   const auto metal =
       material("Material \"metal\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\"");
   EXPECT_EQ(metal.type, "conductor");

@@ -8,6 +8,7 @@
 
 namespace kaustik::test {
 
+inline const LobeTints kTints(Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.6f, 1));
 inline const Rgb kCopperEta(0.2f, 0.92f, 1.1f), kCopperK(3.9f, 2.45f, 2.14f);
 
 // The examples should show every set of lobes that the type can have, and its limits.
@@ -32,7 +33,11 @@ inline std::vector<Dielectric> examples() {
           {1.5f, {0.2f, 0.2f}},
           {1.5f, {0.9f, 0.9f}},
           {1 / 1.33f, {0.3f, 0.15f}},
-          {2.4f, {0.7f, 0.7f}}};
+          {2.4f, {0.7f, 0.7f}},
+          {1.5f, {}, kTints},
+          {1, {}, kTints},
+          {1.5f, {0.2f, 0.2f}, kTints},
+          {1 / 1.33f, {0.7f, 0.7f}, kTints}};
 }
 template <>
 inline std::vector<Conductor> examples() {
@@ -47,7 +52,7 @@ inline std::vector<Mirror> examples() {
 }
 template <>
 inline std::vector<ThinDielectric> examples() {
-  return {{1.5f}, {1}};
+  return {{1.5f}, {1}, {1.5f, kTints}, {1.5f, {Rgb(0), Rgb(0.5f)}}};
 }
 template <>
 inline std::vector<DiffuseTransmission> examples() {

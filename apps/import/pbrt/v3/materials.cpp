@@ -4,80 +4,17 @@
 #include <cmath>
 #include <map>
 
+#include "apps/import/pbrt/v3/material_edits.h"
+#include "apps/import/pbrt/v3/uber.h"
+
 namespace kaustik::pbrt {
+
+using namespace v3;
+
 namespace {
 
-void erase(Directive& d, std::initializer_list<std::string_view> names) {
-  std::erase_if(d.parameters, [&](const Parameter& p) {
-    return std::find(names.begin(), names.end(), p.name) != names.end();
-  });
-}
-
-void rename(Directive& d, std::string_view from, std::string_view to) {
-  if (Parameter* p = d.find(from); p && !d.find(to)) p->name = to;
-}
-
-Parameter& add(Directive& d, ParameterType type, std::string_view name, std::vector<double> numbers) {
-  Parameter p;
-  p.type = type;
-  p.name = name;
-  p.location = d.type_location;
-  p.numbers = std::move(numbers);
-  d.parameters.push_back(std::move(p));
-  return d.parameters.back();
-}
-
-void set_default(Directive& d, std::string_view name, double value) {
-  if (!d.find(name)) add(d, ParameterType::kRgb, name, {value, value, value});
-}
-
-// The value of a parameter with one number; `otherwise` when it is absent or a texture.
-double number(const Directive& d, std::string_view name, double otherwise) {
-  const Parameter* p = d.find(name);
-  return p && p->numbers.size() == 1 ? p->numbers[0] : otherwise;
-}
-
-bool is_black(const Directive& d, std::string_view name, bool otherwise) {
-  const Parameter* p = d.find(name);
-  if (!p) return otherwise;
-  return p->strings.empty() &&
-         std::all_of(p->numbers.begin(), p->numbers.end(), [](double v) { return v == 0; });
-}
-
-// The GGX width of a v3 roughness: pbrt-v3's TrowbridgeReitzDistribution::RoughnessToAlpha.
-double v3_alpha(double roughness) {
-  const double x = std::log(std::max(roughness, 1e-3));
-  return 1.62142 + 0.819955 * x + 0.1734 * x * x + 0.0171201 * x * x * x + 0.000640711 * x * x * x * x;
-}
-
-// Converts numeric roughness to GGX widths. Roughness textures stay and are mapped as in v4. `otherwise`: the
-// material's default roughness in v3. `smooth_at_zero`: roughness 0 means a smooth surface.
-void keep_width(Directive& d, double otherwise, bool smooth_at_zero = false) {
-  bool textured = false, given = false;
-  for (const std::string_view name : {"roughness", "uroughness", "vroughness"}) {
-    const Parameter* p = d.find(name);
-    given = given || p;
-    textured = textured || (p && p->numbers.size() != 1);
-  }
-  if (textured) return;
-  if (!given) add(d, ParameterType::kFloat, "roughness", {otherwise});
-  const bool remap = number(d, "remaproughness", 1) != 0;
-  erase(d, {"remaproughness"});
-  add(d, ParameterType::kBool, "remaproughness", {0});
-  if (!remap) return;
-  for (const std::string_view name : {"roughness", "uroughness", "vroughness"}) {
-    Parameter* p = d.find(name);
-    if (p && !(smooth_at_zero && p->numbers[0] == 0)) p->numbers[0] = v3_alpha(p->numbers[0]);
-  }
-}
-
-std::string coated(Directive& d, double diffuse, double roughness) {
-  d.type = "coateddiffuse";
-  rename(d, "Kd", "reflectance");
-  set_default(d, "reflectance", diffuse);
-  rename(d, "index", "eta");
-  erase(d, {"Ks"});
-  keep_width(d, roughness);
+std::string coated(Directive& d, double diffuse) {
+  make_coated(d, diffuse, 0.1);
   return "\"coateddiffuse\": the coat reflects by the Fresnel equations, and `Ks` is ignored";
 }
 
@@ -91,18 +28,20 @@ std::string matte(Directive& d) {
 }
 
 std::string plastic(Directive& d) {
-  return coated(d, 0.25, 0.1);
+  return coated(d, 0.25);
 }
 std::string substrate(Directive& d) {
-  return coated(d, 0.5, 0.1);
+  return coated(d, 0.5);
 }
 
 std::string glass(Directive& d) {
   d.type = "dielectric";
   rename(d, "index", "eta");
-  erase(d, {"Kr", "Kt"});
+  rename(d, "Kr", "reflectance");
+  rename(d, "Kt", "transmittance");
+  for (const std::string_view tint : {"reflectance", "transmittance"}) scale_colour(d, tint, 1);
   keep_width(d, 0, true);
-  return "\"dielectric\", which neither tints nor absorbs: `Kr` and `Kt` are ignored";
+  return "\"dielectric\" with `Kr` and `Kt` as its `reflectance` and `transmittance`";
 }
 
 std::string metal(Directive& d) {
@@ -115,19 +54,6 @@ std::string mirror(Directive& d) {
   if (!d.find("Kr")) return "";  // kaustik has a material "mirror" of its own
   rename(d, "Kr", "reflectance");
   return "kaustik's \"mirror\" with `Kr` as its `reflectance`";
-}
-
-std::string uber(Directive& d) {
-  const bool clear = !is_black(d, "Kt", true) && is_black(d, "Kd", false);
-  if (clear) {
-    erase(d, {"Kd", "Ks", "opacity"});
-    glass(d);
-    return "\"dielectric\" if only `Kt` is set, else \"coateddiffuse\"";
-  }
-  erase(d, {"Kr", "Kt", "opacity"});
-  coated(d, 0.25, 0.1);
-  return "\"coateddiffuse\" (\"dielectric\" if only `Kt` is set); `Kr`, `Kt` and `opacity` are "
-         "ignored";
 }
 
 // v3's `reflect` and `transmit` multiply Kd. If Kd is a texture, both sides get half of it.
@@ -150,6 +76,14 @@ std::string translucent(Directive& d) {
   return "\"diffusetransmission\"; `Ks` is ignored";
 }
 
+// Light passes two boundaries of a body, so v3 tints each by the root of the colour.
+void tint_by_root(Directive& d) {
+  Parameter* colour = d.find("reflectance");
+  colour->name = "transmittance";
+  if (colour->type == ParameterType::kRgb)
+    for (double& v : colour->numbers) v = std::sqrt(std::clamp(v, 0.0, 1.0));
+}
+
 std::string disney(Directive& d) {
   const bool clear = number(d, "spectrans", 0) > 0.5, metallic = number(d, "metallic", 0) > 0.5;
   rename(d, "color", "reflectance");
@@ -162,7 +96,7 @@ std::string disney(Directive& d) {
   add(d, ParameterType::kFloat, "roughness", {alpha});
   add(d, ParameterType::kBool, "remaproughness", {0});
   d.type = clear ? "dielectric" : metallic ? "conductor" : "coateddiffuse";
-  if (clear) erase(d, {"reflectance"});
+  if (clear) tint_by_root(d);
   if (metallic && !clear) erase(d, {"eta"});
   return "\"dielectric\" if `spectrans` is above 0.5, else \"conductor\" if `metallic` is, else "
          "\"coateddiffuse\"; only `color`, `roughness` and `eta` are kept";
@@ -222,7 +156,11 @@ std::string none(Directive& d) {
 
 }  // namespace
 
-std::string upgrade_v3_material(Directive& d) {
+std::string upgrade_v3_material(Directive& d, V3Extras* extras) {
+  if (d.type == "uber") {
+    rename(d, "bumpmap", "displacement");
+    return upgrade_uber(d, extras);
+  }
   using Upgrade = std::string (*)(Directive&);
   static const std::map<std::string_view, Upgrade> table = {{"disney", disney},
                                                             {"fourier", fourier},
@@ -236,7 +174,6 @@ std::string upgrade_v3_material(Directive& d) {
                                                             {"plastic", plastic},
                                                             {"subsurface", subsurface},
                                                             {"substrate", substrate},
-                                                            {"uber", uber},
                                                             {"translucent", translucent}};
   const auto found = table.find(d.type);
   if (found == table.end()) return "";

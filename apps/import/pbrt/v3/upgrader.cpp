@@ -106,7 +106,7 @@ void V3Upgrader::upgrade(std::string_view word, Directive& d) {
 
 void V3Upgrader::upgrade_material(Directive& m) {
   const std::string from = m.type;
-  const std::string change = upgrade_v3_material(m);
+  const std::string change = upgrade_v3_material(m, &extras_);
   if (!change.empty())
     warn_once(fmt::format("Material/{}/{}", from, change), m.type_location,
               fmt::format("pbrt-v3's material \"{}\" becomes {}", from, change));

@@ -4,7 +4,9 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "apps/import/pbrt/v3/extras.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/description/description.h"
 
@@ -19,6 +21,8 @@ class V3Upgrader {
   // names, and parameters that v4 dropped are removed. Each change gives one warning. v4 directives stay
   // unchanged. `word`: the directive, "Material", ...
   void upgrade(std::string_view word, Directive& directive);
+  // What the last material became besides a material.
+  V3Extras take_extras() { return std::exchange(extras_, {}); }
 
  private:
   void upgrade_material(Directive& m);
@@ -35,6 +39,7 @@ class V3Upgrader {
   void warn_once(const std::string& key, const SourceLocation& where, std::string message);
 
   DiagnosticList& diagnostics_;
+  V3Extras extras_;
   std::set<std::string> warned_;
 };
 
