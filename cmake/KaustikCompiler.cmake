@@ -22,7 +22,14 @@ if(KAUSTIK_SANITIZE)
   target_link_options(kaustik_options INTERFACE -fsanitize=${KAUSTIK_SANITIZE})
 endif()
 
+# ccache keeps objects that were compiled with a precompiled header only if it is told to trust what it cannot see: macros
+# of the header (they come from the same command line), time stamps, and __TIME__, which no source uses. GCC must leave the
+# name of the header in the preprocessed text.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE_PROGRAM})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(kaustik_options INTERFACE -fpch-preprocess)
+  endif()
 endif()
