@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "images/open_image.h"
+
 namespace kaustik::images {
 
 namespace {
@@ -98,13 +100,11 @@ std::optional<DecodedImage> decode_image(const std::string& path, const ImageEnc
     error = fmt::format("cannot read the image \"{}\": {}", path, why);
     return std::nullopt;
   };
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);  // keep colours as they are stored
-  const auto in = OIIO::ImageInput::open(path, &config);
-  if (!in) return fail(OIIO::geterror());
-  in->threads(1);  // otherwise the library starts a thread pool of its own
+  std::string why;
+  const auto in = open_image(path, {}, why);
+  if (!in) return fail(why);
   const OIIO::ImageSpec spec = in->spec();
-  if (const std::string why = refusal(spec); !why.empty()) return fail(why);
+  if (why = refusal(spec); !why.empty()) return fail(why);
   if (in->format_name() == std::string_view("png") && is_cut_png(path, spec)) return fail("it ends early");
   const std::array<int, 3> channels = colour_channels(spec);
   const bool grey = channels[0] == channels[1];

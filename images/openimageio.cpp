@@ -2,10 +2,11 @@
 
 #include "images/openimageio.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
+#include "images/open_image.h"
 #include "images/texture_cache.h"
 
 namespace kaustik::images {
@@ -20,17 +21,25 @@ std::string reason(const std::unique_ptr<OIIO::ImageOutput>& out) {
   return out ? out->geterror() : OIIO::geterror();
 }
 
-std::string write_pixels(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                         const void* pixels) {
-  auto out = OIIO::ImageOutput::create(path);
-  if (!out) return reason(out);
+// The bytes of a file of this format, "png" or "jpeg".
+std::optional<std::string> encode(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                                  const void* pixels, std::string& error) {
+  auto out = OIIO::ImageOutput::create(format);
+  const auto fail = [&](const std::string& why) {
+    error = why.empty() ? "the image cannot be encoded" : why;
+    return std::nullopt;
+  };
+  if (!out) return fail(reason(out));
   out->threads(1);  // otherwise the library starts a thread pool of its own
-  if (!out->open(path, spec)) return reason(out);
+  OIIO::Filesystem::IOVecOutput memory;
+  if (!out->set_ioproxy(&memory)) return fail("OpenImageIO cannot write this format to memory");
+  if (!out->open("memory." + format, spec)) return fail(reason(out));
   const bool written = out->write_image(type, pixels);
   const std::string message = written ? "" : reason(out);
   const bool closed = out->close();
-  if (written && closed) return {};
-  return message.empty() ? reason(out) : message;
+  if (!written) return fail(message);
+  if (!closed) return fail(reason(out));
+  return std::string(memory.buffer().begin(), memory.buffer().end());
 }
 
 // First channel and number of channels that hold the colour: R, G and B of the default layer, else the first
@@ -78,10 +87,8 @@ class OpenImageIo final : public render::ImageFormats {
     // a configuration.
     OIIO::ImageSpec configuration;
     configuration.attribute("pnm:pfmflip", 1);
-    configuration.attribute("oiio:UnassociatedAlpha", 1);  // keep colours as they are stored
-    auto in = OIIO::ImageInput::open(path, &configuration);
-    if (!in) return fail(OIIO::geterror());
-    in->threads(1);
+    const auto in = open_image(path, configuration, error);
+    if (!in) return std::nullopt;
     const OIIO::ImageSpec spec = in->spec();
     if (std::string why = refusal(spec, channels, most_pixels); !why.empty()) return fail(std::move(why));
     const auto [first, count] =
@@ -93,19 +100,22 @@ class OpenImageIo final : public render::ImageFormats {
     return out;
   }
 
-  std::string write_srgb8(const std::string& path, int width, int height, const std::vector<uint8_t>& pixels,
-                          const Metadata& metadata) const override {
+  std::optional<std::string> encode_srgb8(render::Encoding encoding, int width, int height,
+                                          const std::vector<uint8_t>& pixels, const Metadata& metadata,
+                                          std::string& error) const override {
+    const bool png = encoding == render::Encoding::kPng;
     OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("compression", OIIO::Strutil::iends_with(path, ".png") ? "zip" : "jpeg:95");
+    spec.attribute("compression", png ? "zip" : "jpeg:95");
     for (const auto& [key, value] : metadata) spec.attribute(key, value);
-    return write_pixels(path, spec, OIIO::TypeDesc::UINT8, pixels.data());
+    return encode(png ? "png" : "jpeg", spec, OIIO::TypeDesc::UINT8, pixels.data(), error);
   }
 
-  std::string write_numbers(const std::string& path, const ImageNumbers& image, int bits) const override {
+  std::optional<std::string> encode_numbers(const ImageNumbers& image, int bits,
+                                            std::string& error) const override {
     const OIIO::TypeDesc type = bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
     const OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
-    return write_pixels(path, spec, OIIO::TypeDesc::FLOAT, image.values.data());
+    return encode("png", spec, OIIO::TypeDesc::FLOAT, image.values.data(), error);
   }
 
   std::shared_ptr<render::TextureImages> make_textures() const override {

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 namespace kaustik::app {
@@ -13,12 +10,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void write(const fs::path& path, const std::string& bytes) {
-  errno = 0;
-  std::ofstream out(path, std::ios::binary);
-  out << bytes;
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+void write(const fs::path& temporary, const fs::path& path, const std::string& bytes) {
+  if (const std::string reason = write_in_place(temporary, bytes); !reason.empty())
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), reason));
 }
 
 }  // namespace
@@ -52,7 +46,7 @@ std::string SceneFolder::add_mesh(const std::string& bytes) {
   std::string name;
   do name = fmt::format("mesh{}.ply", meshes_++);
   while (!names_.insert(name).second);
-  write(new_file(name), bytes);
+  write(new_file(name), folder_ / name, bytes);
   return name_in_scene(name);
 }
 
@@ -72,7 +66,7 @@ std::string SceneFolder::copy(const fs::path& file) {
 void SceneFolder::commit(const std::string& text) {
   const fs::path temporary = unique_temporary_name(scene_);
   files_.emplace_back(scene_, temporary);
-  write(temporary, text);
+  write(temporary, scene_, text);
   for (PendingFile& file : files_) {
     if (const std::string trouble = file.commit(); !trouble.empty())
       throw std::runtime_error(fmt::format("{}: {}", scene_.string(), trouble));

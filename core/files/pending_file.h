@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace kaustik {
 
@@ -24,6 +25,14 @@ class PendingFile {
   std::filesystem::path final_, temporary_;
   bool done_ = false;
 };
+
+// Writes `bytes` under a temporary name beside `path` and renames it. Returns the system's reason if that
+// fails, or an empty string; then the temporary file is removed, and a previous file is left untouched.
+std::string write_file(const std::filesystem::path& path, std::string_view bytes);
+
+// Writes `bytes` to `path` itself, for a file that is renamed later or is temporary. Returns the system's
+// reason if that fails, or an empty string. Any file of that name is replaced.
+std::string write_in_place(const std::filesystem::path& path, std::string_view bytes);
 
 // A name in the folder of `path` that keeps its extension (which chooses an image's format) and that no other
 // process on this machine uses.

@@ -5,8 +5,8 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <cerrno>
@@ -39,25 +39,51 @@ Imf::FrameBuffer buffer_of(const ExrPicture& p) {
   return buffer;
 }
 
-void check(const std::ofstream& file) {
-  if (!file) throw std::runtime_error(std::strerror(errno));
-}
+// A file that remembers the system's reason for its first failure: the library's messages wrap it in others,
+// and it reports nothing when its table of rows, which it writes at the end, fails.
+class ExrStream final : public Imf::OStream {
+ public:
+  explicit ExrStream(const std::string& path) : OStream(path.c_str()), file_(path, std::ios::binary) {
+    check();
+  }
+  void write(const char bytes[], int size) override {
+    file_.write(bytes, size);
+    check();
+  }
+  uint64_t tellp() override { return static_cast<uint64_t>(std::streamoff(file_.tellp())); }
+  void seekp(uint64_t position) override {
+    file_.seekp(std::streamoff(position));
+    check();
+  }
+  void close() {
+    file_.close();
+    check();
+  }
+  // Throws the first failure, if there was one.
+  void check() {
+    if (!file_ && error_ == 0) error_ = errno != 0 ? errno : EIO;
+    if (error_ != 0) throw std::runtime_error(std::strerror(error_));
+  }
+
+ private:
+  std::ofstream file_;
+  int error_ = 0;
+};
 
 }  // namespace
 
 void write_exr_file(const std::string& path, const ExrPicture& picture, const Metadata& attributes) {
-  std::ofstream file(path, std::ios::binary);
-  check(file);
-  {
+  ExrStream stream(path);
+  try {
     constexpr int kNoThreads = 0;  // the library makes none; the caller's thread does the work
-    Imf::StdOFStream stream(file, path.c_str());
     Imf::OutputFile out(stream, header_of(picture, attributes), kNoThreads);
     out.setFrameBuffer(buffer_of(picture));
     out.writePixels(picture.height);
+  } catch (const std::exception&) {
+    stream.check();
+    throw;
   }
-  // The library writes its table of rows at the end and reports no error when that fails.
-  file.close();
-  check(file);
+  stream.close();
 }
 
 }  // namespace kaustik::render

@@ -33,6 +33,8 @@ enum class Channels {
   kAll      // at most four channels; files with more are refused
 };
 
+enum class Encoding { kPng, kJpeg };
+
 // The image textures of a scene.
 class TextureImages : public ImageLibrary {
  public:
@@ -55,14 +57,17 @@ class ImageFormats {
   virtual std::optional<ImageNumbers> read(const std::string& path, Channels channels, uint64_t most_pixels,
                                            std::string& error) const = 0;
 
-  // Writes PNG or JPEG, by the extension: three channels of 8 bits, already encoded in sRGB. Returns why the
-  // file could not be written, or an empty string.
-  virtual std::string write_srgb8(const std::string& path, int width, int height,
-                                  const std::vector<uint8_t>& pixels, const Metadata& metadata) const = 0;
+  // Both functions make the bytes of a file in memory, so that only write_file() (core/files/pending_file.h)
+  // writes to a disk, which may be full: libjpeg would end the process then, and libpng reports nothing. On
+  // failure they return nothing and set `error` to the reason.
 
-  // Writes a PNG of 8 or 16 bits from values in [0, 1]. Returns why the file could not be written, or an
-  // empty string.
-  virtual std::string write_numbers(const std::string& path, const ImageNumbers& image, int bits) const = 0;
+  // PNG or JPEG of three channels of 8 bits, already encoded in sRGB.
+  virtual std::optional<std::string> encode_srgb8(Encoding encoding, int width, int height,
+                                                  const std::vector<uint8_t>& pixels,
+                                                  const Metadata& metadata, std::string& error) const = 0;
+  // PNG of 8 or 16 bits from values in [0, 1].
+  virtual std::optional<std::string> encode_numbers(const ImageNumbers& image, int bits,
+                                                    std::string& error) const = 0;
 
   virtual std::shared_ptr<TextureImages> make_textures() const = 0;
 };

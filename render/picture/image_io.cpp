@@ -23,26 +23,18 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
-// write(name) writes a file of the given temporary name and returns an error text, or an empty string.
-template <class Write>
-void write_pending(const std::string& path, const Write& write) {
-  PendingFile file(path, unique_temporary_name(path));
-  std::string error = write(file.temporary());
-  if (error.empty()) error = file.commit();
-  if (!error.empty()) throw ImageError(path, error);
-}
-
+// Not by way of memory, as PNG and JPEG: many layers of a large film are gigabytes, and OpenEXR reports
+// failures.
 void write_exr(const std::string& path, const ExrPicture& picture, const Metadata& metadata) {
-  write_pending(path, [&](const std::string& temporary) -> std::string {
-    try {
-      write_exr_file(temporary, picture, metadata);
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return {};
-  });
+  PendingFile file(path, unique_temporary_name(path));
+  try {
+    write_exr_file(file.temporary(), picture, metadata);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw ImageError(path, error.what());
+  }
+  if (const std::string error = file.commit(); !error.empty()) throw ImageError(path, error);
 }
 
 const LayerRow& row_of(Layer layer) {
@@ -93,9 +85,13 @@ void write_srgb8(const std::string& path, const Image& image, const ToneSettings
     const auto encoded = to_srgb8(radiance, tone);
     pixels.insert(pixels.end(), encoded.begin(), encoded.end());
   }
-  write_pending(path, [&](const std::string& temporary) {
-    return image_formats().write_srgb8(temporary, image.width, image.height, pixels, metadata);
-  });
+  const Encoding encoding = lower_extension(path) == ".png" ? Encoding::kPng : Encoding::kJpeg;
+  std::string error;
+  const auto bytes =
+      image_formats().encode_srgb8(encoding, image.width, image.height, pixels, metadata, error);
+  if (!bytes) throw ImageError(path, error);
+  error = write_file(path, *bytes);
+  if (!error.empty()) throw ImageError(path, error);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/files/pending_file.h"
 #include "render/picture/image_formats.h"
 
 namespace kaustik::gltf {
@@ -32,7 +33,9 @@ std::optional<ImageNumbers> read(const std::filesystem::path& path, std::string&
 }
 
 std::optional<std::string> write(const std::filesystem::path& path, const ImageNumbers& image, int bits) {
-  const std::string why = render::image_formats().write_numbers(path.string(), image, bits);
+  std::string why;
+  const auto bytes = render::image_formats().encode_numbers(image, bits, why);
+  if (bytes) why = write_in_place(path, *bytes);
   if (why.empty()) return std::nullopt;
   return fmt::format("cannot write \"{}\": {}", path.string(), why);
 }

@@ -5,15 +5,16 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include "apps/import/common/derived_image.h"
 #include "apps/import/common/scene_files.h"
+#include "core/files/pending_file.h"
 
 namespace kaustik::gltf {
 namespace {
 
-// The file extension that fits the image's first bytes, by which the format is chosen; empty for formats that
-// cannot be read, such as KTX2.
+// The file extension that fits the image's first bytes; empty for formats that cannot be read, such as KTX2.
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return ".png";
   if (bytes.starts_with("\xff\xd8")) return ".jpg";
@@ -103,7 +104,8 @@ std::optional<ImageFile> Textures::file_of_image(uint64_t index) {
     return images_[index] = std::nullopt;
   }
   const ImageFile file = in_folder(fmt::format("image{}{}", index, extension));
-  std::ofstream(path_of(file), std::ios::binary) << *data;
+  if (const std::string why = write_in_place(path_of(file), *data); !why.empty())
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path_of(file).string(), why));
   return images_[index] = file;
 }
 

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "apps/console/exit_error.h"
 #include "core/files/pending_file.h"
@@ -37,6 +36,9 @@ void check_writable(const std::string& path) {
   if (!fs::is_directory(folder, ignored)) refuse(path, fmt::format("{} is not a folder", folder.string()));
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(path, std::strerror(errno));
   if (fs::is_directory(path, ignored)) refuse(path, "it is a folder");
+  // A finished file takes the place of the old one, which must not be a device such as /dev/null.
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+    refuse(path, "it is not a regular file");
 }
 
 void check_image_output(const std::string& path) {
@@ -50,15 +52,8 @@ void check_image_output(const std::string& path) {
 }
 
 void write_text_file(const std::string& path, const std::string& text) {
-  const auto fail = [&](const std::string& reason) {
+  if (const std::string reason = write_file(path, text); !reason.empty())
     throw std::runtime_error(fmt::format("{}: {}", path, reason));
-  };
-  PendingFile pending(path, unique_temporary_name(path));
-  std::ofstream file(pending.temporary(), std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) fail(std::strerror(errno));
-  if (const std::string error = pending.commit(); !error.empty()) fail(error);
 }
 
 }  // namespace kaustik::app

@@ -6,7 +6,7 @@
 namespace kaustik::app {
 
 // Throws ExitError (bad command line) when no file of this name can be written: its folder is missing or
-// read-only, or the name belongs to a folder. Creates nothing.
+// read-only, or the name belongs to a folder, a device or a pipe. Creates nothing.
 void check_writable(const std::string& path);
 
 // Like check_writable, and the extension must be one of a supported image format. Throws std::runtime_error

@@ -223,6 +223,20 @@ TEST_F(ImportTextures, ReportsErrorsInImages) {
   EXPECT_TRUE(lines("half.png").starts_with("2:53: error: cannot read the image \"half.png\": "));
 }
 
+// A FITS file of three axes with no third extent ends the process in OpenImageIO's reader.
+TEST_F(ImportTextures, RefusesFormatsThatAreNoTextures) {
+  std::string header;
+  for (const std::string card :
+       {"SIMPLE  =                    T", "BITPIX  =                  -32", "NAXIS   =                    3",
+        "NAXIS1  =                    3", "NAXIS2  =                   16", "END"})
+    header += card + std::string(80 - card.size(), ' ');
+  write("x.fits", header + std::string(2880 - header.size(), ' ') + std::string(2880, '\0'));
+  const std::string said =
+      first_lines("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"x.fits\"");
+  EXPECT_TRUE(said.starts_with("2:53: error: cannot read the image \"x.fits\": it is in none of the formats"))
+      << said;
+}
+
 // A file of some hundred bytes that claims 2^40 pixels is refused by its header.
 TEST_F(ImportTextures, RefusesHugeImagesByTheirHeaders) {
   std::ofstream out(folder_ / "huge.pfm", std::ios::binary);

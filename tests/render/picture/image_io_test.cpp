@@ -5,10 +5,14 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
+#include "core/math/hash.h"
 #include "render/picture/exr_file.h"
 #include "tests/render/support/image_statistics.h"
+#include "tests/support/file_size_limit.h"
 
 namespace kaustik::render {
 namespace {
@@ -124,6 +128,64 @@ TEST(ImageIo, FullDiskIsNoticed) {
   const ExrPicture picture{
       .channels = {"Y"}, .width = 4, .height = 4, .full_width = 4, .full_height = 4, .values = grey.data()};
   EXPECT_THROW(write_exr_file("/dev/full", picture, {}), std::exception);
+}
+
+// The old picture stays, and no temporary file is left. The picture is noise, so that it is not compressed to
+// less than the limit in any format; libjpeg would end the process if it wrote to the disk itself.
+TEST(ImageIo, FullDiskLeavesThePictureBefore) {
+  Image noise(64, 64);
+  for (size_t i = 0; i < noise.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) noise.pixels[i][c] = float(hash_combine(i, uint64_t(c)) >> 40) * 0x1p-24f;
+  for (const std::string name : {"a.exr", "a.png", "a.jpg"}) {
+    const std::string folder = output_file("full-" + name), path = folder + "/" + name;
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    write_image(path, Image(4, 4, Rgb(0.25f)));
+    try {
+      const FileSizeLimit limit(2000);
+      write_image(path, noise);
+      FAIL() << "no error for " << path;
+    } catch (const ImageError& e) {
+      EXPECT_EQ(std::string(e.what()), path + ": " + std::strerror(EFBIG));
+    }
+    EXPECT_EQ(read_image(path).width, 4) << path;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1) << path;
+  }
+}
+
+// Formats that files of others come in. Those that OpenImageIO cannot write, as built here, are left out.
+TEST(ImageIo, ReadsTheFormatsOfPicturesAndTextures) {
+  const std::vector<float> red = {0.5f, 0.25f, 0.125f, 0.5f, 0.25f, 0.125f};
+  int read = 0;
+  for (const char* extension :
+       {"png", "jpg", "exr", "hdr", "tif", "pfm", "ppm", "webp", "tga", "gif", "bmp", "sgi"}) {
+    const std::string path = output_file(std::string("format.") + extension);
+    fs::remove(path);
+    const auto out = OIIO::ImageOutput::create(path);
+    if (!out || !out->open(path, OIIO::ImageSpec(2, 1, 3, OIIO::TypeDesc::UINT8))) continue;
+    out->write_image(OIIO::TypeDesc::FLOAT, red.data());
+    if (!out->close()) continue;
+    ++read;
+    EXPECT_NO_THROW(EXPECT_EQ(read_image(path).width, 2) << path);
+    // The contents decide, not the name, except for Targa, whose files have no mark.
+    const std::string other = output_file(std::string("named-") + extension + ".png");
+    fs::rename(path, other);
+    if (std::string(extension) != "tga") EXPECT_NO_THROW(EXPECT_EQ(read_image(other).width, 2) << other);
+  }
+  EXPECT_GE(read, 9);
+}
+
+// OpenImageIO's reader of FITS ends the process on some files.
+TEST(ImageIo, RefusesFormatsThatAreNoPictures) {
+  const std::string path = output_file("x.fits");
+  std::ofstream(path) << std::string(80, ' ').replace(0, 30, "SIMPLE  =                    T")
+                      << std::string(2800, ' ');
+  try {
+    read_image(path);
+    FAIL() << "no error";
+  } catch (const ImageError& e) {
+    EXPECT_NE(std::string(e.what()).find("none of the formats PNG, JPEG"), std::string::npos) << e.what();
+  }
 }
 
 // An 8-bit level is at most half a level away from the encoded value.
