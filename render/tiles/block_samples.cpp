@@ -100,14 +100,16 @@ class BlockSamples {
 
 }  // namespace
 
-void render_block(const RenderContext& ctx, const PixelRange& pixels, const SampleRange& samples,
-                  photon::EstimateBatch* batch, FilmSums* film, BlockMoments* moments, TileResult* tile) {
+bool render_block(const RenderContext& ctx, const PixelRange& pixels, const SampleRange& samples,
+                  photon::EstimateBatch* batch, const BlockSums& sums, const std::function<bool()>& go_on) {
   const uint64_t most = CameraRays::most_samples(samples.part);
   for (uint64_t first = samples.first; first < samples.end; first += most) {
     BlockSamples some(ctx, pixels, {samples.part, first, std::min(samples.end, first + most), samples.light});
-    some.shade(batch, tile->counters);
-    some.add_to(film, moments, tile);
+    some.shade(batch, sums.tile->counters);
+    some.add_to(sums.film, sums.moments, sums.tile);
+    if (!go_on()) return false;
   }
+  return true;
 }
 
 }  // namespace kaustik::render

@@ -2,6 +2,7 @@
 // Renders the camera samples of one block of neighbouring pixels together.
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "photon/estimate/estimate_batch.h"
@@ -27,10 +28,17 @@ struct SampleRange {
   SampleLight light = SampleLight::kAll;
 };
 
-// Renders the samples of the pixels in one block of rays, and adds them to film, tile and (unless null)
-// moments. pixels: in coordinates of the full image, within one block. batch.begin_block() must have been
-// called for this block.
-void render_block(const RenderContext& ctx, const PixelRange& pixels, const SampleRange& samples,
-                  photon::EstimateBatch* batch, FilmSums* film, BlockMoments* moments, TileResult* tile);
+// Where the samples of a block go.
+struct BlockSums {
+  FilmSums* film;
+  BlockMoments* moments;  // may be null
+  TileResult* tile;
+};
+
+// Renders the samples of the pixels in one block of rays, and adds them to sums. pixels: in coordinates of
+// the full image, within one block. batch.begin_block() must have been called for this block. go_on() is
+// asked after each packet of rays; false, with samples missing, if it says no.
+bool render_block(const RenderContext& ctx, const PixelRange& pixels, const SampleRange& samples,
+                  photon::EstimateBatch* batch, const BlockSums& sums, const std::function<bool()>& go_on);
 
 }  // namespace kaustik::render

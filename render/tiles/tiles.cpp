@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 
+#include "core/stopwatch.h"
 #include "render/adaptive/sample_counts.h"
 #include "render/tiles/block_samples.h"
 
@@ -40,6 +41,38 @@ struct MergedTiles {
   }
 };
 
+constexpr double kSecondsBetweenReports = 0.1;
+
+// The sums of a tile before it is rendered, to which a cancelled tile returns: the finished tiles alone
+// count.
+class TileCopy {
+ public:
+  // has_samples: false before a pass's first samples, when all sums are zero and nothing is copied.
+  TileCopy(const FilmSums& film, const PixelRange& tile, bool has_samples) : tile_(tile) {
+    if (!has_samples) return;
+    sums_.reserve(tile.pixels());
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) sums_.push_back(film.at(x - film.x0(), y - film.y0()));
+  }
+
+  void restore(FilmSums* film) const {
+    size_t i = 0;
+    for (int y = tile_.y0; y < tile_.y1; ++y)
+      for (int x = tile_.x0; x < tile_.x1; ++x, ++i)
+        film->at(x - film->x0(), y - film->y0()) = sums_.empty() ? PixelSum{} : sums_[i];
+  }
+
+ private:
+  PixelRange tile_;
+  std::vector<PixelSum> sums_;
+};
+
+// What a tile has counted so far, and whether it shall go on.
+struct TileWork {
+  TileResult result;
+  std::function<bool()> go_on;
+};
+
 // Renders one pass's samples of all pixels in the film's window.
 class TilePass {
  public:
@@ -53,10 +86,12 @@ class TilePass {
 
   // False when the progress callback cancelled.
   bool render() {
+    if (!report()) return false;  // where there is one tile, its end is too late to cancel
     if (!each_tile(&TilePass::first_samples)) return false;
     if (!counts_) return true;
     counts_->choose_counts(samples(), ctx_.samples.further_work);
     sort_by_work();
+    further_ = true;
     return each_tile(&TilePass::further_samples);
   }
 
@@ -65,23 +100,26 @@ class TilePass {
  private:
   uint64_t samples() const { return ctx_.samples.end - ctx_.samples.first; }  // first samples of each pixel
 
-  void first_samples(const PixelRange& block, photon::EstimateBatch* batch, TileResult* tile) {
+  bool first_samples(const PixelRange& block, photon::EstimateBatch* batch, TileWork* work) {
     const SampleRange range{BlockPart::kWhole, ctx_.samples.first, ctx_.samples.end};
-    if (!counts_) return render_block(ctx_, block, range, batch, &film_, nullptr, tile);
     BlockMoments moments;
-    render_block(ctx_, block, range, batch, &film_, &moments, tile);
-    for (int half = 0; half < kHalves; ++half)
+    const BlockSums sums{&film_, counts_ ? &moments : nullptr, &work->result};
+    if (!render_block(ctx_, block, range, batch, sums, work->go_on)) return false;
+    for (int half = 0; counts_ && half < kHalves; ++half)
       counts_->spread(block.x0, block.y0, half) = spread_of(moments, half);
+    return true;
   }
 
-  void further_samples(const PixelRange& block, photon::EstimateBatch* batch, TileResult* tile) {
+  bool further_samples(const PixelRange& block, photon::EstimateBatch* batch, TileWork* work) {
     const uint64_t first = ctx_.samples.end;
     for (int half = 0; half < kHalves; ++half) {
       const uint64_t more = counts_->count(block.x0, block.y0, half) - samples();
       const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd, first, first + more,
                               counts_->light(block.x0, block.y0, half)};
-      render_block(ctx_, block, range, batch, &film_, nullptr, tile);
+      if (!render_block(ctx_, block, range, batch, {&film_, nullptr, &work->result}, work->go_on))
+        return false;
     }
+    return true;
   }
 
   // Starts with the tiles that take most samples, so that no thread is left with a long one at the end.
@@ -96,32 +134,54 @@ class TilePass {
     std::ranges::stable_sort(tiles_, std::greater<>(), counts);
   }
 
-  using BlockRenderer = void (TilePass::*)(const PixelRange&, photon::EstimateBatch*, TileResult*);
+  using BlockRenderer = bool (TilePass::*)(const PixelRange&, photon::EstimateBatch*, TileWork*);
 
-  TileResult render_tile(const PixelRange& tile, BlockRenderer add_samples) {
-    TileResult result;
+  // Tells how many tiles are done. False when the progress callback cancels.
+  bool report() {
+    if (progress_ && !progress_({"render", done_, to_do_, ctx_.pass.pass, ctx_.pass.shares}))
+      cancelled_ = true;
+    return !cancelled_;
+  }
+
+  // Whether a tile that is being rendered shall go on. The callback takes a lock, so it is asked from time to
+  // time only.
+  bool goes_on(Stopwatch* since_asked) {
+    if (since_asked->seconds() < kSecondsBetweenReports) return true;
+    *since_asked = {};
+    const std::lock_guard lock(mutex_);
+    return !cancelled_ && report();
+  }
+
+  // Nothing when cancelled; the film is then as it was before the tile.
+  std::optional<TileResult> render_tile(const PixelRange& tile, BlockRenderer add_samples) {
+    const TileCopy before(film_, tile, further_);
+    Stopwatch since_asked;
+    TileWork work{{}, [&] { return goes_on(&since_asked); }};
     photon::EstimateBatch batch;
+    bool whole = true;
     tile.for_each_square(kRayBlock, [&](const PixelRange& block) {
+      if (!whole) return;
       batch.begin_block();
-      (this->*add_samples)(block, &batch, &result);
+      whole = (this->*add_samples)(block, &batch, &work);
     });
-    return result;
+    if (whole) return std::move(work.result);
+    before.restore(&film_);
+    return std::nullopt;
   }
 
   // Renders all tiles in parallel. False when the progress callback cancelled.
   bool each_tile(BlockRenderer add_samples) {
-    std::mutex mutex;
     std::atomic<size_t> next{0};
     tbb::parallel_for(
         size_t(0), tiles_.size(),
         [&](size_t) {
           if (cancelled_) return;
-          const TileResult tile = render_tile(tiles_[next++], add_samples);
-          const std::lock_guard lock(mutex);
-          merged_.add(tile);
+          const std::optional<TileResult> tile = render_tile(tiles_[next++], add_samples);
+          if (!tile) return;
+          const std::lock_guard lock(mutex_);
+          merged_.add(*tile);
           ++done_;
-          if (progress_ && !progress_({"render", done_, to_do_, ctx_.pass.pass, ctx_.pass.shares}))
-            cancelled_ = true;
+          report();
         },
         tbb::simple_partitioner());
     return done_ % tiles_.size() == 0 && (done_ == to_do_ || !cancelled_);
@@ -133,7 +193,9 @@ class TilePass {
   std::vector<PixelRange> tiles_;
   std::optional<SampleCounts> counts_;  // set if adaptive samples follow
   MergedTiles merged_;
+  std::mutex mutex_;  // guards merged_, the callback, and done_ while tiles are rendered
   uint64_t done_ = 0, to_do_ = 0;
+  bool further_ = false;  // adaptive samples are being added
   std::atomic<bool> cancelled_{false};
 };
 
