@@ -36,8 +36,8 @@ class CellRun {
     key_ = folder.key({{"settings", setting_texts(settings_, true)},
                        {"seeds", sweep.grid.seeds},
                        {"reference", sweep.reference.hash}});
-    cell_.picture = "cells/" + key_ + ".png";
-    cell_.error_map = "cells/" + key_ + "-error.png";
+    cell_.picture = SweepFolder::picture_of(key_);
+    cell_.error_map = SweepFolder::error_map_of(key_);
   }
 
   std::optional<SweepCell> find(const Console& console) const {

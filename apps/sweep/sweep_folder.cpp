@@ -99,13 +99,25 @@ std::optional<SweepCell> SweepFolder::find(const std::string& key, const Console
     const std::optional<Json> json = read(name);
     if (!json) throw std::runtime_error("it is not valid JSON");
     SweepCell cell = cell_from_json(*json);
-    for (const std::string& picture : {cell.picture, cell.error_map})
-      if (!fs::is_regular_file(path(picture))) throw std::runtime_error(picture + " is missing");
+    check_picture("picture", cell.picture, picture_of(key));
+    check_picture("error_map", cell.error_map, error_map_of(key));
     return cell;
   } catch (const std::exception& error) {
     console.warning(fmt::format("{}: {}; the cell is rendered again", path(name), error.what()));
     return std::nullopt;
   }
+}
+
+// The report embeds the pictures, and a folder may come from anybody: it must not name or link to other
+// files.
+void SweepFolder::check_picture(std::string_view field, const std::string& named,
+                                const std::string& expected) const {
+  if (named != expected)
+    throw std::runtime_error(fmt::format("its {} is not the file {} of this folder", field, expected));
+  std::error_code ignored;
+  const fs::file_status status = fs::symlink_status(path(expected), ignored);
+  if (!fs::exists(status)) throw std::runtime_error(expected + " is missing");
+  if (!fs::is_regular_file(status)) throw std::runtime_error(expected + " is not a regular file");
 }
 
 void SweepFolder::keep(const std::string& key, const SweepCell& cell) const {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "apps/console/console.h"
 #include "apps/sweep/sweep_result.h"
@@ -39,8 +40,10 @@ class SweepFolder {
   SweepFolder(const std::string& path, const Json& common);
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  // The key of a cell with these settings.
+  // The key of a cell with these settings, and the names of its pictures.
   std::string key(const Json& own) const;
+  static std::string picture_of(const std::string& key) { return "cells/" + key + ".png"; }
+  static std::string error_map_of(const std::string& key) { return "cells/" + key + "-error.png"; }
   // The finished cell of this key; nothing when it does not exist or, with a warning, when it is unusable.
   std::optional<SweepCell> find(const std::string& key, const Console& console) const;
   void keep(const std::string& key, const SweepCell& cell) const;
@@ -49,6 +52,8 @@ class SweepFolder {
   std::optional<Json> read(const std::string& name) const;
 
  private:
+  void check_picture(std::string_view field, const std::string& named, const std::string& expected) const;
+
   std::filesystem::path folder_;
   FolderLock lock_;
   std::string common_;

@@ -283,6 +283,29 @@ TEST_F(SweepCommand, DamagedCellIsRenderedAgain) {
   for (size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i]["error"], before[i]["error"]);
 }
 
+// A folder may come from anybody; its report must not hold files from elsewhere.
+TEST_F(SweepCommand, CellsThatNameOtherFilesAreRenderedAgain) {
+  expect_done(sweep(against_file()));
+  write("secret.txt", "nobody may see this");  // begins with bm9ib2R5 in base 64
+  const auto expect_again = [&](const std::string& what) {
+    const Outcome outcome = run_kaustik(sweep(against_file()));
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(what));
+    EXPECT_THAT(outcome.err, HasSubstr("the cell is rendered again"));
+    EXPECT_THAT(read("out/report.html"), Not(HasSubstr("bm9ib2R5")));
+  };
+  const std::string name = cells().begin()->first, key = name.substr(0, name.find('.'));
+  for (const char* field : {"picture", "error_map"}) {
+    Json cell = Json::parse(read("out/cells/" + name));
+    cell[field] = "../secret.txt";
+    write("out/cells/" + name, cell.dump());
+    expect_again("its " + std::string(field) + " is not");
+  }
+  std::filesystem::remove(path("out/cells/" + key + ".png"));
+  std::filesystem::create_symlink(path("secret.txt"), path("out/cells/" + key + ".png"));
+  expect_again("not a regular file");
+}
+
 TEST_F(SweepCommand, DamagedReferenceIsRenderedAgain) {
   expect_done(with_reference());
   const std::string about = read("out/reference.json"), picture = read("out/reference.exr");
