@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 #include <new>
 
@@ -52,7 +54,9 @@ int run_command(const Command& command, const Console& console) {
 
 }  // namespace
 
-int run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+namespace {
+
+int run_program(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
   Program program("kaustik",
                   "Photon-mapping renderer: caustics, direct and indirect light from the command line");
   program.version = fmt::format("kaustik {} ({})", version(), build_id());
@@ -64,6 +68,17 @@ int run(int argc, const char* const* argv, std::ostream& out, std::ostream& err)
   const std::string name = program.name + " " + command.name;
   const bool terminal = &err == &std::cerr && isatty(STDERR_FILENO) != 0;
   return run_command(command, Console{out, err, terminal, *command.quiet, name});
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  const int code = run_program(argc, argv, out, err);
+  errno = 0;
+  if (out.flush()) return code;
+  err << "kaustik: cannot write to the standard output: "
+      << (errno != 0 ? std::strerror(errno) : "it did not take all of the results") << '\n';
+  return code == kDone ? kFailed : code;
 }
 
 }  // namespace kaustik::app

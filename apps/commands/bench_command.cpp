@@ -18,6 +18,8 @@
 #include "apps/machine/thread_limit.h"
 #include "apps/machine/usable_cores.h"
 #include "apps/report/bench_report.h"
+#include "apps/session/files/collisions.h"
+#include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/scene_loading.h"
 #include "apps/session/interrupt.h"
@@ -67,11 +69,20 @@ void check_plot_folder(const std::string& path) {
   check_writable(path.substr(0, path.find_last_not_of('/') + 1));
 }
 
+std::string report_of(const std::string& folder) {
+  return (fs::path(folder) / kReportName).string();
+}
+
+std::vector<NamedFile> files_written(const BenchOptions& options) {
+  return {{"--json", options.json}, {"--plot", options.plot.empty() ? "" : report_of(options.plot)}};
+}
+
 void check_options(const BenchOptions& options) {
   if (options.scene.empty() == options.from.empty())
     throw ExitError(kBadCommandLine, "give a scene to measure, or --from FILE with an earlier result");
   if (!options.json.empty()) check_writable(options.json);
   if (!options.plot.empty()) check_plot_folder(options.plot);
+  check_collisions(files_written(options), {{"the scene", options.scene}, {"--from", options.from}});
 }
 
 // The settings that all points have in common; each point has its own photons and threads.
@@ -108,8 +119,12 @@ BenchResult run_scene(const BenchOptions& options, const Console& console) {
   const BenchPlan plan = plan_of(options, cores);
   const InterruptGuard interrupt;
   Job job;
-  with_thread_limit(*std::max_element(plan.threads.begin(), plan.threads.end()),
-                    [&] { job = load_job(options.scene, options.overrides, console); });
+  const int most = *std::max_element(plan.threads.begin(), plan.threads.end());
+  if (const int possible = startable_threads(most); possible < most)
+    throw ExitError(kFailed,
+                    fmt::format("the system lets this process run {} of {} threads", possible, most));
+  with_thread_limit(most, [&] { job = load_job(options.scene, options.overrides, console); });
+  check_collisions(files_written(options), files_of(job));
   const render::EstimatorPlan estimators = render::make_plan(job.settings.render, job.scene.needs);
   for (const std::string& note : estimators.notes) console.note(note);
   warn_of_threads(plan, cores, console);
@@ -137,23 +152,21 @@ BenchResult read_result(const std::string& path) {
   }
 }
 
-void write_report(const BenchResult& result, const std::string& folder, const Console& console) {
+void write_report(const BenchResult& result, const std::string& folder) {
   fs::create_directory(folder);
-  const std::string path = (fs::path(folder) / kReportName).string();
-  write_text_file(path, bench_report(result));
-  console.note("wrote " + path);
+  write_text_file(report_of(folder), bench_report(result));
 }
 
 int run_bench(const BenchOptions& options, const Console& console) {
   check_options(options);
   const BenchResult result = options.from.empty() ? run_scene(options, console) : read_result(options.from);
   console.out << bench_table(result);
-  if (!options.json.empty()) {
-    write_text_file(options.json, bench_json(result));
-    console.note("wrote " + options.json);
-  }
-  if (!options.plot.empty()) write_report(result, options.plot, console);
-  return kDone;
+  FileWriter writer(console);
+  if (!options.json.empty())
+    writer.write(options.json, [&] { write_text_file(options.json, bench_json(result)); });
+  if (!options.plot.empty())
+    writer.write(report_of(options.plot), [&] { write_report(result, options.plot); });
+  return writer.report() ? kDone : kFailed;
 }
 
 void add_options(Command& command, BenchOptions& options) {

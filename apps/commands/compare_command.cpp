@@ -6,6 +6,8 @@
 
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
+#include "apps/session/files/collisions.h"
+#include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
 #include "render/picture/compare.h"
 #include "render/picture/image_io.h"
@@ -56,14 +58,17 @@ std::string as_text(const render::CompareResult& r) {
   return text;
 }
 
-// Compares the files. Throws ExitError (bad command line) for pictures that cannot be read or differ in size.
-render::CompareResult compare_files(const CompareOptions& options) {
+// Compares the files, and writes the heat map. Throws ExitError (bad command line) for pictures that cannot
+// be read or differ in size.
+render::CompareResult compare_files(const CompareOptions& options, FileWriter& writer) {
   try {
     const render::Image reference = render::read_image(options.reference);
     const render::Image image = render::read_image(options.image);
     const render::CompareResult result =
         render::compare(reference, image, {.mask_bright = options.mask_bright});
-    if (!options.heatmap.empty()) render::write_image(options.heatmap, render::heatmap(reference, image));
+    if (!options.heatmap.empty())
+      writer.write(options.heatmap,
+                   [&] { render::write_image(options.heatmap, render::heatmap(reference, image)); });
     return result;
   } catch (const render::ImageError& error) {
     throw ExitError(kBadCommandLine, error.what());
@@ -74,7 +79,12 @@ render::CompareResult compare_files(const CompareOptions& options) {
 
 int run_compare(const CompareOptions& options, const Console& console) {
   if (!options.heatmap.empty()) check_image_output(options.heatmap);
-  const render::CompareResult result = compare_files(options);
+  check_collisions({{"--heatmap", options.heatmap}},
+                   {{"the reference", options.reference}, {"the picture", options.image}});
+  Console quiet = console;
+  quiet.quiet = true;  // compare has no log
+  FileWriter writer(quiet);
+  const render::CompareResult result = compare_files(options, writer);
   if (result.compared == 0) throw ExitError(kBadCommandLine, "there is no pixel to compare");
   // A pixel that is not finite in the image only counts as an infinite error.
   const bool finite = result.nan_image == 0;
@@ -84,7 +94,7 @@ int run_compare(const CompareOptions& options, const Console& console) {
     console.error(finite ? fmt::format("relMSE {:.6g} is above {:.6g}", result.relmse, *options.max_relmse)
                          : fmt::format("{} pixels of the image are not finite", result.nan_image));
   }
-  return within ? kDone : kFailed;
+  return writer.report() && within ? kDone : kFailed;
 }
 
 }  // namespace

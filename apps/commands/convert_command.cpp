@@ -9,6 +9,7 @@
 #include "apps/convert/scene_folder.h"
 #include "apps/convert/scene_text.h"
 #include "apps/import/common/scene_files.h"
+#include "apps/session/files/collisions.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/scene_loading.h"
 
@@ -81,6 +82,9 @@ int run_convert(const ConvertOptions& options, const Console& console) {
   if (!loaded)
     throw ExitError(kBadScene,
                     fmt::format("{}: {}", options.scene, counted(diagnostics.error_count(), "error")));
+  std::vector<NamedFile> inputs;
+  for (const std::string& file : loaded->files) inputs.push_back({"the scene's file", file});
+  check_collisions({{"OUTPUT", options.output}}, inputs);
   SceneFolder folder(options.output);
   const std::string text = text_of(options, loaded->description, diagnostics.files, folder);
   folder.commit(text);

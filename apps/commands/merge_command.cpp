@@ -68,6 +68,7 @@ int run_merge(const MergeOptions& options, const Console& console) {
   const Stopwatch watch;
   if (options.outputs.files.empty()) refuse("-o is required: it names the file to write");
   check_outputs(options.outputs);
+  check_collisions(named_files(options.outputs), {});
   render::PartialResult total = merge_files(options);
   check_gaps(options, total, console);
   SettingOverrides overrides = settings_of(total.manifest, options.parts.front());
@@ -80,8 +81,8 @@ int run_merge(const MergeOptions& options, const Console& console) {
   console.note(fmt::format("passes {}", result.sums.passes.text()));
   render::OuterTimes times;
   times.total = watch.seconds();
-  write_outputs(options.outputs, {result, settings, total.manifest}, times, console);
-  return kDone;
+  const bool written = write_outputs(options.outputs, {result, settings, total.manifest}, times, console);
+  return written ? kDone : kFailed;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
 #include "apps/machine/thread_limit.h"
+#include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/scene_loading.h"
 #include "apps/session/interrupt.h"
@@ -60,6 +61,10 @@ void check_outputs(const PhotonsOptions& options) {
   if (!options.image.empty()) check_image_output(options.image);
 }
 
+void check_names(const PhotonsOptions& options, const std::vector<NamedFile>& inputs) {
+  check_collisions({{"-o", options.cloud}, {"--image", options.image}}, inputs);
+}
+
 std::vector<photon::PlyPhotons> wanted_photons(const photon::ShootResult& shot,
                                                const photon::KindMask& mask) {
   std::vector<photon::PlyPhotons> photons;
@@ -100,26 +105,26 @@ int shoot_and_write(const PhotonsOptions& options, const photon::KindMask& mask,
     console.note(fmt::format("  {}: {} stored", photon::kPhotonKindNames[static_cast<size_t>(kind.kind)],
                              grouped(kind.buffer->records.size())));
   }
-  if (!options.cloud.empty()) {
-    photon::write_photons_ply(options.cloud, photons, job.scene.origin);
-    console.note("wrote " + options.cloud);
-  }
-  if (!options.image.empty()) {
-    render::write_image(options.image, render::draw_photons(bvh, photons));
-    console.note("wrote " + options.image);
-  }
-  return kDone;
+  FileWriter writer(console);
+  if (!options.cloud.empty())
+    writer.write(options.cloud, [&] { photon::write_photons_ply(options.cloud, photons, job.scene.origin); });
+  if (!options.image.empty())
+    writer.write(options.image,
+                 [&] { render::write_image(options.image, render::draw_photons(bvh, photons)); });
+  return writer.report() ? kDone : kFailed;
 }
 
 int run_photons(const PhotonsOptions& options, const Console& console) {
   const photon::KindMask mask = mask_of(options.kinds);
   check_outputs(options);
+  check_names(options, {{"the scene", options.scene}});
   const InterruptGuard interrupt;
   Job job;
-  with_thread_limit(options.overrides.alone().render.threads,
+  with_thread_limit(options.overrides.alone().render.threads, console,
                     [&] { job = load_job(options.scene, options.overrides, console); });
+  check_names(options, files_of(job));
   int code = kDone;
-  with_thread_limit(job.settings.render.threads,
+  with_thread_limit(job.settings.render.threads, console,
                     [&] { code = shoot_and_write(options, mask, job, interrupt, console); });
   return code;
 }

@@ -62,17 +62,36 @@ void warn_of_unread(const RenderOptions& options, const Job& job, const Console&
   for (const std::string& warning : unread_settings(options.overrides, plan)) console.warning(warning);
 }
 
+// The files that the command writes, with the options that name them.
+std::vector<NamedFile> files_of(const RenderOptions& options) {
+  std::vector<NamedFile> files = named_files(options.outputs);
+  files.push_back({"--checkpoint", options.checkpoint.path});
+  return files;
+}
+
+// The file that is written where -o names none is the scene's choice.
+void check_with_scene(RenderOptions options, const std::vector<std::string>& outputs, const Job& job) {
+  const bool by_scene = options.outputs.files.empty();
+  options.outputs.files = outputs;
+  std::vector<NamedFile> files = files_of(options);
+  if (by_scene) files.front().option = "the output";
+  check_collisions(files, files_of(job));
+}
+
 int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
   if (!options.checkpoint.path.empty()) check_writable(options.checkpoint.path);
+  check_collisions(files_of(options), {{"the scene", options.scene}});
   const InterruptGuard interrupt;
   const int load_threads = options.overrides.alone().render.threads;
   Job job;
-  with_thread_limit(load_threads, [&] { job = load_job(options.scene, options.overrides, console); });
+  with_thread_limit(load_threads, console,
+                    [&] { job = load_job(options.scene, options.overrides, console); });
   warn_of_unread(options, job, console);
   RenderSession session{options.outputs, options.checkpoint, options.passes, false, {}};
   session.outputs.files = outputs_of(options, job);
+  check_with_scene(options, session.outputs.files, job);
   session.fill_time = options.passes.empty() &&
                       time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
   check_stop_settings(job.settings.stop);

@@ -41,7 +41,8 @@ Job load_again(const ResumeOptions& options, const render::PartialManifest& mani
   overrides.append(options.overrides);
   const std::string& scene = options.scene.empty() ? manifest.scene_path : options.scene;
   Job job;
-  with_thread_limit(overrides.alone().render.threads, [&] { job = load_job(scene, overrides, console); });
+  with_thread_limit(overrides.alone().render.threads, console,
+                    [&] { job = load_job(scene, overrides, console); });
   if (job.content_hash != manifest.scene_hash)
     throw ExitError(
         kBadCommandLine,
@@ -81,8 +82,10 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   session.outputs = options.outputs;
   if (session.outputs.files.empty()) session.outputs.files = part.manifest.outputs;
   check_outputs(session.outputs);
+  check_collisions(named_files(session.outputs), {{"the checkpoint", options.partial}});
   session.checkpoint = {options.partial, options.checkpoint_every};
   Job job = load_again(options, part.manifest, console);
+  check_collisions(named_files(session.outputs), files_of(job));
   session.bounded = options.passes > 0;
   check_rules(options, job, session.goal, console);
   const bool open = job.settings.stop.any() && !session.bounded;

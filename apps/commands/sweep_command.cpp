@@ -15,8 +15,8 @@
 #include "apps/import/common/scene_files.h"
 #include "apps/machine/instruction_set.h"
 #include "apps/machine/thread_limit.h"
-#include "apps/machine/usable_cores.h"
 #include "apps/report/sweep_report.h"
+#include "apps/session/files/collisions.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/partial_files.h"
 #include "apps/session/interrupt.h"
@@ -167,14 +167,24 @@ void warn_of_noise(const SweepResult& result, const Console& console) {
           "the reference's own noise is more than a quarter of a measured error: increase --reference-time");
 }
 
+// The reference of --reference may lie in the folder, as the picture of an earlier sweep.
+void check_names(const SweepOptions& options, const Job& job) {
+  std::vector<NamedFile> inputs = files_of(job), outputs;
+  inputs.push_back({"--reference", options.reference.file});
+  for (const char* name : {"reference.png", "sweep-of.json", "sweep.json", "sweep.csv", "report.html"})
+    outputs.push_back({"-o", (fs::path(options.folder) / name).string()});
+  check_collisions(outputs, inputs);
+}
+
 int run_sweep(const SweepOptions& options, const Console& console) {
   const SweepGrid grid = parse_grid(options.grid);
   const InterruptGuard interrupt;
   const int asked = options.overrides.alone().render.threads;
-  const int threads = asked > 0 ? asked : core_limits().usable();
+  const int threads = threads_to_run(asked, console);
   program_build();  // asks Embree for its version before it starts to work
   with_thread_limit(threads, [&] {
     Job job = load_job(options.scene, options.overrides, console);
+    check_names(options, job);
     const auto points = points_of(grid, job.settings, options.overrides, job.scene.needs);
     const SweepFolder folder(options.folder, common_of(options, job, threads));
     warn_of_reference(options, job, console);

@@ -17,18 +17,21 @@ namespace kaustik::pbrt {
 
 namespace {
 
-// Content hashes of the meshes and images that a scene names, by name. add() is thread-safe.
+// Content hashes of the meshes and images that a scene names, by name, and their paths. add() is thread-safe.
 class NamedContents {
  public:
-  void add(const std::string& name, std::string content) {
+  void add(const std::string& name, std::string content, const std::filesystem::path& path) {
     const std::lock_guard lock(mutex_);
     contents_.emplace(name, std::move(content));
+    paths_.insert(path.string());
   }
   const std::set<std::pair<std::string, std::string>>& all() const { return contents_; }
+  const std::set<std::string>& paths() const { return paths_; }
 
  private:
   std::mutex mutex_;
   std::set<std::pair<std::string, std::string>> contents_;
+  std::set<std::string> paths_;
 };
 
 // Hashes the scene texts in the order in which they were opened, then the other files in the order of their
@@ -49,6 +52,12 @@ std::string content_hash(const SourceFiles& files, const NamedContents& named) {
 bool shows_vertex_colours(const SceneDescription& scene) {
   return std::any_of(scene.textures.begin(), scene.textures.end(),
                      [](const TextureDescription& t) { return t.type == VertexColourTexture::kName; });
+}
+
+std::vector<std::string> files_read(const SourceFiles& files, const NamedContents& named) {
+  std::vector<std::string> paths(named.paths().begin(), named.paths().end());
+  for (uint32_t i = 0; i < files.size(); ++i) paths.emplace_back(files.name(i));
+  return paths;
 }
 
 }  // namespace
@@ -75,9 +84,10 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
   const auto load_with = [&](auto load) {
     return [&, load](const std::string& name, const SourceLocation& where) {
       const std::filesystem::path naming(where.valid() ? diagnostics.files.name(where.file) : path.string());
+      const std::filesystem::path file = resolve_path(name, naming, path);
       std::string content;
-      auto result = load(resolve_path(name, naming, path), &content);
-      named.add(name, std::move(content));
+      auto result = load(file, &content);
+      named.add(name, std::move(content), file);
       return result;
     };
   };
@@ -98,7 +108,8 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
   diagnostics.sort_by_location();
   if (!scene || diagnostics.has_errors()) return std::nullopt;
   scene->keeps = description->keeps;
-  return LoadedScene{std::move(*scene), std::move(*description), content_hash(diagnostics.files, named)};
+  return LoadedScene{std::move(*scene), std::move(*description), content_hash(diagnostics.files, named),
+                     files_read(diagnostics.files, named)};
 }
 
 }  // namespace kaustik::pbrt

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "apps/settings/import_options.h"
 #include "core/diagnostics/diagnostics.h"
@@ -26,6 +28,8 @@ struct LoadedScene {
   // ContentHash, 32 hexadecimal digits, of the file, the files that it includes, and the meshes and images
   // that it names. It does not depend on the folders that they lie in.
   std::string content_hash;
+  // Every file that was read: the scene's texts, and the meshes and images that it names.
+  std::vector<std::string> files;
 };
 
 // Calls import_scene, then build_scene, which loads meshes and images in parallel. Nothing after any error;

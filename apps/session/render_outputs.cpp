@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <nlohmann/json.hpp>
 
+#include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/scene_loading.h"
 #include "apps/session/stopping/stop_rules.h"
@@ -87,6 +87,24 @@ void report_error(const render::RenderResult& result, const render::RenderSettin
                            settings.estimate_bias.value_or(false) ? "noise and kernel bias" : "noise alone"));
 }
 
+// Writes the files of -o: pictures and partial results.
+void write_pictures(const std::vector<std::string>& files, const Outcome& outcome,
+                    const nlohmann::ordered_json& settings, FileWriter& writer, const Console& console) {
+  const render::RenderResult& result = outcome.result;
+  render::WriteOptions options;
+  options.layers = layers_of(outcome, console);
+  options.metadata = render::metadata_of(result, outcome.settings.render, settings);
+  if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
+    options.metadata.emplace_back("kaustik:stopped_by", rule);
+  options.tone = outcome.settings.tone;
+  for (const std::string& path : files) {
+    if (!render::is_partial_name(path))
+      writer.write(path, [&] { render::write_film(path, result.film, options); });
+    else if (!result.sums.passes.empty())
+      writer.write(path, [&] { render::write_partial(path, outcome.manifest, result.sums); });
+  }
+}
+
 }  // namespace
 
 void add_output_options(Command& command, OutputOptions& options, const std::string& by_default) {
@@ -110,43 +128,30 @@ void check_outputs(const OutputOptions& options) {
   if (!options.statistics.empty()) check_writable(options.statistics);
 }
 
-void write_outputs(const OutputOptions& options, const Outcome& outcome, render::OuterTimes times,
+std::vector<NamedFile> named_files(const OutputOptions& options) {
+  std::vector<NamedFile> files;
+  for (const std::string& path : options.files) files.push_back({"-o", path});
+  if (!options.statistics.empty()) files.push_back({"--stats", options.statistics});
+  return files;
+}
+
+bool write_outputs(const OutputOptions& options, const Outcome& outcome, render::OuterTimes times,
                    const Console& console) {
   const Stopwatch watch;
   const render::RenderResult& result = outcome.result;
   const nlohmann::ordered_json settings = statistics_settings(outcome.settings, result.plan);
-  render::WriteOptions write;
-  write.layers = layers_of(outcome, console);
-  write.metadata = render::metadata_of(result, outcome.settings.render, settings);
-  if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
-    write.metadata.emplace_back("kaustik:stopped_by", rule);
-  write.tone = outcome.settings.tone;
-  std::vector<std::string> written;
-  std::exception_ptr trouble;  // rethrown at the end, so that one bad file does not cost the others
-  for (const std::string& path : options.files) {
-    const bool partial = render::is_partial_name(path);
-    if (partial && result.sums.passes.empty()) continue;
-    try {
-      if (partial)
-        render::write_partial(path, outcome.manifest, result.sums);
-      else
-        render::write_film(path, result.film, write);
-      written.push_back(path);
-    } catch (const std::exception&) {
-      if (!trouble) trouble = std::current_exception();
-    }
-  }
+  FileWriter writer(console);
+  write_pictures(options.files, outcome, settings, writer, console);
   times.write = watch.seconds();
   times.total += times.write;
-  if (!options.statistics.empty()) {
-    write_text_file(options.statistics, render::statistics_json(result, outcome.settings.render, settings,
-                                                                outcome.manifest.needs, times));
-    written.push_back(options.statistics);
-  }
+  if (!options.statistics.empty())
+    writer.write(options.statistics, [&] {
+      write_text_file(options.statistics, render::statistics_json(result, outcome.settings.render, settings,
+                                                                  outcome.manifest.needs, times));
+    });
   report(result, times, console);
   report_error(result, outcome.settings.render, console);
-  for (const std::string& path : written) console.note("wrote " + path);
-  if (trouble) std::rethrow_exception(trouble);
+  return writer.report();
 }
 
 void report(const render::RenderResult& result, const render::OuterTimes& times, const Console& console) {

@@ -6,6 +6,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/console/console.h"
+#include "apps/session/files/collisions.h"
 #include "apps/settings/settings.h"
 #include "render/passes/partial_result.h"
 #include "render/renderer.h"
@@ -24,6 +25,9 @@ void add_output_options(Command& command, OutputOptions& options, const std::str
 // Throws ExitError (bad command line) for a file that cannot be written.
 void check_outputs(const OutputOptions& options);
 
+// The files with the options that name them, for check_collisions().
+std::vector<NamedFile> named_files(const OutputOptions& options);
+
 // Everything that goes into the output files.
 struct Outcome {
   const render::RenderResult& result;
@@ -32,8 +36,9 @@ struct Outcome {
 };
 
 // Writes all files of `options`, partial results only if at least one pass is complete, and the report. The
-// log names each file. `times.write` is set here.
-void write_outputs(const OutputOptions& options, const Outcome& outcome, render::OuterTimes times,
+// log names each file. A file that cannot be written is an error message and does not cost the others; false
+// then. `times.write` is set here.
+bool write_outputs(const OutputOptions& options, const Outcome& outcome, render::OuterTimes times,
                    const Console& console);
 
 // Logs the photons, the times, and warnings about dropped samples.

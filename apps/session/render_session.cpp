@@ -96,9 +96,11 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   }
   const render::PartialManifest manifest = manifest_for_outputs(job, session, result.sums, rule.reason());
   report_stop(rule, result, console);
-  write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
+  const bool written =
+      write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
   if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
   if (!trouble.empty()) console.error(trouble);
+  if (!written) return kFailed;
   if (result.cancelled) return kInterrupted;
   return trouble.empty() ? kDone : kFailed;
 }
@@ -114,7 +116,7 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
                 const Console& console) {
   int code = kDone;
   if (writes_sums(session)) program_build();  // asks Embree for its version before it starts to work
-  with_thread_limit(job.settings.render.threads, [&] {
+  with_thread_limit(job.settings.render.threads, console, [&] {
     render::OuterTimes times{.load = job.load_seconds};
     const Stopwatch watch;
     const accel::Bvh bvh(job.scene, job.settings.render.threads);

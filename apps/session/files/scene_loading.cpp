@@ -107,6 +107,12 @@ std::string scene_summary(const Scene& scene) {
                      counted(scene.lights.size(), "light"));
 }
 
+std::vector<NamedFile> files_of(const Job& job) {
+  std::vector<NamedFile> files;
+  for (const std::string& path : job.files) files.push_back({"the scene's file", path});
+  return files;
+}
+
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console) {
   const Stopwatch watch;
   const ImportOptions options = overrides.alone().import_options;
@@ -121,7 +127,8 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
           .settings = file.settings,
           .path = path,
           .content_hash = std::move(loaded->content_hash),
-          .scene_output = file.output};
+          .scene_output = file.output,
+          .files = std::move(loaded->files)};
   overrides.apply(job.settings);
   resolve_size(file, job.settings.render, job.scene.camera);
   resolve_crop(file, overrides, job.scene.camera, job.settings.render, console);

@@ -6,6 +6,7 @@
 
 #include "apps/console/console.h"
 #include "apps/import/import_scene.h"
+#include "apps/session/files/collisions.h"
 #include "apps/settings/scene_settings.h"
 #include "apps/settings/setting_options.h"
 
@@ -18,6 +19,7 @@ struct Job {
   std::string content_hash;  // of the scene's files, see pbrt::LoadedScene
   std::string scene_output;  // output name in the scene file; empty when it has none
   double load_seconds = 0;
+  std::vector<std::string> files;  // every file that was read
 };
 
 // Loads and checks a scene file. The command line's settings override the file's, which override the
@@ -25,6 +27,9 @@ struct Job {
 // bad scene, after printing every error of the file, or bad command line when the crop does not fit the
 // image.
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console);
+
+// The files of a scene as inputs for check_collisions().
+std::vector<NamedFile> files_of(const Job& job);
 
 // For example "12 shapes, 88,066 primitives, 3 materials, 2 lights".
 std::string scene_summary(const Scene& scene);
