@@ -154,4 +154,38 @@ std::optional<float> parse_number(std::string_view text) {
   return value;
 }
 
+namespace {
+
+// From "#rrggbb".
+std::optional<glm::dvec3> decode_hexadecimal(std::string_view text) {
+  uint32_t bits = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + 1, end, bits, 16);
+  if (text.size() != 7 || error != std::errc() || stop != end) return std::nullopt;
+  glm::dvec3 colour;
+  for (int c = 0; c < 3; ++c) {
+    const double v = ((bits >> (16 - 8 * c)) & 255) / 255.0;
+    colour[c] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  }
+  return colour;
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> parse_colour(std::string_view text) {
+  if (text == "white") return glm::dvec3(1);
+  if (text == "grey" || text == "gray") return glm::dvec3(0.5);
+  if (text == "black") return glm::dvec3(0);
+  if (text.starts_with('#')) return decode_hexadecimal(text);
+  const std::vector<std::string> parts = split_at_commas(text);
+  if (parts.size() != 1 && parts.size() != 3) return std::nullopt;
+  glm::dvec3 colour;
+  for (size_t c = 0; c < 3; ++c) {
+    const std::optional<float> value = parse_number(parts[parts.size() == 1 ? 0 : c]);
+    if (!value || *value < 0) return std::nullopt;
+    colour[static_cast<int>(c)] = double(*value);
+  }
+  return colour;
+}
+
 }  // namespace kaustik::app

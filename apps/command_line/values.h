@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/math/vec.h"
+
 namespace kaustik::app {
 
 // Parses a non-negative integer without rounding: digits with an optional fraction, power of ten and suffix
@@ -32,5 +34,10 @@ std::vector<std::string> split_at_commas(std::string_view text);
 
 // Parses a finite decimal number within the range of a float, including subnormals; nothing for other texts.
 std::optional<float> parse_number(std::string_view text);
+
+// Parses a colour in linear Rec. 709: one number for a grey or three between commas, none negative, such as
+// "0.5" or "0.2,0.4,1"; "#rrggbb", which is decoded from sRGB; white, grey, gray or black. Nothing for other
+// texts.
+std::optional<glm::dvec3> parse_colour(std::string_view text);
 
 }  // namespace kaustik::app

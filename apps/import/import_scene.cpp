@@ -4,7 +4,9 @@
 #include <mutex>
 #include <set>
 
+#include "apps/import/common/camera_choice.h"
 #include "apps/import/common/image_files.h"
+#include "apps/import/common/view.h"
 #include "apps/import/gltf/importer.h"
 #include "apps/import/obj/obj_importer.h"
 #include "apps/import/pbrt/scene_parser.h"
@@ -62,10 +64,9 @@ std::vector<std::string> files_read(const SourceFiles& files, const NamedContent
 
 }  // namespace
 
-std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
-                                             const ImportOptions& options) {
-  if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics, options);
-  if (is_obj(path)) return import_obj(path, diagnostics);
+namespace {
+
+std::optional<SceneDescription> import_pbrt(const std::filesystem::path& path, Diagnostics& diagnostics) {
   SceneFiles files(diagnostics.files);
   std::string error;
   const auto file = files.open(path, error);
@@ -74,6 +75,32 @@ std::optional<SceneDescription> import_scene(const std::filesystem::path& path, 
     return std::nullopt;
   }
   return SceneParser(path, files, diagnostics).parse(*file);
+}
+
+// Files of other formats than glTF have at most one camera, without a name.
+void check_only_camera(const SceneDescription& scene, const std::string& asked, DiagnosticList& diagnostics) {
+  std::string error;
+  if (!find_camera(std::vector<std::string>(scene.camera ? 1 : 0), asked, error))
+    diagnostics.error({}, error);
+}
+
+std::optional<SceneDescription> import_format(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                              const ImportOptions& options) {
+  if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics, options);
+  auto scene = is_obj(path) ? import_obj(path, diagnostics) : import_pbrt(path, diagnostics);
+  if (scene && !options.view.camera.empty()) check_only_camera(*scene, options.view.camera, diagnostics);
+  return scene;
+}
+
+}  // namespace
+
+std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                             const ImportOptions& options) {
+  auto scene = import_format(path, diagnostics, options);
+  if (!scene) return std::nullopt;
+  const bool is_pbrt = !gltf::is_gltf(path) && !is_obj(path);
+  apply_view(*scene, options.view, is_pbrt ? Convention::kPbrt : Convention::kRightHanded, diagnostics);
+  return scene;
 }
 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics,

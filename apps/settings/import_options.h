@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace kaustik {
@@ -12,10 +13,26 @@ namespace kaustik {
 enum class LightUnit { kPhotometric, kWatt };
 inline constexpr std::array<std::string_view, 2> kLightUnitNames = {"photometric", "watt"};
 
+// Whether a model gets a floor. Auto: if it has neither camera nor light.
+enum class Floor { kAuto, kOn, kOff };
+inline constexpr std::array<std::string_view, 3> kFloorNames = {"auto", "on", "off"};
+
+// From where a scene is seen, and by which light, where the user does not leave it to the file.
+struct ViewOptions {
+  std::string camera{};                            // name or number from 1 on; empty: the file's first
+  std::optional<std::array<double, 9>> look_at{};  // eye, target, up, in the units of the file
+  std::optional<double> fov{};                     // degrees, of the shorter side
+  std::string sky{};  // a colour (app::parse_colour), "off", or an image file; empty: the file's
+  Floor floor = Floor::kAuto;
+  // Width / height of the picture, for a camera that is fitted to a model. Not a setting of its own.
+  double aspect = 16.0 / 9;
+};
+
 struct ImportOptions {
   LightUnit light_unit = LightUnit::kPhotometric;
   // The moment at which an animated file is shown; unset = its beginning.
-  std::optional<float> seconds;
+  std::optional<float> seconds{};
+  ViewOptions view{};
 };
 
 }  // namespace kaustik

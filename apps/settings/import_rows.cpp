@@ -11,14 +11,11 @@ namespace kaustik::app {
 
 namespace {
 
-constexpr CommandSet kCommandsThatImport =
-    kRenderingCommands | SettingsCommand::kPhotons | SettingsCommand::kInfo | SettingsCommand::kConvert;
-
 constexpr float kFramesPerSecond = 24;
 
 Setting light_unit_row() {
   Setting s{.name = "light-unit",
-            .commands = kCommandsThatImport,
+            .commands = kImportingCommands,
             .kind = ValueKind::kChoice,
             .value_name = "NAME",
             .range = fmt::format("{}", fmt::join(kLightUnitNames, ", ")),
@@ -49,7 +46,7 @@ std::vector<std::string> shown_seconds(const Settings& settings) {
 
 Setting at_row() {
   Setting s{.name = "at",
-            .commands = kCommandsThatImport,
+            .commands = kImportingCommands,
             .kind = ValueKind::kNumber,
             .value_name = "SECONDS",
             .unit = "s",
@@ -68,7 +65,7 @@ Setting at_row() {
 
 Setting frame_row() {
   Setting s{.name = "frame",
-            .commands = kCommandsThatImport,
+            .commands = kImportingCommands,
             .kind = ValueKind::kCount,
             .value_name = "N",
             .range = "0 or more",
@@ -90,7 +87,9 @@ Setting frame_row() {
 }  // namespace
 
 std::vector<Setting> import_rows() {
-  return {light_unit_row(), at_row(), frame_row()};
+  std::vector<Setting> rows = {light_unit_row(), at_row(), frame_row()};
+  for (Setting& row : rows) row.in_scene_files = false;
+  return rows;
 }
 
 }  // namespace kaustik::app

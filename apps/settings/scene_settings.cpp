@@ -72,6 +72,7 @@ bool type_fits(const Setting& setting, ParameterType type) {
       return type == ParameterType::kInteger || type == ParameterType::kFloat;
     case ValueKind::kChoice:
     case ValueKind::kNames:
+    case ValueKind::kText:
       return false;
   }
   return false;
@@ -92,9 +93,10 @@ std::string_view expected_type(const Setting& setting) {
 // Assigns one parameter of Integrator "photonmap" to the setting of the same name.
 void assign_parameter(const Parameter& parameter, Settings& settings, DiagnosticList& diagnostics) {
   const Setting* setting = find_setting(parameter.name);
-  if (!setting) {
+  if (!setting || !setting->in_scene_files) {
     std::vector<std::string_view> names;
-    for (const Setting& s : settings_table()) names.push_back(s.name);
+    for (const Setting& s : settings_table())
+      if (s.in_scene_files) names.push_back(s.name);
     diagnostics.error(parameter.location, fmt::format("integrator `photonmap` has no parameter `{}`{}",
                                                       parameter.name, name_hint(parameter.name, names)));
     return;

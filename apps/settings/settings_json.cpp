@@ -13,7 +13,9 @@ using Json = nlohmann::ordered_json;
 
 // A JSON number where the text is one and the setting holds numbers, else the text.
 Json value_json(const Setting& setting, const std::string& text) {
-  if (setting.kind == ValueKind::kChoice || setting.kind == ValueKind::kNames) return text;
+  if (setting.kind == ValueKind::kChoice || setting.kind == ValueKind::kNames ||
+      setting.kind == ValueKind::kText)
+    return text;
   if (setting.kind == ValueKind::kCount) return parse_count(text).value();
   if (setting.kind == ValueKind::kInteger) return parse_integer(text).value();
   if (!parse_number(text)) return text;

@@ -297,8 +297,8 @@ std::vector<Setting> make_table() {
   std::vector<Setting> stop = stop_rows();
   std::move(stop.begin(), stop.end(), std::back_inserter(table));
   add_image(table);
-  std::vector<Setting> imports = import_rows();
-  std::move(imports.begin(), imports.end(), std::back_inserter(table));
+  for (std::vector<Setting> rows : {import_rows(), view_rows()})
+    std::move(rows.begin(), rows.end(), std::back_inserter(table));
   return table;
 }
 

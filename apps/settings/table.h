@@ -50,7 +50,7 @@ enum class SettingReader {
   kAdaptiveSamples,  // renders that trace no paths from the camera
 };
 
-enum class ValueKind { kCount, kInteger, kNumber, kChoice, kNames };
+enum class ValueKind { kCount, kInteger, kNumber, kChoice, kNames, kText };
 
 struct Setting {
   std::string_view name{};  // as on the command line, without the leading dashes: "cone-k"
@@ -70,6 +70,7 @@ struct Setting {
   std::function<std::vector<std::string>(const Settings&)> show{};
   // Whether the setting affects the sums over samples, and not only the files written from them or the speed.
   bool decides_sums = true;
+  bool in_scene_files = true;  // as a parameter of Integrator "photonmap"
   SettingReader reader = SettingReader::kEveryRender;
 };
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/import/common/default_view.h"
+#include "apps/import/common/camera_choice.h"
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/gltf/deformation.h"
 #include "apps/import/gltf/lights_and_cameras.h"
@@ -41,6 +41,7 @@ class Importer {
       if (mesh && !deformation_.applies_to(n.node))
         uses_[*mesh] += instances_of(document_, node, warnings_).size();
     }
+    choose_camera();
     for (const PlacedNode& n : nodes_) add_node(n);
     if (pose_.animated())
       scene_.notes.push_back(
@@ -50,6 +51,29 @@ class Importer {
   }
 
  private:
+  // A camera's name is that of its node, as modelling programs show it, or else its own.
+  void choose_camera() {
+    std::vector<std::string> names;
+    std::vector<const PlacedNode*> placed;
+    for (const PlacedNode& n : nodes_) {
+      const View node = document_.item("nodes", n.node);
+      const auto camera = node["camera"].index(document_.size("cameras"));
+      if (!camera) continue;
+      const std::string name = node["name"].text("");
+      names.push_back(name.empty() ? document_.item("cameras", *camera)["name"].text("") : name);
+      placed.push_back(&n);
+    }
+    const std::string& asked = options_.view.camera;
+    std::string error;
+    const auto chosen = asked.empty() ? std::optional<size_t>(0) : find_camera(names, asked, error);
+    if (!chosen) throw FormatError(error);
+    if (placed.empty()) return;
+    camera_ = placed[*chosen];
+    if (asked.empty() && names.size() > 1)
+      warnings_.say(
+          fmt::format("the file has {} cameras: the first is used; --camera chooses another", names.size()));
+  }
+
   void add_node(const PlacedNode& placed) {
     const View node = document_.item("nodes", placed.node);
     const auto& m = placed.to_world;
@@ -58,13 +82,9 @@ class Importer {
         warnings_.count("nodes whose transform has no inverse are left out with their meshes", "node");
       return;
     }
-    if (const auto camera = node["camera"].index(document_.size("cameras"))) {
-      if (!scene_.camera) {
-        add_camera(document_.item("cameras", *camera), m, warnings_, scene_);
-      } else {
-        warnings_.say("the file has several cameras: the first is used");
-      }
-    }
+    if (&placed == camera_)
+      add_camera(document_.item("cameras", *node["camera"].index(document_.size("cameras"))), m, warnings_,
+                 scene_);
     add_light(document_, node, m, options_.light_unit, warnings_, scene_);
     const auto mesh = node["mesh"].index(document_.size("meshes"));
     if (!mesh) return;
@@ -154,6 +174,7 @@ class Importer {
   FileWarnings warnings_;
   Pose pose_;
   std::vector<PlacedNode> nodes_;
+  const PlacedNode* camera_ = nullptr;  // the node whose camera is used
   Deformation deformation_;
   Textures textures_;
   Materials materials_;
@@ -176,7 +197,6 @@ std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, D
   try {
     Document document(path, diagnostics.files);
     SceneDescription scene = Importer(document, path, options, diagnostics).run();
-    add_missing_view(scene, scene.location, diagnostics);
     return scene;
   } catch (const FormatError& error) {
     const bool opened = diagnostics.files.size() > file;

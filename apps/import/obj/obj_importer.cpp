@@ -11,7 +11,6 @@
 #include <iterator>
 #include <sstream>
 
-#include "apps/import/common/default_view.h"
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/common/scene_files.h"
 #include "apps/import/obj/obj_materials.h"
@@ -211,7 +210,6 @@ std::optional<SceneDescription> import_obj(const std::filesystem::path& path, Di
   }
   SceneDescription scene = ObjScene(*in, files.options(), path.parent_path(), file, diagnostics).run();
   if (diagnostics.has_errors()) return std::nullopt;
-  add_missing_view(scene, scene.location, diagnostics);
   return scene;
 }
 

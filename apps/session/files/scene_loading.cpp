@@ -77,6 +77,14 @@ void resolve_crop(const SceneSettings& file, const SettingOverrides& overrides, 
   }
 }
 
+// A camera that is fitted to a model needs to know the picture's shape before the scene is read.
+ImportOptions import_options_of(const Settings& settings) {
+  ImportOptions options = settings.import_options;
+  if (settings.render.width > 0 && settings.render.height > 0)
+    options.view.aspect = double(settings.render.width) / settings.render.height;
+  return options;
+}
+
 // Bytes that the film of a pass, the totals and the final picture take.
 uint64_t film_of(const Job& job) {
   const uint64_t pixels = render::rendered_range(job.settings.render.crop, job.scene.camera).pixels();
@@ -115,7 +123,7 @@ std::vector<NamedFile> files_of(const Job& job) {
 
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console) {
   const Stopwatch watch;
-  const ImportOptions options = overrides.alone().import_options;
+  const ImportOptions options = import_options_of(overrides.alone());
   Diagnostics diagnostics;
   std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics, options);
   if (!loaded) report_broken_scene(path, options, diagnostics, console);

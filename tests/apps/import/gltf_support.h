@@ -71,13 +71,13 @@ class ImportGltf : public ImportTest {
   }
   SceneDescription describe(const std::filesystem::path& path) {
     diagnostics_ = Diagnostics();
-    auto scene = import_scene(path, diagnostics_);
+    auto scene = import_scene(path, diagnostics_, kWithoutFloor);
     EXPECT_TRUE(scene && !diagnostics_.has_errors()) << diagnostics_.format_all();
     return scene ? std::move(*scene) : SceneDescription{};
   }
   std::string error(const std::filesystem::path& path) {
     diagnostics_ = Diagnostics();
-    const auto scene = import_scene(path, diagnostics_);
+    const auto scene = import_scene(path, diagnostics_, kWithoutFloor);
     EXPECT_FALSE(scene);
     EXPECT_EQ(diagnostics_.error_count(), 1u);
     return diagnostics_.format_all();

@@ -13,6 +13,9 @@
 
 namespace kaustik::pbrt {
 
+// The shapes and materials of the file alone: a model that comes alone gets no floor.
+inline const ImportOptions kWithoutFloor{.view = {.floor = Floor::kOff}};
+
 class ImportTest : public testing::Test {
  protected:
   void SetUp() override { folder_ = test::empty_output_folder(); }
