@@ -94,17 +94,22 @@ size_t DiagnosticList::error_count() const {
 
 uint32_t SourceFiles::add(std::string name, std::string text) {
   File& file = files_.emplace_back(File{std::move(name), std::move(text), {0}});
-  for (size_t i = file.text.find('\n'); i != std::string::npos; i = file.text.find('\n', i + 1)) {
-    file.line_starts.push_back(i + 1);
-  }
+  uint64_t line = 1;
+  for (size_t i = file.text.find('\n'); i != std::string::npos; i = file.text.find('\n', i + 1))
+    if (line++ % kIndexedLines == 0) file.line_starts.push_back(i + 1);
   return static_cast<uint32_t>(files_.size() - 1);
 }
 
 std::string_view SourceFiles::line(uint32_t file, uint32_t line) const {
-  if (file >= files_.size()) return {};
+  if (file >= files_.size() || line == 0) return {};
   const File& f = files_[file];
-  if (line == 0 || line > f.line_starts.size()) return {};
-  std::string_view rest = std::string_view(f.text).substr(f.line_starts[line - 1]);
+  if ((line - 1) / kIndexedLines >= f.line_starts.size()) return {};
+  std::string_view rest = std::string_view(f.text).substr(f.line_starts[(line - 1) / kIndexedLines]);
+  for (uint32_t ahead = (line - 1) % kIndexedLines; ahead > 0; --ahead) {
+    const size_t end = rest.find('\n');
+    if (end == rest.npos) return {};
+    rest.remove_prefix(end + 1);
+  }
   rest = rest.substr(0, rest.find('\n'));
   if (!rest.empty() && rest.back() == '\r') rest.remove_suffix(1);
   return rest;

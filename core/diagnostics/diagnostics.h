@@ -63,8 +63,10 @@ class SourceFiles {
  private:
   struct File {
     std::string name, text;
-    std::vector<size_t> line_starts;
+    std::vector<size_t> line_starts;  // of the first line and of each that is kIndexedLines later
   };
+  // An index of every line would need as much memory as half of the text of a mesh.
+  static constexpr uint32_t kIndexedLines = 1024;
   std::deque<File> files_;
 };
 

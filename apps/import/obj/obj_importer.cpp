@@ -1,215 +1,175 @@
 #include "apps/import/obj/obj_importer.h"
 
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <assimp/Importer.hpp>
-#include <iterator>
-#include <sstream>
+#include <algorithm>
+#include <set>
 
-#include "apps/import/common/make_parameter.h"
+#include "apps/import/common/find_file.h"
 #include "apps/import/common/scene_files.h"
 #include "apps/import/obj/obj_materials.h"
+#include "apps/import/obj/obj_meshes.h"
+#include "apps/import/obj/obj_text.h"
+#include "apps/import/obj/obj_triangles.h"
 
 namespace kaustik {
+namespace obj {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr uint64_t kLargestFile = uint64_t{1} << 34;
 
-// Gives assimp an OBJ file and its material libraries, rewritten by clean_mtl.
-class ObjFiles : public Assimp::DefaultIOSystem {
+// Finds and reads the libraries that `mtllib` lines name.
+class Libraries {
  public:
-  // Reads the OBJ file and its material libraries into diagnostics.files, so that they count in the scene's
-  // content hash. A missing library gives a warning. False, with an error, when the OBJ file cannot be read.
-  bool read(const std::filesystem::path& path, Diagnostics& diagnostics) {
-    std::string error;
-    auto text = pbrt::read_bytes(path, kLargestFile, error);
-    if (!text) {
-      diagnostics.error({}, error);
-      return false;
+  Libraries(const fs::path& path, CountedWarnings& warnings, Diagnostics& diagnostics)
+      : path_(path), folder_(path.parent_path()), warnings_(warnings), diagnostics_(diagnostics) {}
+
+  // `names` is one name, perhaps with blanks, or several.
+  void read(const std::string& names, const SourceLocation& where) {
+    if (!said_.insert(names).second) return;
+    if (const auto file = find(names)) return add(*file, where);
+    Words words(names);
+    size_t missing = 0;
+    for (std::string_view name = words.next(); !name.empty(); name = words.next()) {
+      const auto file = find(std::string(name));
+      file ? add(*file, where) : void(++missing);
     }
-    const uint32_t file = diagnostics.files.add(path.string(), std::move(*text));
-    FileWarnings warnings({file, 0, 0}, diagnostics);
-    std::istringstream lines{std::string(diagnostics.files.text(file))};
-    uint32_t number = 0;
-    for (std::string line; std::getline(lines, line);) {
-      ++number;
-      if (!line.starts_with("mtllib ")) continue;
-      const std::string names = line.substr(7, line.find_last_not_of(" \t\r") - 6);
-      for (const std::string& name : libraries_of(names, path.parent_path()))
-        add_library(path, name, {file, number, 8}, warnings, diagnostics);
-    }
-    return true;
+    if (missing == 0) return;
+    warnings_.say(where,
+                  fmt::format("there is no material library \"{}\"{}", names.substr(0, 200), instead(where)));
   }
 
-  // Any file but the OBJ is a material library: assimp gets the text of all libraries whichever it asks for.
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (is_obj(file)) return DefaultIOSystem::Open(file, mode);
-    return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(materials_.data()), materials_.size());
-  }
-  bool Exists(const char* file) const override { return !is_obj(file) || DefaultIOSystem::Exists(file); }
-  const MapOptionsOf& options() const { return options_; }
+  std::vector<MtlMaterial> take() { return std::move(materials_); }
 
  private:
-  // The names after `mtllib`: one name with blanks if such a file exists, else several names.
-  static std::vector<std::string> libraries_of(const std::string& names,
-                                               const std::filesystem::path& folder) {
+  std::optional<fs::path> find(const std::string& name) const { return find_file(name, std::array{folder_}); }
+
+  // What is done without the library: another one that is named as the OBJ file may stand in.
+  std::string instead(const SourceLocation& where) {
+    const auto file = materials_.empty() ? find(path_.stem().string() + ".mtl") : std::nullopt;
+    if (!file) return "; its materials become grey";
+    add(*file, where);
+    return fmt::format("; \"{}\" is read instead", file->filename().string());
+  }
+
+  void add(const fs::path& file, const SourceLocation& where) {
     std::error_code ignored;
-    if (std::filesystem::exists(folder / names, ignored)) return {names};
-    std::istringstream words(names);
-    std::vector<std::string> out{std::istream_iterator<std::string>(words), {}};
-    const bool any = std::any_of(out.begin(), out.end(), [&](const std::string& name) {
-      return std::filesystem::exists(folder / name, ignored);
-    });
-    return any ? out : std::vector<std::string>{names};
-  }
-
-  void add_library(const std::filesystem::path& path, const std::string& name, const SourceLocation& where,
-                   FileWarnings& warnings, Diagnostics& diagnostics) {
+    if (!read_.insert(fs::weakly_canonical(file, ignored)).second) return;
     std::string error;
-    auto text = pbrt::read_bytes(path.parent_path() / name, kLargestFile, error);
-    if (!text) return diagnostics.warning(where, fmt::format("{}; its materials become grey", error));
-    materials_ += clean_mtl(*text, path.parent_path(), warnings, options_);
-    diagnostics.files.add((path.parent_path() / name).string(), std::move(*text));
+    auto text = pbrt::read_bytes(file, kLargestFile, error);
+    if (!text) return warnings_.say(where, error + "; its materials become grey");
+    const uint32_t id = diagnostics_.files.add(file.string(), std::move(*text));
+    const std::array folders{file.parent_path(), folder_};
+    for (MtlMaterial& mtl : read_mtl(diagnostics_.files.text(id), id, folders, warnings_))
+      materials_.push_back(std::move(mtl));
   }
 
-  std::string materials_;
-  MapOptionsOf options_;
+  fs::path path_, folder_;
+  CountedWarnings& warnings_;
+  Diagnostics& diagnostics_;
+  std::set<std::string> said_;
+  std::set<fs::path> read_;
+  std::vector<MtlMaterial> materials_;
 };
 
-std::vector<double> triples(const aiVector3D* v, unsigned n) {
-  std::vector<double> out;
-  out.reserve(3 * size_t(n));
-  for (unsigned i = 0; i < n; ++i) out.insert(out.end(), {double(v[i].x), double(v[i].y), double(v[i].z)});
-  return out;
-}
-
-bool all_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
-// Takes the IO handler back from the importer, which would otherwise delete it.
-struct Borrowed {
-  Assimp::Importer& importer;
-  ~Borrowed() { importer.SetIOHandler(nullptr); }
-};
-
+// Builds the scene of an OBJ file that was read.
 class ObjScene {
  public:
-  ObjScene(const aiScene& in, const MapOptionsOf& options, std::filesystem::path folder, uint32_t file,
-           Diagnostics& diagnostics)
-      : in_(in),
-        options_(options),
-        folder_(std::move(folder)),
-        warnings_({file, 0, 0}, diagnostics),
-        diagnostics_(diagnostics) {
-    scene_.location = warnings_.where();
+  ObjScene(ObjText& text, const std::vector<MtlMaterial>& library, const SourceLocation& file,
+           CountedWarnings& warnings, Diagnostics& diagnostics)
+      : text_(text), file_(file), warnings_(warnings), materials_(warnings, diagnostics.files, scene_) {
+    scene_.location = file;
+    for (const MtlMaterial& mtl : library) library_.try_emplace(mtl.name, &mtl);
   }
 
   SceneDescription run() {
-    for (unsigned i = 0; i < in_.mNumMaterials; ++i) add_material(i);
-    for (unsigned i = 0; i < in_.mNumMeshes; ++i) add_mesh(*in_.mMeshes[i]);
-    if (scene_.shapes.empty() && !diagnostics_.has_errors())
-      diagnostics_.error(warnings_.where(), "there are no faces in this file");
+    const std::vector<ObjMesh> meshes = meshes_of(text_, file_);
+    add_smooth_normals(text_, meshes);
+    MeshMaker maker(text_);
+    for (const ObjMesh& mesh : meshes) {
+      ShapeDescription shape = maker.make(mesh, warnings_);
+      const MtlLook& look = look_of(mesh);
+      shape.material = {std::nullopt, look.material, mesh.material_where};
+      shape.area_light = look.area_light;
+      if (look.alpha) shape.parameters.push_back(*look.alpha);
+      scene_.shapes.push_back(std::move(shape));
+    }
     return std::move(scene_);
   }
 
  private:
-  void add_material(unsigned index) {
-    const aiMaterial& mtl = *in_.mMaterials[index];
-    const MtlContext context{options_, folder_, warnings_, scene_};
-    MaterialDescription m = material_of_mtl(mtl, context);
-    aiString name;
-    mtl.Get(AI_MATKEY_NAME, name);
-    m.name = fmt::format("{} {}", name.C_Str(), index);
-    m.name_location = warnings_.where();
-    names_.push_back(m.name);
-    scene_.materials.push_back(std::move(m));
-    alphas_.push_back(alpha_of_mtl(mtl, context));
-    auto light = light_of_mtl(mtl, warnings_.where());
-    lights_.push_back(std::nullopt);
-    if (!light) return;
-    lights_.back() = static_cast<uint32_t>(scene_.area_lights.size());
-    scene_.area_lights.push_back(std::move(*light));
+  // The look of the mesh's material, made when it is first used: what no face uses is left out.
+  const MtlLook& look_of(const ObjMesh& mesh) {
+    const auto [at, is_new] = looks_.try_emplace(mesh.material);
+    if (!is_new) return at->second;
+    const auto found = library_.find(mesh.material);
+    if (found == library_.end() && !mesh.material.empty())
+      warnings_.say(mesh.material_where, library_.empty()
+                                             ? "no material library was read: all materials are grey"
+                                             : fmt::format("no library has a material `{}`: grey is used",
+                                                           mesh.material.substr(0, 100)));
+    MtlMaterial grey;
+    grey.name = mesh.material.empty() ? "default" : mesh.material;
+    grey.where = mesh.material_where;
+    return at->second = materials_.add(found == library_.end() ? grey : *found->second);
   }
 
-  void add_mesh(const aiMesh& mesh) {
-    DirectiveMaker<ShapeDescription> shape("trianglemesh", warnings_.where());
-    std::vector<double> P = triples(mesh.mVertices, mesh.mNumVertices), corners;
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      for (unsigned k = 0; face.mNumIndices == 3 && k < 3; ++k) corners.push_back(double(face.mIndices[k]));
-    }
-    if (corners.empty()) return;
-    if (!all_finite(P))
-      return diagnostics_.error(
-          warnings_.where(),
-          fmt::format("object `{}` has a position that is not finite", mesh.mName.C_Str()));
-    shape.add(ParameterType::kPoint3, "P", std::move(P));
-    shape.add(ParameterType::kInteger, "indices", std::move(corners));
-    if (mesh.HasNormals()) {
-      std::vector<double> N = triples(mesh.mNormals, mesh.mNumVertices);
-      if (all_finite(N)) shape.add(ParameterType::kNormal, "N", std::move(N));
-    }
-    add_uv(mesh, shape);
-    if (mesh.mMaterialIndex < names_.size()) {
-      const size_t m = mesh.mMaterialIndex;
-      shape->material = {std::nullopt, names_[m], warnings_.where()};
-      shape->area_light = lights_[m];
-      if (alphas_[m]) shape.add(*alphas_[m]);
-    }
-    scene_.shapes.push_back(std::move(*shape));
-  }
-
-  static void add_uv(const aiMesh& mesh, DirectiveMaker<ShapeDescription>& shape) {
-    if (!mesh.HasTextureCoords(0)) return;
-    std::vector<double> uv;
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      const aiVector3D& t = mesh.mTextureCoords[0][i];
-      uv.insert(uv.end(), {double(t.x), double(t.y)});
-    }
-    if (all_finite(uv)) shape.add(ParameterType::kPoint2, "uv", std::move(uv));
-  }
-
-  const aiScene& in_;
-  const MapOptionsOf& options_;
-  std::filesystem::path folder_;
+  ObjText& text_;
+  SourceLocation file_;
+  CountedWarnings& warnings_;
   SceneDescription scene_;
-  FileWarnings warnings_;
-  Diagnostics& diagnostics_;
-  std::vector<std::string> names_;
-  std::vector<std::optional<Parameter>> alphas_;
-  std::vector<std::optional<uint32_t>> lights_;
+  MtlMaterials materials_;
+  std::map<std::string, const MtlMaterial*> library_;
+  std::map<std::string, MtlLook> looks_;
 };
 
+// Reads the text into triangles. Nothing, with an error, when that fails.
+std::optional<ObjText> read_triangles(uint32_t file, CountedWarnings& warnings, Diagnostics& diagnostics) {
+  auto text = read_obj(diagnostics.files.text(file), file, diagnostics);
+  if (!text) return std::nullopt;
+  cut_into_triangles(*text, {file, 0, 0});
+  bool any = false;
+  for (const ObjPart& part : text->parts) {
+    any = any || part.corners.size() > 0;
+    warnings.append(part.warnings);
+  }
+  if (any) return text;
+  diagnostics.error({file, 0, 0}, "there are no faces in this file");
+  return std::nullopt;
+}
+
 }  // namespace
+}  // namespace obj
 
 bool is_obj(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".obj";
+  return obj::lower_case(path.extension().string()) == ".obj";
 }
 
 std::optional<SceneDescription> import_obj(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  const auto file = static_cast<uint32_t>(diagnostics.files.size());
-  ObjFiles files;
-  if (!files.read(path, diagnostics)) return std::nullopt;
-  Assimp::Importer importer;
-  importer.SetIOHandler(&files);
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const Borrowed borrowed{importer};
-  const aiScene* in = importer.ReadFile(
-      path.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
-  if (!in) {
-    diagnostics.error({file, 0, 0}, fmt::format("cannot read this file: {}", importer.GetErrorString()));
+  std::string error;
+  auto bytes = pbrt::read_bytes(path, obj::kLargestFile, error);
+  if (!bytes) {
+    diagnostics.error({}, error);
     return std::nullopt;
   }
-  SceneDescription scene = ObjScene(*in, files.options(), path.parent_path(), file, diagnostics).run();
-  if (diagnostics.has_errors()) return std::nullopt;
+  // Line ends of the old Macintosh.
+  if (bytes->find('\n') == bytes->npos) std::replace(bytes->begin(), bytes->end(), '\r', '\n');
+  const SourceLocation file{diagnostics.files.add(path.string(), std::move(*bytes)), 0, 0};
+  CountedWarnings warnings;
+  auto text = obj::read_triangles(file.file, warnings, diagnostics);
+  if (!text) {
+    warnings.report(diagnostics);
+    return std::nullopt;
+  }
+  obj::Libraries libraries(path, warnings, diagnostics);
+  for (const obj::ObjPart& part : text->parts)
+    for (const obj::StateChange& change : part.changes)
+      if (change.kind == obj::StateChange::Kind::kLibrary) libraries.read(change.name, change.where);
+  const std::vector<obj::MtlMaterial> library = libraries.take();
+  SceneDescription scene = obj::ObjScene(*text, library, file, warnings, diagnostics).run();
+  warnings.report(diagnostics);
   return scene;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Imports Wavefront OBJ files with their MTL materials, read by assimp, as pbrt directives
-// (docs/reference/scene_format.md lists the mapping).
+// Imports Wavefront OBJ files with their MTL materials as pbrt directives (docs/reference/scene_format.md
+// lists the mapping).
 
 #include <filesystem>
 #include <optional>
@@ -10,8 +10,9 @@
 
 namespace kaustik {
 
-// Nothing, with an error in `diagnostics`, when the file cannot be read or is invalid: indices out of range,
-// positions that are not finite, no faces at all. Each ignored feature gives one warning.
+// Nothing, with an error in `diagnostics`, when the file cannot be read or the picture would be wrong:
+// coordinates that are no numbers, vertex indices out of range, no faces at all. Each kind of thing that is
+// left out gives one warning.
 std::optional<SceneDescription> import_obj(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 // Decides by the file name's extension.

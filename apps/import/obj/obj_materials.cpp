@@ -8,80 +8,19 @@
 #include "apps/import/common/derived_image.h"
 #include "apps/import/common/make_parameter.h"
 
-namespace kaustik {
+namespace kaustik::obj {
 namespace {
 
-// The value of a key; `otherwise` when it is absent or not finite.
-double number(const aiMaterial& mtl, const char* key, unsigned type, unsigned index, double otherwise) {
-  float value = 0;
-  const bool there = mtl.Get(key, type, index, value) == aiReturn_SUCCESS && std::isfinite(value);
-  return there ? double(value) : otherwise;
+using MaterialMaker = DirectiveMaker<MaterialDescription>;
+
+const glm::dvec3 kBlack(0), kGrey(0.5);
+
+double most_of(const glm::dvec3& c) {
+  return std::max(c.x, std::max(c.y, c.z));
 }
 
-glm::dvec3 colour(const aiMaterial& mtl, const char* key, unsigned type, unsigned index,
-                  const glm::dvec3& otherwise) {
-  aiColor3D c;
-  if (mtl.Get(key, type, index, c) != aiReturn_SUCCESS) return otherwise;
-  const glm::dvec3 out(double(c.r), double(c.g), double(c.b));
-  return std::isfinite(out.x + out.y + out.z) ? glm::max(out, 0.0) : otherwise;
-}
-
-std::optional<std::string> map_of(const aiMaterial& mtl, aiTextureType type) {
-  aiString name;
-  if (mtl.GetTexture(type, 0, &name) != aiReturn_SUCCESS || name.length == 0) return std::nullopt;
-  std::string file = name.C_Str();
-  std::replace(file.begin(), file.end(), '\\', '/');
-  return file;
-}
-
-std::string add_texture(const aiMaterial& mtl, const std::string& file, const std::string& keyword,
-                        const MtlContext& context) {
-  SceneDescription& scene = context.scene;
-  const SourceLocation& where = context.warnings.where();
-  const std::string value_type = keyword == "map_d" ? "float" : "spectrum";
-  DirectiveMaker<TextureDescription> texture("imagemap", where);
-  aiString name;
-  mtl.Get(AI_MATKEY_NAME, name);
-  if (const auto found = context.options.find({name.C_Str(), keyword}); found != context.options.end()) {
-    const MapOptions& o = found->second;
-    if (o.clamp) texture.text("wrap", "clamp");
-    texture.number("uscale", o.scale[0]).number("vscale", o.scale[1]);
-    texture.number("udelta", o.offset[0]).number("vdelta", o.offset[1]);
-  }
-  texture->name = fmt::format("texture {}", scene.textures.size());
-  texture->name_location = texture->value_type_location = where;
-  texture->value_type = value_type;
-  texture.text("filename", file);
-  if (value_type == "float") texture.text("encoding", "linear");
-  scene.textures.push_back(std::move(*texture));
-  return scene.textures.back().name;
-}
-
-using Maker = DirectiveMaker<MaterialDescription>;
-
-void add_reflectance(const aiMaterial& mtl, const MtlContext& context, Maker& m) {
-  const auto file = map_of(mtl, aiTextureType_DIFFUSE);
-  if (!file) {
-    const glm::dvec3 kd = colour(mtl, AI_MATKEY_COLOR_DIFFUSE, glm::dvec3(0.5));
-    m.rgb("reflectance", glm::min(kd, 1.0));
-    return;
-  }
-  m.add(make_parameter(ParameterType::kTexture, "reflectance", add_texture(mtl, *file, "map_kd", context),
-                       context.warnings.where()));
-}
-
-// Some programs write normal maps as `map_Bump`; their mean colour is blue.
-void add_normals(const aiMaterial& mtl, const MtlContext& context, Maker& m) {
-  auto file = map_of(mtl, aiTextureType_NORMALS);
-  if (const auto bump = map_of(mtl, aiTextureType_HEIGHT); bump && !file) {
-    std::string error;
-    const auto mean = gltf::mean_colour(context.folder / *bump, false, error);
-    if (mean && mean->z > 0.75 && mean->x < 0.65 && mean->y < 0.65)
-      file = bump;
-    else
-      context.warnings.say("`map_Bump` is ignored unless it is a normal map");
-  }
-  if (file) m.text("normalmap", *file);
+int illum_of(const MtlMaterial& mtl) {
+  return static_cast<int>(std::clamp(mtl.number("illum").value_or(2), 0.0, 100.0));
 }
 
 // The GGX width alpha that matches a Blinn-Phong lobe of this exponent (Walter et al. 2007, section 5.2).
@@ -89,74 +28,233 @@ double width_of(double exponent) {
   return std::sqrt(2 / (std::max(exponent, 0.0) + 2));
 }
 
-Maker clear(const aiMaterial& mtl, const SourceLocation& where) {
-  Maker m("dielectric", where);
-  const double ior = number(mtl, AI_MATKEY_REFRACTI, 1.5);
-  m.number("eta", ior > 0 ? ior : 1.5);
-  return m;
+// Kd, or grey if it is not stated. Beside an image Kd is often black or white, which says nothing of the
+// colour that the image would have had: grey stands in for an image that is missing.
+glm::dvec3 diffuse_colour(const MtlMaterial& mtl) {
+  const MtlMap* const map = mtl.map("map_kd");
+  const glm::dvec3 kd = glm::min(mtl.colour("kd").value_or(kGrey), 1.0);
+  const bool says_nothing = kd == kBlack || kd == glm::dvec3(1);
+  return map && map->file.empty() && says_nothing ? kGrey : kd;
 }
 
-// A metal's reflectance is Ks if that is not black, else Kd: many files set Kd of metals to black.
-Maker metal(const aiMaterial& mtl, const SourceLocation& where, double width) {
-  Maker m("conductor", where);
-  const glm::dvec3 ks = colour(mtl, AI_MATKEY_COLOR_SPECULAR, glm::dvec3(0));
-  m.rgb("reflectance",
-        glm::min(ks == glm::dvec3(0) ? colour(mtl, AI_MATKEY_COLOR_DIFFUSE, glm::dvec3(1)) : ks, 1.0));
-  m.number("roughness", width).flag("remaproughness", false);
-  return m;
-}
-
-int illum_of(const aiMaterial& mtl) {
-  int illum = 2;
-  mtl.Get(AI_MATKEY_SHADING_MODEL,
-          illum);  // assimp's enumerator; overwritten by the file's number if there is one
-  mtl.Get("$mat.illum", 0, 0, illum);
-  return illum;
-}
-
-bool is_clear(const aiMaterial& mtl, int illum) {
-  const bool faint = number(mtl, AI_MATKEY_OPACITY, 1) < 0.5 && !map_of(mtl, aiTextureType_OPACITY);
-  return illum == 4 || illum == 6 || illum == 7 || faint;
+const MtlMap* image(const MtlMaterial& mtl, std::string_view keyword) {
+  const MtlMap* const map = mtl.map(keyword);
+  return map && !map->file.empty() ? map : nullptr;
 }
 
 }  // namespace
 
-MaterialDescription material_of_mtl(const aiMaterial& mtl, const MtlContext& context) {
-  const SourceLocation& where = context.warnings.where();
+MtlLook MtlMaterials::add(const MtlMaterial& mtl) {
+  const std::string name = fmt::format("{} {}", mtl.name, scene_.materials.size());
+  add_surface(mtl, name);
+  return {name, add_light(mtl), alpha_of(mtl)};
+}
+
+void MtlMaterials::add_surface(const MtlMaterial& mtl, const std::string& name) {
   const int illum = illum_of(mtl);
-  const double exponent = number(mtl, AI_MATKEY_SHININESS, 0);
-  const double metallic = number(mtl, AI_MATKEY_METALLIC_FACTOR, 0);
-  const double roughness = number(mtl, AI_MATKEY_ROUGHNESS_FACTOR, -1);
-  const double width = roughness >= 0 ? roughness * roughness : width_of(exponent);
-  const glm::dvec3 ks = colour(mtl, AI_MATKEY_COLOR_SPECULAR, glm::dvec3(0));
-  if (is_clear(mtl, illum)) return std::move(*clear(mtl, where));
-  if (illum == 3 || illum == 5 || metallic > 0.5)
-    return std::move(*metal(mtl, where, illum == 3 && roughness < 0 && exponent <= 0 ? 0 : width));
-  const bool coated = ks != glm::dvec3(0) || roughness >= 0;
-  Maker m(coated ? "coateddiffuse" : "diffuse", where);
-  add_reflectance(mtl, context, m);
-  if (coated) m.number("roughness", width).flag("remaproughness", false);
-  add_normals(mtl, context, m);
+  const glm::dvec3 kd = diffuse_colour(mtl), ks = glm::min(mtl.colour("ks").value_or(kBlack), 1.0);
+  const bool diffuse = image(mtl, "map_kd") || (mtl.colour("kd") && kd != kBlack);
+  if (is_clear(mtl)) return add_material(clear(mtl), name, mtl);
+  if (is_metal(mtl)) {
+    const bool by_ks = !diffuse && ks != kBlack;
+    return add_material(metal(mtl, by_ks ? ks : kd, by_ks ? nullptr : image(mtl, "map_kd")), name, mtl);
+  }
+  if (illum == 3 && diffuse && ks != kBlack) return add_mirror_over_diffuse(mtl, name);
+  if ((illum == 3 || illum == 5) && !(illum == 5 && diffuse))
+    return add_material(metal(mtl, ks == kBlack ? kd : ks, nullptr), name, mtl);
+  add_material(opaque(mtl), name, mtl);
+}
+
+void MtlMaterials::add_material(MaterialDescription m, const std::string& name, const MtlMaterial& mtl) {
+  m.name = name;
+  m.name_location = mtl.where;
+  scene_.materials.push_back(std::move(m));
+}
+
+MaterialDescription MtlMaterials::clear(const MtlMaterial& mtl) {
+  MaterialMaker m("dielectric", mtl.where);
+  double eta = mtl.number("ni").value_or(1.5);
+  if (!(eta > 0) || eta == 1) {
+    warnings_.say(mtl.where, fmt::format("glass of `Ni` {} would not be seen: 1.5 is used", eta));
+    eta = 1.5;
+  }
+  m.number("eta", eta);
+  if (mtl.number("pr").value_or(0) > 0) add_width(mtl, *m);
   return std::move(*m);
 }
 
-std::optional<Directive> light_of_mtl(const aiMaterial& mtl, const SourceLocation& where) {
-  const glm::dvec3 ke = colour(mtl, AI_MATKEY_COLOR_EMISSIVE, glm::dvec3(0));
-  const auto image = map_of(mtl, aiTextureType_EMISSIVE);
-  if (ke == glm::dvec3(0) && !image) return std::nullopt;
-  DirectiveMaker<Directive> light("diffuse", where);
-  if (!image) return *light.rgb("L", ke);
-  const double brightest = std::max(ke.x, std::max(ke.y, ke.z));
-  return *light.text("filename", *image).number("scale", brightest > 0 ? brightest : 1);
+MaterialDescription MtlMaterials::metal(const MtlMaterial& mtl, const glm::dvec3& colour, const MtlMap* map) {
+  MaterialMaker m("conductor", mtl.where);
+  add_colour(mtl, colour, map, *m);
+  const bool ideal =
+      illum_of(mtl) == 3 && !mtl.number("pr") && !image(mtl, "map_pr") && mtl.number("ns").value_or(0) <= 0;
+  if (ideal)
+    m.number("roughness", 0).flag("remaproughness", false);
+  else
+    add_width(mtl, *m);
+  add_normals(mtl, *m);
+  return std::move(*m);
 }
 
-std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, const MtlContext& context) {
-  const SourceLocation& where = context.warnings.where();
-  if (const auto file = map_of(mtl, aiTextureType_OPACITY))
-    return make_parameter(ParameterType::kTexture, "alpha", add_texture(mtl, *file, "map_d", context), where);
-  const double opacity = number(mtl, AI_MATKEY_OPACITY, 1);
-  if (!(opacity < 1) || is_clear(mtl, illum_of(mtl))) return std::nullopt;
-  return make_parameter(ParameterType::kFloat, "alpha", std::vector<double>{opacity}, where);
+MaterialDescription MtlMaterials::opaque(const MtlMaterial& mtl) {
+  const bool coated = mtl.colour("ks").value_or(kBlack) != kBlack || mtl.number("pr") || image(mtl, "map_pr");
+  MaterialMaker m(coated ? "coateddiffuse" : "diffuse", mtl.where);
+  add_colour(mtl, diffuse_colour(mtl), image(mtl, "map_kd"), *m);
+  if (coated) add_width(mtl, *m);
+  add_normals(mtl, *m);
+  return std::move(*m);
 }
 
-}  // namespace kaustik
+// Phong's sum of Kd and a mirror of Ks, as a mixture whose parts are scaled so that the sum remains as long
+// as it does not exceed one.
+void MtlMaterials::add_mirror_over_diffuse(const MtlMaterial& mtl, const std::string& name) {
+  const glm::dvec3 kd = diffuse_colour(mtl), ks = glm::min(*mtl.colour("ks"), 1.0);
+  const MtlMap* const map = image(mtl, "map_kd");
+  const double both = most_of(map ? kGrey : kd) + most_of(ks), share = most_of(ks) / both;
+  const double scale = 1 / std::max(both, 1.0);
+  MaterialMaker diffuse("diffuse", mtl.where), mix("mix", mtl.where);
+  add_colour(mtl, scale / (1 - share) * kd, map, *diffuse);
+  add_normals(mtl, *diffuse);
+  add_material(std::move(*diffuse), name + " diffuse", mtl);
+  add_material(metal(mtl, scale / share * ks, nullptr), name + " mirror", mtl);
+  Parameter parts = make_parameter(ParameterType::kString, "materials", name + " diffuse", mtl.where);
+  parts.strings.push_back(name + " mirror");
+  mix.add(std::move(parts)).number("amount", share);
+  add_material(std::move(*mix), name, mtl);
+}
+
+void MtlMaterials::add_colour(const MtlMaterial& mtl, const glm::dvec3& colour, const MtlMap* map,
+                              MaterialDescription& m) {
+  m.parameters.push_back(
+      map ? make_parameter(ParameterType::kTexture, "reflectance", add_texture(*map, "spectrum"), mtl.where)
+          : make_parameter(ParameterType::kRgb, "reflectance",
+                           std::vector<double>{std::min(colour.x, 1.0), std::min(colour.y, 1.0),
+                                               std::min(colour.z, 1.0)},
+                           mtl.where));
+}
+
+// The GGX width: Pr squared, as in glTF, or that of the exponent Ns.
+void MtlMaterials::add_width(const MtlMaterial& mtl, MaterialDescription& m) {
+  const auto squared = [](double v) { return v * v; };
+  const MtlMap* const map = image(mtl, "map_pr");
+  const auto pr = mtl.number("pr");
+  const auto widths = map ? channel(*map, 0, squared) : std::nullopt;
+  if (widths) {
+    m.parameters.push_back(
+        make_parameter(ParameterType::kTexture, "roughness", add_texture(*widths, "float"), mtl.where));
+  } else {
+    const double width = pr ? squared(std::clamp(*pr, 0.0, 1.0)) : width_of(mtl.number("ns").value_or(0));
+    m.parameters.push_back(
+        make_parameter(ParameterType::kFloat, "roughness", std::vector<double>{width}, mtl.where));
+  }
+  m.parameters.push_back(
+      make_parameter(ParameterType::kBool, "remaproughness", std::vector<double>{0}, mtl.where));
+}
+
+// Some programs write normal maps as `map_Bump`; their mean colour is blue.
+void MtlMaterials::add_normals(const MtlMaterial& mtl, MaterialDescription& m) {
+  const MtlMap* map = image(mtl, "norm");
+  if (const MtlMap* const bump = image(mtl, "bump"); bump && !map) {
+    std::string error;
+    const auto mean = gltf::mean_colour(bump->file, false, error);
+    if (mean && mean->z > 0.75 && mean->x < 0.65 && mean->y < 0.65)
+      map = bump;
+    else
+      warnings_.say(bump->where, "`map_Bump` is ignored unless it is a normal map");
+  }
+  if (map) m.parameters.push_back(file_parameter("normalmap", *map));
+}
+
+// A file name relative to the file that names it.
+Parameter MtlMaterials::file_parameter(const std::string& name, const MtlMap& map) const {
+  const std::filesystem::path folder = std::filesystem::path(files_.name(map.where.file)).parent_path();
+  std::filesystem::path file = map.file.lexically_relative(folder.empty() ? "." : folder);
+  if (file.empty()) file = std::filesystem::absolute(map.file);
+  return make_parameter(ParameterType::kString, name, file.string(), map.where);
+}
+
+std::string MtlMaterials::add_texture(const MtlMap& map, const std::string& value_type) {
+  DirectiveMaker<TextureDescription> texture("imagemap", map.where);
+  if (map.clamp) texture.text("wrap", "clamp");
+  texture.number("uscale", map.scale[0]).number("vscale", map.scale[1]);
+  texture.number("udelta", map.offset[0]).number("vdelta", map.offset[1]);
+  texture->name = fmt::format("texture {}", scene_.textures.size());
+  texture->name_location = texture->value_type_location = map.where;
+  texture->value_type = value_type;
+  texture.add(file_parameter("filename", map));
+  if (value_type == "float") texture.text("encoding", "linear");
+  scene_.textures.push_back(std::move(*texture));
+  return scene_.textures.back().name;
+}
+
+// An image of one channel, each of whose values is replaced by a function of it. Nothing, with a warning,
+// when the image cannot be read.
+std::optional<MtlMap> MtlMaterials::channel(const MtlMap& map, int channel,
+                                            const std::function<double(double)>& value) {
+  if (!folder_) {
+    folder_ = std::make_shared<TemporaryFolder>();
+    scene_.keeps = folder_;
+    folder_file_ = files_.add((folder_->path() / "derived").string(), "");
+  }
+  MtlMap out = map;
+  out.file = folder_->path() / fmt::format("derived{}.png", derived_++);
+  out.where = {folder_file_, 0, 0};
+  if (const auto error = gltf::write_channel(map.file, out.file, channel, value)) {
+    warnings_.say(map.where, *error);
+    return std::nullopt;
+  }
+  return out;
+}
+
+// d, or else 1 - Tr. `Tr 1` without d is written for opaque surfaces by some programs, and nobody means
+// surfaces that are not there.
+double MtlMaterials::opacity(const MtlMaterial& mtl) {
+  if (const auto d = mtl.number("d")) return *d;
+  const double tr = mtl.number("tr").value_or(0);
+  return tr >= 1 && illum_of(mtl) < 4 ? 1 : 1 - tr;
+}
+
+// illum 6 and 7 refract. illum 4 is also written for all materials by some programs, with their d.
+bool MtlMaterials::is_clear(const MtlMaterial& mtl) {
+  const int illum = illum_of(mtl);
+  const bool says_opaque =
+      mtl.number("d").value_or(0) >= 1 && !mtl.colour("tf") && diffuse_colour(mtl) != kBlack;
+  const bool faint = opacity(mtl) < 0.5 && !image(mtl, "map_d");
+  return illum == 6 || illum == 7 || (illum == 4 && !says_opaque) || faint;
+}
+
+bool MtlMaterials::is_metal(const MtlMaterial& mtl) {
+  const MtlMap* const map = image(mtl, "map_pm");
+  std::string error;
+  const auto mean = map ? gltf::mean_colour(map->file, false, error) : std::nullopt;
+  if (map && !mean) warnings_.say(map->where, error);
+  return (mean ? mean->x : mtl.number("pm").value_or(0)) > 0.5;
+}
+
+std::optional<uint32_t> MtlMaterials::add_light(const MtlMaterial& mtl) {
+  const glm::dvec3 ke = mtl.colour("ke").value_or(kBlack);
+  const MtlMap* const map = image(mtl, "map_ke");
+  if (ke == kBlack && !map) return std::nullopt;
+  DirectiveMaker<Directive> light("diffuse", mtl.where);
+  if (map)
+    light.add(file_parameter("filename", *map)).number("scale", ke == kBlack ? 1 : most_of(ke));
+  else
+    light.rgb("L", ke);
+  scene_.area_lights.push_back(std::move(*light));
+  return static_cast<uint32_t>(scene_.area_lights.size() - 1);
+}
+
+// An image that is also map_Kd gives its alpha channel.
+std::optional<Parameter> MtlMaterials::alpha_of(const MtlMaterial& mtl) {
+  if (const MtlMap* const map = image(mtl, "map_d")) {
+    const MtlMap* const kd = image(mtl, "map_kd");
+    const auto alpha = kd && kd->file == map->file ? channel(*map, 3, [](double v) { return v; }) : *map;
+    if (!alpha) return std::nullopt;
+    return make_parameter(ParameterType::kTexture, "alpha", add_texture(*alpha, "float"), mtl.where);
+  }
+  const double opaque = std::max(opacity(mtl), 0.0);
+  if (!(opaque < 1) || is_clear(mtl)) return std::nullopt;
+  return make_parameter(ParameterType::kFloat, "alpha", std::vector<double>{opaque}, mtl.where);
+}
+
+}  // namespace kaustik::obj

@@ -1,30 +1,57 @@
 #pragma once
-#include <assimp/material.h>
+// Converts MTL materials to the nearest pbrt materials (docs/reference/scene_format.md lists the mapping).
 
-#include <filesystem>
+#include <functional>
+#include <memory>
 
-#include "apps/import/common/warnings.h"
-#include "apps/import/obj/mtl_text.h"
+#include "apps/import/common/counted_warnings.h"
+#include "apps/import/common/temporary_folder.h"
+#include "apps/import/obj/mtl_reader.h"
 #include "core/scene/description/description.h"
 
-namespace kaustik {
+namespace kaustik::obj {
 
-// What the functions below need besides the material itself.
-struct MtlContext {
-  const MapOptionsOf& options;
-  const std::filesystem::path& folder;  // of the map files
-  FileWarnings& warnings;
-  SceneDescription& scene;
+// What a material contributes to its shapes.
+struct MtlLook {
+  std::string material;                // the name of a material of the scene
+  std::optional<uint32_t> area_light;  // radiance Ke, or the image map_Ke times Ke's largest component
+  std::optional<Parameter> alpha;      // from map_d or d; nothing for opaque and for clear materials
 };
 
-// The nearest pbrt material, without a name. Textures that it needs are added to the scene.
-MaterialDescription material_of_mtl(const aiMaterial& mtl, const MtlContext& context);
+class MtlMaterials {
+ public:
+  // Materials, textures and area lights are added to `scene`.
+  MtlMaterials(CountedWarnings& warnings, SourceFiles& files, SceneDescription& scene)
+      : warnings_(warnings), files_(files), scene_(scene) {}
 
-// An area light of radiance Ke, or of the image map_Ke times Ke's largest component. Nothing if the material
-// does not emit.
-std::optional<Directive> light_of_mtl(const aiMaterial& mtl, const SourceLocation& where);
+  MtlLook add(const MtlMaterial& mtl);
 
-// The `alpha` parameter of shapes from map_d or d; nothing for opaque and for clear materials.
-std::optional<Parameter> alpha_of_mtl(const aiMaterial& mtl, const MtlContext& context);
+ private:
+  void add_surface(const MtlMaterial& mtl, const std::string& name);
+  void add_material(MaterialDescription m, const std::string& name, const MtlMaterial& mtl);
+  MaterialDescription clear(const MtlMaterial& mtl);
+  MaterialDescription metal(const MtlMaterial& mtl, const glm::dvec3& colour, const MtlMap* map);
+  MaterialDescription opaque(const MtlMaterial& mtl);
+  void add_mirror_over_diffuse(const MtlMaterial& mtl, const std::string& name);
+  void add_colour(const MtlMaterial& mtl, const glm::dvec3& colour, const MtlMap* map,
+                  MaterialDescription& m);
+  void add_width(const MtlMaterial& mtl, MaterialDescription& m);
+  void add_normals(const MtlMaterial& mtl, MaterialDescription& m);
+  std::string add_texture(const MtlMap& map, const std::string& value_type);
+  std::optional<MtlMap> channel(const MtlMap& map, int channel, const std::function<double(double)>& value);
+  double opacity(const MtlMaterial& mtl);
+  bool is_clear(const MtlMaterial& mtl);
+  bool is_metal(const MtlMaterial& mtl);
+  std::optional<uint32_t> add_light(const MtlMaterial& mtl);
+  std::optional<Parameter> alpha_of(const MtlMaterial& mtl);
+  Parameter file_parameter(const std::string& name, const MtlMap& map) const;
 
-}  // namespace kaustik
+  CountedWarnings& warnings_;
+  SourceFiles& files_;
+  SceneDescription& scene_;
+  std::shared_ptr<TemporaryFolder> folder_;  // of images that are made from others
+  uint32_t folder_file_ = 0;                 // a name in it
+  size_t derived_ = 0;
+};
+
+}  // namespace kaustik::obj

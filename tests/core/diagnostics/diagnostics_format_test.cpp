@@ -21,6 +21,18 @@ TEST(Diagnostics, ShowsPlaceLineAndCaret) {
             "^\n");
 }
 
+// Only the beginning of every 1,024th line is kept.
+TEST(Diagnostics, FindsTheLinesOfLongFiles) {
+  Diagnostics diagnostics;
+  std::string text;
+  for (int i = 1; i <= 5000; ++i) text += std::to_string(i) + "\r\n";
+  const uint32_t file = diagnostics.files.add("long.obj", text);
+  for (const uint32_t line : {1u, 2u, 1023u, 1024u, 1025u, 2048u, 2049u, 5000u})
+    EXPECT_EQ(diagnostics.files.line(file, line), std::to_string(line));
+  for (const uint32_t line : {0u, 5001u, 5002u, 6144u, 1000000u})
+    EXPECT_EQ(diagnostics.files.line(file, line), "");
+}
+
 TEST(Diagnostics, KeepsTabsSoThatTheCaretIsAligned) {
   Diagnostics d;
   const uint32_t file = d.files.add("a", "\tx\ty");
