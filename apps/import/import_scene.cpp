@@ -8,6 +8,7 @@
 #include "apps/import/common/image_files.h"
 #include "apps/import/common/view.h"
 #include "apps/import/gltf/importer.h"
+#include "apps/import/lone_mesh.h"
 #include "apps/import/obj/obj_importer.h"
 #include "apps/import/pbrt/scene_parser.h"
 #include "apps/import/ply/ply.h"
@@ -62,10 +63,6 @@ std::vector<std::string> files_read(const SourceFiles& files, const NamedContent
   return paths;
 }
 
-}  // namespace
-
-namespace {
-
 std::optional<SceneDescription> import_pbrt(const std::filesystem::path& path, Diagnostics& diagnostics) {
   SceneFiles files(diagnostics.files);
   std::string error;
@@ -87,7 +84,9 @@ void check_only_camera(const SceneDescription& scene, const std::string& asked, 
 std::optional<SceneDescription> import_format(const std::filesystem::path& path, Diagnostics& diagnostics,
                                               const ImportOptions& options) {
   if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics, options);
-  auto scene = is_obj(path) ? import_obj(path, diagnostics) : import_pbrt(path, diagnostics);
+  auto scene = is_obj(path)         ? import_obj(path, diagnostics)
+               : is_lone_mesh(path) ? import_lone_mesh(path, diagnostics)
+                                    : import_pbrt(path, diagnostics);
   if (scene && !options.view.camera.empty()) check_only_camera(*scene, options.view.camera, diagnostics);
   return scene;
 }
@@ -98,7 +97,7 @@ std::optional<SceneDescription> import_scene(const std::filesystem::path& path, 
                                              const ImportOptions& options) {
   auto scene = import_format(path, diagnostics, options);
   if (!scene) return std::nullopt;
-  const bool is_pbrt = !gltf::is_gltf(path) && !is_obj(path);
+  const bool is_pbrt = !gltf::is_gltf(path) && !is_obj(path) && !is_lone_mesh(path);
   apply_view(*scene, options.view, is_pbrt ? Convention::kPbrt : Convention::kRightHanded, diagnostics);
   return scene;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Reads scenes in pbrt-v4's text format (docs/reference/scene_format.md), glTF and OBJ; the file name's
-// extension decides.
+// Reads scenes in pbrt-v4's text format (docs/reference/scene_format.md), glTF, OBJ, and PLY and STL as
+// scenes of one mesh; the file name's extension decides.
 
 #include <filesystem>
 #include <optional>

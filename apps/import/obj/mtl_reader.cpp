@@ -95,8 +95,8 @@ class MtlReader {
     if (found)
       map.file = std::move(*found);
     else if (!rest.empty())
-      warnings_.say(map.where,
-                    fmt::format("there is no file \"{}\": this map is left out", rest.substr(0, 200)));
+      warnings_.say_one_of("missing image", map.where,
+                           fmt::format("there is no file \"{}\": this map is left out", rest.substr(0, 200)));
     if (!rest.empty()) materials_.back().maps.insert_or_assign(key, std::move(map));
   }
 

@@ -106,14 +106,16 @@ class ObjScene {
     if (!is_new) return at->second;
     const auto found = library_.find(mesh.material);
     if (found == library_.end() && !mesh.material.empty())
-      warnings_.say(mesh.material_where, library_.empty()
-                                             ? "no material library was read: all materials are grey"
-                                             : fmt::format("no library has a material `{}`: grey is used",
-                                                           mesh.material.substr(0, 100)));
+      warnings_.say_one_of("unknown material", mesh.material_where, unknown(mesh.material));
     MtlMaterial grey;
     grey.name = mesh.material.empty() ? "default" : mesh.material;
     grey.where = mesh.material_where;
     return at->second = materials_.add(found == library_.end() ? grey : *found->second);
+  }
+
+  std::string unknown(const std::string& name) const {
+    if (library_.empty()) return "no material library was read: all materials are grey";
+    return fmt::format("no library has a material `{}`: grey is used", name.substr(0, 100));
   }
 
   ObjText& text_;

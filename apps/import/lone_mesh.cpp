@@ -1,0 +1,64 @@
+#include "apps/import/lone_mesh.h"
+
+#include <algorithm>
+
+#include "apps/import/common/make_parameter.h"
+#include "apps/import/obj/obj_text.h"
+#include "apps/import/ply/ply.h"
+#include "apps/import/stl/stl.h"
+
+namespace kaustik {
+namespace {
+
+std::string mesh_extension(const std::filesystem::path& path) {
+  return obj::lower_case(path.extension().string());
+}
+
+template <class V>
+std::vector<double> flat(const std::vector<V>& vectors) {
+  std::vector<double> out;
+  out.reserve(vectors.size() * size_t(V::length()));
+  for (const V& v : vectors)
+    for (int k = 0; k < V::length(); ++k) out.push_back(double(v[k]));
+  return out;
+}
+
+ShapeDescription shape_of(const TriangleMesh& mesh, const SourceLocation& where) {
+  DirectiveMaker<ShapeDescription> shape("trianglemesh", where);
+  std::vector<double> indices;
+  indices.reserve(3 * mesh.indices.size());
+  for (const auto& triangle : mesh.indices) indices.insert(indices.end(), triangle.begin(), triangle.end());
+  shape.add(ParameterType::kPoint3, "P", flat(mesh.P));
+  shape.add(ParameterType::kInteger, "indices", std::move(indices));
+  const auto finite = [](const Normal3& n) { return is_finite(n); };
+  if (!mesh.N.empty() && std::all_of(mesh.N.begin(), mesh.N.end(), finite))
+    shape.add(ParameterType::kNormal, "N", flat(mesh.N));
+  if (!mesh.uv.empty()) shape.add(ParameterType::kPoint2, "uv", flat(mesh.uv));
+  return std::move(*shape);
+}
+
+}  // namespace
+
+bool is_lone_mesh(const std::filesystem::path& path) {
+  const std::string extension = mesh_extension(path);
+  return extension == ".ply" || extension == ".stl";
+}
+
+std::optional<SceneDescription> import_lone_mesh(const std::filesystem::path& path,
+                                                 Diagnostics& diagnostics) {
+  // In place of its bytes the file's hash counts in the hash of the scene.
+  std::string content;
+  const MeshResult loaded =
+      mesh_extension(path) == ".stl" ? load_stl(path, &content) : pbrt::load_ply(path, &content);
+  const SourceLocation where{diagnostics.files.add(path.string(), content), 0, 0};
+  if (!loaded.error.empty() || loaded.mesh.indices.empty()) {
+    diagnostics.error(where, loaded.error.empty() ? "there are no triangles in this file" : loaded.error);
+    return std::nullopt;
+  }
+  SceneDescription scene;
+  scene.location = where;
+  scene.shapes.push_back(shape_of(loaded.mesh, where));
+  return scene;
+}
+
+}  // namespace kaustik
