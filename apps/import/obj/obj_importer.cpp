@@ -79,7 +79,10 @@ class ObjScene {
  public:
   ObjScene(ObjText& text, const std::vector<MtlMaterial>& library, const SourceLocation& file,
            CountedWarnings& warnings, Diagnostics& diagnostics)
-      : text_(text), file_(file), warnings_(warnings), materials_(warnings, diagnostics.files, scene_) {
+      : text_(text),
+        file_(file),
+        warnings_(warnings),
+        materials_(warnings, diagnostics.files, scene_, !text.colours.empty()) {
     scene_.location = file;
     for (const MtlMaterial& mtl : library) library_.try_emplace(mtl.name, &mtl);
   }

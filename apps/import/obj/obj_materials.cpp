@@ -28,11 +28,11 @@ double width_of(double exponent) {
   return std::sqrt(2 / (std::max(exponent, 0.0) + 2));
 }
 
-// Kd, or grey if it is not stated. Beside an image Kd is often black or white, which says nothing of the
-// colour that the image would have had: grey stands in for an image that is missing.
-glm::dvec3 diffuse_colour(const MtlMaterial& mtl) {
+// Kd, or `otherwise` if it is not stated. Beside an image Kd is often black or white, which says nothing of
+// the colour that the image would have had: grey stands in for an image that is missing.
+glm::dvec3 diffuse_colour(const MtlMaterial& mtl, const glm::dvec3& otherwise = kGrey) {
   const MtlMap* const map = mtl.map("map_kd");
-  const glm::dvec3 kd = glm::min(mtl.colour("kd").value_or(kGrey), 1.0);
+  const glm::dvec3 kd = glm::min(mtl.colour("kd").value_or(otherwise), 1.0);
   const bool says_nothing = kd == kBlack || kd == glm::dvec3(1);
   return map && map->file.empty() && says_nothing ? kGrey : kd;
 }
@@ -79,6 +79,10 @@ MaterialDescription MtlMaterials::clear(const MtlMaterial& mtl) {
     eta = 1.5;
   }
   m.number("eta", eta);
+  // Tf filters what passes the object, and light crosses two surfaces. Black is what programs write that do
+  // not use it.
+  const glm::dvec3 tf = glm::min(mtl.colour("tf").value_or(kBlack), 1.0);
+  if (tf != kBlack && tf != glm::dvec3(1)) m.rgb("transmittance", glm::sqrt(tf));
   if (mtl.number("pr").value_or(0) > 0) add_width(mtl, *m);
   return std::move(*m);
 }
@@ -99,7 +103,7 @@ MaterialDescription MtlMaterials::metal(const MtlMaterial& mtl, const glm::dvec3
 MaterialDescription MtlMaterials::opaque(const MtlMaterial& mtl) {
   const bool coated = mtl.colour("ks").value_or(kBlack) != kBlack || mtl.number("pr") || image(mtl, "map_pr");
   MaterialMaker m(coated ? "coateddiffuse" : "diffuse", mtl.where);
-  add_colour(mtl, diffuse_colour(mtl), image(mtl, "map_kd"), *m);
+  add_colour(mtl, diffuse_colour(mtl, vertex_colours_ ? glm::dvec3(1) : kGrey), image(mtl, "map_kd"), *m);
   if (coated) add_width(mtl, *m);
   add_normals(mtl, *m);
   return std::move(*m);
@@ -125,12 +129,27 @@ void MtlMaterials::add_mirror_over_diffuse(const MtlMaterial& mtl, const std::st
 
 void MtlMaterials::add_colour(const MtlMaterial& mtl, const glm::dvec3& colour, const MtlMap* map,
                               MaterialDescription& m) {
-  m.parameters.push_back(
+  const glm::dvec3 c = glm::min(colour, 1.0);
+  Parameter value =
       map ? make_parameter(ParameterType::kTexture, "reflectance", add_texture(*map, "spectrum"), mtl.where)
-          : make_parameter(ParameterType::kRgb, "reflectance",
-                           std::vector<double>{std::min(colour.x, 1.0), std::min(colour.y, 1.0),
-                                               std::min(colour.z, 1.0)},
-                           mtl.where));
+          : make_parameter(ParameterType::kRgb, "reflectance", std::vector<double>{c.x, c.y, c.z}, mtl.where);
+  m.parameters.push_back(vertex_colours_ ? times_vertex_colours(std::move(value)) : std::move(value));
+}
+
+// A texture that is the product of a parameter and the colours of vertices, as a parameter of the same name.
+Parameter MtlMaterials::times_vertex_colours(Parameter value) {
+  const auto add = [&](DirectiveMaker<TextureDescription> texture) {
+    texture->name = fmt::format("texture {}", scene_.textures.size());
+    texture->name_location = texture->value_type_location = value.location;
+    texture->value_type = "spectrum";
+    scene_.textures.push_back(std::move(*texture));
+    return scene_.textures.back().name;
+  };
+  const std::string colours = add({"vertexcolor", value.location}), name = value.name;
+  value.name = "tex";
+  DirectiveMaker<TextureDescription> product("scale", value.location);
+  product.add(value).add(make_parameter(ParameterType::kTexture, "scale", colours, value.location));
+  return make_parameter(ParameterType::kTexture, name, add(std::move(product)), value.location);
 }
 
 // The GGX width: Pr squared, as in glTF, or that of the exponent Ns.
@@ -214,13 +233,14 @@ double MtlMaterials::opacity(const MtlMaterial& mtl) {
   return tr >= 1 && illum_of(mtl) < 4 ? 1 : 1 - tr;
 }
 
-// illum 6 and 7 refract. illum 4 is also written for all materials by some programs, with their d.
+// illum 6 and 7 refract. Some programs write illum 4 for all materials: without d or Tr below it says that a
+// surface is clear only where nothing speaks for an opaque one.
 bool MtlMaterials::is_clear(const MtlMaterial& mtl) {
   const int illum = illum_of(mtl);
-  const bool says_opaque =
-      mtl.number("d").value_or(0) >= 1 && !mtl.colour("tf") && diffuse_colour(mtl) != kBlack;
+  const bool stated = mtl.number("d") || mtl.number("tr");
+  const bool refracts = mtl.number("ni").value_or(1) > 1 || mtl.colour("kd").value_or(kBlack) == kBlack;
   const bool faint = opacity(mtl) < 0.5 && !image(mtl, "map_d");
-  return illum == 6 || illum == 7 || (illum == 4 && !says_opaque) || faint;
+  return illum == 6 || illum == 7 || (illum == 4 && (stated ? opacity(mtl) < 1 : refracts)) || faint;
 }
 
 bool MtlMaterials::is_metal(const MtlMaterial& mtl) {

@@ -20,9 +20,10 @@ struct MtlLook {
 
 class MtlMaterials {
  public:
-  // Materials, textures and area lights are added to `scene`.
-  MtlMaterials(CountedWarnings& warnings, SourceFiles& files, SceneDescription& scene)
-      : warnings_(warnings), files_(files), scene_(scene) {}
+  // Materials, textures and area lights are added to `scene`. With `vertex_colours` the colours of vertices
+  // are factors on Kd and map_Kd, whose default is then white.
+  MtlMaterials(CountedWarnings& warnings, SourceFiles& files, SceneDescription& scene, bool vertex_colours)
+      : warnings_(warnings), files_(files), scene_(scene), vertex_colours_(vertex_colours) {}
 
   MtlLook add(const MtlMaterial& mtl);
 
@@ -37,6 +38,7 @@ class MtlMaterials {
                   MaterialDescription& m);
   void add_width(const MtlMaterial& mtl, MaterialDescription& m);
   void add_normals(const MtlMaterial& mtl, MaterialDescription& m);
+  Parameter times_vertex_colours(Parameter value);
   std::string add_texture(const MtlMap& map, const std::string& value_type);
   std::optional<MtlMap> channel(const MtlMap& map, int channel, const std::function<double(double)>& value);
   double opacity(const MtlMaterial& mtl);
@@ -49,6 +51,7 @@ class MtlMaterials {
   CountedWarnings& warnings_;
   SourceFiles& files_;
   SceneDescription& scene_;
+  bool vertex_colours_;
   std::shared_ptr<TemporaryFolder> folder_;  // of images that are made from others
   uint32_t folder_file_ = 0;                 // a name in it
   size_t derived_ = 0;

@@ -194,6 +194,9 @@ ShapeDescription MeshMaker::make(const ObjMesh& mesh, CountedWarnings& warnings)
   if (has_normals)
     shape.add(ParameterType::kNormal, "N",
               as_numbers(count, [&](size_t i) { return text_.N[vertices_[i].vn]; }));
+  if (!text_.colours.empty())
+    shape.add(ParameterType::kFloat, "Cd",
+              as_numbers(count, [&](size_t i) { return glm::vec4(text_.colours[vertices_[i].v], 1); }));
   if (has_uv)
     shape.add(ParameterType::kPoint2, "uv", as_numbers(count, [&](size_t i) {
                 const uint32_t vt = vertices_[i].vt;

@@ -126,11 +126,19 @@ class PartReader {
     p = glm::dvec3(0);
     if (numbers(words, &p.x, 3) < 3)
       return warn(words, "a vertex has fewer than three coordinates: the others are 0");
-    const std::string_view fourth = words.next();
-    if (fourth.empty()) return;
-    if (!words.next().empty()) return warn(words, "colours of vertices are left out");
-    const auto weight = number_of(fourth);
-    if (weight && std::isfinite(*weight) && *weight != 0) p /= *weight;
+    std::array<std::optional<double>, 3> more;
+    for (auto& number : more) number = number_of(words.next());
+    if (more[0] && more[1] && more[2]) return add_colour({float(*more[0]), float(*more[1]), float(*more[2])});
+    if (!more[1] && more[0] && std::isfinite(*more[0]) && *more[0] != 0) p /= *more[0];
+  }
+
+  // Programs write the colours that they show: sRGB.
+  void add_colour(const glm::vec3& srgb) {
+    part_.colours.resize(v_, glm::vec3(1));
+    for (int k = 0; k < 3; ++k) {
+      const float c = std::isfinite(srgb[k]) ? std::clamp(srgb[k], 0.0f, 1.0f) : 1;
+      part_.colours.back()[k] = c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+    }
   }
 
   void read_uv(Words& words) {
@@ -254,6 +262,16 @@ std::vector<Counts> counts_before(const std::vector<std::string_view>& texts) {
   return counts;
 }
 
+void collect_colours(const std::vector<Counts>& before, ObjText& text) {
+  for (size_t i = 0; i < text.parts.size(); ++i) {
+    std::vector<glm::vec3>& of_part = text.parts[i].colours;
+    if (of_part.empty()) continue;
+    text.colours.resize(text.P.size(), glm::vec3(1));
+    std::copy(of_part.begin(), of_part.end(), text.colours.begin() + std::ptrdiff_t(before[i].v));
+    of_part = {};
+  }
+}
+
 void report(const std::vector<ReadError>& errors, DiagnosticList& diagnostics) {
   const ReadError* first = nullptr;
   uint64_t count = 0;
@@ -308,6 +326,7 @@ std::optional<ObjText> read_obj(std::string_view text, uint32_t file, Diagnostic
   tbb::parallel_for(size_t{0}, texts.size(), [&](size_t i) {
     errors[i] = PartReader(texts[i], file, before[i], all, out, out.parts[i]).read();
   });
+  collect_colours(before, out);
   report(errors, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   return out;

@@ -44,11 +44,14 @@ struct ObjPart {
   Corners corners;
   std::vector<uint32_t> sizes;  // corners of each face, at least three
   std::vector<StateChange> changes;
+  std::vector<glm::vec3>
+      colours;  // of its vertices, linear, white where there is none; empty if none has one
   CountedWarnings warnings;
 };
 
 struct ObjText {
   std::vector<glm::dvec3> P;
+  std::vector<glm::vec3> colours;  // of the vertices, or empty
   std::vector<glm::vec2> uv;
   std::vector<glm::vec3> N;
   std::vector<ObjPart> parts;

@@ -11,7 +11,6 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::SizeIs;
-using testing::StartsWith;
 
 class ImportMtl : public ObjTest {
  protected:
@@ -103,6 +102,13 @@ TEST_F(ImportMtl, IlluminationModelsAreRead) {
   EXPECT_EQ(material("Kd 0.5 0 0\nKs 0.5 0.5 0.5\nillum 5\n").type, "coateddiffuse");
   EXPECT_THAT(numbers(material("Ni 1\nillum 7\n"), "eta"), ElementsAre(1.5));
   EXPECT_THAT(said(), HasSubstr("glass of `Ni` 1 would not be seen"));
+}
+
+// Light crosses two surfaces of an object of glass.
+TEST_F(ImportMtl, FiltersColourGlass) {
+  const auto m = material("Ni 1.5\nTf 0.25 1 0.25\nillum 7\n");
+  EXPECT_THAT(numbers(m, "transmittance"), ElementsAre(0.5, 1, 0.5));
+  EXPECT_FALSE(material("Ni 1.5\nTf 0 0 0\nillum 7\n").find("transmittance"));
 }
 
 // A mirror over a diffuse surface reflects Kd + Ks.

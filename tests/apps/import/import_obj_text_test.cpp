@@ -7,7 +7,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 using testing::SizeIs;
 
 using ImportObjText = ObjTest;
@@ -156,9 +155,18 @@ TEST_F(ImportObjText, OtherLinesAreCounted) {
   EXPECT_THAT(said(), HasSubstr("scene.obj:6:1: warning: lines `l` are left out (2 times)"));
   EXPECT_THAT(said(), HasSubstr("points `p` are left out\n"));
   EXPECT_THAT(said(), HasSubstr("a line `cstype` is left out"));
-  EXPECT_THAT(said(), Not(HasSubstr("colours")));
-  describe("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 2 0 2\nf 1 2 3\n");
-  EXPECT_THAT(said(), HasSubstr("colours of vertices are left out (2 times)"));
+}
+
+// sRGB 0.5 is 0.214 in linear light. The fourth of four numbers is a weight.
+TEST_F(ImportObjText, ColoursOfVerticesAreRead) {
+  const auto s = describe("v 0 0 0 1 0 0.5\nv 1 0 0 2 -1 0\nv 0 2 0 2\nf 1 2 3\n");
+  const std::vector<double> Cd = numbers(s.shapes.at(0), "Cd");
+  ASSERT_THAT(Cd, SizeIs(12));
+  EXPECT_NEAR(Cd[2], 0.214041, 1e-6);
+  EXPECT_THAT(std::vector(Cd.begin() + 3, Cd.end()), ElementsAre(1, 1, 0, 0, 1, 1, 1, 1, 1));
+  EXPECT_THAT(corners(s.shapes[0]), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0));
+  EXPECT_EQ(s.materials.at(0).find("reflectance")->type, ParameterType::kTexture);
+  EXPECT_TRUE(load_scene(folder_ / "scene.obj", diagnostics_)) << said();
 }
 
 }  // namespace
