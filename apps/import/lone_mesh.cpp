@@ -34,7 +34,24 @@ ShapeDescription shape_of(const TriangleMesh& mesh, const SourceLocation& where)
   if (!mesh.N.empty() && std::all_of(mesh.N.begin(), mesh.N.end(), finite))
     shape.add(ParameterType::kNormal, "N", flat(mesh.N));
   if (!mesh.uv.empty()) shape.add(ParameterType::kPoint2, "uv", flat(mesh.uv));
+  if (!mesh.colours.empty()) shape.add(ParameterType::kFloat, "Cd", flat(mesh.colours));
   return std::move(*shape);
+}
+
+// Gives the only shape a diffuse material of the colours of its vertices.
+void show_vertex_colours(SceneDescription& scene) {
+  const SourceLocation& where = scene.location;
+  DirectiveMaker<TextureDescription> colours("vertexcolor", where);
+  colours->name = "colours";
+  colours->value_type = "spectrum";
+  colours->name_location = colours->value_type_location = where;
+  scene.textures.push_back(std::move(*colours));
+  DirectiveMaker<MaterialDescription> material("diffuse", where);
+  material.add(make_parameter(ParameterType::kTexture, "reflectance", "colours", where));
+  material->name = "coloured";
+  material->name_location = where;
+  scene.materials.push_back(std::move(*material));
+  scene.shapes[0].material = {std::nullopt, "coloured", where};
 }
 
 }  // namespace
@@ -49,7 +66,7 @@ std::optional<SceneDescription> import_lone_mesh(const std::filesystem::path& pa
   // In place of its bytes the file's hash counts in the hash of the scene.
   std::string content;
   const MeshResult loaded =
-      mesh_extension(path) == ".stl" ? load_stl(path, &content) : pbrt::load_ply(path, &content);
+      mesh_extension(path) == ".stl" ? load_stl(path, &content) : pbrt::load_ply(path, &content, true);
   const SourceLocation where{diagnostics.files.add(path.string(), content), 0, 0};
   if (!loaded.error.empty() || loaded.mesh.indices.empty()) {
     diagnostics.error(where, loaded.error.empty() ? "there are no triangles in this file" : loaded.error);
@@ -58,6 +75,7 @@ std::optional<SceneDescription> import_lone_mesh(const std::filesystem::path& pa
   SceneDescription scene;
   scene.location = where;
   scene.shapes.push_back(shape_of(loaded.mesh, where));
+  if (!loaded.mesh.colours.empty()) show_vertex_colours(scene);
   return scene;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Imports mesh files (PLY, STL) that are a scene by themselves: one mesh of grey, with the camera and the
+// Imports mesh files (PLY, STL) that are a scene by themselves: one mesh, grey or of
+// the colours of its vertices, with the camera and the
 // light of files that have none.
 
 #include <filesystem>

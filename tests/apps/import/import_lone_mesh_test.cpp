@@ -56,6 +56,17 @@ TEST_F(ImportLoneMesh, PlyIsAScene) {
   EXPECT_TRUE(load_scene(folder_ / "a.PLY", diagnostics_)) << said();
 }
 
+TEST_F(ImportLoneMesh, PlyShowsTheColoursOfItsVertices) {
+  const auto s = mesh("a.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                      "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                      "0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n3 0 1 2\n");
+  EXPECT_THAT(numbers(s.shapes.at(0), "Cd"), ElementsAre(1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1));
+  EXPECT_THAT(s.materials, SizeIs(1));
+  EXPECT_TRUE(load_scene(folder_ / "a.ply", diagnostics_)) << said();
+}
+
 TEST_F(ImportLoneMesh, BinaryStlIsAScene) {
   const auto s = mesh("a.stl", square());
   ASSERT_THAT(s.shapes, SizeIs(1));
