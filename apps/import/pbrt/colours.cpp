@@ -144,25 +144,33 @@ std::optional<Spectrum> ColourReducer::from_pairs(const Parameter& p) {
 std::optional<Spectrum> ColourReducer::from_samples(const std::vector<double>& pairs,
                                                     const SourceLocation& where,
                                                     const std::function<SourceLocation(size_t)>& place) {
-  if (pairs.empty() || pairs.size() % 2 != 0) {
+  if (pairs.size() < 2) {
     diagnostics_.error(where, fmt::format("a spectrum takes pairs of wavelength and value, not {} number{}",
                                           pairs.size(), pairs.size() == 1 ? "" : "s"));
     return std::nullopt;
   }
+  if (pairs.size() % 2 != 0)
+    diagnostics_.warning(where,
+                         fmt::format("a spectrum takes pairs of wavelength and value: the last of {} numbers "
+                                     "is ignored",
+                                     pairs.size()));
+  std::map<double, double> sorted;
+  const char* wrong = nullptr;
+  size_t first_wrong = 0;
+  for (size_t i = 0; i + 1 < pairs.size(); i += 2) {
+    const bool increases = sorted.empty() || pairs[i] > sorted.rbegin()->first, dark = !(pairs[i + 1] >= 0);
+    if ((!increases || dark) && !wrong) {
+      first_wrong = dark ? i + 1 : i;
+      wrong = dark ? "a spectrum must not be negative: such values become zero"
+                   : "wavelengths must increase: they are sorted, and the first value of each holds";
+    }
+    sorted.emplace(pairs[i], dark ? 0 : pairs[i + 1]);
+  }
+  if (wrong) diagnostics_.warning(place(first_wrong), wrong);
   std::vector<double> wavelengths, values;
-  for (size_t i = 0; i < pairs.size(); i += 2) {
-    if (!wavelengths.empty() && pairs[i] <= wavelengths.back()) {
-      diagnostics_.error(place(i), fmt::format("wavelengths must increase: {} nm follows {} nm", pairs[i],
-                                               wavelengths.back()));
-      return std::nullopt;
-    }
-    if (pairs[i + 1] < 0) {
-      diagnostics_.error(place(i + 1),
-                         fmt::format("a spectrum must not be negative, but has the value {}", pairs[i + 1]));
-      return std::nullopt;
-    }
-    wavelengths.push_back(pairs[i]);
-    values.push_back(pairs[i + 1]);
+  for (const auto& [wavelength, value] : sorted) {
+    wavelengths.push_back(wavelength);
+    values.push_back(value);
   }
   return sampled_spectrum(wavelengths, values);
 }
@@ -175,18 +183,31 @@ std::optional<Spectrum> ColourReducer::from_name(const Parameter& p) {
   }
   if (auto s = named_spectrum(name)) return s;
   if (const auto nearest = nearest_to_missing_spectrum(name)) {
-    const std::string instead = nearest->empty() ? "" : fmt::format("; \"{}\" is the nearest", *nearest);
+    if (!nearest->empty()) {
+      diagnostics_.warning(
+          p.value_location(0),
+          fmt::format("pbrt's spectrum \"{}\" is not built in: \"{}\" stands in", name, *nearest));
+      return named_spectrum(*nearest);
+    }
     diagnostics_.error(p.value_location(0),
                        fmt::format("pbrt's spectrum \"{}\" is not built in: give a file of "
-                                   "wavelengths and values{}",
-                                   name, instead));
+                                   "wavelengths and values",
+                                   name));
     return std::nullopt;
   }
   std::string error;
   if (const auto file = open_(name, error)) return from_file(p, *file);
-  const std::string hint = name_hint(name, spectrum_names());
-  diagnostics_.error(p.value_location(0), fmt::format("no spectrum is named \"{}\"{} Read as a file name: {}",
-                                                      name, hint.empty() ? "." : hint, error));
+  const std::vector<std::string_view> names = spectrum_names();
+  const std::string hint = name_hint(name, names);
+  std::string message = fmt::format("no spectrum is named \"{}\"{} Read as a file name: {}", name,
+                                    hint.empty() ? "." : hint, error);
+  // A name with a letter or two wrong is the author's error; pbrt goes on without files that are not there.
+  const auto nearest = nearest_name(name, names);
+  if (nearest && edit_distance(name, *nearest) <= 2) {
+    diagnostics_.error(p.value_location(0), std::move(message));
+  } else {
+    diagnostics_.warning(p.value_location(0), fmt::format("{}; `{}` keeps its default", message, p.name));
+  }
   return std::nullopt;
 }
 

@@ -37,6 +37,18 @@ bool is_value(const Token& token) {
          (token.is(TokenKind::kWord) && is_bool_word(token));
 }
 
+// Programs print these for numbers that are not finite. Meshes may hold such positions and normals, which
+// concern only the faces there.
+bool is_hole_of_mesh(const Token& token, const Parameter& p) {
+  if (p.type != ParameterType::kPoint3 && p.type != ParameterType::kNormal) return false;
+  const size_t sign = token.text.starts_with('-') || token.text.starts_with('+') ? 1 : 0;
+  if (token.text.size() <= sign || std::string_view("nNiI").find(token.text[sign]) == std::string_view::npos)
+    return false;
+  std::string word(token.text.substr(sign));
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word == "nan" || word == "inf" || word == "infinity" || word.starts_with("nan(");
+}
+
 std::string_view wanted(ParameterType type) {
   switch (type) {
     case ParameterType::kString:
@@ -61,10 +73,11 @@ void expected(const Token& token, std::string_view what, DiagnosticList& diagnos
 bool add_number(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
   const auto value = parse_number(token, diagnostics);
   if (!value) return false;
-  if (p.type == ParameterType::kInteger &&
-      (*value != std::floor(*value) || token.text.find('.') != token.text.npos)) {
-    expected(token, "an integer", diagnostics);
-    return false;
+  if (p.type == ParameterType::kInteger && *value != std::floor(*value)) {
+    diagnostics.warning(token.location,
+                        fmt::format("{} is rounded: `{}` is an integer", in_quotes(token), p.name));
+    p.numbers.push_back(std::round(*value));
+    return true;
   }
   if (p.type == ParameterType::kInteger && std::abs(*value) > kLargestInteger) {
     diagnostics.error(token.location, fmt::format("{} is too large for an integer", in_quotes(token)));
@@ -77,6 +90,10 @@ bool add_number(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
 bool add_value(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
   const bool text = token.is(TokenKind::kString);
   p.value_places.push_back({token.location.line, token.location.column});
+  if (!text && is_hole_of_mesh(token, p)) {
+    p.numbers.push_back(std::numeric_limits<double>::quiet_NaN());
+    return true;
+  }
   switch (p.type) {
     case ParameterType::kString:
     case ParameterType::kTexture:
@@ -84,8 +101,8 @@ bool add_value(const Token& token, Parameter& p, DiagnosticList& diagnostics) {
       p.strings.push_back(unescape(token.text));
       return true;
     case ParameterType::kBool:
-      if (token.is(TokenKind::kNumber) || !is_bool_word(token)) break;
-      p.numbers.push_back(token.text == "true" ? 1 : 0);
+      if (!is_bool_word(token) && token.text != "0" && token.text != "1") break;
+      p.numbers.push_back(token.text == "true" || token.text == "1" ? 1 : 0);
       return true;
     case ParameterType::kSpectrum:
       if (text && p.numbers.empty()) {
@@ -178,7 +195,7 @@ std::optional<double> parse_number(const Token& token, DiagnosticList& diagnosti
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status == std::errc::invalid_argument || end != text.data() + text.size()) {
+  if (status == std::errc::invalid_argument || end != text.data() + text.size() || std::isnan(value)) {
     expected(token, "a number", diagnostics);
     return std::nullopt;
   }
@@ -222,7 +239,7 @@ bool parse_values(Tokenizer& tokens, Parameter& p, DiagnosticList& diagnostics) 
     return false;
   }
   const SourceLocation open = tokens.next().location;
-  while (is_value(tokens.peek())) {
+  while (is_value(tokens.peek()) || is_hole_of_mesh(tokens.peek(), p)) {
     if (!add_value(tokens.next(), p, diagnostics)) {
       skip_list(tokens);
       return false;

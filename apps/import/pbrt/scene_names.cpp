@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/import/pbrt/scene_parser.h"
+#include "core/diagnostics/nearest_name.h"
 #include "core/scene/schema/schema.h"
 
 namespace kaustik::pbrt {
@@ -42,19 +43,36 @@ std::string SceneParser::define(std::string_view what, const std::string& name, 
 }
 
 // Replaces names that were defined again by their unique names. Whether a parameter takes a float or a
-// spectrum texture follows from the type of the enclosing texture, else from the schema. A name that only
-// exists as a float texture is resolved as one, so that the schema's error names it.
+// spectrum texture follows from the type of the enclosing texture, else from the schema. A name that exists
+// only as a texture of the other type is resolved as that.
 void SceneParser::resolve_names(std::string_view word, Directive& directive, bool of_float_texture) const {
   if (state_.float_textures.empty() && state_.spectrum_textures.empty() && state_.materials.empty()) return;
   for (Parameter& p : directive.parameters) {
     if (p.type == ParameterType::kTexture && p.strings.size() == 1) {
       const bool number = of_float_texture || takes_number(word, directive, p.name);
-      const bool only_float = !spectrum_textures_.contains(p.strings[0]);
-      replace(number || only_float ? state_.float_textures : state_.spectrum_textures, p.strings[0]);
+      const bool is_float = float_textures_.contains(p.strings[0]);
+      const bool is_spectrum = spectrum_textures_.contains(p.strings[0]);
+      const bool as_float = number ? is_float || !is_spectrum : !is_spectrum;
+      replace(as_float ? state_.float_textures : state_.spectrum_textures, p.strings[0]);
     } else if (word == "Material" && p.name == "materials") {
       for (std::string& name : p.strings) replace(state_.materials, name);
     }
   }
+}
+
+// As in pbrt-v3, a parameter whose texture is not defined up to here keeps its default.
+void SceneParser::leave_out_unknown_textures(Directive& directive) {
+  std::erase_if(directive.parameters, [&](const Parameter& p) {
+    if (p.type != ParameterType::kTexture || p.strings.size() != 1) return false;
+    const std::string& name = p.strings[0];
+    if (float_textures_.contains(name) || spectrum_textures_.contains(name)) return false;
+    std::vector<std::string_view> names(spectrum_textures_.begin(), spectrum_textures_.end());
+    names.insert(names.end(), float_textures_.begin(), float_textures_.end());
+    repeated_.add("texture/" + name, p.value_location(0),
+                  fmt::format("no texture is named `{}` up to here: `{}` keeps its default{}", name, p.name,
+                              name_hint(name, names)));
+    return true;
+  });
 }
 
 }  // namespace kaustik::pbrt

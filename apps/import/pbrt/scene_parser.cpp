@@ -68,18 +68,22 @@ const std::map<std::string_view, SceneParser::Entry>& SceneParser::directives() 
       {"ObjectInstance", {&P::on_object_instance, kWorld}},
       {"Option", {&P::on_option, kOptions}},
       {"PixelFilter", {&P::on_setting, kOptions}},
+      {"Renderer", {&P::on_v2, kAny}},
       {"ReverseOrientation", {&P::on_reverse_orientation, kWorld}},
       {"Rotate", {&P::on_rotate, kAny}},
       {"Sampler", {&P::on_setting, kOptions}},
       {"Scale", {&P::on_scale, kAny}},
       {"Shape", {&P::on_shape, kWorld}},
+      {"SurfaceIntegrator", {&P::on_v2, kAny}},
       {"Texture", {&P::on_texture, kWorld}},
       {"Transform", {&P::on_transform, kAny}},
       // As in pbrt, these two save and restore the whole state.
-      {"TransformBegin", {&P::on_attribute_begin, kWorld}},
-      {"TransformEnd", {&P::on_attribute_end, kWorld}},
+      {"TransformBegin", {&P::on_attribute_begin, kAny}},
+      {"TransformEnd", {&P::on_attribute_end, kAny}},
       {"TransformTimes", {&P::on_transform_times, kOptions}},
       {"Translate", {&P::on_translate, kAny}},
+      {"Volume", {&P::on_v2, kAny}},
+      {"VolumeIntegrator", {&P::on_v2, kAny}},
       {"WorldBegin", {&P::on_world_begin, kAny}},
       {"WorldEnd", {&P::on_world_end, kWorld}},
   };
@@ -94,11 +98,13 @@ SceneDescription SceneParser::parse(uint32_t file) {
 }
 
 void SceneParser::finish(const SourceLocation& end) {
+  curves_.finish(scene_);
+  repeated_.report(diagnostics_);
   if (stopped_) return;
   if (!in_world_ && !misses_world_begin_) diagnostics_.error(end, "the file ends without `WorldBegin`");
   for (const Open& open : std::span(stack_).first(std::min(stack_.size(), kMostUnclosed))) {
-    diagnostics_.error(open.location, fmt::format("this block is not closed: expected `{}`",
-                                                  open.object ? "ObjectEnd" : "AttributeEnd"));
+    diagnostics_.warning(open.location, fmt::format("this block is not closed: expected `{}`",
+                                                    open.object ? "ObjectEnd" : "AttributeEnd"));
   }
 }
 
@@ -133,8 +139,17 @@ void SceneParser::run(const Token& word) {
     return;
   }
   const Entry& entry = found->second;
-  if (entry.block == Block::kOptions && in_world_) {
-    diagnostics_.error(word.location, fmt::format("`{}` belongs before `WorldBegin`", word.text));
+  if (world_ended_) {
+    diagnostics_.warning(
+        word.location, "what follows `WorldEnd` is another picture: only the first one of the file is read");
+    stopped_ = true;
+    return;
+  }
+  if (entry.block == Block::kOptions && in_world_ && word.text == "Camera") {
+    diagnostics_.error(word.location, "`Camera` belongs before `WorldBegin`");
+  } else if (entry.block == Block::kOptions && in_world_) {
+    repeated_.add("before/" + std::string(word.text), word.location,
+                  fmt::format("`{}` belongs before `WorldBegin`; it is read here, too", word.text));
   } else if (entry.block == Block::kWorld && !in_world_ && !misses_world_begin_) {
     // Reported once only: all later directives would repeat it.
     misses_world_begin_ = true;
@@ -176,8 +191,10 @@ bool SceneParser::read_directive(const Token& word, std::string_view target, Dir
   out.parameters = parse_parameters(*tokens_, diagnostics_);
   keep_last_ones(out.parameters, diagnostics_);
   add_defaults(target, out.parameters);
+  leave_out_unknown_textures(out);
   v3_.upgrade(word.text, out);
   if (word.text == "Material" || word.text == "Shape") resolve_names(word.text, out);
+  repairs_.repair(word.text, out);
   if (!tokens_->peek().is(TokenKind::kWord) && !tokens_->peek().is(TokenKind::kEnd)) {
     diagnostics_.error(tokens_->peek().location,
                        fmt::format("expected a parameter \"type name\" or a directive, not `{}`",
@@ -253,7 +270,8 @@ void SceneParser::pop(bool object, const Token& word) {
     return;
   }
   if (stack_.empty()) {
-    diagnostics_.error(word.location, fmt::format("`{}` closes no open block", word.text));
+    repeated_.add("unopened", word.location,
+                  fmt::format("`{}` closes no open block and is ignored", word.text));
     return;
   }
   if (stack_.back().object != object) {

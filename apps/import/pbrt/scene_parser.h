@@ -9,7 +9,9 @@
 
 #include "apps/import/common/scene_files.h"
 #include "apps/import/pbrt/colours.h"
+#include "apps/import/pbrt/curves/curve_collector.h"
 #include "apps/import/pbrt/graphics_state.h"
+#include "apps/import/pbrt/repair/repairs.h"
 #include "apps/import/pbrt/tokenizer.h"
 #include "apps/import/pbrt/v3/upgrader.h"
 #include "core/scene/description/description.h"
@@ -64,6 +66,7 @@ class SceneParser {
   std::string define(std::string_view what, const std::string& name, const SourceLocation& where,
                      std::set<std::string>& known, LaterNames& later);
   void resolve_names(std::string_view word, Directive& directive, bool of_float_texture = false) const;
+  void leave_out_unknown_textures(Directive& directive);
 
   // Materials of pbrt-v3 that are more than one of ours (scene_v3_extras.cpp).
   void add_material(MaterialDescription material);
@@ -91,6 +94,7 @@ class SceneParser {
   void on_color_space(const Token& word);
   void on_world_begin(const Token& word);
   void on_world_end(const Token& word);
+  void on_v2(const Token& word);
 
   // Handlers of blocks and of the graphics state.
   void on_attribute_begin(const Token& word);
@@ -121,6 +125,9 @@ class SceneParser {
   Diagnostics& diagnostics_;
   ColourReducer colours_;
   V3Upgrader v3_;
+  RepeatedWarnings repeated_;
+  Repairs repairs_{repeated_};
+  CurveCollector curves_{repeated_};
   SceneDescription scene_;
   GraphicsState state_;
   std::vector<Open> stack_;
@@ -128,11 +135,12 @@ class SceneParser {
   // `alpha` for the shapes of a material, by its index.
   std::map<size_t, Parameter> alpha_of_material_;
   std::map<std::string, size_t, std::less<>> seen_through_;  // indices of named materials that have an alpha
-  std::map<std::string, size_t, std::less<>> objects_;       // indices into scene_.objects
+  LaterNames objects_;  // the unique name of the last definition of each object
   std::set<std::string> float_textures_, spectrum_textures_, materials_;  // names defined so far
   std::set<std::string> warned_;
   std::optional<size_t> open_object_;
   bool in_world_ = false;
+  bool world_ended_ = false;
   bool misses_world_begin_ = false;  // and this has been reported
   bool stopped_ = false;             // after too many errors or too large includes
   uint64_t ignored_pushes_ = 0;      // open blocks beyond the nesting limit

@@ -38,13 +38,18 @@ void SceneParser::on_rotate(const Token& word) {
 void SceneParser::on_look_at(const Token& word) {
   const auto v = parse_numbers(*tokens_, 9, word.text, diagnostics_);
   if (!v) return skip_arguments();
-  const auto m = look_at(*v);
-  if (!m) {
-    return diagnostics_.error(
-        word.location,
-        "`LookAt` needs an eye, another point to look at, and an up vector that does not "
-        "point along the view");
-  }
+  if (const auto m = look_at(*v)) return concat(*m);
+  // The axis that lies farthest from the view is a valid up vector unless there is no view.
+  std::vector<double> turned = *v;
+  const glm::dvec3 view =
+      glm::abs(glm::dvec3(turned[3] - turned[0], turned[4] - turned[1], turned[5] - turned[2]));
+  const size_t axis = view.y <= view.x && view.y <= view.z ? 1 : view.z <= view.x ? 2 : 0;
+  for (size_t k = 0; k < 3; ++k) turned[6 + k] = k == axis ? 1 : 0;
+  const auto m = look_at(turned);
+  if (!m) return diagnostics_.error(word.location, "`LookAt` needs an eye and another point to look at");
+  diagnostics_.warning(
+      word.location,
+      fmt::format("the up vector of `LookAt` points along the view or is zero: +{} is up", "xyz"[axis]));
   concat(*m);
 }
 
@@ -73,8 +78,9 @@ void SceneParser::on_coord_sys_transform(const Token& word) {
   }
   std::vector<std::string_view> names;
   for (const auto& [known, m] : coordinate_systems_) names.push_back(known);
-  diagnostics_.error(name->location, fmt::format("no coordinate system is named `{}`{}", name->text,
-                                                 name_hint(name->text, names)));
+  repeated_.add(fmt::format("coordinate system/{}", name->text), name->location,
+                fmt::format("no coordinate system is named `{}`: the transform stays as it is{}", name->text,
+                            name_hint(name->text, names)));
 }
 
 void SceneParser::on_active_transform(const Token& word) {
@@ -138,7 +144,10 @@ void SceneParser::on_option(const Token& word) {
   if (spec) p.type = spec->types.front();
   if (blank != text.npos) p.type = parameter_type(std::string_view(text).substr(0, blank)).value_or(p.type);
   if (!spec) {
-    scene_.options.push_back(std::move(p));  // the schema check reports it
+    std::vector<std::string_view> names;
+    for (const ParameterSpec& known : option_type().parameters) names.push_back(known.name);
+    repeated_.add("option/" + p.name, p.location,
+                  fmt::format("unknown option `{}` is ignored{}", p.name, name_hint(p.name, names)));
     return skip_arguments();
   }
   if (parse_values(*tokens_, p, diagnostics_)) scene_.options.push_back(std::move(p));
@@ -153,12 +162,24 @@ void SceneParser::on_color_space(const Token& word) {
   }
   std::vector<std::string_view> names;
   for (const ColourSpace& space : colour_spaces()) names.push_back(space.name);
-  diagnostics_.error(name->location,
-                     fmt::format("unknown color space \"{}\"{}", name->text, name_hint(name->text, names)));
+  repeated_.add(fmt::format("color space/{}", name->text), name->location,
+                fmt::format("unknown color space \"{}\": \"{}\" remains{}", name->text,
+                            state_.colour_space->name, name_hint(name->text, names)));
 }
 
 void SceneParser::on_world_end(const Token& word) {
-  diagnostics_.warning(word.location, "`WorldEnd` is pbrt-v3's and ignored: the scene ends with the file");
+  world_ended_ = in_world_ && open_files_.size() == 1;
+  if (!world_ended_)
+    diagnostics_.warning(word.location, "this `WorldEnd` is ignored: it ends no `WorldBegin`");
+}
+
+// Directives of pbrt-v2 that later versions do not have. Their arguments are skipped.
+void SceneParser::on_v2(const Token& word) {
+  repeated_.add("v2", word.location,
+                fmt::format("`{}` makes this a file of pbrt-v2: it is read as one of pbrt-v3, without "
+                            "integrators, renderers and volumes",
+                            word.text));
+  skip_arguments();
 }
 
 void SceneParser::on_world_begin(const Token& word) {

@@ -26,6 +26,12 @@ void SceneParser::on_texture(const Token& word) {
   if (!value_type || !read_directive(word, "texture", texture)) return;
   texture.value_type = unescape(value_type->text);
   if (texture.value_type == "color") texture.value_type = "spectrum";  // pbrt-v3's name of it
+  if (texture.value_type != "float" && texture.value_type != "spectrum") {
+    repeated_.add("texture's type", value_type->location,
+                  fmt::format("a texture is \"float\" or \"spectrum\": \"{}\" is read as \"spectrum\"",
+                              texture.value_type.substr(0, 60)));
+    texture.value_type = "spectrum";
+  }
   const bool is_float = texture.value_type == "float";
   resolve_names("Texture", texture, is_float);
   texture.name =
@@ -63,6 +69,7 @@ void SceneParser::on_make_named_material(const Token& word) {
   std::erase_if(material.parameters, [](const Parameter& p) { return p.name == "type"; });
   v3_.upgrade("Material", material);
   resolve_names("Material", material);
+  repairs_.repair("Material", material);
   material.name = define("material", material.name, material.name_location, materials_, state_.materials);
   add_material(std::move(material));
 }
@@ -98,11 +105,18 @@ void SceneParser::on_light(const Token& word) {
 void SceneParser::on_shape(const Token& word) {
   ShapeDescription shape;
   if (!read_directive(word, "shape", shape)) return;
+  for (const std::string_view name : {"P", "indices"}) {
+    const Parameter* p = shape.find(name);
+    if (!p || p->count() > 0) continue;
+    return repeated_.add("empty mesh", shape.location,
+                         fmt::format("a shape with an empty list `{}` is left out", name));
+  }
   shape.object_to_world = state_.ctm;
   shape.reverse_orientation = state_.reverse_orientation;
   shape.material = state_.material;
   shape.area_light = state_.area_light;
   apply_opacity(shape);
+  if (shape.type == "curve") return curves_.add(shape, open_object_);
   (open_object_ ? scene_.objects[*open_object_].shapes : scene_.shapes).push_back(std::move(shape));
 }
 
@@ -116,13 +130,14 @@ void SceneParser::on_object_begin(const Token& word) {
     return;
   }
   const std::string text = unescape(name->text);
-  const auto [found, is_new] = objects_.emplace(text, scene_.objects.size());
+  const auto [found, is_new] = objects_.emplace(text, text);
   if (!is_new) {
-    diagnostics_.error(name->location, fmt::format("object `{}` is defined twice", text),
-                       {{scene_.objects[found->second].location, "first defined here"}});
+    found->second = fmt::format("{} ({})", text, scene_.objects.size());
+    repeated_.add("object", name->location,
+                  fmt::format("object `{}` is defined again: later instances show this definition", text));
   }
   open_object_ = scene_.objects.size();
-  scene_.objects.push_back({text, name->location, {}});
+  scene_.objects.push_back({found->second, name->location, {}});
 }
 
 void SceneParser::on_object_end(const Token& word) {
@@ -137,10 +152,12 @@ void SceneParser::on_object_instance(const Token& word) {
   const auto name = in_quotes("a name", word);
   if (!name) return;
   if (open_object_) {
-    return diagnostics_.error(word.location, "an object cannot contain an instance",
-                              {{scene_.objects[*open_object_].location, "the object"}});
+    return repeated_.add("nested instance", word.location,
+                         "an object cannot contain an instance, which is left out as in pbrt");
   }
-  scene_.instances.push_back({unescape(name->text), name->location, state_.ctm});
+  const std::string text = unescape(name->text);
+  const auto last = objects_.find(text);
+  scene_.instances.push_back({last == objects_.end() ? text : last->second, name->location, state_.ctm});
 }
 
 void SceneParser::on_include(const Token& word) {

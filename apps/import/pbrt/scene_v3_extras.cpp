@@ -22,6 +22,7 @@ void SceneParser::add_material(MaterialDescription material) {
   V3Extras extras = v3_.take_extras();
   for (MaterialDescription& part : extras.parts) {
     resolve_names("Material", part);
+    repairs_.repair("Material", part);
     colours_.reduce("Material", *state_.colour_space, part);
     scene_.materials.push_back(std::move(part));
   }

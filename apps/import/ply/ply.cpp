@@ -123,8 +123,7 @@ class MeshReader {
         if (N) mesh_.N[v.number] = {at((*N)[0]), at((*N)[1]), at((*N)[2])};
         if (uv) mesh_.uv[v.number] = {at((*uv)[0]), at((*uv)[1])};
         if (colour) mesh_.colours[v.number] = colour_of(v, *colour);
-        if (is_finite(p)) return std::string();
-        return ply_error(v.position, fmt::format("the position of vertex {} is not finite", v.number));
+        return std::string();
       });
     });
   }

@@ -7,6 +7,7 @@
 
 #include "apps/console/exit_error.h"
 #include "apps/machine/usable_memory.h"
+#include "apps/session/files/dark_scene.h"
 #include "core/stopwatch.h"
 #include "render/camera/pixel_range.h"
 #include "render/film/film_totals.h"
@@ -128,6 +129,8 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
   std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics, options);
   if (!loaded) report_broken_scene(path, options, diagnostics, console);
   const SceneSettings file = settings_from_scene(loaded->description, diagnostics);
+  if (const std::string why = why_black(loaded->scene, loaded->description); !why.empty())
+    diagnostics.warning(loaded->description.location, why);
   print_diagnostics(diagnostics, console);
   if (diagnostics.has_errors()) refuse_scene(path, diagnostics.error_count());
 

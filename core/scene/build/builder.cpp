@@ -37,6 +37,23 @@ struct Item {
   size_t placements = 0;
   std::optional<SharedMesh> shared;  // made from the source if its placements share it
   DiagnosticList diagnostics;        // from making the source
+  size_t messages = 0;               // their number
+};
+
+// Shapes or instances that are left out for one reason, which is reported once.
+struct LeftOut {
+  size_t count = 0;
+  SourceLocation first;
+
+  void add(const SourceLocation& where) {
+    if (count++ == 0) first = where;
+  }
+  void report(std::string_view noun, DiagnosticList& diagnostics) const {
+    if (count == 0) return;
+    const std::string many = count > 1 ? fmt::format(" ({} {}s in all)", count, noun) : "";
+    diagnostics.warning(first,
+                        fmt::format("the transform of this {} has no inverse: it is left out{}", noun, many));
+  }
 };
 
 // One placement of an item.
@@ -65,6 +82,8 @@ class Builder {
     textures_.emplace(description_, images_, warned_, diagnostics_);
     MaterialTable materials(description_, *textures_, warned_, diagnostics_);
     collect(materials);
+    flat_shapes_.report("shape", diagnostics_);
+    flat_instances_.report("instance", diagnostics_);
     load_sources();
     choose_origin(scene);
     lights_.emplace(description_, light_images_, *textures_, warned_, diagnostics_);
@@ -111,6 +130,7 @@ class Builder {
   std::vector<Item> items_;
   std::vector<Placement> placements_;
   std::set<size_t> warned_without_area_;
+  LeftOut flat_shapes_, flat_instances_;
 };
 
 // Returns nothing if the shape is invalid or has an "interface" material.
@@ -119,11 +139,11 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
   const uint32_t material = materials.resolve(shape.material, diagnostics_);
   const TypeSpec* spec = find_type(category("Shape"), shape, diagnostics_);
   bool ok = spec && check_parameters("shape", *spec, shape, warned_, diagnostics_);
-  if (!is_usable_transform(shape.object_to_world)) {
-    diagnostics_.error(shape.location, "the transform of this shape cannot be inverted");
-    ok = false;
-  }
   if (!ok) return std::nullopt;
+  if (!is_usable_transform(shape.object_to_world)) {
+    flat_shapes_.add(shape.location);
+    return std::nullopt;
+  }
   if (material == MaterialTable::kInterface) {
     if (shape.area_light) {
       diagnostics_.warning(shape.location,
@@ -196,8 +216,7 @@ void Builder::add_instance(size_t index, const std::map<std::string_view, std::v
     return;
   }
   if (!is_usable_transform(instance.instance_to_world)) {
-    diagnostics_.error(instance.location, "the transform of this instance cannot be inverted");
-    return;
+    return flat_instances_.add(instance.location);
   }
   for (const size_t item : found->second) {
     placements_.push_back(
@@ -217,7 +236,10 @@ void Builder::load_sources() {
   tbb::parallel_for(size_t{0}, items_.size(), [&](size_t i) {
     items_[i].source = make_source(items_[i], glm::dvec3(0), items_[i].diagnostics);
   });
-  for (Item& item : items_) diagnostics_.append(std::move(item.diagnostics));
+  for (Item& item : items_) {
+    item.messages = item.diagnostics.entries().size();
+    diagnostics_.append(std::move(item.diagnostics));
+  }
 }
 
 // Bounds of each item in its own space.
@@ -255,11 +277,11 @@ void Builder::move_inline_meshes(const std::vector<ExactBounds>& of_item, const 
     const glm::dvec3 around = item.object ? local_origin(of_object[*item.object]) : origin;
     if (!item.description->find("P") || around == glm::dvec3(0)) return;
     const glm::dmat4 to_mesh = glm::inverse(item.description->object_to_world);
-    // Not reported: a mesh that is tiny in the world may exceed the range of floats here, and stays as it
-    // was.
+    // Not reported: a mesh that is tiny in the world may exceed the range of floats here, which is one
+    // warning more, and stays as it was.
     DiagnosticList beyond_floats;
     auto moved = make_source(item, glm::dvec3(to_mesh * glm::dvec4(around, 1)), beyond_floats);
-    if (moved) item.source = std::move(moved);
+    if (moved && beyond_floats.entries().size() == item.messages) item.source = std::move(moved);
   });
 }
 

@@ -2,6 +2,8 @@
 
 #include "core/scene/build/light_table.h"
 
+#include "core/geometry/tessellate.h"
+
 namespace kaustik {
 namespace {
 
@@ -34,10 +36,6 @@ LightTable::AreaLight LightTable::check(const Directive& directive, LightImages&
   if (!spec || !check_parameters("area light", *spec, directive, warned, diagnostics_)) return {};
   const ParameterReader parameters(directive, *spec);
   if (!parameters.has("filename")) return {spec, nullptr};
-  if (parameters.has("L")) {
-    diagnostics_.error(parameters.location("L"), "an area light has `L` or `filename`, not both");
-    return {};
-  }
   return {spec, images.get(parameters, "filename")};
 }
 
@@ -62,13 +60,20 @@ bool LightTable::make(const ShapeDescription& description, Shape& shape, std::ve
   const auto& [spec, image] = area_lights_[*description.area_light];
   const ParameterReader parameters(directive, *spec);
   const bool partly = shape.has_alpha() && !is_hidden(shape);
-  auto light = DiffuseAreaLight::make(shape, image ? Rgb(1) : parameters.rgb("L"),
-                                      parameters.flag("twosided"), partly && !image ? white_pixel() : image);
+  const auto from_shape = [&] {
+    return DiffuseAreaLight::make(shape, parameters.rgb("L"), parameters.flag("twosided"),
+                                  partly && !image ? white_pixel() : image);
+  };
+  auto light = from_shape();
+  if (!light && swept_of(shape) && !keeps_areas_even(shape)) {
+    diagnostics_.warning(description.location,
+                         "a light on a sphere or cylinder that is scaled non-uniformly shines as triangles",
+                         {{directive.location, "the area light"}});
+    shape.geometry = tessellated(shape);
+    light = from_shape();
+  }
   if (!light) {
-    const bool uneven = swept_of(shape) && !keeps_areas_even(shape);
-    diagnostics_.error(description.location,
-                       uneven ? "a sphere or cylinder that is scaled non-uniformly cannot be a light"
-                              : "the area of this light is zero or not finite",
+    diagnostics_.error(description.location, "the area of this light is zero or not finite",
                        {{directive.location, "the area light"}});
     return false;
   }

@@ -19,7 +19,8 @@ class LightTable {
              WarnedOnce& warned, DiagnosticList& diagnostics);
 
   // Makes the described shape a light: adds it to `lights` and sets shape.light. The shape must be placed and
-  // have its alpha. Returns false, with an error added, if the shape cannot emit.
+  // have its alpha; it becomes triangles if it cannot emit otherwise. Returns false, with an error added, if
+  // the shape cannot emit.
   bool make(const ShapeDescription& description, Shape& shape, std::vector<Light>& lights) const;
 
  private:

@@ -91,11 +91,13 @@ uint32_t MaterialTable::mix(const MaterialDescription& material, const TypeSpec&
   uint32_t found[2];
   for (size_t i = 0; i < 2; ++i) {
     found[i] = resolve({std::nullopt, names->strings[i], names->value_location(i)}, diagnostics);
-    if (found[i] == kInterface) {
-      diagnostics.error(names->value_location(i),
-                        "material \"interface\" is not a surface and cannot be mixed");
-      return default_material();
-    }
+  }
+  for (size_t i = 0; i < 2; ++i) {
+    if (found[i] != kInterface) continue;
+    diagnostics.warning(
+        names->value_location(i),
+        "material \"interface\" is not a surface and cannot be mixed: the other one is taken");
+    return found[1 - i];
   }
   const Material &first = materials_[found[0]], &second = materials_[found[1]];
   MixedMaterial mixed{found[0], found[1], 0.5f, first.lobes()};
@@ -121,15 +123,15 @@ uint32_t MaterialTable::resolve(const MaterialReference& reference, DiagnosticLi
   if (reference.name.empty()) return default_material();
   const auto found = by_name_.find(reference.name);
   if (found != by_name_.end()) return found->second;
-  const SourceLocation& at = reference.location;
-  if (reported_.insert({at.file, at.line, at.column}).second) {
+  if (reported_.insert(reference.name).second) {
     const std::vector<std::string_view> names = [&] {
       std::vector<std::string_view> all;
       for (const auto& [name, index] : by_name_) all.push_back(name);
       return all;
     }();
-    diagnostics.error(
-        at, fmt::format("no material is named `{}`{}", reference.name, name_hint(reference.name, names)));
+    diagnostics.warning(reference.location,
+                        fmt::format("no material is named `{}`: diffuse with reflectance 0.5 stands in{}",
+                                    reference.name, name_hint(reference.name, names)));
   }
   return default_material();
 }

@@ -17,8 +17,8 @@ class MaterialTable {
   MaterialTable(const SceneDescription& description, const TextureTable& textures, WarnedOnce& warned,
                 DiagnosticList& diagnostics);
 
-  // Index into materials(), or kInterface. An undefined name is an error, reported once per location. After
-  // such an error, and where no material was set, the result is pbrt's default: diffuse with reflectance 0.5.
+  // Index into materials(), or kInterface. Where a name is undefined, with a warning once per name, and where
+  // no material was set, the result is pbrt's default: diffuse with reflectance 0.5.
   uint32_t resolve(const MaterialReference& reference, DiagnosticList& diagnostics);
 
   std::vector<Material>& materials() { return materials_; }
@@ -36,7 +36,7 @@ class MaterialTable {
   std::vector<std::string> names_;
   std::vector<uint32_t> of_description_;
   std::map<std::string, uint32_t, std::less<>> by_name_;
-  std::set<std::tuple<uint32_t, uint32_t, uint32_t>> reported_;
+  std::set<std::string, std::less<>> reported_;  // undefined names
   uint32_t default_ = kNoIndex;
 };
 

@@ -35,8 +35,8 @@ void check_name(const Directive& film, DiagnosticList& diagnostics) {
   }
   std::vector<std::string_view> names(std::begin(kMeasured), std::end(kMeasured));
   names.insert(names.begin(), "cie1931");
-  diagnostics.error(p->value_location(0),
-                    fmt::format("unknown sensor \"{}\"{}", name, name_hint(name, names)));
+  diagnostics.warning(p->value_location(0), fmt::format("unknown sensor \"{}\": \"cie1931\" stands in{}",
+                                                        name, name_hint(name, names)));
 }
 
 double exposure_time(const Directive* film, const Directive* camera, DiagnosticList& diagnostics) {
@@ -44,8 +44,8 @@ double exposure_time(const Directive* film, const Directive* camera, DiagnosticL
   const double time = number(camera, "shutterclose", 1) - number(camera, "shutteropen", 0);
   if (time > 0) return time;
   const Parameter* close = camera->find("shutterclose");
-  diagnostics.error((close ? close : camera->find("shutteropen"))->value_location(0),
-                    "the shutter does not open: `shutterclose` must be later than `shutteropen`");
+  diagnostics.warning((close ? close : camera->find("shutteropen"))->value_location(0),
+                      "the shutter opens for no time: one second is taken");
   return 1;
 }
 

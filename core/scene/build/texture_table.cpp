@@ -105,23 +105,22 @@ class TextureTable::Maker {
     ok_ = false;
   }
 
-  Rgb value(std::string_view name) {
-    const Parameter* given = texture_.find(name);
-    if (value_ == TextureValue::kFloat && given && given->type != ParameterType::kFloat)
-      error(given->location,
-            fmt::format("`{}` must be a number in a float texture: \"float {}\"", name, name));
-    return p_.rgb(name);
+  // The value of a parameter that is no texture. In float textures colours count as their mean.
+  Rgb value(std::string_view name) { return value(name, value_); }
+  Rgb value(std::string_view name, TextureValue kind) {
+    const Rgb given = p_.rgb(name);
+    const Parameter* p = texture_.find(name);
+    if (kind == TextureValue::kSpectrum || !p || p->type == ParameterType::kFloat) return given;
+    diagnostics_.warning(p->location,
+                         fmt::format("`{}` must be a number in a float texture: \"float {}\"; the "
+                                     "mean of the colour is taken",
+                                     name, name));
+    return Rgb((given.x + given.y + given.z) / 3);
   }
   TextureOperand operand(std::string_view name) { return operand(name, value_); }
   TextureOperand operand(std::string_view name, TextureValue kind) {
     const Parameter* given = texture_.find(name);
-    if (!given || given->type != ParameterType::kTexture) {
-      const bool number = kind == TextureValue::kFloat;
-      if (number && given && given->type != ParameterType::kFloat)
-        error(given->location,
-              fmt::format("`{}` must be a number in a float texture: \"float {}\"", name, name));
-      return TextureOperand{p_.rgb(name)};
-    }
+    if (!given || given->type != ParameterType::kTexture) return TextureOperand{value(name, kind)};
     TextureOperand found{Rgb(0), table_.find(*given, kind, diagnostics_)};
     if (found.texture == kNoIndex) {
       ok_ = false;
@@ -301,11 +300,12 @@ uint32_t TextureTable::find(const Parameter& parameter, TextureValue value,
                       {{later->name_location, "defined here"}});
     return kNoIndex;
   }
-  const auto& other = names(value == TextureValue::kFloat ? TextureValue::kSpectrum : TextureValue::kFloat);
-  if (other.contains(name)) {
-    diagnostics.error(where,
-                      fmt::format("`{}` takes a {} texture, which `{}` is not", parameter.name, kind, name));
-    return kNoIndex;
+  const bool is_float = value == TextureValue::kFloat;
+  const auto& other = names(is_float ? TextureValue::kSpectrum : TextureValue::kFloat);
+  if (const auto found = other.find(name); found != other.end()) {
+    diagnostics.warning(where, fmt::format("`{}` takes a {} texture, which `{}` is not: {} is taken",
+                                           parameter.name, kind, name, is_float ? "its red" : "its grey"));
+    return found->second;
   }
   std::vector<std::string_view> candidates;
   for (const auto& [candidate, index] : known) candidates.push_back(candidate);

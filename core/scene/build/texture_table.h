@@ -21,7 +21,8 @@ class TextureTable {
   TextureTable(const SceneDescription& description, const ImageLoader& images, WarnedOnce& warned,
                DiagnosticList& diagnostics);
 
-  // The texture named by a parameter of type kTexture, or kNoIndex, with an error, if it is not defined.
+  // The texture named by a parameter of type kTexture, or kNoIndex, with an error, if it is not defined. A
+  // texture of the other type stands in, with a warning.
   uint32_t find(const Parameter& parameter, TextureValue value, DiagnosticList& diagnostics) const;
   // Loads the image of a normal map, without decoding its values. Returns nothing after an error.
   std::optional<uint32_t> load_linear_image(const std::string& filename, const SourceLocation& where,

@@ -1,5 +1,5 @@
-// Schema rows of pbrt's materials that are approximated by others: subsurface scattering, measured BSDFs, and
-// coated metal. A warning says what is left out of each.
+// Schema rows of pbrt's materials that are approximated by others: subsurface scattering, measured BSDFs,
+// hair, and coated metal. A warning says what is left out of each.
 
 #include <array>
 
@@ -125,6 +125,41 @@ MaterialRow coated_conductor_row() {
   return {std::move(spec), make_coated_conductor};
 }
 
+// The colour of hair whose absorption is that of its two pigments (d'Eon et al. 2011) or given, as pbrt
+// inverts the albedo of a head of hair (Chiang et al. 2016, equation 9).
+Rgb hair_colour(const MaterialInputs& p) {
+  if (p.has("reflectance")) return p.rgb("reflectance");
+  Rgb sigma_a(0.419f, 0.697f, 1.37f);
+  if (p.has("sigma_a")) {
+    sigma_a = p.rgb("sigma_a");
+  } else {
+    const bool pigments = p.has("eumelanin") || p.has("pheomelanin");
+    const auto eumelanin = static_cast<float>(pigments ? p.number("eumelanin") : 1.3);
+    const auto pheomelanin = static_cast<float>(pigments ? p.number("pheomelanin") : 0);
+    sigma_a = eumelanin * sigma_a + pheomelanin * Rgb(0.187f, 0.4f, 1.05f);
+  }
+  const auto b = static_cast<float>(p.number("beta_n")), b2 = b * b;
+  const float d =
+      5.969f - 0.215f * b + 2.532f * b2 - 10.73f * b2 * b + 5.574f * b2 * b2 + 0.245f * b2 * b2 * b;
+  return glm::exp(-d * glm::sqrt(sigma_a));
+}
+
+MaterialRow hair_row() {
+  std::vector<ParameterSpec> own = {
+      without_default(rgb("reflectance", 0, "", kUnit, "colour of a head of hair"), "from the absorption"),
+      without_default(
+          of_type(ParameterType::kRgb, "sigma_a", {0, 0, 0}, "1/radius", kNotNegative, "absorption"),
+          "from the pigments"),
+      number("eumelanin", 0, "", kNotNegative, "concentration of the brown pigment; 1.3 if none is given"),
+      number("pheomelanin", 0, "", kNotNegative, "concentration of the red pigment"),
+      number("beta_n", 0.3, "", kUnit, "azimuthal roughness; here it affects only the colour")};
+  for (const std::string_view name : {"beta_m", "eta", "alpha"})
+    own.push_back(ignored(name, {ParameterType::kFloat, ParameterType::kTexture}, "hair is diffuse here"));
+  TypeSpec spec{"hair", "Fibres of hair or fur.", material(std::move(own))};
+  spec.approximated = "as \"diffuse\" in the colour of a head of such hair";
+  return {std::move(spec), [](const MaterialInputs& p) -> Bsdf { return Lambertian{hair_colour(p)}; }};
+}
+
 MaterialRow measured_row() {
   TypeSpec spec{"measured", "A measured BSDF.",
                 material({text("filename", "none", "file of the measurements; it is not read")})};
@@ -135,7 +170,7 @@ MaterialRow measured_row() {
 }  // namespace
 
 std::vector<MaterialRow> approximated_material_rows() {
-  return {subsurface_row(), coated_conductor_row(), measured_row()};
+  return {subsurface_row(), coated_conductor_row(), hair_row(), measured_row()};
 }
 
 }  // namespace kaustik::spec

@@ -40,6 +40,13 @@ bool check_pixels(const std::string& file, LightImage& image, const SourceLocati
   return true;
 }
 
+std::shared_ptr<const LightImage> scaled_image(std::shared_ptr<const LightImage> image, const Rgb& factor) {
+  if (factor == Rgb(1)) return image;
+  LightImage scaled = *image;
+  for (Rgb& c : scaled.pixels) c *= factor;
+  return std::make_shared<const LightImage>(std::move(scaled));
+}
+
 std::shared_ptr<const LightImage> grey_image(const LightImage& image) {
   LightImage grey = image;
   for (Rgb& c : grey.pixels) c = Rgb((c.x + c.y + c.z) / 3);
@@ -70,28 +77,25 @@ std::shared_ptr<const LightImage> LightImages::get(const ParameterReader& parame
 }
 
 std::shared_ptr<const DirectionMap> LightImages::directions(const ParameterReader& parameters,
-                                                            std::string_view name, Around around) {
+                                                            std::string_view name, Around around,
+                                                            const Rgb& factor) {
   auto image = get(parameters, name);
   if (!image) return nullptr;
   const std::string file = parameters.text(name);
-  const bool square = image->width == image->height, lat_long = image->width == 2 * image->height;
-  if (!square && !lat_long) {
-    diagnostics_.error(parameters.location(name),
-                       fmt::format("\"{}\" has {} x {} pixels: expected a square (equal-area) image, or one "
-                                   "twice as wide as high (latitude-longitude)",
-                                   file, image->width, image->height));
-    return nullptr;
-  }
-  if (lat_long) {
+  const bool square = image->width == image->height, twice = image->width == 2 * image->height;
+  if (!square) {
+    const std::string shape =
+        twice ? "" : fmt::format(" although it has {} x {} pixels", image->width, image->height);
     diagnostics_.warning(
         parameters.location(name),
-        fmt::format("\"{}\" is read as a latitude-longitude map with +z at the top; pbrt-v4 takes "
+        fmt::format("\"{}\" is read as a latitude-longitude map with +z at the top{}; pbrt-v4 takes "
                     "only square equal-area maps",
-                    file));
+                    file, shape));
   }
   const auto layout = square ? DirectionMap::Layout::kEqualArea : DirectionMap::Layout::kLatLong;
   if (around == Around::kLight) return std::make_shared<const DirectionMap>(grey_image(*image), layout);
-  return std::make_shared<const DirectionMap>(std::move(image), layout, DirectionMap::Excess::kSampled);
+  return std::make_shared<const DirectionMap>(scaled_image(std::move(image), factor), layout,
+                                              DirectionMap::Excess::kSampled);
 }
 
 }  // namespace kaustik

@@ -18,12 +18,12 @@ class LightImages {
   // pixel that is not finite. Negative pixels become zero, with a warning that names the first one.
   std::shared_ptr<const LightImage> get(const ParameterReader& parameters, std::string_view name);
 
-  // Returns the image as a map of all directions. A square image uses the equal-area layout; an image twice
-  // as wide as high uses the latitude-longitude layout, with a warning because pbrt-v4 rejects it. Other
-  // sizes are errors. kLight: a grey map, the mean of the three channels. kSky: with its excess sampled.
+  // Returns the image as a map of all directions. A square image uses the equal-area layout; all others use
+  // the latitude-longitude layout, with a warning because pbrt-v4 rejects it. kLight: a grey map, the mean of
+  // the three channels. kSky: with its excess sampled. factor: on all pixels.
   enum class Around { kLight, kSky };
   std::shared_ptr<const DirectionMap> directions(const ParameterReader& parameters, std::string_view name,
-                                                 Around around);
+                                                 Around around, const Rgb& factor = Rgb(1));
 
  private:
   std::shared_ptr<const LightImage> load(const std::string& file, const SourceLocation& where);

@@ -79,7 +79,8 @@ std::optional<glm::dvec3> direction(const LightInputs& in, const glm::dvec3& d) 
   return std::nullopt;
 }
 
-// The orthogonal part of a map that scales uniformly, up to the rounding of numbers in a scene file.
+// The orthogonal part of a map, with a warning unless it scales uniformly up to the rounding of numbers in a
+// scene file.
 std::optional<glm::mat3> rotation(const LightInputs& in) {
   constexpr double kTolerance = 1e-3;
   const glm::dmat3 m(in.light_to_world);
@@ -89,10 +90,10 @@ std::optional<glm::mat3> rotation(const LightInputs& in) {
   const double size = glm::length(m[0]);
   for (int c = 0; c < 3; ++c) {
     if (glm::length(m[c] - size * orthogonal[c]) <= kTolerance * size) continue;
-    in.diagnostics.error(in.parameters.directive().location,
-                         "the transform of this light scales non-uniformly or shears: expected a rotation, "
-                         "mirroring or uniform scaling");
-    return std::nullopt;
+    in.diagnostics.warning(
+        in.parameters.directive().location,
+        "the transform of this light scales non-uniformly or shears: only its rotation counts");
+    break;
   }
   return glm::mat3(orthogonal);
 }
@@ -169,6 +170,18 @@ bool is_rectangle(const std::array<glm::dvec3, 4>& p) {
          std::abs(glm::dot(a, b)) <= kTolerance * la * lb;
 }
 
+// Whether the light shines through a portal. Where the points are no rectangle the whole sky shines, with a
+// warning: a portal says only which part of it is seen.
+bool has_portal(const LightInputs& in) {
+  if (!in.parameters.has("portal")) return false;
+  std::array<glm::dvec3, 4> corner;
+  for (size_t i = 0; i < 4; ++i) corner[i] = in.parameters.vec3("portal", i);
+  if (is_rectangle(corner)) return true;
+  in.diagnostics.warning(in.parameters.location("portal"),
+                         "`portal` must be the four corners of a rectangle, in order: it is ignored");
+  return false;
+}
+
 // Makes an infinite light with a portal. As in pbrt, the corners are in world space whatever the light's
 // transform, which only turns the sky. make_sky: makes the sky from the map that takes directions of the
 // portal to those of the light. irradiance: the luminance of the whole sky's irradiance on a plane that faces
@@ -179,10 +192,6 @@ std::optional<Light> make_portal(const LightInputs& in, double irradiance, const
   std::array<glm::dvec3, 4> corner;
   for (size_t i = 0; i < 4; ++i) corner[i] = p.vec3("portal", i);
   const auto light_to_world = rotation(in);
-  if (!is_rectangle(corner)) {
-    in.diagnostics.error(p.location("portal"), "`portal` must be the four corners of a rectangle, in order");
-    return std::nullopt;
-  }
   if (!light_to_world) return std::nullopt;
   PortalInfiniteLight light;
   light.corner = Point3(corner[0] - in.origin);
@@ -196,17 +205,15 @@ std::optional<Light> make_portal(const LightInputs& in, double irradiance, const
   return light;
 }
 
+// As in pbrt-v3, `L` scales the image; the image takes its colour, so that the light needs no more than a
+// number.
 std::optional<Light> make_image_infinite(const LightInputs& in) {
   const ParameterReader& p = in.parameters;
-  if (p.has("L")) {
-    in.diagnostics.error(p.location("L"), "an infinite light has `L` or `filename`, not both");
-    return std::nullopt;
-  }
   const auto map_to_world = rotation(in);
   ImageInfiniteLight light;
-  light.map = in.images.directions(p, "filename", LightImages::Around::kSky);
+  light.map = in.images.directions(p, "filename", LightImages::Around::kSky, p.rgb("L"));
   if (!light.map || !map_to_world) return std::nullopt;
-  if (p.has("portal")) {
+  if (has_portal(in)) {
     return make_portal(in, light.map->irradiance(), [&](const glm::mat3& to_map) {
       return std::make_shared<const PortalSky>(*light.map, to_map);
     });
@@ -221,7 +228,7 @@ std::optional<Light> make_infinite(const LightInputs& in) {
   if (p.has("filename")) return make_image_infinite(in);
   InfiniteLight light;
   light.L = p.rgb("L");
-  if (p.has("portal")) {
+  if (has_portal(in)) {
     return make_portal(in, double(kPi * luminance(light.L)),
                        [&](const glm::mat3&) { return std::make_shared<const PortalSky>(light.L); });
   }
@@ -274,7 +281,8 @@ std::vector<LightRow> make_light_rows() {
        make_distant},
       {{"infinite",
         "Radiance from every direction: constant, or given by an image.",
-        {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(),
+        {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance, or the factor on an image (in pbrt-v3 only)"),
+         scale(),
          illuminance(
              "irradiance on a plane facing the light's +z: for a constant light that of white light, with "
              "`L` and `scale` as factors; for images and portals its luminance, with `scale` as a factor"),
@@ -289,10 +297,10 @@ std::vector<TypeSpec> make_area_light_types() {
   return {{"diffuse",
            "Makes the shapes that follow emit the same radiance in all directions on their outside. A "
            "shape whose `alpha` is 0 everywhere emits light, but rays do not hit it.",
-           {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance"), scale(), power_spec(),
-            flag("twosided", false, "emits on both sides"),
+           {rgb("L", 1, "W/(m^2 sr)", kNotNegative, "radiance, or the factor on an image (not in pbrt)"),
+            scale(), power_spec(), flag("twosided", false, "emits on both sides"),
             text("filename", "none",
-                 "radiance instead of `L`: an image over the uv of the shape, (0, 0) its lower left corner; "
+                 "radiance, times `L`: an image over the uv of the shape, (0, 0) its lower left corner; "
                  "interpolated bilinearly and clamped at the edges")}}};
 }
 

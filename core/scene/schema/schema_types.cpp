@@ -117,9 +117,9 @@ std::vector<Category> make_categories() {
       {"Sampler", "sampler", specs_of(sampler_types()), {}},
       {"PixelFilter", "pixel filter", specs_of(filter_types()), {}},
       {"Accelerator", "accelerator", specs_of(accelerator_types()), {}},
-      {"Material", "material", specs_of(material_rows()), {"hair"}},
-      {"Texture", "texture", specs_of(texture_types()), {"ptex"}},
-      {"Shape", "shape", specs_of(shape_rows()), {"curve"}},
+      {"Material", "material", specs_of(material_rows()), {}},
+      {"Texture", "texture", specs_of(texture_types()), {}},
+      {"Shape", "shape", specs_of(shape_rows()), {}},
       {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
       {"LightSource", "light", specs_of(light_rows()), {}},
   };

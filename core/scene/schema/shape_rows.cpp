@@ -85,6 +85,44 @@ std::vector<ParameterSpec> shape(std::vector<ParameterSpec> own) {
   return own;
 }
 
+// pbrt's shapes that become triangles here (core/scene/shapes/parametric.h).
+std::vector<ShapeRow> triangulated_rows(const ParameterSpec& phimax) {
+  const auto required = [](ParameterSpec p) { return without_default(std::move(p), "required"); };
+  std::vector<ParameterSpec> nurbs;
+  for (const std::string_view name : {"nu", "nv"})
+    nurbs.push_back(required(integer(name, 2, "", {1, 1 << 16}, "control points along u (or v)")));
+  for (const std::string_view name : {"uorder", "vorder"})
+    nurbs.push_back(required(integer(name, 2, "", {1, 32}, "degree along u (or v), plus one")));
+  for (const std::string_view name : {"uknots", "vknots"})
+    nurbs.push_back(
+        list(Type::kFloat, name, 2, "required", "", "knots, as many as control points and the order"));
+  for (const std::string_view name : {"u0", "v0", "u1", "v1"})
+    nurbs.push_back(
+        without_default(number(name, 0, "", kAnyNumber, "end of the part that is shown"), "whole surface"));
+  nurbs.push_back(list(Type::kPoint3, "P", 1, "required, or Pw", "m", "control points, u the fastest"));
+  nurbs.push_back(list(Type::kFloat, "Pw", 4, "none", "", "control points as w x, w y, w z, w"));
+  const Range side{2, 1 << 14};
+  return {
+      {{"cone", "A cone about the z axis with its tip at z = height, without a base, as triangles.",
+        shape({number("radius", 1, "m", kPositive, "radius at z = 0"),
+               number("height", 1, "m", kPositive, "height of the tip"), phimax})}},
+      {{"paraboloid",
+        "z = zmax (x^2 + y^2) / radius^2 from `zmin` to `zmax`, as triangles; the outside is below.",
+        shape({number("radius", 1, "m", kPositive, "radius at zmax"),
+               number("zmin", 0, "m", kAnyNumber, "lower limit"),
+               number("zmax", 1, "m", kAnyNumber, "upper limit"), phimax})}},
+      {{"hyperboloid", "The line from `p1` to `p2`, turned about the z axis, as triangles.",
+        shape({point("p1", {0, 0, 0}, "one end of the line"), point("p2", {1, 1, 1}, "the other end"),
+               phimax})}},
+      {{"heightfield", "Heights over the unit square, as triangles (pbrt-v3).",
+        shape({required(integer("nu", 2, "", side, "heights along x")),
+               required(integer("nv", 2, "", side, "heights along y")),
+               list(Type::kFloat, "Pz", 4, "required", "m", "nu times nv heights, x the fastest")})}},
+      {{"nurbs", "A non-uniform rational B-spline surface, as triangles with its normals (pbrt-v3).",
+        shape(std::move(nurbs))}},
+  };
+}
+
 std::vector<ShapeRow> make_shape_rows() {
   const ParameterSpec P = list(Type::kPoint3, "P", 3, "required", "m", "vertices");
   const ParameterSpec N =
@@ -97,7 +135,7 @@ std::vector<ShapeRow> make_shape_rows() {
       ignored("faceIndices", {Type::kInteger}, "numbers of the original faces");
   const Range turn{0, 360, true, false};
   const ParameterSpec phimax = number("phimax", 360, "degrees", turn, "extent about the axis, from +x");
-  return {
+  std::vector<ShapeRow> rows = {
       {{"trianglemesh", "Triangles. Without `N`, the outside is the side of cross(p1 - p0, p2 - p0).",
         shape({P,
                list(Type::kInteger, "indices", 3, "0 1 2 when there are three vertices", "",
@@ -141,6 +179,8 @@ std::vector<ShapeRow> make_shape_rows() {
                integer("levels", 3, "", {0, 12}, "how many times each triangle is divided into four"),
                ignored("scheme", {Type::kString}, "there is only one scheme")})}},
   };
+  for (ShapeRow& row : triangulated_rows(phimax)) rows.push_back(std::move(row));
+  return rows;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "core/scene/shapes/bilinear.h"
 #include "core/scene/shapes/loop_subdivision.h"
+#include "core/scene/shapes/parametric.h"
 
 namespace kaustik {
 namespace {
@@ -61,12 +62,14 @@ std::optional<std::vector<std::array<uint32_t, kSize>>> faces(const Context& c, 
     return std::nullopt;
   }
   if (p->numbers.size() % kSize != 0) {
-    c.error(p->location, fmt::format("`indices` of shape \"{}\" come in groups of {}, but there are {}",
-                                     c.shape.type, kSize, p->numbers.size()));
-    return std::nullopt;
+    c.diagnostics.warning(
+        p->location,
+        fmt::format(
+            "`indices` of shape \"{}\" come in groups of {}, but there are {}: the last ones are ignored",
+            c.shape.type, kSize, p->numbers.size()));
   }
   std::vector<std::array<uint32_t, kSize>> out(p->numbers.size() / kSize);
-  for (size_t i = 0; i < p->numbers.size(); ++i) {
+  for (size_t i = 0; i < kSize * out.size(); ++i) {
     const double index = p->numbers[i];
     if (!(index >= 0 && index < static_cast<double>(vertices))) {
       c.error(p->value_location(i),
@@ -78,11 +81,14 @@ std::optional<std::vector<std::array<uint32_t, kSize>>> faces(const Context& c, 
   return out;
 }
 
-bool check_per_vertex(const Context& c, std::string_view name, size_t count, size_t vertices) {
-  if (count == 0 || count == vertices) return true;
-  c.error(c.shape.find(name)->location,
-          fmt::format("`{}` has {} entries for {} vertices", name, count, vertices));
-  return false;
+// Leaves out values that are not one per vertex, as pbrt does.
+template <class V>
+void check_per_vertex(const Context& c, std::string_view name, size_t vertices, std::vector<V>& values) {
+  if (values.empty() || values.size() == vertices) return;
+  c.diagnostics.warning(
+      c.shape.find(name)->location,
+      fmt::format("`{}` has {} entries for {} vertices and is ignored", name, values.size(), vertices));
+  values.clear();
 }
 
 std::optional<ShapeSource> make_trianglemesh(const Context& c) {
@@ -92,12 +98,12 @@ std::optional<ShapeSource> make_trianglemesh(const Context& c) {
   mesh.P = positions(c, *P);
   mesh.N = vectors<Normal3, 3>(c.shape.find("N"));
   mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
-  const bool complete = check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) &&
-                        check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
   mesh.colours = vectors<glm::vec4, 4>(c.shape.find("Cd"));
+  check_per_vertex(c, "N", mesh.P.size(), mesh.N);
+  check_per_vertex(c, "uv", mesh.P.size(), mesh.uv);
+  check_per_vertex(c, "Cd", mesh.P.size(), mesh.colours);
   auto indices = faces<3>(c, mesh.P.size());
-  if (!complete || !check_per_vertex(c, "Cd", mesh.colours.size(), mesh.P.size()) || !indices)
-    return std::nullopt;
+  if (!indices) return std::nullopt;
   mesh.indices = std::move(*indices);
   return ShapeSource{std::move(mesh), glm::translate(glm::dmat4(1), c.mesh_origin)};
 }
@@ -109,10 +115,10 @@ std::optional<ShapeSource> make_bilinearmesh(const Context& c) {
   mesh.P = positions(c, *P);
   mesh.N = vectors<Normal3, 3>(c.shape.find("N"));
   mesh.uv = vectors<Point2, 2>(c.shape.find("uv"));
-  const bool complete = check_per_vertex(c, "N", mesh.N.size(), mesh.P.size()) &&
-                        check_per_vertex(c, "uv", mesh.uv.size(), mesh.P.size());
+  check_per_vertex(c, "N", mesh.P.size(), mesh.N);
+  check_per_vertex(c, "uv", mesh.P.size(), mesh.uv);
   auto patches = faces<4>(c, mesh.P.size());
-  if (!complete || !patches) return std::nullopt;
+  if (!patches) return std::nullopt;
   mesh.patches = std::move(*patches);
   return ShapeSource{triangulate_patches(mesh), glm::translate(glm::dmat4(1), c.mesh_origin)};
 }
@@ -145,16 +151,40 @@ std::optional<ShapeSource> make_plymesh(const Context& c, const MeshLoader& load
   return ShapeSource{std::move(result.mesh)};
 }
 
-// Checks that apply to both inline meshes and mesh files.
-bool check_mesh(const Context& c, const TriangleMesh& mesh) {
+// Leaves out triangles with a corner that is not finite. Such vertices, which no triangle has then, are moved
+// to a finite place.
+void leave_out_infinite(const Context& c, const SourceLocation& where, TriangleMesh& mesh) {
+  const auto finite = [](const Point3& p) { return is_finite(p); };
+  if (std::all_of(mesh.P.begin(), mesh.P.end(), finite)) return;
+  const auto first = std::find_if(mesh.P.begin(), mesh.P.end(), finite);
+  const Point3 elsewhere = first == mesh.P.end() ? Point3(0) : *first;
+  const size_t before = mesh.indices.size();
+  std::erase_if(mesh.indices, [&](const auto& t) {
+    return std::any_of(t.begin(), t.end(), [&](uint32_t i) { return !is_finite(mesh.P[i]); });
+  });
+  for (Point3& p : mesh.P) p = is_finite(p) ? p : elsewhere;
+  c.diagnostics.warning(where,
+                        fmt::format("{} of {} triangles have a position that is not finite and are left out",
+                                    before - mesh.indices.size(), before));
+}
+
+// A normal of zero counts as none: the other corners' normals stand in, and then the face's.
+void clear_infinite_normals(const Context& c, const SourceLocation& where, TriangleMesh& mesh) {
+  size_t cleared = 0;
+  for (Normal3& n : mesh.N) {
+    if (is_finite(n)) continue;
+    n = Normal3(0);
+    ++cleared;
+  }
+  if (cleared == 0) return;
+  c.diagnostics.warning(where, fmt::format("{} of {} normals are not finite: those of the faces stand in",
+                                           cleared, mesh.N.size()));
+}
+
+// Checks that apply to both inline meshes and mesh files. What is not finite is left out.
+bool check_mesh(const Context& c, TriangleMesh& mesh) {
   const std::string_view source = c.shape.find("P") ? "P" : "filename";
   const SourceLocation where = c.reader.location(source);
-  for (size_t i = 0; i < mesh.P.size(); ++i) {
-    if (is_finite(mesh.P[i]) && (mesh.N.empty() || is_finite(mesh.N[i]))) continue;
-    c.error(where, fmt::format("vertex {} of the mesh has a {} that is not finite", i,
-                               is_finite(mesh.P[i]) ? "normal" : "position"));
-    return false;
-  }
   for (size_t t = 0; t < mesh.indices.size(); ++t) {
     for (const uint32_t index : mesh.indices[t]) {
       if (index < mesh.P.size()) continue;
@@ -163,14 +193,39 @@ bool check_mesh(const Context& c, const TriangleMesh& mesh) {
       return false;
     }
   }
+  leave_out_infinite(c, where, mesh);
+  clear_infinite_normals(c, where, mesh);
   return true;
 }
 
+std::optional<ShapeSource> source_of(std::optional<TriangleMesh> mesh) {
+  if (!mesh) return std::nullopt;
+  return ShapeSource{std::move(*mesh)};
+}
+
+bool all_required(const Context& c, std::initializer_list<std::string_view> names) {
+  return std::all_of(names.begin(), names.end(), [&](std::string_view name) { return c.required(name); });
+}
+
+std::optional<ShapeSource> make_surface_of_nurbs(const Context& c) {
+  if (!all_required(c, {"nu", "nv", "uorder", "vorder", "uknots", "vknots", c.shape.find("Pw") ? "Pw" : "P"}))
+    return std::nullopt;
+  auto source = source_of(make_nurbs(c.reader, c.mesh_origin, c.diagnostics));
+  if (source) source->local = glm::translate(glm::dmat4(1), c.mesh_origin);
+  return source;
+}
+
 std::optional<ShapeSource> make_mesh(const Context& c, const MeshLoader& load_mesh) {
+  if (c.shape.type == "cone") return source_of(make_cone(c.reader, c.diagnostics));
+  if (c.shape.type == "paraboloid") return source_of(make_paraboloid(c.reader, c.diagnostics));
+  if (c.shape.type == "hyperboloid") return source_of(make_hyperboloid(c.reader, c.diagnostics));
+  if (c.shape.type == "heightfield" && all_required(c, {"nu", "nv", "Pz"}))
+    return source_of(make_heightfield(c.reader, c.diagnostics));
+  if (c.shape.type == "nurbs") return make_surface_of_nurbs(c);
   if (c.shape.type == "plymesh") return make_plymesh(c, load_mesh);
   if (c.shape.type == "bilinearmesh") return make_bilinearmesh(c);
   if (c.shape.type == "loopsubdiv") return make_loopsubdiv(c);
-  return make_trianglemesh(c);
+  return c.shape.type == "trianglemesh" ? make_trianglemesh(c) : std::nullopt;
 }
 
 }  // namespace
@@ -183,7 +238,7 @@ std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, cons
   const Context context{shape, reader, diagnostics, mesh_origin};
   std::optional<ShapeSource> source = make_mesh(context, load_mesh);
   if (!source) return std::nullopt;
-  const auto* mesh = std::get_if<TriangleMesh>(&source->geometry);
+  auto* mesh = std::get_if<TriangleMesh>(&source->geometry);
   if (mesh && !check_mesh(context, *mesh)) return std::nullopt;
   return source;
 }

@@ -12,9 +12,9 @@
 namespace kaustik {
 
 // Makes the geometry of a Shape line. Returns nothing, with errors added, if the parameters contradict each
-// other or the mesh is invalid: indices out of range, positions or normals that are not finite. The directive
-// must have passed check_parameters. mesh_origin: in the shape's space; vertices given in the scene file are
-// rounded to float relative to it. Thread-safe.
+// other or an index of the mesh is out of range. Triangles with positions that are not finite are left out,
+// and such normals become zero, with warnings. The directive must have passed check_parameters. mesh_origin:
+// in the shape's space; vertices given in the scene file are rounded to float relative to it. Thread-safe.
 std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const ShapeRow& row,
                                              const MeshLoader& load_mesh, DiagnosticList& diagnostics,
                                              const glm::dvec3& mesh_origin = glm::dvec3(0));

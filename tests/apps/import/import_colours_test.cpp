@@ -67,11 +67,12 @@ TEST_F(ImportColours, SpectraAreReadFromFiles) {
   const auto flat = Spectrum::from([](double) { return 2; });
   expect_near(intensity(world("LightSource \"point\" \"spectrum I\" \"light.spd\"")), emitted_colour(flat));
   write("bad.spd", "300 2\n900");
-  EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"bad.spd\""),
-              testing::HasSubstr("a spectrum takes pairs of wavelength and value, not 3 numbers"));
+  EXPECT_THAT(
+      messages("WorldBegin LightSource \"point\" \"spectrum I\" \"bad.spd\""),
+      testing::HasSubstr("a spectrum takes pairs of wavelength and value: the last of 3 numbers is ignored"));
   write("worse.spd", "300 2\n200 2");
   EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"worse.spd\""),
-              testing::HasSubstr("worse.spd:2:1: error: wavelengths must increase"));
+              testing::HasSubstr("worse.spd:2:1: warning: wavelengths must increase"));
   write("text.spd", "300 two");
   EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"text.spd\""),
               testing::HasSubstr("text.spd:1:5: error: expected a number"));
@@ -144,10 +145,11 @@ TEST_F(ImportColours, WhiteBalanceAdaptsColours) {
 TEST_F(ImportColours, SensorsAreKnownByName) {
   EXPECT_THAT(messages("Film \"rgb\" \"string sensor\" \"canon_eos_5d\"\nWorldBegin"),
               testing::HasSubstr("warning: sensor \"canon_eos_5d\" is replaced by \"cie1931\""));
-  EXPECT_THAT(messages("Film \"rgb\" \"string sensor\" \"canon_eos_6d\"\nWorldBegin"),
-              testing::HasSubstr("error: unknown sensor \"canon_eos_6d\"; did you mean"));
+  EXPECT_THAT(
+      messages("Film \"rgb\" \"string sensor\" \"canon_eos_6d\"\nWorldBegin"),
+      testing::HasSubstr("warning: unknown sensor \"canon_eos_6d\": \"cie1931\" stands in; did you mean"));
   EXPECT_THAT(messages("Camera \"perspective\" \"float shutterclose\" 0\nWorldBegin"),
-              testing::HasSubstr("1:43: error: the shutter does not open"));
+              testing::HasSubstr("1:43: warning: the shutter opens for no time: one second is taken"));
 }
 
 }  // namespace

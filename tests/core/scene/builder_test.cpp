@@ -85,11 +85,11 @@ TEST(Builder, ChecksTheMeshesThatLoadersReturn) {
   EXPECT_EQ(message(bad), "triangle 1 of the mesh has vertex 99: there are 4 vertices");
   bad = fan(2);
   bad.mesh.P[3].y = kInfinity;
-  EXPECT_EQ(message(bad), "vertex 3 of the mesh has a position that is not finite");
+  EXPECT_EQ(message(bad), "1 of 2 triangles have a position that is not finite and are left out");
   bad = fan(2);
   bad.mesh.N.assign(4, Normal3(0, 0, 1));
   bad.mesh.N[2].x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(message(bad), "vertex 2 of the mesh has a normal that is not finite");
+  EXPECT_EQ(message(bad), "1 of 4 normals are not finite: those of the faces stand in");
 }
 
 TEST(Builder, ScalingByAPowerOfTwoScalesEveryVertexExactly) {

@@ -162,7 +162,8 @@ std::string upgrade_v3_material(Directive& d, V3Extras* extras) {
     return upgrade_uber(d, extras);
   }
   using Upgrade = std::string (*)(Directive&);
-  static const std::map<std::string_view, Upgrade> table = {{"disney", disney},
+  static const std::map<std::string_view, Upgrade> table = {{"", none},
+                                                            {"disney", disney},
                                                             {"fourier", fourier},
                                                             {"glass", glass},
                                                             {"kdsubsurface", kd_subsurface},

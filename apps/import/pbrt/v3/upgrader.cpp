@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/pbrt/v3/materials.h"
@@ -86,6 +87,7 @@ void V3Upgrader::drop(std::string_view word, std::string_view name, std::string_
 }
 
 void V3Upgrader::upgrade(std::string_view word, Directive& d) {
+  if (word == "Film" && d.type == "image") add_film_defaults(d);
   for (const Renaming& r : kTypes) {
     if (r.word == word) rename_type(word, r.from, r.to, d);
   }
@@ -105,11 +107,22 @@ void V3Upgrader::upgrade(std::string_view word, Directive& d) {
 }
 
 void V3Upgrader::upgrade_material(Directive& m) {
+  if (m.type == "hair") rename("Material", "color", "reflectance", m);
   const std::string from = m.type;
   const std::string change = upgrade_v3_material(m, &extras_);
   if (!change.empty())
     warn_once(fmt::format("Material/{}/{}", from, change), m.type_location,
               fmt::format("pbrt-v3's material \"{}\" becomes {}", from, change));
+}
+
+// v3's image has another size by default, and the time for which the shutter is open does not darken it.
+void V3Upgrader::add_film_defaults(Directive& film) {
+  for (const auto& [name, type, value] : {std::tuple{"xresolution", ParameterType::kInteger, 640.0},
+                                          std::tuple{"yresolution", ParameterType::kInteger, 480.0},
+                                          std::tuple{"exposuretime", ParameterType::kFloat, 1.0}}) {
+    if (!film.find(name))
+      film.parameters.push_back(make_parameter(type, name, std::vector<double>{value}, film.type_location));
+  }
 }
 
 // v3's `scale` multiplies the image, as `iso` / 100 does.
