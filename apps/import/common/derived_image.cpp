@@ -50,14 +50,15 @@ double encoded(double v) {
 }  // namespace
 
 std::optional<std::string> write_tinted(const std::filesystem::path& from, const std::filesystem::path& to,
-                                        const glm::dvec3& factor) {
+                                        const glm::dvec3& factor, double exponent) {
   std::string error;
   const auto image = read(from, error);
   if (!image) return error;
   ImageNumbers out{image->width, image->height, 3, true, {}};
   for (size_t i = 0; i < image->count(); ++i) {
     for (int c = 0; c < 3; ++c)
-      out.values.push_back(static_cast<float>(encoded(factor[c] * linear(at(*image, i, c)))));
+      out.values.push_back(
+          static_cast<float>(encoded(factor[c] * std::pow(linear(at(*image, i, c)), exponent))));
   }
   return write(to, out, 8);
 }

@@ -9,9 +9,10 @@
 
 namespace kaustik::gltf {
 
-// Multiplies the colours of an sRGB image by `factor` in linear light and writes an sRGB PNG.
+// Raises the colours of an sRGB image to `exponent` and multiplies them by `factor` in linear light, and
+// writes an sRGB PNG.
 std::optional<std::string> write_tinted(const std::filesystem::path& from, const std::filesystem::path& to,
-                                        const glm::dvec3& factor);
+                                        const glm::dvec3& factor, double exponent = 1);
 // Applies `map` to one channel (0 to 3) of an image and writes a 16-bit grey PNG. A missing alpha channel
 // counts as 1. Constant results are written too.
 std::optional<std::string> write_channel(const std::filesystem::path& from, const std::filesystem::path& to,

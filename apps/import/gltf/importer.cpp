@@ -98,7 +98,7 @@ class Importer {
     VertexColours colours = vertex_colours(document_, primitive, total_);
     const Look& look = materials_.look(primitive["material"].index(document_.size("materials")),
                                        {colours.common, !colours.each.empty()});
-    auto shape = triangles_of(document_, primitive, look.uv_set, total_, warnings_);
+    auto shape = triangles_of(document_, primitive, look.uv, total_, warnings_);
     if (!shape) return std::nullopt;
     shape->material = look.material;
     shape->area_light = look.area_light;

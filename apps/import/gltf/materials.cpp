@@ -27,8 +27,10 @@ View extension(const View& material, const char* name) {
   return material["extensions"][name];
 }
 
+// The index of refraction; 0 stands for an infinite one.
 double index_of(const View& material) {
-  return std::clamp(extension(material, "KHR_materials_ior")["ior"].number(1.5), 1.01, 4.0);
+  const double ior = extension(material, "KHR_materials_ior")["ior"].number(1.5);
+  return ior == 0 ? 4.0 : std::clamp(ior, 1.01, 4.0);
 }
 
 }  // namespace
@@ -47,7 +49,8 @@ const Look& Materials::look(std::optional<uint64_t> index, const VertexTint& tin
 Look Materials::make(const View& material, const std::string& name) {
   warn_of_extensions(material, warnings_);
   Look look;
-  look.uv_set = uv_set_of(material);
+  look.uv = uv_of(material);
+  textures_.set_uv_of_mesh(look.uv.transform);
   look.by_vertex = tint_.each;
   const bool is_unlit = extension(material, "KHR_materials_unlit").exists();
   look.material = {std::nullopt, is_unlit ? unlit(material, name, look) : surface(material, name),
@@ -60,20 +63,23 @@ Look Materials::make(const View& material, const std::string& name) {
   return look;
 }
 
-// The set of texture coordinates of the material's first texture, which all of them have to share.
-uint64_t Materials::uv_set_of(const View& material) {
+// The set of texture coordinates of the material's first texture, which all of them have to share,
+// transformed as the normal map has it: normal maps are read at the mesh's coordinates.
+UvSource Materials::uv_of(const View& material) {
   std::optional<uint64_t> set;
   const View pbr = metallic_roughness(material);
   for (const View& info : {base_of(material).texture, pbr["metallicRoughnessTexture"],
                            material["normalTexture"], material["emissiveTexture"]}) {
     if (!info) continue;
-    const uint64_t own = gltf::uv_set_of(info);
+    const uint64_t own = uv_set_of(info);
     if (own != set.value_or(own))
       warnings_.count("textures with texture coordinates of their own use those of the base colour",
                       "texture");
     if (!set) set = own;
   }
-  return set.value_or(0);
+  const glm::dmat3 transform = uv_transform_of(material["normalTexture"]);
+  const bool usable = glm::determinant(transform) != 0;
+  return {set.value_or(0), usable ? transform : glm::dmat3(1)};
 }
 
 // KHR_materials_unlit: the picture shows the base colour whatever the light, so the surface is black and
@@ -130,7 +136,7 @@ std::string Materials::opaque(const View& material, const std::string& name) {
 // Textures that are 0 or 1 everywhere are common and need no mixture; their mean shows it.
 Materials::Share Materials::share_of(double factor, const View& texture, int channel) {
   const auto mean = factor > 0 ? textures_.mean_of_channel(texture, channel) : std::nullopt;
-  if (!mean) return {factor, std::nullopt};
+  if (!mean) return {texture ? 0 : factor, std::nullopt};  // unreadable ones are mostly 0
   const double share = factor * std::clamp(*mean, 0.0, 1.0);
   if (share == 0 || share == 1) return {share, std::nullopt};
   return {share, textures_.channel(texture, channel, [factor](double v) { return factor * v; })};
@@ -197,7 +203,8 @@ double Materials::specular_index(const View& material) {
                         textures_.mean_of_channel(specular["specularTexture"], 3).value_or(1);
   if (tint.x != tint.y || tint.y != tint.z)
     warnings_.count("the colour of KHR_materials_specular is replaced by its mean", "material");
-  const double F0 = std::pow((eta - 1) / (eta + 1), 2);
+  const double ior = extension(material, "KHR_materials_ior")["ior"].number(1.5);
+  const double F0 = std::pow((ior - 1) / (ior + 1), 2);  // 1 for the infinite one, whose tint is all of it
   const double root = std::sqrt(std::min(factor * F0 * (tint.x + tint.y + tint.z) / 3, 0.36));
   return (1 + root) / (1 - root);
 }
@@ -227,34 +234,53 @@ std::string Materials::metal_part(const View& material, const std::string& name)
 
 // The transmissive part. Without KHR_materials_volume the surface is a thin pane.
 std::string Materials::clear_part(const View& material, const std::string& name) {
-  const Base base = base_of(material);
-  if (base.colour() != glm::dvec3(1) || base.texture)
-    warnings_.say("the base colour does not tint transmitted light");
   const View volume = extension(material, "KHR_materials_volume");
   const bool pane = !(volume["thicknessFactor"].number(0) > 0);
-  if (volume.has("attenuationDistance"))
-    warnings_.say("the attenuation of KHR_materials_volume is ignored: volumes do not absorb");
   Maker m(pane ? "thindielectric" : "dielectric", warnings_.where());
   m.number("eta", index_of(material));
+  add_transmittance(material, pane, *m);
   if (!pane) add_roughness(material, false, *m);
   return add(std::move(*m), name, material);
 }
 
+// The base colour tints the light that passes a pane. Light passes the surface of a body twice, so that each
+// time it is tinted by the root of the base colour and of what KHR_materials_volume leaves of light along the
+// thickness that it states.
+void Materials::add_transmittance(const View& material, bool pane, MaterialDescription& m) {
+  Base base = base_of(material);
+  glm::dvec3 tint = base.colour();
+  if (!pane) {
+    const View volume = extension(material, "KHR_materials_volume");
+    const double distance = volume["attenuationDistance"].number(0),
+                 thickness = volume["thicknessFactor"].number();
+    if (distance > 0) {
+      warnings_.count("the attenuation of KHR_materials_volume is that along its thickness, at the surface",
+                      "material");
+      const glm::dvec3 left = glm::clamp(colour(volume["attenuationColor"].numbers(3, {1, 1, 1})), 0.0, 1.0);
+      tint *= glm::pow(left, glm::dvec3(thickness / distance));
+    }
+    tint = glm::sqrt(tint);
+  }
+  if (tint == glm::dvec3(1) && !base.texture && !tint_.each) return;
+  for (size_t k = 0; k < 3; ++k) base.factor[k] = tint[static_cast<int>(k)];
+  add_base("transmittance", base, 1, m, pane ? 1 : 0.5);
+}
+
 // A texture that cannot be read is grey.
 void Materials::add_colour(const std::string& parameter, const View& texture, const glm::dvec3& factor,
-                           MaterialDescription& m) {
-  const auto named = textures_.colour(texture, factor);
+                           MaterialDescription& m, double exponent) {
+  const auto named = textures_.colour(texture, factor, exponent);
   const glm::dvec3 c = texture ? 0.5 * factor : factor;
   m.parameters.push_back(named ? textures_.parameter(parameter, *named)
                                : make_parameter(ParameterType::kRgb, parameter,
                                                 std::vector<double>{c.x, c.y, c.z}, warnings_.where()));
 }
 
-void Materials::add_base(const std::string& parameter, const Base& base, double share,
-                         MaterialDescription& m) {
+void Materials::add_base(const std::string& parameter, const Base& base, double share, MaterialDescription& m,
+                         double exponent) {
   const glm::dvec3 factor = share * base.colour();
-  if (!tint_.each) return add_colour(parameter, base.texture, factor, m);
-  const auto named = textures_.colour(base.texture, factor);
+  if (!tint_.each) return add_colour(parameter, base.texture, factor, m, exponent);
+  const auto named = textures_.colour(base.texture, factor, exponent);
   m.parameters.push_back(textures_.parameter(parameter, textures_.by_vertex(named, factor)));
 }
 
@@ -277,7 +303,8 @@ void Materials::add_width(const std::string& parameter, const Width& width, Mate
   const auto texture = textures_.channel(width.texture, width.channel, width.width);
   m.parameters.push_back(texture ? textures_.parameter(parameter, *texture)
                                  : make_parameter(ParameterType::kFloat, parameter,
-                                                  std::vector<double>{width.width(1)}, warnings_.where()));
+                                                  std::vector<double>{width.width(width.texture ? 0.5 : 1)},
+                                                  warnings_.where()));
 }
 
 // With KHR_materials_anisotropy the lobe is wider along the tangent, which is the direction of u here.
@@ -338,7 +365,7 @@ void Materials::add_light(const View& material, const View& texture, const glm::
   const glm::dvec3 L = glm::max(radiance, 0.0);
   if (L == glm::dvec3(0)) return;
   DirectiveMaker<Directive> light("diffuse", warnings_.where());
-  look.emits_image = add_emitted_image(texture, L, look.uv_set, *light);
+  look.emits_image = add_emitted_image(texture, L, look.uv, *light);
   if (!look.emits_image) {
     // An emission texture that cannot be read is taken for black, which most of them mostly are.
     const glm::dvec3 mean = texture ? textures_.mean(texture).value_or(glm::dvec3(0)) : glm::dvec3(1);
@@ -352,10 +379,10 @@ void Materials::add_light(const View& material, const View& texture, const glm::
 
 // Adds the emission texture to `light`; false if there is none that can be shown. pbrt's area lights show
 // their image once, by the shape's own uv.
-bool Materials::add_emitted_image(const View& texture, const glm::dvec3& L, uint64_t uv_set,
+bool Materials::add_emitted_image(const View& texture, const glm::dvec3& L, const UvSource& uv,
                                   Directive& light) {
   if (!texture || textures_.mean(texture).value_or(glm::dvec3(0)) == glm::dvec3(0)) return false;
-  if (texture["extensions"].has("KHR_texture_transform") || gltf::uv_set_of(texture) != uv_set) {
+  if (uv_transform_of(texture) != uv.transform || uv_set_of(texture) != uv.set) {
     warnings_.say(
         "emission textures with a transform or with texture coordinates of their own are rendered as their "
         "mean");

@@ -17,7 +17,7 @@ struct Look {
   MaterialReference material;
   std::optional<uint32_t> area_light;
   std::optional<Parameter> alpha;
-  uint64_t uv_set = 0;
+  UvSource uv;
   bool by_vertex = false;    // shows the colours of vertices
   bool emits_image = false;  // shown once, over uv from 0 to 1
 };
@@ -55,7 +55,7 @@ class Materials {
     int channel;
     std::function<double(double)> width;
   };
-  uint64_t uv_set_of(const View& material);
+  UvSource uv_of(const View& material);
   std::string unlit(const View& material, const std::string& name, Look& look);
   static Width width_of(const View& material, bool coat);
   std::string glossy(const View& material, const std::string& name);
@@ -76,15 +76,18 @@ class Materials {
                     const Share& share);
   std::string add(MaterialDescription m, const std::string& name, const View& material);
   void add_colour(const std::string& parameter, const View& texture, const glm::dvec3& factor,
-                  MaterialDescription& m);
-  // Adds the base colour times `share`, and times the colours of vertices if they differ.
-  void add_base(const std::string& parameter, const Base& base, double share, MaterialDescription& m);
+                  MaterialDescription& m, double exponent = 1);
+  // Adds the base colour times `share`, and times the colours of vertices if they differ. `exponent` applies
+  // to the values of textures.
+  void add_base(const std::string& parameter, const Base& base, double share, MaterialDescription& m,
+                double exponent = 1);
+  void add_transmittance(const View& material, bool pane, MaterialDescription& m);
   void add_width(const std::string& parameter, const Width& width, MaterialDescription& m);
   void add_roughness(const View& material, bool coat, MaterialDescription& m);
   std::optional<Parameter> alpha_of(const View& material);
   // Makes the look emit L, times a texture if `texture` names one.
   void add_light(const View& material, const View& texture, const glm::dvec3& L, Look& look);
-  bool add_emitted_image(const View& texture, const glm::dvec3& L, uint64_t uv_set, Directive& light);
+  bool add_emitted_image(const View& texture, const glm::dvec3& L, const UvSource& uv, Directive& light);
 
   const Document& document_;
   Textures& textures_;

@@ -85,8 +85,9 @@ bool has_triangles(const View& primitive, FileWarnings& warnings) {
   return mode >= 4;
 }
 
-std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive, uint64_t uv_set,
-                                             uint64_t& total, FileWarnings& warnings) {
+std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive,
+                                             const UvSource& source, uint64_t& total,
+                                             FileWarnings& warnings) {
   const View position = primitive["attributes"]["POSITION"];
   const auto accessor = position.index(document.size("accessors"));
   if (!accessor) {
@@ -103,9 +104,12 @@ std::optional<ShapeDescription> triangles_of(const Document& document, const Vie
   shape.add(ParameterType::kInteger, "indices", std::move(corners));
   if (auto N = attribute(document, primitive, "NORMAL", 3, vertices, total, warnings))
     shape.add(ParameterType::kNormal, "N", std::move(*N));
-  const std::string uv_name = fmt::format("TEXCOORD_{}", uv_set);
+  const std::string uv_name = fmt::format("TEXCOORD_{}", source.set);
   if (auto uv = attribute(document, primitive, uv_name.c_str(), 2, vertices, total, warnings)) {
-    for (size_t i = 1; i < uv->size(); i += 2) (*uv)[i] = 1 - (*uv)[i];
+    for (size_t i = 0; i < uv->size(); i += 2) {
+      const glm::dvec3 at = source.transform * glm::dvec3((*uv)[i], (*uv)[i + 1], 1);
+      (*uv)[i] = at.x, (*uv)[i + 1] = 1 - at.y;
+    }
     shape.add(ParameterType::kPoint2, "uv", std::move(*uv));
   }
   return std::move(*shape);

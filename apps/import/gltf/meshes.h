@@ -3,6 +3,7 @@
 
 #include "apps/import/common/warnings.h"
 #include "apps/import/gltf/file/document.h"
+#include "apps/import/gltf/textures.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
@@ -10,11 +11,11 @@ namespace kaustik::gltf {
 // Whether the primitive has triangles; points and lines give a warning.
 bool has_triangles(const View& primitive, FileWarnings& warnings);
 
-// P, N, uv and indices of a primitive that has triangles; nothing if there are none. `uv_set`: which set of
+// P, N, uv and indices of a primitive that has triangles; nothing if there are none. `source`: which
 // texture coordinates to read; they are flipped so that t points up, as in pbrt. `total`: the numbers read so
 // far for the scene; grows here, and beyond a limit the file is refused (FormatError).
-std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive, uint64_t uv_set,
-                                             uint64_t& total, FileWarnings& warnings);
+std::optional<ShapeDescription> triangles_of(const Document& document, const View& primitive,
+                                             const UvSource& source, uint64_t& total, FileWarnings& warnings);
 
 // The colours of a primitive's vertices, by which the base colour is multiplied.
 struct VertexColours {

@@ -40,18 +40,22 @@ std::optional<uint64_t> source_of(const View& texture, uint64_t images) {
   return source;
 }
 
-// glTF samples at (u', v') = offset + R (scale * (u, v)), where R turns counter-clockwise as v points down,
-// and v = 1 - t; in pbrt's t that is t' = 1 - v'.
-void add_transform(const View& transform, DirectiveMaker<TextureDescription>& texture) {
-  const auto offset = transform["offset"].numbers(2, {0, 0}), scale = transform["scale"].numbers(2, {1, 1});
-  const double angle = transform["rotation"].number(0);
-  const double c = std::cos(angle), s = std::sin(angle);
-  texture.number("uscale", c * scale[0]).number("vscale", c * scale[1]);
-  texture.number("udelta", s * scale[1] + offset[0]).number("vdelta", 1 - c * scale[1] - offset[1]);
-  if (angle != 0) texture.number("ushear", -s * scale[1]).number("vshear", s * scale[0]);
+// Samples at m (u, v, 1), where v = 1 - t and t points up, as that of the result does.
+void add_transform(const glm::dmat3& m, DirectiveMaker<TextureDescription>& texture) {
+  texture.number("uscale", m[0][0]).number("vscale", m[1][1]);
+  texture.number("udelta", m[1][0] + m[2][0]).number("vdelta", 1 - m[1][1] - m[2][1]);
+  if (m[1][0] != 0 || m[0][1] != 0) texture.number("ushear", -m[1][0]).number("vshear", -m[0][1]);
 }
 
 }  // namespace
+
+// offset + R (scale * (u, v)), where R turns counter-clockwise as v points down.
+glm::dmat3 uv_transform_of(const View& info) {
+  const View transform = info["extensions"]["KHR_texture_transform"];
+  const auto offset = transform["offset"].numbers(2, {0, 0}), scale = transform["scale"].numbers(2, {1, 1});
+  const double angle = transform["rotation"].number(0), c = std::cos(angle), s = std::sin(angle);
+  return {c * scale[0], -s * scale[0], 0, s * scale[1], c * scale[1], 0, offset[0], offset[1], 1};
+}
 
 uint64_t uv_set_of(const View& info) {
   return info["extensions"]["KHR_texture_transform"]["texCoord"].count(info["texCoord"].count(0));
@@ -193,22 +197,23 @@ std::string Textures::add(const std::string& value_type, const ImageFile& file, 
     if (wrap != "repeat") texture.text("wrap", wrap);
     if (vwrap != wrap) texture.text("vwrap", vwrap);
   }
-  if (const View transform = info["extensions"]["KHR_texture_transform"]) add_transform(transform, texture);
+  if (const glm::dmat3 own = uv_transform_of(info); own != uv_of_mesh_)
+    add_transform(own * glm::inverse(uv_of_mesh_), texture);
   scene_.textures.push_back(std::move(*texture));
   return scene_.textures.back().name;
 }
 
-std::optional<std::string> Textures::colour(const View& info, const glm::dvec3& factor) {
-  const auto image = tinted_file(info, factor);
+std::optional<std::string> Textures::colour(const View& info, const glm::dvec3& factor, double exponent) {
+  const auto image = tinted_file(info, factor, exponent);
   if (!image) return std::nullopt;
-  return add("spectrum", *image, factor == glm::dvec3(1) ? "" : "sRGB", info);
+  return add("spectrum", *image, factor == glm::dvec3(1) && exponent == 1 ? "" : "sRGB", info);
 }
 
-std::optional<ImageFile> Textures::tinted_file(const View& info, const glm::dvec3& factor) {
+std::optional<ImageFile> Textures::tinted_file(const View& info, const glm::dvec3& factor, double exponent) {
   const auto image = file(info);
-  if (!image || factor == glm::dvec3(1)) return image;
+  if (!image || (factor == glm::dvec3(1) && exponent == 1)) return image;
   const ImageFile tinted = in_folder(fmt::format("derived{}.png", derived_++));
-  if (const auto error = write_tinted(path_of(*image), path_of(tinted), factor)) {
+  if (const auto error = write_tinted(path_of(*image), path_of(tinted), factor, exponent)) {
     warnings_.say(*error);
     return std::nullopt;
   }

@@ -15,6 +15,15 @@
 
 namespace kaustik::gltf {
 
+// Texture coordinates of a mesh: a set of the file's, and the matrix that is applied to (u, v, 1).
+struct UvSource {
+  uint64_t set = 0;
+  glm::dmat3 transform{1};
+};
+
+// The matrix of a textureInfo's KHR_texture_transform.
+glm::dmat3 uv_transform_of(const View& info);
+
 // The set of texture coordinates that a textureInfo of glTF uses; KHR_texture_transform may override it.
 uint64_t uv_set_of(const View& info);
 
@@ -30,17 +39,22 @@ class Textures {
            SceneDescription& scene)
       : document_(document), path_(std::move(path)), warnings_(warnings), files_(files), scene_(scene) {}
 
+  // The matrix that was applied to the texture coordinates of the mesh that the next textures are for; it has
+  // an inverse. Textures make up for it.
+  void set_uv_of_mesh(const glm::dmat3& transform) { uv_of_mesh_ = transform; }
+
   // The following functions take a textureInfo of glTF. They return nothing when it names no image or, with a
   // warning, when the image cannot be read.
   //
-  // Adds a colour texture, multiplied by `factor`, to the scene and returns its name.
-  std::optional<std::string> colour(const View& info, const glm::dvec3& factor);
+  // Adds a colour texture, raised to `exponent` and multiplied by `factor`, to the scene and returns its
+  // name.
+  std::optional<std::string> colour(const View& info, const glm::dvec3& factor, double exponent = 1);
   // Adds a float texture of one channel (0 to 3) and returns its name. `map` is applied to each value and
   // must return 0 to 1.
   std::optional<std::string> channel(const View& info, int channel, const std::function<double(double)>& map);
-  // The image file; the second function returns a copy with its colours multiplied by `factor`.
+  // The image file; the second function returns a copy with its colours changed as colour() changes them.
   std::optional<ImageFile> file(const View& info);
-  std::optional<ImageFile> tinted_file(const View& info, const glm::dvec3& factor);
+  std::optional<ImageFile> tinted_file(const View& info, const glm::dvec3& factor, double exponent = 1);
   // The mean colour in linear light.
   std::optional<glm::dvec3> mean(const View& info);
   // The mean of the stored numbers of one channel (0 to 3).
@@ -80,6 +94,7 @@ class Textures {
   std::map<std::filesystem::path, std::optional<ImageMeans>> means_;
   std::map<std::string, std::string> vertex_textures_;  // names by the type of value
   uint64_t derived_ = 0;
+  glm::dmat3 uv_of_mesh_{1};
 };
 
 }  // namespace kaustik::gltf

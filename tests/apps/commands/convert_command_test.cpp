@@ -57,6 +57,27 @@ TEST_F(ConvertCommand, PbrtRendersToTheSameBits) {
   expect_same_picture("scene.pbrt");
 }
 
+// Colours of vertices go into the PLY file as floats, and the texture that shows them into the text.
+TEST_F(ConvertCommand, ColoursOfVerticesRenderToTheSameBits) {
+  std::string corners = "\"integer indices\" [", points = "] \"point3 P\" [", colours = "] \"float Cd\" [";
+  for (int i = 0; i < 13; ++i) {
+    const double x = i * 0.125 - 0.75;
+    corners +=
+        " " + std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2);
+    for (const auto& [dx, y, z] : {std::array{0.0, 0.25, 1.0}, {0.0625, 0.75, 1.0}, {0.03125, 0.25, 1.5}})
+      points += " " + std::to_string(x + dx) + " " + std::to_string(y) + " " + std::to_string(z);
+    colours += " 1 0 0 1  0 1 0 1  0.25 0 " + std::to_string(i * 0.0625) + " 0.5";
+  }
+  small_scene(film(24, 18));
+  write("scene.pbrt", read("small.pbrt") + R"(
+    Texture "colours" "spectrum" "vertexcolor"
+    Material "diffuse" "texture reflectance" "colours"
+    Shape "trianglemesh" )" +
+                          corners + points + colours + "]");
+  expect_same_picture("scene.pbrt");
+  EXPECT_THAT(read("converted.pbrt"), HasSubstr("plymesh"));
+}
+
 // Vertices that are exact floats are written to a PLY file.
 TEST_F(ConvertCommand, ObjRendersToTheSameBits) {
   std::string obj = "mtllib scene.mtl\nusemtl clay\n";

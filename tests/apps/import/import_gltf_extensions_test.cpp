@@ -54,6 +54,28 @@ TEST_F(ImportGltfExtensions, SpecularGlossinessIsConverted) {
   EXPECT_THAT(numbers(gold, "reflectance"), ElementsAre(1, 0.75, 0.25));
 }
 
+TEST_F(ImportGltfExtensions, BaseColourTintsTransmittedLight) {
+  const std::string glass = R"("KHR_materials_transmission": { "transmissionFactor": 1 })";
+  const std::string green = R"(, "metallicFactor": 0, "baseColorFactor": [ 0.25, 1, 0.49, 1 ])";
+  const auto pane = material(glass, green);
+  EXPECT_EQ(pane.type, "thindielectric");
+  EXPECT_THAT(numbers(pane, "transmittance"), ElementsAre(0.25, 1, 0.49));
+  const auto body = material(glass + R"(, "KHR_materials_volume": { "thicknessFactor": 1 })", green);
+  EXPECT_EQ(body.type, "dielectric");
+  EXPECT_THAT(numbers(body, "transmittance"), ElementsAre(0.5, 1, testing::DoubleNear(0.7, 1e-12)));
+  EXPECT_FALSE(material(glass).find("transmittance"));
+}
+
+// Half of the red is left after 2 m; the volume is 4 m thick: a quarter in all, a half at each surface.
+TEST_F(ImportGltfExtensions, VolumesAbsorbAlongTheirThickness) {
+  const auto body =
+      material(R"("KHR_materials_transmission": { "transmissionFactor": 1 }, "KHR_materials_volume":
+      { "thicknessFactor": 4, "attenuationDistance": 2, "attenuationColor": [ 0.5, 1, 1 ] })",
+               R"(, "metallicFactor": 0)");
+  EXPECT_THAT(numbers(body, "transmittance"), ElementsAre(testing::DoubleNear(0.5, 1e-12), 1, 1));
+  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("along its thickness, at the surface (1 material)"));
+}
+
 TEST_F(ImportGltfExtensions, DiffuseTransmissionIsConverted) {
   const auto leaf = material(R"("KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.25,
       "diffuseTransmissionColorFactor": [ 1, 0.5, 0 ] })",

@@ -209,6 +209,29 @@ TEST_F(GltfTextures, FilesThatCannotBeReadAreGrey) {
   }
 }
 
+// Without its texture a surface is taken for paint, of half the roughness: (0.5 x 1)^2 as the width of GGX.
+TEST_F(GltfTextures, MetalnessThatCannotBeReadIsZero) {
+  const auto s =
+      describe(triangle(R"({ "pbrMetallicRoughness": { "metallicRoughnessTexture": { "index": 0 } } })",
+                        R"(, "textures": [ { "source": 0 } ], "images": [ { "uri": "absent.png" } ])"));
+  ASSERT_EQ(s.materials.size(), 1u);
+  EXPECT_EQ(s.materials[0].type, "coateddiffuse");
+  EXPECT_EQ(s.materials[0].find("roughness")->numbers, (std::vector<double>{0.25}));
+}
+
+// Normal maps are read at the mesh's own coordinates: their transform is applied to these, and other textures
+// make up for it.
+TEST_F(GltfTextures, TransformsOfNormalMapsAreThoseOfTheMesh) {
+  const auto s = textured(R"({ "normalTexture": { "index": 0, "extensions": { "KHR_texture_transform": {
+      "scale": [ 4, 2 ] } } }, "pbrMetallicRoughness": { "metallicFactor": 0, "baseColorTexture": { "index": 0 } } })",
+                          png(kTwo));
+  // The file has (0, 0), (1, 0) and (0, 0.25), which become (4 u, 1 - 2 v).
+  EXPECT_EQ(s.shapes.at(0).find("uv")->numbers, (std::vector<double>{0, 1, 4, 1, 0, 0.5}));
+  EXPECT_EQ(s.textures.at(0).find("uscale")->numbers, (std::vector<double>{0.25}));
+  EXPECT_EQ(s.textures.at(0).find("vscale")->numbers, (std::vector<double>{0.5}));
+  EXPECT_EQ(s.textures.at(0).find("vdelta")->numbers, (std::vector<double>{0.5}));
+}
+
 // A quarter turn: u' = v, v' = -u as v points down; in t, which points up, s' = 1 - t and t' = 1 + s.
 TEST_F(GltfTextures, TransformsMayTurn) {
   const auto s =

@@ -74,6 +74,26 @@ TEST_F(ImportTextures, WrapModesAreApplied) {
   EXPECT_EQ(colour_at(far, 0.75f, 0.75f).x, 0);
 }
 
+// A mirrored image read at s + 1 is that at 1 - s; the images beyond follow with period 2. The other
+// direction may have a mode of its own.
+TEST_F(ImportTextures, ImagesAreMirrored) {
+  write_fields();
+  const auto with = [&](const std::string& more) {
+    return with_texture("\"string filename\" \"fields.png\" " + more + kLinear);
+  };
+  const Scene plain = with("");
+  for (const char* shift : {"1", "-1", "41"}) {
+    const Scene mirrored = with(std::string("\"float udelta\" ") + shift + " \"string wrap\" \"mirror\"");
+    EXPECT_EQ(colour_at(mirrored, 0.75f, 0.75f), colour_at(plain, 0.25f, 0.75f)) << shift;
+    EXPECT_EQ(colour_at(mirrored, 0.25f, 0.25f), colour_at(plain, 0.75f, 0.25f)) << shift;
+  }
+  EXPECT_NE(colour_at(plain, 0.25f, 0.75f), colour_at(plain, 0.75f, 0.75f));
+  const Scene black = with("\"float vdelta\" 1 \"string vwrap\" \"black\"");
+  EXPECT_EQ(colour_at(black, 0.75f, 0.75f), Rgb(0));
+  EXPECT_EQ(colour_at(with("\"float udelta\" 1 \"string vwrap\" \"black\""), 0.75f, 0.75f),
+            colour_at(plain, 0.75f, 0.75f));
+}
+
 // The byte 102 = 0.4 decodes to ((0.4 + 0.055) / 1.055)^2.4 = 0.13287 (sRGB), 0.4 (linear), 0.4^2.2 = 0.13320
 // (gamma).
 TEST_F(ImportTextures, EncodingsAreDecoded) {
