@@ -105,16 +105,35 @@ Bend bend_of(const TriangleMesh& mesh, const MeshSide& a, const MeshSide& b) {
   return {true, oriented, 2 * std::asin(std::min(0.5 * double(glm::length(na - turned)), 1.0))};
 }
 
+// The number of different triangles among these sides, up to three, with the first of each in front.
+size_t distinct_triangles(const TriangleMesh& mesh, std::span<const MeshSide> sides, MeshSide (&first)[2]) {
+  const auto third = [&](const MeshSide& side) {
+    return bits_of(mesh.P[mesh.indices[side.corner / 3][(side.corner + 2) % 3]]);
+  };
+  size_t count = 0;
+  for (const MeshSide& side : sides) {
+    bool known = false;
+    for (size_t i = 0; i < count; ++i) known = known || third(first[i]) == third(side);
+    if (known) continue;
+    if (count == std::size(first)) return count + 1;
+    first[count++] = side;
+  }
+  return count;
+}
+
 void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, std::vector<OpenSide>* open,
                     SurfaceBend* bends) {
   const std::vector<MeshSide> sides = sides_of(mesh);
   for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].vertices == sides[begin].vertices) ++end;
-    if (end - begin == 2) {
-      const Bend bend = bend_of(mesh, sides[begin], sides[begin + 1]);
-      const auto [low, high] = ends_of(mesh, sides[begin]);
+    const std::span<const MeshSide> joint(&sides[begin], end - begin);
+    MeshSide pair[2];
+    if (joint.size() > 1 && distinct_triangles(mesh, joint, pair) == 2) {
+      const Bend bend = bend_of(mesh, pair[0], pair[1]);
+      const auto [low, high] = ends_of(mesh, joint[0]);
       bends->oriented = bends->oriented && bend.oriented;
-      bends->bend += bend.angle * glm::length(glm::dvec3(high) - glm::dvec3(low));
+      // Where triangles lie on each other, their areas are added, too.
+      bends->bend += double(joint.size()) / 2 * bend.angle * glm::length(glm::dvec3(high) - glm::dvec3(low));
       if (bend.smooth) continue;
     }
     for (size_t i = begin; i < end; ++i) {
@@ -129,7 +148,7 @@ void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, st
 // All sides that meet at one edge, over all meshes.
 class Joint {
  public:
-  Joint(const std::vector<Shape>& shapes, std::span<const OpenSide> sides) : sides_(sides) {
+  Joint(const std::vector<Shape>& shapes, std::span<const OpenSide> sides) {
     for (const OpenSide& side : sides) {
       const auto& mesh = std::get<TriangleMesh>(shapes[side.shape].geometry);
       const uint32_t t = side.corner / 3, k = side.corner % 3;
@@ -138,7 +157,8 @@ class Joint {
       facet.orientation = outside_of(mesh, mesh.indices[t], facet.n, shapes[side.shape].flip_normal);
       facet.forward = bits_of(mesh.P[mesh.indices[t][k]]) == side.ends[0];
       facet.third = mesh.P[mesh.indices[t][(k + 2) % 3]];
-      facets_.push_back(facet);
+      facet.side = &side;
+      add(facet);
     }
   }
 
@@ -147,9 +167,11 @@ class Joint {
       const size_t j = partner(i);
       if (j != i && glm::dot(facets_[i].n, turned(i, j)) > kBendCosine) continue;
       const Facet& facet = facets_[i];
-      BoundaryEdge edge = make_edge(point_of(sides_[i].ends[0]), point_of(sides_[i].ends[1]), facet.third,
-                                    facet.orientation * facet.n, sides_[i].surface_group);
+      const OpenSide& side = *facet.side;
+      BoundaryEdge edge = make_edge(point_of(side.ends[0]), point_of(side.ends[1]), facet.third,
+                                    facet.orientation * facet.n, side.surface_group);
       if (!(edge.height > 0)) continue;
+      edge.both_sides = facet.both_sides;
       // If the partner continues in a third facet, this facet simply ends here.
       if (j != i && partner(j) == i) edge.beyond = facet.orientation * turned(i, j);
       edges->push_back(edge);
@@ -162,12 +184,24 @@ class Joint {
     float orientation;
     bool forward;
     Point3 third;
+    const OpenSide* side;
+    bool both_sides = false;
   };
+  // Facets that fold back by this cosine (two and a half degrees) lie on each other.
+  static constexpr float kCoincident = -0.999f;
 
-  // The winding normal of j, oriented to the side of i's.
-  Normal3 turned(size_t i, size_t j) const {
-    return facets_[i].forward != facets_[j].forward ? facets_[j].n : -facets_[j].n;
+  // A facet that lies on one that is there already neither continues it nor ends a second time.
+  void add(const Facet& facet) {
+    for (Facet& other : facets_) {
+      if (!(glm::dot(other.n, turned(other, facet)) < kCoincident)) continue;
+      other.both_sides |= glm::dot(other.orientation * other.n, facet.orientation * facet.n) < 0;
+      return;
+    }
+    facets_.push_back(facet);
   }
+  // The winding normal of b, oriented to the side of a's.
+  static Normal3 turned(const Facet& a, const Facet& b) { return a.forward != b.forward ? b.n : -b.n; }
+  Normal3 turned(size_t i, size_t j) const { return turned(facets_[i], facets_[j]); }
   // The other facet that bends least from i; i itself if there is no other.
   size_t partner(size_t i) const {
     size_t best = i;
@@ -181,7 +215,6 @@ class Joint {
     return best;
   }
 
-  std::span<const OpenSide> sides_;
   std::vector<Facet> facets_;
 };
 
@@ -228,6 +261,7 @@ void add_placed(const OwnEdges& own, const Transform& t, uint32_t group, std::ve
         make_edge(t.point(e.a), t.point(e.b), t.point(inner), glm::normalize(t.normal(e.n)), group);
     if (!(placed.height > 0)) continue;
     if (e.beyond != Normal3(0)) placed.beyond = glm::normalize(t.normal(e.beyond));
+    placed.both_sides = e.both_sides;
     edges->push_back(placed);
   }
 }

@@ -21,6 +21,7 @@ struct BoundaryEdge {
   Vector3 outward{0};  // unit, away from the surface: in its plane, perpendicular to the edge
   float height = 0;    // of the facet above this edge, metres
   uint32_t surface_group = 0;
+  bool both_sides = false;  // a facet of the opposite orientation that lies on this one ends here, too
 };
 
 // How much the surfaces of a surface group bend apart from their edges.
@@ -42,12 +43,12 @@ inline constexpr float kBendCosine = 0.9f;
 // Finds the edges of triangles at which their surface group ends or bends; an edge at a bend is listed once
 // for each side. Two triangles share an edge when both ends are bit-identical in world space, whatever their
 // winding and mesh; at an edge of three or more triangles, each continues in the one that bends least.
-// Instances that share a mesh have its edges, separately for each instance. Rims of disks are polygons of 64
-// sides that contain the disk, those of other quadrics polygons with corners on the rim. Whole spheres have
-// no edges; triangles without area are left out. Edges where unwelded facets meet are listed although the
-// surface continues (see accel::without_continued). Takes O(n log n) time. The order depends on the shapes
-// alone and not on their scale.
-// bends: if not null, receives the bend of each surface group. Instances count as if they were scaled
+// Triangles that lie on each other at an edge count as one there. Instances that share a mesh have its edges,
+// separately for each instance. Rims of disks are polygons of 64 sides that contain the disk, those of other
+// quadrics polygons with corners on the rim. Whole spheres have no edges; triangles without area are left
+// out. Edges where unwelded facets meet are listed although the surface continues (see
+// accel::without_continued). Takes O(n log n) time. The order depends on the shapes alone and not on their
+// scale. bends: if not null, receives the bend of each surface group. Instances count as if they were scaled
 // uniformly; joints between two meshes are left out.
 std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes,
                                               std::vector<SurfaceBend>* bends = nullptr);

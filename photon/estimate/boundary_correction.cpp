@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "photon/record/packing.h"
 
@@ -16,6 +17,10 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 
 // A point counts as lying in si's plane up to this height, as a fraction of the radius.
 constexpr double kInPlane = 1e-3;
+
+// A facet of the opposite orientation lies in si's plane if the normals differ by at most eight degrees: the
+// two faces of a sharp wedge do not.
+constexpr float kParallel = 0.99f;
 
 // Integral over theta from 0 to atan(t / d) of rho^power, rho = d sec(theta), by the recurrence for powers of
 // the secant.
@@ -58,31 +63,49 @@ bool ends_here(const BoundaryEdge& edge, const Normal3& n) {
   return counts(edge.n, n) && !counts(edge.beyond, n);
 }
 
-// The kernel's mass that this edge cuts off: positive where the surface ends, negative where it begins again.
-double missing_mass(const BoundaryEdge& edge, const SurfaceInteraction& si, const KernelSpec& kernel,
-                    double radius) {
-  const bool same_side = ends_here(edge, si.n);
-  if (!same_side && !ends_here(edge, -si.n)) return 0;
+// How an edge lies to a disc: height above the tangent plane in radii, and whether the surface leaves there
+// or begins again.
+struct EdgeView {
+  double height;
+  bool leaves;
+};
+
+// Nothing if the edge is no end of si's surface.
+std::optional<EdgeView> view_of(const BoundaryEdge& edge, const SurfaceInteraction& si, double radius) {
+  const bool behind = ends_here(edge, -si.n),
+             same_side = ends_here(edge, si.n) || (edge.both_sides && behind);
+  if (!same_side && !(behind && glm::dot(edge.n, si.n) < -kParallel)) return std::nullopt;
   const glm::dvec3 n(si.n), a = glm::dvec3(edge.a) - glm::dvec3(si.p);
   const glm::dvec3 along = glm::dvec3(edge.b) - glm::dvec3(edge.a);
   const double nearest = std::clamp(-glm::dot(a, along) / glm::dot(along, along), 0.0, 1.0);
   const double height = std::abs(glm::dot(a + nearest * along, n)) / radius;
-  if (height >= 1 || (!same_side && height > kInPlane)) return 0;
-
-  // Project the edge to the tangent plane.
+  if (height >= 1 || (!same_side && height > kInPlane)) return std::nullopt;
   const glm::dvec3 flat_along = along - glm::dot(along, n) * n;
   const double length = glm::length(flat_along);
-  if (!(length > 0)) return 0;
+  if (!(length > 0)) return std::nullopt;
+  const glm::dvec3 u = flat_along / length, foot = a - glm::dot(a, n) * n - glm::dot(a, u) * u;
+  // si itself lies on the surface: if it is beyond an edge by no more than rounding, it counts as in front of
+  // it.
+  return EdgeView{height, glm::dot(foot, glm::dvec3(edge.outward)) >= -2 * double(si.p_error)};
+}
+
+// The kernel's mass that this edge cuts off: positive where the surface ends, negative where it begins again.
+double missing_mass(const BoundaryEdge& edge, const SurfaceInteraction& si, const KernelSpec& kernel,
+                    double radius) {
+  const auto view = view_of(edge, si, radius);
+  if (!view) return 0;
+  // Project the edge to the tangent plane.
+  const glm::dvec3 n(si.n), a = glm::dvec3(edge.a) - glm::dvec3(si.p);
+  const glm::dvec3 along = glm::dvec3(edge.b) - glm::dvec3(edge.a);
+  const glm::dvec3 flat_along = along - glm::dot(along, n) * n;
+  const double length = glm::length(flat_along);
   const glm::dvec3 u = flat_along / length;
   const double t1 = glm::dot(a, u);
   const glm::dvec3 foot = a - glm::dot(a, n) * n - t1 * u;
-  // si itself lies on the surface: if it is beyond an edge by no more than rounding, it counts as in front of
-  // it.
-  const bool leaves = glm::dot(foot, glm::dvec3(edge.outward)) >= -2 * double(si.p_error);
   // Inverse radius of the disc at that height.
-  const double unit = 1 / (radius * std::sqrt(1 - height * height));
+  const double unit = 1 / (radius * std::sqrt(1 - view->height * view->height));
   const double mass = mass_behind_edge(kernel, glm::length(foot) * unit, t1 * unit, (t1 + length) * unit);
-  return (leaves ? 1 : -1) * mass_at_height(kernel, height) * mass;
+  return (view->leaves ? 1 : -1) * mass_at_height(kernel, view->height) * mass;
 }
 
 }  // namespace
@@ -96,6 +119,17 @@ double mass_behind_edge(const KernelSpec& kernel, double d, double t1, double t2
   const auto over = [&](int power) { return integral_of_rho(power, d, t2) - integral_of_rho(power, d, t1); };
   const double angle = over(0);
   return mass_of(kernel, [&](int power) { return angle - over(power); }) / kTwoPi;
+}
+
+MassWithin::MassWithin(const KernelSpec& kernel) : c_(mass_terms<double>(kernel)) {
+  double sum = 0;
+  for (const double term : c_) sum += term;
+  for (double& term : c_) term /= sum;
+}
+
+int sign_of_edge(const BoundaryEdge& edge, const SurfaceInteraction& si, float radius) {
+  const auto view = view_of(edge, si, double(radius));
+  return !view ? 0 : view->leaves ? 1 : -1;
 }
 
 double surface_share(const accel::EdgeIndex& edges, const SurfaceInteraction& si, const KernelSpec& kernel,

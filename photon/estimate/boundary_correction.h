@@ -22,6 +22,8 @@
 // (the far side of a hole) subtract: the sum is exactly the mass off the surface for every flat surface
 // (Green's theorem, region by region). For curved surfaces it is exact to first order in r / curvature.
 
+#include <array>
+
 #include "accel/edge_index.h"
 #include "core/geometry/interaction.h"
 #include "photon/gather/kernel.h"
@@ -32,6 +34,24 @@ namespace kaustik::photon {
 // from the centre to the edge's line, t1 <= t2 along it from the foot of the perpendicular. In [0, 1/2]; zero
 // for d >= 1.
 double mass_behind_edge(const KernelSpec& kernel, double d, double t1, double t2);
+
+// The share of the kernel's mass within rho radii of the centre, a polynomial.
+class MassWithin {
+ public:
+  explicit MassWithin(const KernelSpec& kernel);
+  double operator()(double rho) const {  // 0 <= rho <= 1
+    double sum = 0;
+    for (size_t j = c_.size(); j-- > 0;) sum = sum * rho + c_[j];
+    return sum * rho * rho;
+  }
+
+ private:
+  std::array<double, KernelRow::kCoefficients> c_;
+};
+
+// 1 if si's surface ends at this edge as seen from si, -1 if it begins again there, 0 if the edge is no end
+// of it within `radius` metres.
+int sign_of_edge(const BoundaryEdge& edge, const SurfaceInteraction& si, float radius);
 
 // Lower bound of the share, reached at a corner of about 23 degrees. Thinner slivers stay too dark.
 inline constexpr double kLeastShare = 1.0 / 16;

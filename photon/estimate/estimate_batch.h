@@ -48,6 +48,8 @@ class EstimateBatch {
     uint32_t previous;  // previous gather of the same pixel
     Rgb flux{0};        // W/m^2, corrected for the share of the disc on the surface
     float accepted = 0;
+    Vector3 wo{0};     // from which the point was seen
+    bool cut = false;  // whether walls cut the disc
   };
   struct Waiting {
     uint32_t gather;
@@ -55,9 +57,14 @@ class EstimateBatch {
     Rgb* radiance;
     float* photons;
   };
-  uint32_t gather_near(const PhotonMap& map, const SurfaceInteraction& si, const Normal3& n) const;
-  uint32_t new_gather(const PhotonMap& map, const EstimateSettings& settings, const SurfaceInteraction& si,
-                      const Normal3& n);
+  // A point with the direction it is seen from, and its side of the surface.
+  struct Point {
+    const SurfaceInteraction& si;
+    const Vector3& wo;
+    const Normal3& n;
+  };
+  uint32_t gather_near(const PhotonMap& map, const EstimateSettings& settings, const Point& x) const;
+  uint32_t new_gather(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
 
   uint32_t pixel_ = 0;
   std::array<uint32_t, kPixels> latest_{};

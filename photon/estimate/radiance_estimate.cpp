@@ -2,6 +2,8 @@
 
 #include "photon/estimate/radiance_estimate.h"
 
+#include <algorithm>
+#include <optional>
 #include <variant>
 
 #include "photon/estimate/boundary_correction.h"
@@ -33,13 +35,16 @@ struct ReflectedRadiance {
   const GatherQuery& query;
   const KernelSpec& kernel;
   const Frame& frame;
-  const Vector3& wo;  // local
+  const Vector3& wo;   // local
+  const WallCut* cut;  // null where no wall is near
   GatherCounters& counters;
 
   template <HasConstantValue ConstantBsdf>
   Rgb operator()(const ConstantBsdf& bsdf) const {
     const bool transmitted = glm::dot(query.n, frame.z) * wo.z < 0;
-    return bsdf.pi_f(transmitted) * kInvPi * gather_flux(map, query, kernel, counters);
+    const Rgb flux =
+        cut ? gather_flux(map, query, kernel, *cut, counters) : gather_flux(map, query, kernel, counters);
+    return bsdf.pi_f(transmitted) * kInvPi * flux;
   }
 
   template <class AnyBsdf>
@@ -51,6 +56,7 @@ struct ReflectedRadiance {
     for_each_photon(
         map, query,
         [&](const Photon& photon, float distance_squared) {
+          if (cut && cut->hides(photon.p, photon.wi)) return void(--counters.accepted);
           const Vector3 wi = frame.to_local(photon.wi);
           Lr += seen.f(wi) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
         },
@@ -70,9 +76,13 @@ Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery
                      const EstimateSettings& settings, GatherCounters& counters) {
   const Frame frame = x.si.shading_frame();
   const Vector3 wo = frame.to_local(x.wo);
-  const Rgb Lr = std::visit(ReflectedRadiance{map, disc, settings.kernel, frame, wo, counters}, x.bsdf);
+  std::optional<WallCut> cut;
+  if (settings.walls && settings.walls->near(x.si.p))
+    cut.emplace(*settings.walls, x.si, x.wo, disc.n, disc.radius);
+  const WallCut* const cuts = cut && cut->cuts() ? &*cut : nullptr;
+  const Rgb Lr = std::visit(ReflectedRadiance{map, disc, settings.kernel, frame, wo, cuts, counters}, x.bsdf);
   if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
-  return Lr / float(share_of_disc(settings, x.si, disc.radius));
+  return Lr / float(share_of_disc(settings, x.si, disc.radius, cuts));
 }
 
 // Reflected (or transmitted) radiance due to the photons that arrived on the side of n.
@@ -92,9 +102,11 @@ Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& 
 
 }  // namespace
 
-double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction& si, float radius) {
+double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction& si, float radius,
+                     const WallCut* cut) {
   if (settings.areas && settings.areas->covers(si.surface_group))
-    return settings.areas->share(si, settings.kernel, radius);
+    return settings.areas->share(si, settings.kernel, radius, cut);
+  if (cut) return std::max(cut->share(settings.kernel, *settings.edges), kLeastShare);
   return surface_share(*settings.edges, si, settings.kernel, radius);
 }
 

@@ -5,6 +5,7 @@
 #include "core/bsdf/bsdf.h"
 #include "core/geometry/interaction.h"
 #include "photon/estimate/surface_areas.h"
+#include "photon/estimate/walls.h"
 #include "photon/gather/gather_query.h"
 #include "photon/gather/kernel.h"
 #include "photon/map/photon_map.h"
@@ -23,11 +24,15 @@ struct EstimateSettings {
   // Areas of curved surfaces, for discs of up to `radius`; used only if `edges` is set. Null: surfaces are
   // treated as flat.
   const SurfaceAreas* areas = nullptr;
+  // Walls that hide photons, for discs of up to `radius`. Null: there are none.
+  const Walls* walls = nullptr;
 };
 
 // Share of the kernel's mass on si's surface within `radius` metres, in (0, 1], by which a sum over photons
-// is divided. settings.edges must not be null. Thread-safe.
-double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction& si, float radius);
+// is divided. settings.edges must not be null. cut: walls that hide some of the surface; null for none.
+// Thread-safe.
+double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction& si, float radius,
+                     const WallCut* cut = nullptr);
 
 // Estimated bias of the density estimate, and the cost of estimating it.
 struct BiasEstimate {
@@ -40,9 +45,9 @@ struct BiasEstimate {
 // since flux per area already contains it. wo: unit, world space, away from the surface. The kernel's bias is
 // O(radius^2) where light is smooth. With settings.edges the sum is divided by the kernel's share on the
 // surface (share_of_disc); without, the result is too dark by up to half within radius of the surface's
-// border. For a BSDF that transmits light, photons on the far side count too, with a disc of their own; a
-// body's opposite surface nearer than the radius is then mistaken for this one. Zero for specular BSDFs and
-// empty maps. Thread-safe.
+// border. Photons behind settings.walls do not count. For a BSDF that transmits light, photons on the far
+// side count too, with a disc of their own; a body's opposite surface nearer than the radius is then mistaken
+// for this one. Zero for specular BSDFs and empty maps. Thread-safe.
 //
 // bias: if not null, this estimate's bias is added to it: 4/3 of the difference between the estimate of this
 // disc and that of half its radius, which uses some of the same photons. It is noisy. Where light is smooth

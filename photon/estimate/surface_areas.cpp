@@ -13,7 +13,7 @@
 
 #include "core/geometry/tessellate.h"
 #include "core/geometry/triangle_bounds.h"
-#include "photon/gather/gather.h"
+#include "photon/estimate/walls.h"
 
 namespace kaustik::photon {
 
@@ -35,37 +35,89 @@ struct Piece {
   Normal3 n;
 };
 
-// Cuts the triangles of one shape into pieces.
+using Corners = std::array<Point3, 3>;
+
+// A triangle in world space, with its outside.
+struct Facet {
+  Corners c;
+  Normal3 n;
+  uint32_t group;
+};
+
+// Transforms an instance's triangle to world space as SurfaceInteraction::n is: the outside stays outside
+// even if the transform mirrors.
+void place(const Transform& to_world, Facet* facet) {
+  for (Point3& p : facet->c) p = to_world.point(p);
+  facet->n = glm::normalize(to_world.normal(facet->n));
+}
+
+std::vector<Facet> facets_of(const Shape& shape) {
+  const TriangleMesh quadric = tessellated(shape);
+  const auto* const instance = std::get_if<InstancedMesh>(&shape.geometry);
+  const TriangleMesh& mesh = shape.mesh() ? *shape.mesh() : quadric;
+  std::vector<Facet> facets;
+  facets.reserve(mesh.indices.size());
+  for (const auto& triangle : mesh.indices) {
+    Facet facet{{mesh.P[triangle[0]], mesh.P[triangle[1]], mesh.P[triangle[2]]}, {}, shape.surface_group};
+    facet.n = triangle_normal(facet.c[1] - facet.c[0], facet.c[2] - facet.c[0]);
+    if (facet.n == Normal3(0)) continue;
+    facet.n *= outside_of(mesh, triangle, facet.n, shape.flip_normal);
+    if (instance) place(instance->to_world, &facet);
+    facets.push_back(facet);
+  }
+  return facets;
+}
+
+// What triangles that lie on each other have in common: group and corners.
+struct Footprint {
+  uint32_t group;
+  std::array<std::array<float, 3>, 3> corners;  // sorted
+  uint32_t index;
+  auto operator<=>(const Footprint&) const = default;
+};
+
+Footprint footprint_of(const Facet& facet, uint32_t index) {
+  Footprint f{facet.group, {}, index};
+  for (size_t i = 0; i < 3; ++i)  // adding zero makes -0 and 0 the same
+    f.corners[i] = {facet.c[i].x + 0.0f, facet.c[i].y + 0.0f, facet.c[i].z + 0.0f};
+  std::sort(f.corners.begin(), f.corners.end());
+  return f;
+}
+
+// Drops triangles that lie on an earlier one and face the same way: their surface is there once.
+void drop_copies(std::vector<Facet>* facets) {
+  std::vector<Footprint> order;
+  order.reserve(facets->size());
+  for (uint32_t i = 0; i < facets->size(); ++i) order.push_back(footprint_of((*facets)[i], i));
+  tbb::parallel_sort(order.begin(), order.end());
+  std::vector<bool> copy(facets->size());
+  const auto same = [](const Footprint& a, const Footprint& b) {
+    return a.group == b.group && a.corners == b.corners;
+  };
+  for (size_t first = 0, i = 1; i < order.size(); ++i) {
+    if (!same(order[first], order[i])) first = i;
+    for (size_t k = first; k < i && !copy[order[i].index]; ++k)
+      copy[order[i].index] = glm::dot((*facets)[order[k].index].n, (*facets)[order[i].index].n) > 0;
+  }
+  size_t kept = 0;
+  for (size_t i = 0; i < facets->size(); ++i)
+    if (!copy[i]) (*facets)[kept++] = (*facets)[i];
+  facets->resize(kept);
+}
+
+// Cuts triangles into pieces.
 class Cutter {
  public:
   Cutter(const Bounds3& bounds, float voxel, std::vector<Piece>* pieces)
       : origin_(bounds.min), voxel_(voxel), pieces_(pieces) {}
 
-  void cut(const Shape& shape) {
-    const TriangleMesh quadric = tessellated(shape);
-    const auto* const instance = std::get_if<InstancedMesh>(&shape.geometry);
-    const TriangleMesh& mesh = shape.mesh() ? *shape.mesh() : quadric;
-    group_ = shape.surface_group;
-    for (const auto& triangle : mesh.indices) {
-      Corners c{mesh.P[triangle[0]], mesh.P[triangle[1]], mesh.P[triangle[2]]};
-      n_ = triangle_normal(c[1] - c[0], c[2] - c[0]);
-      if (n_ == Normal3(0)) continue;
-      n_ *= outside_of(mesh, triangle, n_, shape.flip_normal);
-      if (instance) place(instance->to_world, &c);
-      cut(c);
-    }
+  void cut(const Facet& facet) {
+    group_ = facet.group;
+    n_ = facet.n;
+    cut(facet.c);
   }
 
  private:
-  using Corners = std::array<Point3, 3>;
-
-  // Transforms an instance's triangle to world space as SurfaceInteraction::n is: the outside stays outside
-  // even if the transform mirrors.
-  void place(const Transform& to_world, Corners* c) {
-    for (Point3& p : *c) p = to_world.point(p);
-    n_ = glm::normalize(to_world.normal(n_));
-  }
-
   // Cuts the triangle into strips along its shortest side and those into cells, so that needles give few
   // pieces.
   void cut(const Corners& c) {
@@ -168,20 +220,26 @@ SurfaceAreas::SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& b
   const float voxel = radius / kFineness;
   if (!(voxel > 0) || !std::isfinite(voxel)) return;
   covered_ = curved_groups(scene, bends, radius);
-  std::vector<std::vector<Piece>> of_shape(scene.shapes.size());
+  std::vector<std::vector<Facet>> of_shape(scene.shapes.size());
   tbb::parallel_for(size_t{0}, scene.shapes.size(), [&](size_t i) {
-    const Shape& shape = scene.shapes[i];
-    if (covers(shape.surface_group)) Cutter(scene.bounds, voxel, &of_shape[i]).cut(shape);
+    if (covers(scene.shapes[i].surface_group)) of_shape[i] = facets_of(scene.shapes[i]);
   });
+  std::vector<Facet> facets;
+  for (auto& some : of_shape) facets.insert(facets.end(), some.begin(), some.end());
+  drop_copies(&facets);
   std::vector<Piece> pieces;
-  for (auto& some : of_shape) pieces.insert(pieces.end(), some.begin(), some.end());
+  Cutter cutter(scene.bounds, voxel, &pieces);
+  for (const Facet& facet : facets) cutter.cut(facet);
   pieces_ = PhotonMap::build(joined(pieces, std::ldexp(1.0f, std::ilogb(voxel * voxel))), {scene.bounds});
 }
 
-double SurfaceAreas::share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius) const {
+double SurfaceAreas::share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius,
+                           const WallCut* cut) const {
   GatherCounters ignored;
   const GatherQuery query{si.p, si.n, si.surface_group, radius, kAllPhotons};
-  return std::clamp(double(gather_flux(pieces_, query, kernel, ignored).x), kLeastShare, 1.0);
+  const Rgb share =
+      cut ? gather_flux(pieces_, query, kernel, *cut, ignored) : gather_flux(pieces_, query, kernel, ignored);
+  return std::clamp(double(share.x), kLeastShare, 1.0);
 }
 
 }  // namespace kaustik::photon

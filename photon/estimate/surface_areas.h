@@ -16,6 +16,8 @@
 
 namespace kaustik::photon {
 
+class WallCut;
+
 // Immutable after construction; const members may be called from any thread.
 class SurfaceAreas {
  public:
@@ -42,7 +44,9 @@ class SurfaceAreas {
   // Share of the kernel's mass on si's surface, in [kLeastShare, 1], as surface_share() computes it from
   // edges. radius: at most that of the constructor; smaller discs hold fewer pieces, so they are less
   // accurate.
-  double share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius) const;
+  // cut: walls that hide pieces from si; may be null.
+  double share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius,
+               const WallCut* cut = nullptr) const;
 
   float radius() const { return radius_; }  // metres; the largest disc that share() accepts
 

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "accel/wall_feet.h"
 #include "core/stopwatch.h"
 #include "photon/visibility/visibility_shoot.h"
 #include "render/maps/radius.h"
@@ -96,9 +98,19 @@ void PassPhotons::free_maps() {
 
 // Finds surface edges and bends, which depend on the scene alone, unless they are there already.
 void PassPhotons::find_edges(const RenderInput& input) {
-  if (input.settings.lookup == Lookup::kLeaf || edges_) return;
+  if (edges_) return;
   edges_ = std::make_unique<accel::EdgeIndex>(
       accel::without_continued(find_boundary_edges(input.scene.shapes, &bends_), input.bvh));
+}
+
+// Finds the feet of walls, unless they are there already. Later passes have smaller discs than the first one
+// of this process.
+void PassPhotons::find_walls(const RenderInput& input) {
+  if (std::exchange(walls_are_known_, true)) return;
+  std::vector<BoundaryEdge> feet = accel::find_wall_feet(input.scene, *edges_);
+  const float radius = std::max({radii_->direct, radii_->caustic, radii_->indirect});
+  if (!feet.empty() && radius > 0)
+    walls_ = std::make_unique<photon::Walls>(std::move(feet), input.scene.bounds, radius);
 }
 
 // Sets the radii and k-nearest counts for this pass; both shrink from pass to pass.
@@ -107,7 +119,8 @@ void PassPhotons::set_estimates(const RenderSettings& settings, const PassShare&
   const auto shrunk = [&](float radius) { return static_cast<float>(double(radius) * shrink); };
   for (GatherMap* gather : gather_maps(maps_)) {
     gather->estimate = estimate_settings(settings, pass);
-    gather->estimate.edges = edges_.get();
+    if (settings.lookup != Lookup::kLeaf) gather->estimate.edges = edges_.get();
+    gather->estimate.walls = walls_.get();
   }
   if (radii_->caustic_nearest > 0 && settings.nearest == 0)
     maps_.caustic.estimate.nearest = photons_in_reach(radii_->caustic_nearest, pass.shares);
@@ -138,7 +151,7 @@ std::shared_ptr<const photon::SurfaceAreas> PassPhotons::areas_for(float radius,
 void PassPhotons::set_areas(const Scene& scene) {
   for (GatherMap* gather : gather_maps(maps_)) {
     const photon::EstimateSettings& estimate = gather->estimate;
-    if (!edges_ || estimate.nearest > 0 || !(estimate.radius > 0)) continue;
+    if (!estimate.edges || estimate.nearest > 0 || !(estimate.radius > 0)) continue;
     const float radius = at_least(estimate.radius);
     gather->areas = areas_for(radius, scene);
     gather->estimate.areas = gather->areas.get();
@@ -157,6 +170,7 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
   build_maps(input, std::move(shot));
   if (!radii_) radii_ = settle_radii(input, pass, maps_);
   find_edges(input);
+  find_walls(input);
   set_estimates(input.settings, pass);
   set_areas(input.scene);
   note_radii(*radii_, statistics);

@@ -43,6 +43,7 @@ class PassPhotons {
   void build_maps(const RenderInput& input, photon::ShootResult&& shot);
   void free_maps();
   void find_edges(const RenderInput& input);
+  void find_walls(const RenderInput& input);
   void set_estimates(const RenderSettings& settings, const PassShare& pass);
   void set_areas(const Scene& scene);
   std::shared_ptr<const photon::SurfaceAreas> areas_for(float radius, const Scene& scene) const;
@@ -55,6 +56,8 @@ class PassPhotons {
   RadiusShrink shrink_;
   std::unique_ptr<const accel::EdgeIndex> edges_;  // edges of surfaces; the estimates point to it
   std::vector<SurfaceBend> bends_;                 // bend of surfaces, by surface group
+  std::unique_ptr<const photon::Walls> walls_;     // null: none, or not looked for yet
+  bool walls_are_known_ = false;
   PhotonGuides guides_;
   std::unique_ptr<const photon::VisibilityTree> visibility_;
 };

@@ -130,6 +130,53 @@ TEST(SurfaceShare, SquareMatchesTheGrid) {
   for (const double radius : {0.2, 0.6}) expect_shares(edges, radius, in_square);
 }
 
+// Copies of a surface's triangles in either winding, split along the other diagonal too, leave its border as
+// it is.
+TEST(SurfaceShare, CoincidentTrianglesCountOnce) {
+  using Triangles = std::vector<std::array<uint32_t, 3>>;
+  const Triangles square = {{0, 1, 2}, {0, 2, 3}};
+  const auto edges_with = [&](const Triangles& more, bool in_one_mesh) {
+    Scene scene;
+    scene.shapes.resize(in_one_mesh ? 1 : 2);
+    TriangleMesh mesh;
+    mesh.P = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.indices = in_one_mesh ? square : more;
+    if (in_one_mesh) mesh.indices.insert(mesh.indices.end(), more.begin(), more.end());
+    scene.shapes.back().geometry = mesh;
+    mesh.indices = square;
+    if (!in_one_mesh) scene.shapes.front().geometry = mesh;
+    return edges_of(scene);
+  };
+  const accel::EdgeIndex single = edges_with({}, true);
+  for (const Triangles& more : {square,
+                                {{0, 2, 1}, {0, 3, 2}},
+                                {{0, 1, 2}},
+                                {{0, 1, 3}, {1, 2, 3}},
+                                Triangles{{0, 1, 2}, {0, 2, 1}, {0, 2, 3}, {0, 3, 2}}})
+    for (const bool in_one_mesh : {true, false}) {
+      const accel::EdgeIndex edges = edges_with(more, in_one_mesh);
+      EXPECT_EQ(edges.size(), 4u);
+      for (const Point3& p : kPointsOfSquare)
+        for (const float side : {1.0f, -1.0f})
+          EXPECT_EQ(surface_share(edges, at(p, {0, 0, side}), {}, 0.2f),
+                    surface_share(single, at(p, {0, 0, side}), {}, 0.2f))
+              << p.x << ' ' << p.y;
+    }
+}
+
+// The lower face of a wedge of 30 degrees ends at the common edge, but it is no part of the upper one's
+// plane.
+TEST(SurfaceShare, AWedgeHasOneEdgeForEachFace) {
+  Scene scene;
+  TriangleMesh mesh;
+  mesh.P = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0.866f, 0, -0.5f}, {0.866f, 1, -0.5f}};
+  mesh.indices = {{0, 2, 3}, {0, 3, 1}, {0, 5, 4}, {0, 1, 5}};
+  scene.shapes.resize(1);
+  scene.shapes[0].geometry = mesh;
+  const accel::EdgeIndex edges = edges_of(scene);
+  EXPECT_NEAR(surface_share(edges, at({0, 0.5f, 0}), {}, 0.2f), 0.5, 1e-6);
+}
+
 // This shape is not star-shaped: the far sides of the hole come back within reach. It has eight tiles, every
 // second one wound the other way.
 TEST(SurfaceShare, SquareWithAHoleMatchesTheGrid) {

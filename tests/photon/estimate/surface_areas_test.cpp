@@ -173,6 +173,26 @@ TEST(SurfaceAreas, KeepTheBrightnessOfAWire) {
   EXPECT_LT(irradiance({1, 0, 0}), 0.3);
 }
 
+// A tube whose triangles are there twice, or once more the other way round, has the surface of one.
+TEST(SurfaceAreas, CoincidentTrianglesCountOnce) {
+  const Shape single = tube(0.25f, 8, 64, 16);
+  const SurfaceInteraction outside = at({0.25f, 0, 0}, {1, 0, 0}), inside = at({0.25f, 0, 0}, {-1, 0, 0});
+  constexpr float kRadius = 0.4f;  // less than the tube is wide, so that its far side is out of reach
+  const double expected = areas_of({single}, kRadius).share(outside, {}, kRadius);
+  Shape twice = single, both_ways = single;
+  auto &copies = std::get<TriangleMesh>(twice.geometry).indices,
+       &turned = std::get<TriangleMesh>(both_ways.geometry).indices;
+  for (size_t i = 0, end = copies.size(); i < end; ++i) {
+    copies.push_back(copies[i]);
+    turned.push_back({turned[i][0], turned[i][2], turned[i][1]});
+  }
+  // Pieces are joined in a few places only, so the sums differ by rounding.
+  EXPECT_NEAR(areas_of({twice}, kRadius).share(outside, {}, kRadius), expected, 1e-5);
+  const SurfaceAreas areas = areas_of({both_ways}, kRadius);
+  EXPECT_NEAR(areas.share(outside, {}, kRadius), expected, 1e-5);
+  EXPECT_NEAR(areas.share(inside, {}, kRadius), expected, 1e-5);
+}
+
 TEST(SurfaceAreas, LeaveFlatSurfacesToTheirEdges) {
   EXPECT_FALSE(areas_of({ball(1)}, 0.05f).covers(0));
   Shape wall;

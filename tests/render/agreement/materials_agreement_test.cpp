@@ -51,6 +51,7 @@ const Case kCases[] = {
     {"rough_dielectric", Dielectric{1.5f, {0.5f, 0.5f}}},
     {"glossy_dielectric", Dielectric{1.5f, {0.2f, 0.2f}}},
     {"thin_dielectric", ThinDielectric{1.5f}},
+    {"tinted_dielectric", Dielectric{1.5f, {}, {Rgb(0.9f, 0.6f, 0.3f), Rgb(0.5f, 0.7f, 0.9f)}}},
     {"diffuse_transmission", DiffuseTransmission{Rgb(0.3f), Rgb(0.5f)}},
     {"coated_diffuse", CoatedDiffuse::from_reflectance(Rgb(0.7f), 1.5f)},
     {"glossy_coat", CoatedDiffuse::from_reflectance(Rgb(0.7f), 1.5f, {0.15f, 0.15f})},

@@ -1,0 +1,283 @@
+// Pairs of triangles are found by halving the two sets by turns, each half with what its box meets of the
+// other set; each pair is then cut exactly.
+
+#include "accel/wall_feet.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "core/geometry/triangle_bounds.h"
+#include "core/math/error_bounds.h"
+
+namespace kaustik::accel {
+namespace {
+
+constexpr double kTouch = 0x1p-19;      // of the largest coordinate
+constexpr float kBendOfOthers = 0.9f;   // cosine; as that at which surfaces count as bent
+constexpr float kBendOfOwn = 0.5f;      // cosine; photons beyond a smaller bend count (kNormalCosine)
+constexpr size_t kFewPairs = 2048;      // up to this many are compared one by one
+constexpr size_t kWorthThreads = 4096;  // triangles
+
+struct Face {
+  std::array<Point3, 3> P;
+  Normal3 n;
+  Bounds3 box;
+  uint32_t group = 0;
+};
+
+using Faces = std::vector<const Face*>;
+
+Bounds3 grown(Bounds3 box) {
+  const float by = float(kTouch) * std::max(max_abs_component(box.min), max_abs_component(box.max));
+  box.min -= by;
+  box.max += by;
+  return box;
+}
+
+bool overlap(const Bounds3& a, const Bounds3& b) {
+  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+         a.min.z <= b.max.z && b.min.z <= a.max.z;
+}
+
+void add_faces(const Shape& shape, std::vector<Face>* faces) {
+  const TriangleMesh& mesh = *shape.mesh();
+  const auto* const instance = std::get_if<InstancedMesh>(&shape.geometry);
+  for (const auto& triangle : mesh.indices) {
+    Face face;
+    for (size_t i = 0; i < 3; ++i) {
+      const Point3& p = mesh.P[triangle[i]];
+      face.P[i] = instance ? instance->to_world.point(p) : p;
+      face.box.add(face.P[i]);
+    }
+    face.n = triangle_normal(face.P[1] - face.P[0], face.P[2] - face.P[0]);
+    if (face.n == Normal3(0)) continue;
+    face.box = grown(face.box);
+    face.group = shape.surface_group;
+    faces->push_back(face);
+  }
+}
+
+bool is_glass(const Material& material) {
+  return std::holds_alternative<Dielectric>(material.typical()) ||
+         std::holds_alternative<ThinDielectric>(material.typical());
+}
+
+// The part of a segment that parameters from t0 to t1 leave.
+struct Segment {
+  glm::dvec3 a, b;
+  double t0 = 0, t1 = 1;
+
+  // Keeps the part where the distance is above zero; it is da at a and db at b.
+  void clip(double da, double db) {
+    if (da < 0 && db < 0) t1 = t0 - 1;
+    if (da >= 0 && db >= 0) return;
+    const double t = da / (da - db);
+    (da < 0 ? t0 : t1) = da < 0 ? std::max(t0, t) : std::min(t1, t);
+  }
+  glm::dvec3 at(double t) const { return glm::mix(a, b, t); }
+};
+
+// Heights of a triangle's corners above a plane; those within `touch` are zero.
+struct Heights {
+  std::array<double, 3> h;
+
+  bool above() const {
+    return std::any_of(h.begin(), h.end(), [](double x) { return x > 0; });
+  }
+  bool below() const {
+    return std::any_of(h.begin(), h.end(), [](double x) { return x < 0; });
+  }
+};
+
+// Where the triangle meets the plane; nothing if it does so in a point or not at all.
+std::optional<Segment> section(const Face& wall, const Heights& heights) {
+  std::array<glm::dvec3, 4> found;
+  size_t count = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t j = (i + 1) % 3;
+    const double hi = heights.h[i], hj = heights.h[j];
+    if (hi == 0) found[count++] = glm::dvec3(wall.P[i]);
+    if (hi * hj < 0) found[count++] = glm::mix(glm::dvec3(wall.P[i]), glm::dvec3(wall.P[j]), hi / (hi - hj));
+  }
+  if (count != 2) return std::nullopt;
+  return Segment{found[0], found[1]};
+}
+
+std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall) {
+  const float limit = floor.group == wall.group ? kBendOfOwn : kBendOfOthers;
+  if (std::abs(glm::dot(floor.n, wall.n)) > limit || !overlap(floor.box, wall.box)) return std::nullopt;
+  float size = 0;
+  for (const Face* face : {&floor, &wall})
+    size = std::max({size, max_abs_component(face->box.min), max_abs_component(face->box.max)});
+  const double touch = kTouch * double(size);
+  const glm::dvec3 p0(floor.P[0]);
+  const glm::dvec3 n = glm::normalize(glm::cross(glm::dvec3(floor.P[1]) - p0, glm::dvec3(floor.P[2]) - p0));
+  Heights heights;
+  for (size_t i = 0; i < 3; ++i) {
+    const double h = glm::dot(glm::dvec3(wall.P[i]) - p0, n);
+    heights.h[i] = std::abs(h) <= touch ? 0 : h;
+  }
+  auto foot = section(wall, heights);
+  if (!foot) return std::nullopt;
+  for (size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 corner(floor.P[i]), along = glm::dvec3(floor.P[(i + 1) % 3]) - corner;
+    const glm::dvec3 inward = glm::normalize(glm::cross(n, along));
+    foot->clip(glm::dot(foot->a - corner, inward) + touch, glm::dot(foot->b - corner, inward) + touch);
+  }
+  // What is clipped reaches over the corners by up to two touches on either side.
+  if (!((foot->t1 - foot->t0) * glm::length(foot->b - foot->a) > 8 * touch)) return std::nullopt;
+  BoundaryEdge edge;
+  edge.a = Point3(foot->at(foot->t0));
+  edge.b = Point3(foot->at(foot->t1));
+  edge.n = Normal3(heights.above() ? n : -n);
+  edge.both_sides = heights.above() && heights.below();
+  edge.surface_group = floor.group;
+  return edge;
+}
+
+// Finds the feet of all walls on all floors.
+class Join {
+ public:
+  std::vector<BoundaryEdge> run(Faces floors, Faces walls) {
+    std::vector<BoundaryEdge> feet;
+    if (floors.empty() || walls.empty()) return feet;
+    if (floors.size() * walls.size() <= kFewPairs) {
+      compare(floors, walls, &feet);
+      return feet;
+    }
+    if (gave_up()) return feet;
+    const bool halve_floors = floors.size() >= walls.size();
+    Faces& all = halve_floors ? floors : walls;
+    const Faces& others = halve_floors ? walls : floors;
+    const bool threads = all.size() > kWorthThreads;
+    const auto middle = split(&all);
+    std::vector<BoundaryEdge> more;
+    const auto part = [&](Faces::iterator from, Faces::iterator to, std::vector<BoundaryEdge>* out) {
+      Faces half(from, to), met = meeting(half, others);
+      *out = halve_floors ? run(std::move(half), std::move(met)) : run(std::move(met), std::move(half));
+    };
+    const auto low = [&] { part(all.begin(), middle, &feet); };
+    const auto high = [&] { part(middle, all.end(), &more); };
+    if (threads) {
+      tbb::parallel_invoke(low, high);
+    } else {
+      low();
+      high();
+    }
+    feet.insert(feet.end(), more.begin(), more.end());
+    return feet;
+  }
+  bool gave_up() const { return pairs_ > kMostWallPairs; }
+
+ private:
+  static Point3 twice_center(const Face& face) { return face.box.min + face.box.max; }
+
+  // Splits at the median along the axis in which the centers are spread farthest.
+  static Faces::iterator split(Faces* faces) {
+    Bounds3 centers;
+    for (const Face* face : *faces) centers.add(twice_center(*face));
+    const Vector3 extent = centers.max - centers.min;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const auto middle = faces->begin() + std::ptrdiff_t(faces->size() / 2);
+    std::nth_element(faces->begin(), middle, faces->end(), [axis](const Face* a, const Face* b) {
+      const float ca = twice_center(*a)[axis], cb = twice_center(*b)[axis];
+      return ca != cb ? ca < cb : a < b;
+    });
+    return middle;
+  }
+  static Faces meeting(const Faces& half, const Faces& others) {
+    Bounds3 box;
+    for (const Face* face : half) box.add(face->box);
+    Faces met;
+    for (const Face* face : others)
+      if (overlap(face->box, box)) met.push_back(face);
+    return met;
+  }
+  void compare(const Faces& floors, const Faces& walls, std::vector<BoundaryEdge>* feet) {
+    pairs_.fetch_add(floors.size() * walls.size(), std::memory_order_relaxed);
+    for (const Face* floor : floors)
+      for (const Face* wall : walls)
+        if (floor != wall)
+          if (const auto foot = foot_on(*floor, *wall)) feet->push_back(*foot);
+  }
+
+  std::atomic<uint64_t> pairs_{0};
+};
+
+// Whether the foot lies along edges at which the surface ends. The wall may belong to the same group and end
+// there itself, so normals are compared.
+bool lies_on_end(const BoundaryEdge& foot, const EdgeIndex& ends) {
+  const float size = std::max(max_abs_component(foot.a), max_abs_component(foot.b));
+  std::array<uint32_t, 16> found;
+  const auto ends_at = [&](float t) {
+    const Point3 p = glm::mix(foot.a, foot.b, t);
+    const size_t count = ends.find(p, 4 * float(kTouch) * size, foot.surface_group, found);
+    return count <= found.size() &&
+           std::any_of(found.begin(), found.begin() + std::ptrdiff_t(count),
+                       [&](uint32_t i) { return std::abs(glm::dot(ends[i].n, foot.n)) > kBendOfOthers; });
+  };
+  return ends_at(0.05f) && ends_at(0.5f) && ends_at(0.95f);
+}
+
+// The shapes with the fewest triangles, in their order.
+std::vector<uint32_t> coarse_shapes(const Scene& scene) {
+  std::vector<uint32_t> meshes;
+  for (uint32_t i = 0; i < scene.shapes.size(); ++i)
+    if (scene.shapes[i].mesh()) meshes.push_back(i);
+  std::stable_sort(meshes.begin(), meshes.end(), [&](uint32_t a, uint32_t b) {
+    return primitive_count(scene.shapes[a]) < primitive_count(scene.shapes[b]);
+  });
+  uint64_t triangles = 0;
+  size_t kept = 0;
+  while (kept < meshes.size()) {
+    triangles += primitive_count(scene.shapes[meshes[kept]]);
+    if (triangles > kMostWallTriangles) break;
+    ++kept;
+  }
+  meshes.resize(kept);
+  std::sort(meshes.begin(), meshes.end());
+  return meshes;
+}
+
+auto order_of(const BoundaryEdge& e) {
+  return std::tuple(e.surface_group, e.a.x, e.a.y, e.a.z, e.b.x, e.b.y, e.b.z, e.n.x, e.n.y, e.n.z,
+                    e.both_sides);
+}
+
+}  // namespace
+
+std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends) {
+  std::vector<Face> faces;
+  std::vector<std::pair<uint32_t, size_t>> ends_of_shapes;  // shape, number of faces up to it
+  for (const uint32_t i : coarse_shapes(scene)) {
+    add_faces(scene.shapes[i], &faces);
+    ends_of_shapes.push_back({i, faces.size()});
+  }
+  Faces floors, walls;
+  const Face* face = faces.data();
+  for (const auto& [i, end] : ends_of_shapes) {
+    const Material& material = scene.materials[scene.shapes[i].material];
+    const bool is_wall = !scene.shapes[i].has_alpha() && !is_glass(material);
+    for (; face != faces.data() + end; ++face) {
+      if (material.lobes().diffuse) floors.push_back(face);
+      if (is_wall) walls.push_back(face);
+    }
+  }
+  Join join;
+  std::vector<BoundaryEdge> feet = join.run(std::move(floors), std::move(walls));
+  if (join.gave_up()) return {};
+  std::erase_if(feet, [&](const BoundaryEdge& foot) { return lies_on_end(foot, ends); });
+  std::sort(feet.begin(), feet.end(), [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+  feet.erase(std::unique(feet.begin(), feet.end(),
+                         [](const auto& a, const auto& b) { return order_of(a) == order_of(b); }),
+             feet.end());
+  return feet;
+}
+
+}  // namespace kaustik::accel

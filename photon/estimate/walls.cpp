@@ -1,0 +1,140 @@
+// Feet of walls in the tangent plane of a gather.
+
+#include "photon/estimate/walls.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "photon/estimate/boundary_correction.h"
+
+namespace kaustik::photon {
+namespace {
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+const std::array<glm::dvec2, WallCut::kDirections>& directions() {
+  static const auto all = [] {
+    std::array<glm::dvec2, WallCut::kDirections> d;
+    for (size_t i = 0; i < d.size(); ++i) {
+      const double theta = 2 * std::numbers::pi * (double(i) + 0.5) / double(d.size());
+      d[i] = {std::cos(theta), std::sin(theta)};
+    }
+    return d;
+  }();
+  return all;
+}
+
+// Distance along the unit direction at which it meets the line; infinite where it does not.
+double distance_to(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& direction) {
+  const double left = cross(direction, a), right = cross(direction, b);
+  if (left * right > 0 || left == right) return HUGE_VAL;
+  const glm::dvec2 p = glm::mix(a, b, left / (left - right));
+  const double t = glm::dot(p, direction);
+  return t > 0 ? t : HUGE_VAL;
+}
+
+}  // namespace
+
+Walls::Walls(std::vector<BoundaryEdge> feet, const Bounds3& bounds, float radius)
+    : feet_(std::move(feet)), radius_(radius), origin_(bounds.min), marks_(kCells * kCells * kCells / 64) {
+  const Vector3 extent = bounds.diagonal();
+  for (int k = 0; k < 3; ++k) {
+    const float cell = std::max(extent[k] / float(kCells), radius / 2);
+    cells_per_metre_[k] = cell > 0 ? 1 / cell : 0;
+  }
+  for (uint32_t i = 0; i < feet_.size(); ++i) mark(feet_[i]);
+}
+
+// Marks boxes around points of the foot that are no farther apart than the radius.
+void Walls::mark(const BoundaryEdge& foot) {
+  const float length = glm::distance(foot.a, foot.b);
+  const int steps = static_cast<int>(std::clamp(std::ceil(length / radius_), 1.0f, 1e6f));
+  // Half a step, with room for rounding.
+  const float reach = 1.0001f * (radius_ + length / float(2 * steps));
+  for (int i = 0; i <= steps; ++i) {
+    const Point3 p = glm::mix(foot.a, foot.b, float(i) / float(steps)), low = p - reach, high = p + reach;
+    for (uint32_t x = cell_of(low, 0); x <= cell_of(high, 0); ++x)
+      for (uint32_t y = cell_of(low, 1); y <= cell_of(high, 1); ++y)
+        for (uint32_t z = cell_of(low, 2); z <= cell_of(high, 2); ++z) {
+          const uint32_t cell = (x * kCells + y) * kCells + z;
+          marks_[cell / 64] |= uint64_t{1} << (cell % 64);
+        }
+  }
+}
+
+WallCut::WallCut(const Walls& walls, const SurfaceInteraction& si, const Vector3& wo, const Normal3& n,
+                 float radius)
+    : si_(si), frame_(Frame::from_z(si.n)), radius_(double(radius)), step_(4 * double(si.p_error)) {
+  x_ = glm::dvec3(si.p) + step_ * glm::dvec3(wo);
+  std::array<uint32_t, kMostFeet> found;
+  const size_t count = walls.feet().find(si.p, radius, si.surface_group, found);
+  if (count > found.size()) return;
+  for (size_t i = 0; i < count; ++i) {
+    const BoundaryEdge& foot = walls.feet()[found[i]];
+    const float side = glm::dot(foot.n, n);
+    if (std::abs(side) < kNormalCosine || (side < 0 && !foot.both_sides)) continue;
+    feet_.push_back(line_of(foot));
+  }
+}
+
+WallCut::Line WallCut::line_of(const BoundaryEdge& edge) const {
+  return {flat(glm::dvec3(edge.a) - x_), flat(glm::dvec3(edge.b) - x_)};
+}
+
+bool WallCut::hides(const Point3& p, const Vector3& w) const {
+  const glm::dvec2 y = flat(glm::dvec3(p) + step_ * glm::dvec3(w) - x_);
+  return std::any_of(feet_.begin(), feet_.end(), [&](const Line& foot) {
+    // The foot's ends count as part of it, so that nothing passes between two feet that meet.
+    if (cross(y, foot.a) * cross(y, foot.b) > 0) return false;
+    const glm::dvec2 along = foot.b - foot.a;
+    return cross(along, -foot.a) * cross(along, y - foot.a) < 0;
+  });
+}
+
+double WallCut::share(const KernelSpec& kernel, const accel::EdgeIndex& ends) const {
+  std::array<uint32_t, kMaxEdgesInReach> found;
+  const size_t count = ends.find(si_.p, float(radius_), si_.surface_group, found);
+  struct End {
+    Line line;
+    double sign;
+  };
+  std::vector<End> outline;
+  for (size_t i = 0; i < count && count <= found.size(); ++i)
+    if (const int sign = sign_of_edge(ends[found[i]], si_, float(radius_)))
+      outline.push_back({line_of(ends[found[i]]), double(sign)});
+  const MassWithin mass_within(kernel);
+  const double per_radius = 1 / radius_;
+  double sum = 0;
+  for (const glm::dvec2& direction : directions()) {
+    double wall = radius_;
+    for (const Line& foot : feet_) wall = std::min(wall, distance_to(foot.a, foot.b, direction));
+    const double within = wall < radius_ ? mass_within(wall * per_radius) : 1;
+    sum += within;
+    for (const End& end : outline)
+      if (const double t = distance_to(end.line.a, end.line.b, direction); t < wall)
+        sum -= end.sign * (within - mass_within(t * per_radius));
+  }
+  return std::clamp(sum / double(directions().size()), 0.0, 1.0);
+}
+
+Rgb gather_flux(const PhotonMap& map, const GatherQuery& query, const KernelSpec& kernel, const WallCut& cut,
+                GatherCounters& counters) {
+  const KernelTerms terms = kernel_terms(kernel, query.radius);
+  glm::dvec3 sum(0);
+  for_each_photon(
+      map, query,
+      [&](const Photon& photon, float distance_squared) {
+        if (cut.hides(photon.p, photon.wi))
+          --counters.accepted;
+        else
+          sum += glm::dvec3(photon.flux) * double(kernel_value(kernel.type, terms, distance_squared));
+      },
+      counters);
+  return Rgb(sum);
+}
+
+}  // namespace kaustik::photon
