@@ -29,7 +29,8 @@ struct MtlMaterial {
   SourceLocation where;
   std::map<std::string, glm::dvec3, std::less<>> colours;  // ka, kd, ks, ke, tf; not negative
   std::map<std::string, double, std::less<>> numbers;      // ns, ni, d, tr, illum, pr, pm
-  std::map<std::string, MtlMap, std::less<>> maps;  // map_kd, map_ke, map_d, bump, norm, map_pr, map_pm
+  std::map<std::string, MtlMap, std::less<>>
+      maps;  // of map_Kd, map_Ke, map_d, map_Bump, norm, map_Pr, map_Pm
 
   std::optional<glm::dvec3> colour(std::string_view keyword) const;
   std::optional<double> number(std::string_view keyword) const;

@@ -152,7 +152,7 @@ Parameter MtlMaterials::times_vertex_colours(Parameter value) {
   return make_parameter(ParameterType::kTexture, name, add(std::move(product)), value.location);
 }
 
-// The GGX width: Pr squared, as in glTF, or that of the exponent Ns.
+// The GGX width: Pr or map_Pr squared, as in glTF, or that of the exponent Ns.
 void MtlMaterials::add_width(const MtlMaterial& mtl, MaterialDescription& m) {
   const auto squared = [](double v) { return v * v; };
   const MtlMap* const map = image(mtl, "map_pr");
@@ -243,6 +243,7 @@ bool MtlMaterials::is_clear(const MtlMaterial& mtl) {
   return illum == 6 || illum == 7 || (illum == 4 && (stated ? opacity(mtl) < 1 : refracts)) || faint;
 }
 
+// Where Pm, or the mean of map_Pm, is above one half.
 bool MtlMaterials::is_metal(const MtlMaterial& mtl) {
   const MtlMap* const map = image(mtl, "map_pm");
   std::string error;

@@ -15,13 +15,13 @@ class ImportLoneMesh : public ObjTest {
  protected:
   SceneDescription mesh(const std::string& name, const std::string& bytes) {
     diagnostics_ = Diagnostics();
-    auto scene = import_scene(write(name, bytes), diagnostics_);
+    auto scene = import_scene(write(name, bytes), diagnostics_, kWithoutFloor);
     EXPECT_TRUE(scene) << said();
     return scene ? std::move(*scene) : SceneDescription{};
   }
   std::string error_of(const std::string& name, const std::string& bytes) {
     diagnostics_ = Diagnostics();
-    EXPECT_FALSE(import_scene(write(name, bytes), diagnostics_));
+    EXPECT_FALSE(import_scene(write(name, bytes), diagnostics_, kWithoutFloor));
     EXPECT_EQ(diagnostics_.error_count(), 1u);
     return said();
   }

@@ -14,14 +14,14 @@ class ObjTest : public ImportTest {
   // Imports the text, which must have no errors.
   SceneDescription describe(const std::string& text) {
     diagnostics_ = Diagnostics();
-    auto scene = import_scene(write("scene.obj", text), diagnostics_);
+    auto scene = import_scene(write("scene.obj", text), diagnostics_, kWithoutFloor);
     EXPECT_TRUE(scene && !diagnostics_.has_errors()) << diagnostics_.format_all();
     return scene ? std::move(*scene) : SceneDescription{};
   }
   // The message of the only error that the text must have.
   std::string error(const std::string& text) {
     diagnostics_ = Diagnostics();
-    EXPECT_FALSE(import_scene(write("scene.obj", text), diagnostics_));
+    EXPECT_FALSE(import_scene(write("scene.obj", text), diagnostics_, kWithoutFloor));
     EXPECT_EQ(diagnostics_.error_count(), 1u);
     return diagnostics_.format_all();
   }
