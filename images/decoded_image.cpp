@@ -92,24 +92,35 @@ bool read_values(OIIO::ImageInput& in, const std::array<int, 3>& channels, bool 
   return true;
 }
 
+std::string unreadable(const std::string& path, std::string_view why) {
+  return fmt::format("cannot read the image \"{}\": {}", path, why);
+}
+
 }  // namespace
+
+std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, std::string& error) {
+  std::string why;
+  auto in = open_image(path, {}, why);
+  if (in) why = refusal(in->spec());
+  if (in && why.empty() && in->format_name() == std::string_view("png") && is_cut_png(path, in->spec()))
+    why = "it ends early";
+  if (why.empty()) return in;
+  error = unreadable(path, why);
+  return nullptr;
+}
 
 std::optional<DecodedImage> decode_image(const std::string& path, const ImageEncoding& encoding,
                                          std::string& error) {
-  const auto fail = [&](std::string_view why) {
-    error = fmt::format("cannot read the image \"{}\": {}", path, why);
-    return std::nullopt;
-  };
-  std::string why;
-  const auto in = open_image(path, {}, why);
-  if (!in) return fail(why);
+  const auto in = open_texture(path, error);
+  if (!in) return std::nullopt;
   const OIIO::ImageSpec spec = in->spec();
-  if (why = refusal(spec); !why.empty()) return fail(why);
-  if (in->format_name() == std::string_view("png") && is_cut_png(path, spec)) return fail("it ends early");
   const std::array<int, 3> channels = colour_channels(spec);
   const bool grey = channels[0] == channels[1];
   std::vector<float> values;
-  if (!read_values(*in, channels, grey, values)) return fail(in->geterror());
+  if (!read_values(*in, channels, grey, values)) {
+    error = unreadable(path, in->geterror());
+    return std::nullopt;
+  }
   const bool bytes = spec.format == OIIO::TypeDesc::UINT8;
   if (bytes || spec.format == OIIO::TypeDesc::UINT16) decode_integers(values, bytes ? 255 : 65535, encoding);
 

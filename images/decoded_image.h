@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,10 @@ struct DecodedImage {
 
   size_t row_bytes() const { return static_cast<size_t>(spec.width) * spec.pixel_bytes(); }
 };
+
+// Opens the first image of a file, unless its header shows that it cannot be a texture. Otherwise returns
+// null and stores a sentence in `error` that names the file.
+std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, std::string& error);
 
 // Reads the first image of a file in full: its channels R, G and B, or one grey channel. Integers are decoded
 // by `encoding` (sRGB by default); values that are not finite become zero. If the file cannot be read,

@@ -114,8 +114,15 @@ class OpenImageIo final : public render::ImageFormats {
   std::optional<std::string> encode_numbers(const ImageNumbers& image, int bits,
                                             std::string& error) const override {
     const OIIO::TypeDesc type = bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
-    const OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
+    spec.attribute("png:compressionLevel", 1);  // takes most of the time, and the file is read again soon
     return encode("png", spec, OIIO::TypeDesc::FLOAT, image.values.data(), error);
+  }
+
+  std::string texture_trouble(const std::string& path) const override {
+    std::string error;
+    open_texture(path, error);
+    return error;
   }
 
   std::shared_ptr<render::TextureImages> make_textures() const override {

@@ -59,14 +59,22 @@ Json shapes_json(const Scene& scene) {
   return out;
 }
 
+// Whether textures decide the material's colours: their images are not read here.
+bool textured(const Scene& scene, const Material& material) {
+  if (const MixedMaterial* mixed = material.mixed())
+    return textured(scene, scene.materials[mixed->first]) || textured(scene, scene.materials[mixed->second]);
+  return material.textured() && material.textured()->makes_bsdf();
+}
+
 Json materials_json(const Scene& scene) {
   const std::vector<uint64_t> uses = uses_of(scene, scene.materials.size(), &Shape::material);
   Json out = Json::array();
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
+    const Material& material = scene.materials[i];
     out.push_back({{"name", name},
-                   {"type", type_name(scene.materials[i])},
-                   {"albedo", triple(albedo(scene.materials[i].typical()))},
+                   {"type", type_name(material)},
+                   {"albedo", textured(scene, material) ? Json(nullptr) : triple(albedo(material.typical()))},
                    {"shapes", uses[i]}});
   }
   return out;
@@ -120,6 +128,11 @@ std::string triple_text(const glm::dvec3& v, int digits = 5) {
   return fmt::format("({:.{}g}, {:.{}g}, {:.{}g})", v.x, digits, v.y, digits, v.z, digits);
 }
 
+std::string albedo_text(const Scene& scene, const Material& material) {
+  if (textured(scene, material)) return "with textures";
+  return "albedo " + triple_text(albedo(material.typical()));
+}
+
 std::string bounds_text(const Scene& scene) {
   const bool far = scene.origin != glm::dvec3(0);
   const int digits = far ? 12 : 5;
@@ -145,8 +158,8 @@ std::string info_text(const std::string& path, const Job& job) {
   text += bounds_text(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
-    text += fmt::format("material   {}: {}, albedo {}\n", name.empty() ? fmt::format("#{}", i) : name,
-                        type_name(scene.materials[i]), triple_text(albedo(scene.materials[i].typical())));
+    text += fmt::format("material   {}: {}, {}\n", name.empty() ? fmt::format("#{}", i) : name,
+                        type_name(scene.materials[i]), albedo_text(scene, scene.materials[i]));
   }
   for (const Light& light : scene.lights) {
     text += fmt::format("light      {}, power {} W\n", name_of(light), triple_text(power(light)));
@@ -167,7 +180,7 @@ int run_info(const InfoOptions& options, const Console& console) {
   Console quiet = console;
   quiet.quiet = true;  // the report contains what the log would say
   Job job;
-  with_thread_limit(0, console, [&] { job = load_job(options.scene, options.overrides, quiet); });
+  with_thread_limit(0, console, [&] { job = load_job(options.scene, options.overrides, quiet, false); });
   if (options.json) {
     console.out << info_json(options.scene, job).dump(2) << '\n';
   } else {

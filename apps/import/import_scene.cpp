@@ -121,7 +121,7 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
                                                                         std::string* content) {
     return load_ply(file, content, colours);
   };
-  SceneTextures textures;
+  SceneTextures textures(options.texture_pixels);
   const auto load_texture = [&](const std::string& name, const SourceLocation& where,
                                 const ImageEncoding& encoding) {
     const auto load = [&](const std::filesystem::path& file, std::string* content) {

@@ -33,6 +33,9 @@ struct ImportOptions {
   // The moment at which an animated file is shown; unset = its beginning.
   std::optional<float> seconds{};
   ViewOptions view{};
+  // Set by the command, not the user. False: images of textures are checked by their headers only and are
+  // grey in the scene, for commands that render nothing.
+  bool texture_pixels = true;
 };
 
 }  // namespace kaustik

@@ -69,6 +69,9 @@ class ImageFormats {
   virtual std::optional<std::string> encode_numbers(const ImageNumbers& image, int bits,
                                                     std::string& error) const = 0;
 
+  // The sentence with which TextureImages::load() would refuse a file by its header; empty for other files.
+  virtual std::string texture_trouble(const std::string& path) const = 0;
+
   virtual std::shared_ptr<TextureImages> make_textures() const = 0;
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/files/pending_file.h"
 #include "render/picture/image_formats.h"
@@ -47,6 +49,26 @@ double encoded(double v) {
   return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
 }
 
+// A function of an image's values. Those of integer images are multiples of 1/65535, as 8 and 16 bits are, so
+// that for large images a table takes the place of one or two powers for each value.
+class ValueFunction {
+ public:
+  ValueFunction(const ImageNumbers& image, std::function<double(double)> function)
+      : function_(std::move(function)) {
+    if (!image.integers || image.values.size() < kSteps) return;
+    for (size_t i = 0; i <= kSteps; ++i) table_.push_back(function_(double(i) / double(kSteps)));
+  }
+  double operator()(double value) const {
+    if (table_.empty()) return function_(value);
+    return table_[static_cast<size_t>(std::lround(std::clamp(value, 0.0, 1.0) * double(kSteps)))];
+  }
+
+ private:
+  static constexpr size_t kSteps = 65535;
+  std::function<double(double)> function_;
+  std::vector<double> table_;
+};
+
 }  // namespace
 
 std::optional<std::string> write_tinted(const std::filesystem::path& from, const std::filesystem::path& to,
@@ -55,10 +77,12 @@ std::optional<std::string> write_tinted(const std::filesystem::path& from, const
   const auto image = read(from, error);
   if (!image) return error;
   ImageNumbers out{image->width, image->height, 3, true, {}};
-  for (size_t i = 0; i < image->count(); ++i) {
-    for (int c = 0; c < 3; ++c)
-      out.values.push_back(
-          static_cast<float>(encoded(factor[c] * std::pow(linear(at(*image, i, c)), exponent))));
+  out.values.resize(3 * image->count());
+  for (int c = 0; c < 3; ++c) {
+    const ValueFunction tinted(*image,
+                               [&](double v) { return encoded(factor[c] * std::pow(linear(v), exponent)); });
+    for (size_t i = 0; i < image->count(); ++i)
+      out.values[3 * i + static_cast<size_t>(c)] = static_cast<float>(tinted(at(*image, i, c)));
   }
   return write(to, out, 8);
 }
@@ -69,8 +93,10 @@ std::optional<std::string> write_channel(const std::filesystem::path& from, cons
   const auto image = read(from, error);
   if (!image) return error;
   ImageNumbers out{image->width, image->height, 1, true, {}};
+  out.values.reserve(image->count());
+  const ValueFunction mapped(*image, [&](double v) { return std::clamp(map(v), 0.0, 1.0); });
   for (size_t i = 0; i < image->count(); ++i)
-    out.values.push_back(static_cast<float>(std::clamp(map(at(*image, i, channel)), 0.0, 1.0)));
+    out.values.push_back(static_cast<float>(mapped(at(*image, i, channel))));
   return write(to, out, 16);
 }
 
@@ -78,11 +104,12 @@ std::optional<ImageMeans> image_means(const std::filesystem::path& from, std::st
   const auto image = read(from, error);
   if (!image) return std::nullopt;
   ImageMeans sum;
+  const ValueFunction decoded(*image, linear);
   for (size_t i = 0; i < image->count(); ++i) {
     for (int c = 0; c < 4; ++c) {
       const double stored = at(*image, i, c);
       sum.stored[c] += stored;
-      if (c < 3) sum.linear[c] += linear(stored);
+      if (c < 3) sum.linear[c] += decoded(stored);
     }
   }
   const double count = double(image->count());

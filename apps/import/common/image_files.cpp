@@ -21,6 +21,14 @@ std::optional<std::string> hash_of(const std::filesystem::path& path, std::strin
   return hash.text();
 }
 
+class GreyImages final : public ImageLibrary {
+ public:
+  Rgb lookup(uint32_t /*image*/, const ImageSampling& /*sampling*/, const Point2& /*st*/,
+             const Vector2& /*dstdx*/, const Vector2& /*dstdy*/) const override {
+    return Rgb(0.5f);
+  }
+};
+
 }  // namespace
 
 LightImageResult load_light_image(const std::filesystem::path& path, std::string* content) {
@@ -49,7 +57,14 @@ ImageResult SceneTextures::load(const std::filesystem::path& path, const ImageEn
   const auto hash = hash_of(path, result.error);
   if (!hash) return result;
   *content = *hash;
-  return textures().load(path.string(), encoding);
+  if (pixels_) return textures().load(path.string(), encoding);
+  result.error = render::image_formats().texture_trouble(path.string());
+  return result;
+}
+
+std::shared_ptr<const ImageLibrary> SceneTextures::library() const {
+  if (pixels_) return textures_;
+  return std::make_shared<GreyImages>();
 }
 
 }  // namespace kaustik::pbrt

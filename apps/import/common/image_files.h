@@ -17,19 +17,23 @@ inline constexpr uint64_t kMostLightPixels = uint64_t{1} << 26;
 // from sRGB. `content` receives the ContentHash of the file if it could be read. Thread-safe.
 LightImageResult load_light_image(const std::filesystem::path& path, std::string* content = nullptr);
 
-// The textures of a scene. The library that holds them is made when the first one is loaded, so a scene
+// The textures of a scene, or, if no pixels are wanted, a grey library in their place, for which files are
+// checked by their headers only. The library that holds them is made when the first one is loaded, so a scene
 // without textures never asks for image_formats().
 class SceneTextures {
  public:
+  explicit SceneTextures(bool pixels) : pixels_(pixels) {}
+
   // See TextureImages::load. `content` receives the ContentHash of the file if it could be read. Thread-safe.
   ImageResult load(const std::filesystem::path& path, const ImageEncoding& encoding, std::string* content);
 
   // Null when no texture was loaded.
-  std::shared_ptr<const ImageLibrary> library() const { return textures_; }
+  std::shared_ptr<const ImageLibrary> library() const;
 
  private:
   render::TextureImages& textures();
 
+  bool pixels_;
   std::mutex mutex_;  // guards the creation of textures_
   std::shared_ptr<render::TextureImages> textures_;
 };

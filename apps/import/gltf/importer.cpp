@@ -27,7 +27,7 @@ class Importer {
         pose_(document, double(options.seconds.value_or(0)), warnings_),
         nodes_(placed_nodes(document, pose_, warnings_)),
         deformation_(document, pose_, nodes_),
-        textures_(document, path, warnings_, diagnostics.files, scene_),
+        textures_(document, path, options.texture_pixels, warnings_, diagnostics.files, scene_),
         materials_(document, textures_, warnings_, scene_) {
     scene_.location = warnings_.where();
     scene_.grey_for_unreadable_images = true;

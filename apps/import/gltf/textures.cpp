@@ -211,7 +211,7 @@ std::optional<std::string> Textures::colour(const View& info, const glm::dvec3& 
 
 std::optional<ImageFile> Textures::tinted_file(const View& info, const glm::dvec3& factor, double exponent) {
   const auto image = file(info);
-  if (!image || (factor == glm::dvec3(1) && exponent == 1)) return image;
+  if (!image || (factor == glm::dvec3(1) && exponent == 1) || !pixels_) return image;
   const ImageFile tinted = in_folder(fmt::format("derived{}.png", derived_++));
   if (const auto error = write_tinted(path_of(*image), path_of(tinted), factor, exponent)) {
     warnings_.say(*error);
@@ -224,6 +224,7 @@ std::optional<std::string> Textures::channel(const View& info, int channel,
                                              const std::function<double(double)>& map) {
   const auto image = file(info);
   if (!image) return std::nullopt;
+  if (!pixels_) return add("float", *image, "linear", info);
   const ImageFile grey = in_folder(fmt::format("derived{}.png", derived_++));
   if (const auto error = write_channel(path_of(*image), path_of(grey), channel, map)) {
     warnings_.say(*error);

@@ -35,9 +35,16 @@ struct ImageFile {
 
 class Textures {
  public:
-  Textures(const Document& document, std::filesystem::path path, FileWarnings& warnings, SourceFiles& files,
-           SceneDescription& scene)
-      : document_(document), path_(std::move(path)), warnings_(warnings), files_(files), scene_(scene) {}
+  // pixels: whether copies of images with other values are needed; otherwise the images themselves stand for
+  // them.
+  Textures(const Document& document, std::filesystem::path path, bool pixels, FileWarnings& warnings,
+           SourceFiles& files, SceneDescription& scene)
+      : document_(document),
+        path_(std::move(path)),
+        pixels_(pixels),
+        warnings_(warnings),
+        files_(files),
+        scene_(scene) {}
 
   // The matrix that was applied to the texture coordinates of the mesh that the next textures are for; it has
   // an inverse. Textures make up for it.
@@ -84,6 +91,7 @@ class Textures {
 
   const Document& document_;
   std::filesystem::path path_;
+  bool pixels_;
   FileWarnings& warnings_;
   SourceFiles& files_;
   SceneDescription& scene_;

@@ -122,9 +122,11 @@ std::vector<NamedFile> files_of(const Job& job) {
   return files;
 }
 
-Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console) {
+Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console,
+             bool texture_pixels) {
   const Stopwatch watch;
-  const ImportOptions options = import_options_of(overrides.alone());
+  ImportOptions options = import_options_of(overrides.alone());
+  options.texture_pixels = texture_pixels;
   Diagnostics diagnostics;
   std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics, options);
   if (!loaded) report_broken_scene(path, options, diagnostics, console);

@@ -25,8 +25,9 @@ struct Job {
 // Loads and checks a scene file. The command line's settings override the file's, which override the
 // defaults. Warnings go to the console, and the log names the settings that the file makes. Throws ExitError:
 // bad scene, after printing every error of the file, or bad command line when the crop does not fit the
-// image.
-Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console);
+// image. texture_pixels: see ImportOptions.
+Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console,
+             bool texture_pixels = true);
 
 // The files of a scene as inputs for check_collisions().
 std::vector<NamedFile> files_of(const Job& job);
