@@ -67,7 +67,8 @@ TEST_F(ImportCurves, RibbonsLieAcrossTheirNormals) {
 // A bent curve is followed to a tenth of its width: here a half circle of radius about one.
 TEST_F(ImportCurves, BentCurvesAreFollowed) {
   CurveSegment s{{{1, 0, 0}, {1, 4.0 / 3, 0}, {-1, 4.0 / 3, 0}, {-1, 0, 0}}, 0.01, 0.01};
-  const TubeMesh mesh = tubes_of({s}, 4);
+  const TubeDetail detail{4, 0.1, 64};
+  const TubeMesh mesh = tubes_of({s}, detail);
   const size_t rings = mesh.P.size() / 3 / 4;
   EXPECT_GT(rings, 20u);
   // Neighbouring rings do not twist: the same corner of each looks nearly the same way.
@@ -77,7 +78,7 @@ TEST_F(ImportCurves, BentCurvesAreFollowed) {
   }
   CurveSegment next = s;
   next.continues = true;
-  EXPECT_EQ(tubes_of({s, next}, 4).P.size(), 2 * mesh.P.size() - 12);  // one ring in common
+  EXPECT_EQ(tubes_of({s, next}, detail).P.size(), 2 * mesh.P.size() - 12);  // one ring in common
 }
 
 TEST_F(ImportCurves, CurvesWithoutPointsAreLeftOut) {

@@ -10,10 +10,11 @@
 namespace kaustik::pbrt {
 namespace {
 
-// Tubes of a few curves are seen closely, those of hair are thinner than a pixel.
-int sides_for(size_t segments) {
+// Tubes of a few curves are seen closely; those of hair are thinner than a pixel and many.
+TubeDetail detail_for(size_t segments) {
   constexpr size_t kFew = 5'000, kMany = 100'000;
-  return segments <= kFew ? 12 : segments <= kMany ? 6 : 4;
+  if (segments <= kFew) return {12, 0.1, 64};
+  return segments <= kMany ? TubeDetail{5, 0.5, 16} : TubeDetail{3, 1, 4};
 }
 
 double number(const Directive& d, std::string_view name, double otherwise) {
@@ -106,7 +107,7 @@ void CurveCollector::finish(SceneDescription& scene) {
   size_t segments = 0;
   for (const Group& g : groups_) segments += g.segments.size();
   for (Group& g : groups_) {
-    TubeMesh mesh = tubes_of(g.segments, sides_for(segments));
+    TubeMesh mesh = tubes_of(g.segments, detail_for(segments));
     g.segments = {};
     const SourceLocation& where = g.shape.location;
     g.shape.parameters.push_back(make_parameter(ParameterType::kPoint3, "P", std::move(mesh.P), where));

@@ -7,9 +7,6 @@
 namespace kaustik::pbrt {
 namespace {
 
-constexpr int kMostSteps = 64;
-constexpr double kToleranceOfWidth = 0.1;
-
 glm::dvec3 point_of(const CurveSegment& s, double t) {
   const double r = 1 - t;
   return r * r * r * s.P[0] + 3 * r * r * t * s.P[1] + 3 * r * t * t * s.P[2] + t * t * t * s.P[3];
@@ -24,12 +21,12 @@ glm::dvec3 direction_of(const CurveSegment& s, double t) {
 }
 
 // Wang's bound: as many steps keep chords of a cubic within the tolerance.
-int steps_of(const CurveSegment& s) {
+int steps_of(const CurveSegment& s, const TubeDetail& detail) {
   const double bend =
       std::max(glm::length(s.P[0] - 2.0 * s.P[1] + s.P[2]), glm::length(s.P[1] - 2.0 * s.P[2] + s.P[3]));
-  const double tolerance = kToleranceOfWidth * std::max(s.width0, s.width1);
+  const double tolerance = detail.tolerance * std::max(s.width0, s.width1);
   if (!(tolerance > 0)) return 1;
-  return int(std::clamp(std::ceil(std::sqrt(0.75 * bend / tolerance)), 1.0, double(kMostSteps)));
+  return int(std::clamp(std::ceil(std::sqrt(0.75 * bend / tolerance)), 1.0, double(detail.most_steps)));
 }
 
 glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& d) {
@@ -42,11 +39,13 @@ glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& d) {
 
 class TubeMaker {
  public:
-  explicit TubeMaker(int sides)
-      : sides_(sides), wider_(std::numbers::pi / (sides * std::sin(std::numbers::pi / sides))) {}
+  explicit TubeMaker(const TubeDetail& detail)
+      : detail_(detail),
+        sides_(detail.sides),
+        wider_(std::numbers::pi / (detail.sides * std::sin(std::numbers::pi / detail.sides))) {}
 
   void add(const CurveSegment& s) {
-    const int steps = steps_of(s);
+    const int steps = steps_of(s, detail_);
     if (!s.continues) has_ring_ = false;
     for (int i = has_ring_ ? 1 : 0; i <= steps; ++i) {
       const double t = i / double(steps), width = std::lerp(s.width0, s.width1, t);
@@ -109,6 +108,7 @@ class TubeMaker {
     }
   }
 
+  TubeDetail detail_;
   int sides_;
   double wider_;  // the circumscribed circle's radius over the round tube's
   TubeMesh mesh_;
@@ -119,8 +119,8 @@ class TubeMaker {
 
 }  // namespace
 
-TubeMesh tubes_of(const std::vector<CurveSegment>& segments, int sides) {
-  TubeMaker maker(sides);
+TubeMesh tubes_of(const std::vector<CurveSegment>& segments, const TubeDetail& detail) {
+  TubeMaker maker(detail);
   for (const CurveSegment& s : segments) maker.add(s);
   return maker.take();
 }

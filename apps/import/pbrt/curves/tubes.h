@@ -15,14 +15,21 @@ struct CurveSegment {
   bool continues = false;  // begins where the segment before it in the list ends
 };
 
+// How finely tubes follow their curves.
+struct TubeDetail {
+  int sides = 12;
+  double tolerance = 0.1;  // distance from the curve, as a share of its width
+  int most_steps = 64;     // along one segment
+};
+
 // Triangles in the form of the parameters of a "trianglemesh".
 struct TubeMesh {
   std::vector<double> P, N, indices;
 };
 
-// A tube has `sides` sides. Its section has the circumference of the circle whose diameter is the width, so
-// that the area and the mean width from all directions are those of the round tube; normals are those of the
-// round tube. Steps along a segment follow it to a tenth of the width. Tubes have no caps.
-TubeMesh tubes_of(const std::vector<CurveSegment>& segments, int sides);
+// The section of a tube has the circumference of the circle whose diameter is the width, so that the area and
+// the mean width from all directions are those of the round tube; normals are those of the round tube, too.
+// Tubes have no caps.
+TubeMesh tubes_of(const std::vector<CurveSegment>& segments, const TubeDetail& detail);
 
 }  // namespace kaustik::pbrt
