@@ -151,7 +151,7 @@ class Join {
       compare(floors, walls, &feet);
       return feet;
     }
-    if (gave_up()) return feet;
+    if (gave_up() || bend_too_little(floors, walls)) return feet;
     const bool halve_floors = floors.size() >= walls.size();
     Faces& all = halve_floors ? floors : walls;
     const Faces& others = halve_floors ? walls : floors;
@@ -176,6 +176,20 @@ class Join {
   bool gave_up() const { return pairs_ > kMostWallPairs; }
 
  private:
+  // Whether all normals are so near one axis that no face is a wall on another: dense smooth meshes are
+  // mostly patches of which that holds. Twice the angle from the axis is below that of the limit.
+  static bool bend_too_little(const Faces& floors, const Faces& walls) {
+    constexpr float kHalfBendOfOthers = 0.9749f, kHalfBendOfOwn = 0.8661f;
+    const Face& first = *floors.front();
+    bool one_group = true;
+    float least = 1;
+    const auto holds = [&](const Face* face) {
+      one_group = one_group && face->group == first.group;
+      least = std::min(least, std::abs(glm::dot(face->n, first.n)));
+      return least > (one_group ? kHalfBendOfOwn : kHalfBendOfOthers);
+    };
+    return std::all_of(floors.begin(), floors.end(), holds) && std::all_of(walls.begin(), walls.end(), holds);
+  }
   static Point3 twice_center(const Face& face) { return face.box.min + face.box.max; }
 
   // Splits at the median along the axis in which the centers are spread farthest.
