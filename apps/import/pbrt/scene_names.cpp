@@ -68,9 +68,9 @@ void SceneParser::leave_out_unknown_textures(Directive& directive) {
     if (float_textures_.contains(name) || spectrum_textures_.contains(name)) return false;
     std::vector<std::string_view> names(spectrum_textures_.begin(), spectrum_textures_.end());
     names.insert(names.end(), float_textures_.begin(), float_textures_.end());
-    repeated_.add("texture/" + name, p.value_location(0),
-                  fmt::format("no texture is named `{}` up to here: `{}` keeps its default{}", name, p.name,
-                              name_hint(name, names)));
+    repeated_.say_one_of("texture/" + name, p.value_location(0),
+                         fmt::format("no texture is named `{}` up to here: `{}` keeps its default{}", name,
+                                     p.name, name_hint(name, names)));
     return true;
   });
 }

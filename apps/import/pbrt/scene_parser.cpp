@@ -148,8 +148,8 @@ void SceneParser::run(const Token& word) {
   if (entry.block == Block::kOptions && in_world_ && word.text == "Camera") {
     diagnostics_.error(word.location, "`Camera` belongs before `WorldBegin`");
   } else if (entry.block == Block::kOptions && in_world_) {
-    repeated_.add("before/" + std::string(word.text), word.location,
-                  fmt::format("`{}` belongs before `WorldBegin`; it is read here, too", word.text));
+    repeated_.say_one_of("before/" + std::string(word.text), word.location,
+                         fmt::format("`{}` belongs before `WorldBegin`; it is read here, too", word.text));
   } else if (entry.block == Block::kWorld && !in_world_ && !misses_world_begin_) {
     // Reported once only: all later directives would repeat it.
     misses_world_begin_ = true;
@@ -270,8 +270,8 @@ void SceneParser::pop(bool object, const Token& word) {
     return;
   }
   if (stack_.empty()) {
-    repeated_.add("unopened", word.location,
-                  fmt::format("`{}` closes no open block and is ignored", word.text));
+    repeated_.say_one_of("unopened", word.location,
+                         fmt::format("`{}` closes no open block and is ignored", word.text));
     return;
   }
   if (stack_.back().object != object) {

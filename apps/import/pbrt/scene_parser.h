@@ -125,7 +125,7 @@ class SceneParser {
   Diagnostics& diagnostics_;
   ColourReducer colours_;
   V3Upgrader v3_;
-  RepeatedWarnings repeated_;
+  CountedWarnings repeated_;
   Repairs repairs_{repeated_};
   CurveCollector curves_{repeated_};
   SceneDescription scene_;

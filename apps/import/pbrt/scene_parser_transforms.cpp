@@ -78,9 +78,9 @@ void SceneParser::on_coord_sys_transform(const Token& word) {
   }
   std::vector<std::string_view> names;
   for (const auto& [known, m] : coordinate_systems_) names.push_back(known);
-  repeated_.add(fmt::format("coordinate system/{}", name->text), name->location,
-                fmt::format("no coordinate system is named `{}`: the transform stays as it is{}", name->text,
-                            name_hint(name->text, names)));
+  repeated_.say_one_of(fmt::format("coordinate system/{}", name->text), name->location,
+                       fmt::format("no coordinate system is named `{}`: the transform stays as it is{}",
+                                   name->text, name_hint(name->text, names)));
 }
 
 void SceneParser::on_active_transform(const Token& word) {
@@ -146,8 +146,8 @@ void SceneParser::on_option(const Token& word) {
   if (!spec) {
     std::vector<std::string_view> names;
     for (const ParameterSpec& known : option_type().parameters) names.push_back(known.name);
-    repeated_.add("option/" + p.name, p.location,
-                  fmt::format("unknown option `{}` is ignored{}", p.name, name_hint(p.name, names)));
+    repeated_.say_one_of("option/" + p.name, p.location,
+                         fmt::format("unknown option `{}` is ignored{}", p.name, name_hint(p.name, names)));
     return skip_arguments();
   }
   if (parse_values(*tokens_, p, diagnostics_)) scene_.options.push_back(std::move(p));
@@ -162,9 +162,9 @@ void SceneParser::on_color_space(const Token& word) {
   }
   std::vector<std::string_view> names;
   for (const ColourSpace& space : colour_spaces()) names.push_back(space.name);
-  repeated_.add(fmt::format("color space/{}", name->text), name->location,
-                fmt::format("unknown color space \"{}\": \"{}\" remains{}", name->text,
-                            state_.colour_space->name, name_hint(name->text, names)));
+  repeated_.say_one_of(fmt::format("color space/{}", name->text), name->location,
+                       fmt::format("unknown color space \"{}\": \"{}\" remains{}", name->text,
+                                   state_.colour_space->name, name_hint(name->text, names)));
 }
 
 void SceneParser::on_world_end(const Token& word) {
@@ -175,10 +175,10 @@ void SceneParser::on_world_end(const Token& word) {
 
 // Directives of pbrt-v2 that later versions do not have. Their arguments are skipped.
 void SceneParser::on_v2(const Token& word) {
-  repeated_.add("v2", word.location,
-                fmt::format("`{}` makes this a file of pbrt-v2: it is read as one of pbrt-v3, without "
-                            "integrators, renderers and volumes",
-                            word.text));
+  repeated_.say_one_of("v2", word.location,
+                       fmt::format("`{}` makes this a file of pbrt-v2: it is read as one of pbrt-v3, without "
+                                   "integrators, renderers and volumes",
+                                   word.text));
   skip_arguments();
 }
 

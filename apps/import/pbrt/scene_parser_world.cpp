@@ -27,9 +27,9 @@ void SceneParser::on_texture(const Token& word) {
   texture.value_type = unescape(value_type->text);
   if (texture.value_type == "color") texture.value_type = "spectrum";  // pbrt-v3's name of it
   if (texture.value_type != "float" && texture.value_type != "spectrum") {
-    repeated_.add("texture's type", value_type->location,
-                  fmt::format("a texture is \"float\" or \"spectrum\": \"{}\" is read as \"spectrum\"",
-                              texture.value_type.substr(0, 60)));
+    repeated_.say_one_of("texture's type", value_type->location,
+                         fmt::format("a texture is \"float\" or \"spectrum\": \"{}\" is read as \"spectrum\"",
+                                     texture.value_type.substr(0, 60)));
     texture.value_type = "spectrum";
   }
   const bool is_float = texture.value_type == "float";
@@ -108,8 +108,8 @@ void SceneParser::on_shape(const Token& word) {
   for (const std::string_view name : {"P", "indices"}) {
     const Parameter* p = shape.find(name);
     if (!p || p->count() > 0) continue;
-    return repeated_.add("empty mesh", shape.location,
-                         fmt::format("a shape with an empty list `{}` is left out", name));
+    return repeated_.say_one_of("empty mesh", shape.location,
+                                fmt::format("a shape with an empty list `{}` is left out", name));
   }
   shape.object_to_world = state_.ctm;
   shape.reverse_orientation = state_.reverse_orientation;
@@ -133,8 +133,9 @@ void SceneParser::on_object_begin(const Token& word) {
   const auto [found, is_new] = objects_.emplace(text, text);
   if (!is_new) {
     found->second = fmt::format("{} ({})", text, scene_.objects.size());
-    repeated_.add("object", name->location,
-                  fmt::format("object `{}` is defined again: later instances show this definition", text));
+    repeated_.say_one_of(
+        "object", name->location,
+        fmt::format("object `{}` is defined again: later instances show this definition", text));
   }
   open_object_ = scene_.objects.size();
   scene_.objects.push_back({found->second, name->location, {}});
@@ -152,8 +153,8 @@ void SceneParser::on_object_instance(const Token& word) {
   const auto name = in_quotes("a name", word);
   if (!name) return;
   if (open_object_) {
-    return repeated_.add("nested instance", word.location,
-                         "an object cannot contain an instance, which is left out as in pbrt");
+    return repeated_.say_one_of("nested instance", word.location,
+                                "an object cannot contain an instance, which is left out as in pbrt");
   }
   const std::string text = unescape(name->text);
   const auto last = objects_.find(text);

@@ -86,7 +86,7 @@ TEST_F(ImportCurves, CurvesWithoutPointsAreLeftOut) {
       "Shape \"curve\" \"point3 P\" [ 0 0 0 1 1 1 ]\n"
       "Shape \"curve\" \"point3 P\" [ 0 0 0 1 nan 1 2 2 2 3 3 3 ]");
   EXPECT_EQ(lines,
-            "2:1: warning: a curve takes 4 finite points or more: this one is left out (2 times in all)\n");
+            "2:1: warning: a curve takes 4 finite points or more: this one is left out (and 1 more)\n");
   EXPECT_TRUE(loaded_);
 }
 

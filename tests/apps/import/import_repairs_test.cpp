@@ -82,7 +82,7 @@ TEST_F(ImportRepairs, UndefinedNamesKeepDefaults) {
             Rgb(0.5f));
   EXPECT_THAT(warnings(),
               HasSubstr("no texture is named `wod` up to here: `Kd` keeps its default; did you mean "
-                        "`wood`? (2 times in all)"));
+                        "`wood`? (and 1 more)"));
   EXPECT_EQ(reflectance(R"(NamedMaterial "gold")"), Rgb(0.5f));
   EXPECT_THAT(warnings(), HasSubstr("no material is named `gold`: diffuse with reflectance 0.5 stands in"));
 }
@@ -176,7 +176,7 @@ TEST_F(ImportRepairs, FilesOfVersion2SayThatTheyAre) {
   EXPECT_EQ(s.shapes.size(), 1u);
   EXPECT_THAT(warnings(),
               HasSubstr("`Renderer` makes this a file of pbrt-v2: it is read as one of pbrt-v3, without "
-                        "integrators, renderers and volumes (4 times in all)"));
+                        "integrators, renderers and volumes (and 3 more)"));
 }
 
 // A light that no closed form samples by area shines as triangles, whose area is within 0.1 % of it. The area

@@ -81,7 +81,7 @@ void CurveCollector::add(const ShapeDescription& curve, std::optional<size_t> ob
       std::all_of(P.begin(), P.end(), [](const glm::dvec3& p) { return std::isfinite(p.x + p.y + p.z); });
   const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(m))));
   if (P.size() <= degree || !finite || !(scale > 0)) {
-    return warnings_.add(
+    return warnings_.say_one_of(
         "curve", curve.location,
         fmt::format("a curve takes {} finite points or more: this one is left out", degree + 1));
   }

@@ -4,15 +4,15 @@
 #include <optional>
 #include <vector>
 
+#include "apps/import/common/counted_warnings.h"
 #include "apps/import/pbrt/curves/tubes.h"
-#include "apps/import/pbrt/repair/repeated_warnings.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::pbrt {
 
 class CurveCollector {
  public:
-  explicit CurveCollector(RepeatedWarnings& warnings) : warnings_(warnings) {}
+  explicit CurveCollector(CountedWarnings& warnings) : warnings_(warnings) {}
 
   // Takes a Shape "curve", of the object with this index if there is one. A curve without enough points is
   // left out with a warning.
@@ -29,7 +29,7 @@ class CurveCollector {
   };
   Group& group_of(const ShapeDescription& curve, std::optional<size_t> object);
 
-  RepeatedWarnings& warnings_;
+  CountedWarnings& warnings_;
   std::vector<Group> groups_;
   size_t last_ = 0;  // the group of the curve before
 };

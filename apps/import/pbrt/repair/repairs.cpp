@@ -78,7 +78,7 @@ const TypeSpec* Repairs::type_of(const Category& category, Directive& d) {
   if (shows && is_misspelt(from, names)) return nullptr;
   const std::string to = replace_unknown_type(category.directive, d);
   if (to.empty()) return nullptr;
-  warnings_.add(
+  warnings_.say_one_of(
       fmt::format("type/{}/{}", category.noun, from), d.type_location,
       fmt::format("unknown {} \"{}\": {} stands in{}", category.noun, from, to, name_hint(from, names)));
   return find_row(category, d.type);
@@ -90,7 +90,7 @@ void Repairs::replace_file(Directive& material) {
   const std::string name = file && !file->strings.empty() ? file->strings[0].substr(0, 60) : "";
   const std::string to = replace_measured(material);
   if (to.empty()) return;
-  warnings_.add(
+  warnings_.say_one_of(
       "measured/" + name, where,
       fmt::format("the measured BSDF \"{}\" is not read: {} stands in, after the file's name", name, to));
 }
@@ -106,22 +106,23 @@ bool Repairs::is_useless(const Category& category, const TypeSpec& type, const D
     std::vector<std::string_view> missing = names;
     std::erase_if(missing, [&](std::string_view name) { return d.find(name) != nullptr; });
     if (is_misspelt(p.name, missing)) return false;
-    warnings_.add(cause, p.location,
-                  fmt::format("{} has no parameter `{}`, which is ignored{}", owner_of(category, type),
-                              p.name, name_hint(p.name, names)));
+    warnings_.say_one_of(cause, p.location,
+                         fmt::format("{} has no parameter `{}`, which is ignored{}", owner_of(category, type),
+                                     p.name, name_hint(p.name, names)));
     return true;
   }
   if (spec && spec->state == ParameterState::kUsed && p.type == ParameterType::kTexture &&
       !takes_type(*spec, p)) {
-    warnings_.add(
+    warnings_.say_one_of(
         cause, p.location,
         fmt::format("`{}` of {} takes no texture and keeps its default", p.name, owner_of(category, type)));
     return true;
   }
   const bool list = spec && spec->max_items != 1;
   if (!spec || spec->state != ParameterState::kUsed || p.count() > 0 || list) return false;
-  warnings_.add(cause, p.location,
-                fmt::format("`{}` of {} has no value and is ignored", p.name, owner_of(category, type)));
+  warnings_.say_one_of(
+      cause, p.location,
+      fmt::format("`{}` of {} has no value and is ignored", p.name, owner_of(category, type)));
   return true;
 }
 
@@ -132,9 +133,9 @@ void Repairs::take_values(const Category& category, const TypeSpec& type, const 
   const size_t count = p.count();
   if (!change_type(spec, p)) return;
   const std::string how = p.count() >= count ? "" : fmt::format(" with {} values", count);
-  warnings_.add(fmt::format("type of/{}/{}/{}", category.noun, type.name, p.name), p.location,
-                fmt::format("{}{} of {} is read as \"{} {}\"", given, how, owner_of(category, type),
-                            parameter_type_name(p.type), p.name));
+  warnings_.say_one_of(fmt::format("type of/{}/{}/{}", category.noun, type.name, p.name), p.location,
+                       fmt::format("{}{} of {} is read as \"{} {}\"", given, how, owner_of(category, type),
+                                   parameter_type_name(p.type), p.name));
 }
 
 // Moves values to the nearest bound that is allowed, as pbrt does with reflectances.
@@ -145,9 +146,10 @@ void Repairs::clamp(const Category& category, const TypeSpec& type, const Parame
     const bool high = v > spec.range.high && !spec.range.high_open;
     if (!low && !high) continue;
     const double before = std::exchange(v, low ? spec.range.low : spec.range.high);
-    warnings_.add(fmt::format("range of/{}/{}/{}", category.noun, type.name, p.name), p.value_location(i),
-                  fmt::format("`{}` of {} must be {}: {} becomes {}", p.name, owner_of(category, type),
-                              spec.range.text(), before, v));
+    warnings_.say_one_of(fmt::format("range of/{}/{}/{}", category.noun, type.name, p.name),
+                         p.value_location(i),
+                         fmt::format("`{}` of {} must be {}: {} becomes {}", p.name, owner_of(category, type),
+                                     spec.range.text(), before, v));
   }
 }
 

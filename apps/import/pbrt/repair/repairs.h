@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "apps/import/pbrt/repair/repeated_warnings.h"
+#include "apps/import/common/counted_warnings.h"
 #include "core/scene/schema/schema.h"
 
 namespace kaustik::pbrt {
@@ -28,7 +28,7 @@ bool change_type(const ParameterSpec& spec, Parameter& parameter);
 // count.
 class Repairs {
  public:
-  explicit Repairs(RepeatedWarnings& warnings) : warnings_(warnings) {}
+  explicit Repairs(CountedWarnings& warnings) : warnings_(warnings) {}
 
   // The directive must have been brought to pbrt-v4's words. Leaves spectra to the ColourReducer, and what it
   // cannot repair to the schema check. `word`: the directive, "Material", ...
@@ -41,7 +41,7 @@ class Repairs {
   void take_values(const Category& category, const TypeSpec& type, const ParameterSpec& spec, Parameter& p);
   void clamp(const Category& category, const TypeSpec& type, const ParameterSpec& spec, Parameter& p);
 
-  RepeatedWarnings& warnings_;
+  CountedWarnings& warnings_;
 };
 
 }  // namespace kaustik::pbrt
