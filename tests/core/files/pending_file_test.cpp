@@ -21,7 +21,7 @@ std::string text_of(const fs::path& path) {
 
 TEST(WriteFile, ReplacesTheFile) {
   const fs::path folder = test::empty_output_folder(), path = folder / "a.txt";
-  for (const std::string text : {std::string("first"), std::string(), std::string(3'000'000, 'x')}) {
+  for (const std::string& text : {std::string("first"), std::string(), std::string(3'000'000, 'x')}) {
     EXPECT_EQ(write_file(path, text), "");
     EXPECT_EQ(text_of(path), text);
   }
@@ -38,7 +38,9 @@ TEST(WriteFile, FullDiskIsReportedAndChangesNothing) {
   }
   EXPECT_EQ(text_of(path), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 2);
-  if (fs::exists("/dev/full")) EXPECT_EQ(write_in_place("/dev/full", "x"), std::strerror(ENOSPC));
+  if (fs::exists("/dev/full")) {
+    EXPECT_EQ(write_in_place("/dev/full", "x"), std::strerror(ENOSPC));
+  }
   EXPECT_EQ(write_file(folder / "none" / "a.txt", "x"), std::strerror(ENOENT));
 }
 

@@ -170,7 +170,9 @@ TEST(ImageIo, ReadsTheFormatsOfPicturesAndTextures) {
     // The contents decide, not the name, except for Targa, whose files have no mark.
     const std::string other = output_file(std::string("named-") + extension + ".png");
     fs::rename(path, other);
-    if (std::string(extension) != "tga") EXPECT_NO_THROW(EXPECT_EQ(read_image(other).width, 2) << other);
+    if (std::string(extension) != "tga") {
+      EXPECT_NO_THROW(EXPECT_EQ(read_image(other).width, 2) << other);
+    }
   }
   EXPECT_GE(read, 9);
 }
