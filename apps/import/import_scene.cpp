@@ -4,14 +4,14 @@
 #include <mutex>
 #include <set>
 
-#include "apps/import/common/camera_choice.h"
 #include "apps/import/common/image_files.h"
-#include "apps/import/common/view.h"
 #include "apps/import/gltf/importer.h"
 #include "apps/import/lone_mesh.h"
 #include "apps/import/obj/obj_importer.h"
 #include "apps/import/pbrt/scene_parser.h"
 #include "apps/import/ply/ply.h"
+#include "apps/import/view/camera_choice.h"
+#include "apps/import/view/view.h"
 #include "core/files/content_hash.h"
 #include "core/scene/build/builder.h"
 #include "core/texture/texture.h"

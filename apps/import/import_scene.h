@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/settings/import_options.h"
+#include "apps/settings/table/import_options.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/description/description.h"
 #include "core/scene/scene.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/reference/exit_codes.h"
-#include "apps/settings/table.h"
+#include "apps/settings/table/table.h"
 #include "core/version.h"
 
 namespace kaustik::app {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "apps/reference/exit_codes.h"
-#include "apps/settings/table.h"
+#include "apps/settings/table/table.h"
 
 namespace kaustik::app {
 

@@ -7,7 +7,7 @@
 #include "apps/command_line/command.h"
 #include "apps/console/console.h"
 #include "apps/session/files/collisions.h"
-#include "apps/settings/settings.h"
+#include "apps/settings/table/settings.h"
 #include "render/passes/partial_result.h"
 #include "render/renderer.h"
 #include "render/statistics_json.h"

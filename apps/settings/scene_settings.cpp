@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "apps/settings/table.h"
+#include "apps/settings/table/table.h"
 #include "core/diagnostics/nearest_name.h"
 
 namespace kaustik::app {

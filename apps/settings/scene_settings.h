@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/settings/settings.h"
+#include "apps/settings/table/settings.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/description/description.h"
 

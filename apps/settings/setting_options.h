@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/command_line/command.h"
-#include "apps/settings/table.h"
+#include "apps/settings/table/table.h"
 
 namespace kaustik::app {
 

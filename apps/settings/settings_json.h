@@ -4,7 +4,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 
-#include "apps/settings/table.h"
+#include "apps/settings/table/table.h"
 #include "render/plan/plan.h"
 
 namespace kaustik::app {

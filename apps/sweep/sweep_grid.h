@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/settings/number_settings.h"
 #include "apps/settings/setting_options.h"
+#include "apps/settings/table/number_settings.h"
 #include "core/scene/needs.h"
 #include "render/settings/settings.h"
 

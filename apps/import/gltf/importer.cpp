@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/import/common/camera_choice.h"
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/gltf/deformation.h"
 #include "apps/import/gltf/lights_and_cameras.h"
@@ -13,6 +12,7 @@
 #include "apps/import/gltf/materials.h"
 #include "apps/import/gltf/meshes.h"
 #include "apps/import/gltf/nodes.h"
+#include "apps/import/view/camera_choice.h"
 
 namespace kaustik::gltf {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "apps/settings/import_options.h"
+#include "apps/settings/table/import_options.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/description/description.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "apps/import/common/warnings.h"
 #include "apps/import/gltf/file/document.h"
-#include "apps/settings/import_options.h"
+#include "apps/settings/table/import_options.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/console/console.h"
-#include "apps/settings/settings.h"
+#include "apps/settings/table/settings.h"
 #include "core/stopwatch.h"
 #include "render/passes/pass_sums.h"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/settings/table.h"
+#include "apps/settings/table/table.h"
 #include "core/version.h"
 #include "tests/apps/support/program.h"
 

@@ -4,7 +4,7 @@
 
 #include "core/spectrum/colour_space.h"
 #include "core/spectrum/named_spectra.h"
-#include "import_support.h"
+#include "tests/apps/import/import_support.h"
 
 namespace kaustik::pbrt {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "gzipped.h"
-#include "import_support.h"
+#include "tests/apps/import/gzipped.h"
+#include "tests/apps/import/import_support.h"
 
 namespace kaustik::pbrt {
 namespace {

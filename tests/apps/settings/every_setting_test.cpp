@@ -8,7 +8,7 @@
 
 #include "apps/settings/scene_settings.h"
 #include "apps/settings/settings_json.h"
-#include "apps/settings/table.h"
+#include "apps/settings/table/table.h"
 #include "tests/apps/support/program.h"
 
 namespace kaustik::app {

@@ -1,6 +1,6 @@
 // Tests --quality: the values of each preset, and what overrides it.
 
-#include "apps/settings/quality.h"
+#include "apps/settings/table/quality.h"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "apps/settings/table.h"
+#include "apps/settings/table/table.h"
 
 namespace kaustik::app {
 namespace {

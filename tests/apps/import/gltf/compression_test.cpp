@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "tests/apps/import/gltf_support.h"
+#include "tests/apps/import/gltf/gltf_support.h"
 
 namespace kaustik::pbrt {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // The triangle of gltf_support.h with more attributes.
 
-#include "tests/apps/import/gltf_support.h"
+#include "tests/apps/import/gltf/gltf_support.h"
 
 namespace kaustik::pbrt {
 

@@ -1,0 +1,26 @@
+#pragma once
+// The setting --quality: presets of photons, samples and passes. docs/accuracy.md shows their results on the
+// scenes of this repository.
+
+#include <array>
+
+#include "apps/settings/table/table.h"
+
+namespace kaustik::app {
+
+struct QualityPreset {
+  std::string_view name;
+  uint64_t photons;
+  int spp;
+  uint64_t passes;
+};
+inline constexpr std::array<QualityPreset, 4> kQualityPresets = {{{"draft", 200'000, 4, 0},
+                                                                  {"medium", 1'000'000, 16, 0},
+                                                                  {"high", 5'000'000, 64, 0},
+                                                                  {"reference", 64'000'000, 1024, 64}}};
+
+// Assigning it replaces photons, spp and passes. Callers assign the quality before other settings from the
+// same source, so that explicit values win (SettingOverrides::apply, settings_from_scene).
+Setting quality_setting();
+
+}  // namespace kaustik::app

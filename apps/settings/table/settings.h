@@ -1,0 +1,28 @@
+#pragma once
+// All settings of a render, from whichever source: defaults, scene file, command line.
+
+#include <optional>
+
+#include "apps/settings/table/import_options.h"
+#include "render/picture/tonemap.h"
+#include "render/settings/settings.h"
+
+namespace kaustik::app {
+
+// The rules that decide when a render has enough passes. Without any, it renders the number of passes asked
+// for.
+struct StopSettings {
+  std::optional<double> target_error;     // relative, see render::relative_error()
+  std::optional<double> target_quantile;  // of the pixels; unset = their mean
+  std::optional<double> seconds;          // time limit
+  bool any() const { return target_error || seconds; }
+};
+
+struct Settings {
+  render::RenderSettings render;
+  render::ToneSettings tone;
+  StopSettings stop;
+  ImportOptions import_options;
+};
+
+}  // namespace kaustik::app
