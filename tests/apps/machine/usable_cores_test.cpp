@@ -4,6 +4,8 @@
 #include <sched.h>
 #include <tbb/task_arena.h>
 
+#include <sstream>
+
 #include "apps/machine/thread_limit.h"
 #include "apps/machine/usable_cores.h"
 #include "tests/apps/support/program.h"
@@ -134,8 +136,10 @@ TEST(UsableCores, AffinityLimitsTheDefaultThreads) {
   const OneCore one;
   EXPECT_EQ(core_limits().affinity, 1);
   int concurrency = 0;
-  with_thread_limit(0, [&] { concurrency = tbb::this_task_arena::max_concurrency(); });
+  std::ostringstream text;
+  with_thread_limit(0, Console{text, text}, [&] { concurrency = tbb::this_task_arena::max_concurrency(); });
   EXPECT_EQ(concurrency, 1);
+  EXPECT_EQ(text.str(), "");
   with_thread_limit(3, [&] { concurrency = tbb::this_task_arena::max_concurrency(); });
   EXPECT_EQ(concurrency, 3);
 }

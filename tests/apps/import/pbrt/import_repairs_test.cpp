@@ -100,7 +100,7 @@ TEST_F(ImportRepairs, ValuesOfOtherTypesAreRead) {
   EXPECT_NEAR(s.bounds.max.x, 3, 1e-5f);  // with room for rounding
   EXPECT_TRUE(std::get<DiffuseAreaLight>(s.lights.at(0)).twosided);
   EXPECT_THAT(warnings(),
-              HasSubstr("\"integer radius\" of shape \"sphere\" is read as \"float radius\" (2 times"));
+              HasSubstr("\"integer radius\" of shape \"sphere\" is read as \"float radius\" (and 1 more)"));
 }
 
 TEST_F(ImportRepairs, TexturesOfTheOtherTypeStandIn) {
