@@ -32,6 +32,14 @@ class ImportTest : public testing::Test {
     return path;
   }
 
+  // Imports the scene, which must have no errors, without building it.
+  SceneDescription describe(const std::string& text) {
+    diagnostics_ = Diagnostics();
+    auto description = import_scene(write("scene.pbrt", text), diagnostics_);
+    EXPECT_FALSE(diagnostics_.has_errors()) << diagnostics_.format_all();
+    return std::move(*description);
+  }
+
   // Loads the scene, which must have no errors.
   LoadedScene load(const std::string& text) {
     diagnostics_ = Diagnostics();

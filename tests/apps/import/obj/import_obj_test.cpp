@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/import/obj/obj_importer.h"
-#include "tests/apps/import/import_support.h"
+#include "tests/apps/import/obj/obj_support.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -11,31 +10,10 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class ImportObj : public ImportTest {
- protected:
-  SceneDescription describe(const std::string& text) {
-    diagnostics_ = Diagnostics();
-    auto scene = import_scene(write("scene.obj", text), diagnostics_, kWithoutFloor);
-    EXPECT_TRUE(scene && !diagnostics_.has_errors()) << diagnostics_.format_all();
-    return scene ? std::move(*scene) : SceneDescription{};
-  }
-  std::string error(const std::string& text) {
-    diagnostics_ = Diagnostics();
-    EXPECT_FALSE(import_scene(write("scene.obj", text), diagnostics_, kWithoutFloor));
-    EXPECT_EQ(diagnostics_.error_count(), 1u);
-    return diagnostics_.format_all();
-  }
-};
-
-constexpr std::string_view kQuad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-
-std::vector<double> numbers(const Directive& d, std::string_view name) {
-  const Parameter* p = d.find(name);
-  return p ? p->numbers : std::vector<double>{};
-}
+using ImportObj = ObjTest;
 
 TEST_F(ImportObj, QuadsBecomeTriangles) {
-  const auto s = describe(std::string(kQuad) + "f 1 2 3 4\n");
+  const auto s = describe(std::string(kObjQuad) + "f 1 2 3 4\n");
   ASSERT_EQ(s.shapes.size(), 1u);
   EXPECT_EQ(numbers(s.shapes[0], "P").size(), 12u);
   EXPECT_EQ(numbers(s.shapes[0], "indices").size(), 6u);
@@ -49,7 +27,7 @@ TEST_F(ImportObj, MaterialsAreConverted) {
         "newmtl steel\nillum 3\nKs 0.5 0.5 0.5\n"
         "newmtl light\nKe 4 2 1\n");
   const auto s =
-      describe("mtllib scene.mtl\n" + std::string(kQuad) +
+      describe("mtllib scene.mtl\n" + std::string(kObjQuad) +
                "usemtl paint\nf 1 2 3\nusemtl wall\nf 1 3 4\nusemtl glass\nf 1 2 4\nusemtl steel\nf 2 3 4\n"
                "usemtl light\nf 1 2 3\n");
   const auto named = [&](std::string_view prefix) -> const MaterialDescription& {
@@ -78,7 +56,7 @@ TEST_F(ImportObj, TypicalLibrariesAreRead) {
         "newmtl a\n\tKd 0.5\n\tmap_Kd -s 2 3 1 -o 0.5 0 0 -clamp on wood.png\n\td -halo 0.75\naniso 0.5\n"
         "newmtl b\nKd spectral x.rfl 1\nmap_Kd C:\\\\textures\\\\my wood.png\ndecal d.png\n"
         "newmtl c\nmap_Kd none.png\nKe 2 1 0.5\nmap_Ke wood.png\n");
-  const auto s = describe("mtllib scene.mtl\n" + std::string(kQuad) +
+  const auto s = describe("mtllib scene.mtl\n" + std::string(kObjQuad) +
                           "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\nusemtl c\nf 1 2 4\n");
   ASSERT_EQ(s.textures.size(), 2u);
   EXPECT_EQ(s.textures[0].find("filename")->strings[0], "wood.png");
@@ -100,7 +78,7 @@ TEST_F(ImportObj, SeveralLibrariesAreRead) {
   write("a.mtl", "newmtl a\nKd 0.25 0.25 0.25\n");
   write("b.mtl", "newmtl b\nKd 0.75 0.75 0.75\n");
   const auto s =
-      describe("mtllib a.mtl b.mtl\n" + std::string(kQuad) + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
+      describe("mtllib a.mtl b.mtl\n" + std::string(kObjQuad) + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
   double sum = 0;
   for (const MaterialDescription& m : s.materials) {
     if (m.name.starts_with("a ") || m.name.starts_with("b ")) sum += numbers(m, "reflectance").at(0);
@@ -109,14 +87,14 @@ TEST_F(ImportObj, SeveralLibrariesAreRead) {
 }
 
 TEST_F(ImportObj, MissingLibrariesGiveGreyMaterials) {
-  describe("mtllib none.mtl\n" + std::string(kQuad) + "f 1 2 3\n");
+  describe("mtllib none.mtl\n" + std::string(kObjQuad) + "f 1 2 3\n");
   EXPECT_THAT(diagnostics_.format_all(),
               HasSubstr("scene.obj:1:8: warning: there is no material library \"none.mtl\""));
 }
 
 TEST_F(ImportObj, DamagedFilesAreRefused) {
-  EXPECT_THAT(error(std::string(kQuad) + "f 1 2 9\n"), HasSubstr("scene.obj"));
-  EXPECT_THAT(error(std::string(kQuad)), HasSubstr("scene.obj"));
+  EXPECT_THAT(error(std::string(kObjQuad) + "f 1 2 9\n"), HasSubstr("scene.obj"));
+  EXPECT_THAT(error(std::string(kObjQuad)), HasSubstr("scene.obj"));
   EXPECT_THAT(error("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("scene.obj"));
   EXPECT_THAT(error(std::string("\0\x01\x7f\xff", 4)), HasSubstr("scene.obj"));
   EXPECT_THAT(error(""), HasSubstr("scene.obj"));

@@ -14,12 +14,6 @@ using testing::HasSubstr;
 
 class ImportUber : public ImportTest {
  protected:
-  SceneDescription describe(const std::string& text) {
-    diagnostics_ = Diagnostics();
-    auto description = import_scene(write("scene.pbrt", text), diagnostics_);
-    EXPECT_FALSE(diagnostics_.has_errors()) << diagnostics_.format_all();
-    return std::move(*description);
-  }
   SceneDescription uber(const std::string& parameters, const std::string& more = "") {
     return describe(
         "WorldBegin\n" + more + "Material \"uber\" " + parameters +

@@ -10,12 +10,6 @@ namespace {
 
 class ImportV3 : public ImportTest {
  protected:
-  SceneDescription describe(const std::string& text) {
-    diagnostics_ = Diagnostics();
-    auto description = import_scene(write("scene.pbrt", text), diagnostics_);
-    EXPECT_FALSE(diagnostics_.has_errors()) << diagnostics_.format_all();
-    return std::move(*description);
-  }
   MaterialDescription material(const std::string& text) {
     return describe("WorldBegin\n" + text).materials.at(0);
   }
