@@ -91,26 +91,30 @@ std::filesystem::path Textures::path_of(const ImageFile& file) const {
 }
 
 std::optional<ImageFile> Textures::file_of_image(uint64_t index) {
-  const auto found = images_.find(index);
-  if (found != images_.end()) return found->second;
+  auto found = images_.find(index);
+  if (found == images_.end()) found = images_.emplace(index, make_file(index)).first;
+  return found->second;
+}
+
+std::optional<ImageFile> Textures::make_file(uint64_t index) {
   const View image = document_.item("images", index);
   const View uri = image["uri"];
   std::optional<std::string> data;
   if (uri) {
     data = Document::data_of_uri(uri);
-    if (!data) return images_[index] = find_file(index, Document::file_of_uri(uri.text()));
+    if (!data) return find_file(index, Document::file_of_uri(uri.text()));
   } else if (const auto view = image["bufferView"].index(document_.size("bufferViews"))) {
     data = std::string(document_.bytes_of_view(*view));
   }
   const std::string extension = data ? extension_of(*data) : "";
   if (extension.empty()) {
     warnings_.say(fmt::format("image {} has a format that cannot be read and is shown as grey", index));
-    return images_[index] = std::nullopt;
+    return std::nullopt;
   }
   const ImageFile file = in_folder(fmt::format("image{}{}", index, extension));
   if (const std::string why = write_in_place(path_of(file), *data); !why.empty())
     throw std::runtime_error(fmt::format("cannot write {}: {}", path_of(file).string(), why));
-  return images_[index] = file;
+  return file;
 }
 
 // The file of this name, or else one of its last name beside the glTF file. Nothing, with a warning, when

@@ -78,7 +78,9 @@ class Textures {
 
  private:
   std::optional<uint64_t> image_of(const View& info);
+  // The file of an image, made on first use; nothing if there is none that can be read.
   std::optional<ImageFile> file_of_image(uint64_t image);
+  std::optional<ImageFile> make_file(uint64_t image);
   std::optional<ImageFile> find_file(uint64_t image, const std::string& name);
   const std::optional<ImageMeans>& means(const ImageFile& file);
   std::string vertex_texture(const std::string& value_type);
