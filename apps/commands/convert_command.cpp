@@ -100,9 +100,9 @@ int run_convert(const ConvertOptions& options, const Console& console) {
 }  // namespace
 
 Command make_convert_command() {
-  Command command("convert", "Write a scene (glTF, OBJ, pbrt) as pbrt-v4 text");
+  Command command("convert", "Write a scene (glTF, OBJ, PLY, STL, pbrt) as pbrt-v4 text");
   const auto options = std::make_shared<ConvertOptions>();
-  command.add_argument("SCENE", options->scene, "Scene file: .gltf, .glb, .obj or .pbrt");
+  command.add_argument("SCENE", options->scene, "Scene file: .gltf, .glb, .obj, .ply, .stl or .pbrt");
   command.add_argument("OUTPUT", options->output,
                        "Scene to write, NAME.pbrt; meshes and images go to the folder NAME-files beside it");
   command.add_quiet("Suppress the log, but not warnings and errors");

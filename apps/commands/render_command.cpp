@@ -130,7 +130,7 @@ void add_pass_options(Command& command, RenderOptions& options) {
 Command make_render_command() {
   Command command("render", "Render a scene to EXR, PNG or JPEG files");
   const auto options = std::make_shared<RenderOptions>();
-  command.add_argument("SCENE", options->scene, "Scene file: .pbrt, .gltf, .glb or .obj");
+  command.add_argument("SCENE", options->scene, "Scene file: .pbrt, .gltf, .glb, .obj, .ply or .stl");
   add_output_options(command, options->outputs,
                      "the scene's Film \"filename\", else the scene's name with .exr");
   add_pass_options(command, *options);
