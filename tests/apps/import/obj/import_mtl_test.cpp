@@ -30,9 +30,8 @@ class ImportMtl : public ObjTest {
 
 TEST_F(ImportMtl, LibrariesOfOtherMachinesAreFound) {
   write("Red Paint.MTL", "newmtl red\nKd 0.75 0 0\n");
-  for (const char* name :
-       {"Red Paint.MTL", "red paint.mtl", "lib/Red Paint.mtl", "C:\\work\\lib\\red paint.mtl",
-        "/media/disk/Red Paint.mtl", "./Red Paint.mtl"}) {
+  for (const char* name : {"Red Paint.MTL", "red paint.mtl", "lib/Red Paint.mtl",
+                           "C:\\work\\lib\\red paint.mtl", "/media/disk/Red Paint.mtl", "./Red Paint.mtl"}) {
     EXPECT_THAT(numbers(with_library(name).materials.at(0), "reflectance"), ElementsAre(0.75, 0, 0)) << name;
     EXPECT_THAT(said(), Not(HasSubstr("library"))) << name;
   }
