@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/spectrum/srgb.h"
 #include "images/open_image.h"
 
 namespace kaustik::images {
@@ -25,7 +26,7 @@ double decode(double encoded, const ImageEncoding& encoding) {
     case ImageEncoding::Kind::kSrgb:
       break;
   }
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+  return linear_from_srgb(encoded);
 }
 
 // Decodes integers in 0..steps, which were read as floats from 0 to 1, by way of a table.

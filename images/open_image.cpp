@@ -1,6 +1,7 @@
 // Knows the formats of images by their first bytes, and opens them with the reader of that format.
 
 #include "images/open_image.h"
+#include "core/text.h"
 
 #include <algorithm>
 #include <array>
@@ -54,9 +55,7 @@ bool is_netpbm(std::string_view head) {
 }
 
 bool is_targa_name(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(path);
   return extension == ".tga" || extension == ".tpic";
 }
 

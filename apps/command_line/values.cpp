@@ -1,4 +1,5 @@
 #include "apps/command_line/values.h"
+#include "core/spectrum/srgb.h"
 
 #include <fmt/format.h>
 
@@ -163,10 +164,7 @@ std::optional<glm::dvec3> decode_hexadecimal(std::string_view text) {
   const auto [stop, error] = std::from_chars(text.data() + 1, end, bits, 16);
   if (text.size() != 7 || error != std::errc() || stop != end) return std::nullopt;
   glm::dvec3 colour;
-  for (int c = 0; c < 3; ++c) {
-    const double v = ((bits >> (16 - 8 * c)) & 255) / 255.0;
-    colour[c] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  }
+  for (int c = 0; c < 3; ++c) colour[c] = linear_from_srgb(((bits >> (16 - 8 * c)) & 255) / 255.0);
   return colour;
 }
 

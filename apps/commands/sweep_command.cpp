@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <filesystem>
 
 #include "apps/bench/bench_json.h"
@@ -25,6 +24,7 @@
 #include "apps/sweep/sweep_files.h"
 #include "core/diagnostics/nearest_name.h"
 #include "core/files/content_hash.h"
+#include "core/text.h"
 #include "core/version.h"
 #include "render/settings/names.h"
 
@@ -97,8 +97,7 @@ Json common_of(const SweepOptions& options, const Job& job, int threads) {
 }
 
 void warn_of_reference(const SweepOptions& options, const Job& job, const Console& console) {
-  std::string extension = fs::path(options.reference.file).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_extension(options.reference.file);
   if (!extension.empty() && !among(kFloatPictures, extension))
     console.warning(
         fmt::format("the reference {} is in an integer format: radiance above 1 is clipped, and "

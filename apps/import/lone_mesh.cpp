@@ -6,13 +6,10 @@
 #include "apps/import/obj/obj_text.h"
 #include "apps/import/ply/ply.h"
 #include "apps/import/stl/stl.h"
+#include "core/text.h"
 
 namespace kaustik {
 namespace {
-
-std::string mesh_extension(const std::filesystem::path& path) {
-  return obj::lower_case(path.extension().string());
-}
 
 template <class V>
 std::vector<double> flat(const std::vector<V>& vectors) {
@@ -57,7 +54,7 @@ void show_vertex_colours(SceneDescription& scene) {
 }  // namespace
 
 bool is_lone_mesh(const std::filesystem::path& path) {
-  const std::string extension = mesh_extension(path);
+  const std::string extension = lower_extension(path);
   return extension == ".ply" || extension == ".stl";
 }
 
@@ -66,7 +63,7 @@ std::optional<SceneDescription> import_lone_mesh(const std::filesystem::path& pa
   // In place of its bytes the file's hash counts in the hash of the scene.
   std::string content;
   const MeshResult loaded =
-      mesh_extension(path) == ".stl" ? load_stl(path, &content) : pbrt::load_ply(path, &content, true);
+      lower_extension(path) == ".stl" ? load_stl(path, &content) : pbrt::load_ply(path, &content, true);
   const SourceLocation where{diagnostics.files.add(path.string(), content), 0, 0};
   if (!loaded.error.empty() || loaded.mesh.indices.empty()) {
     diagnostics.error(where, loaded.error.empty() ? "there are no triangles in this file" : loaded.error);

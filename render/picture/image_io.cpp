@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cctype>
 #include <filesystem>
 
 #include "core/files/pending_file.h"
+#include "core/spectrum/srgb.h"
+#include "core/text.h"
 #include "render/picture/exr_file.h"
 
 namespace kaustik::render {
@@ -16,12 +17,6 @@ namespace kaustik::render {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower_extension(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
 
 // Not by way of memory, as PNG and JPEG: many layers of a large film are gigabytes, and OpenEXR reports
 // failures.

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/spectrum/srgb.h"
 #include "render/picture/tonemap.h"
 
 namespace kaustik::render {

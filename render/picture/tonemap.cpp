@@ -1,6 +1,7 @@
 // Tone mapping operators and the sRGB transfer curve.
 
 #include "render/picture/tonemap.h"
+#include "core/spectrum/srgb.h"
 
 namespace kaustik::render {
 
@@ -24,14 +25,6 @@ std::optional<Tonemap> tonemap_from_name(std::string_view name) {
   for (size_t i = 0; i < kTonemapNames.size(); ++i)
     if (kTonemapNames[i] == name) return static_cast<Tonemap>(i);
   return {};
-}
-
-float srgb_from_linear(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
-float linear_from_srgb(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 Rgb tonemap(const Rgb& radiance, const ToneSettings& settings) {

@@ -21,10 +21,6 @@ struct ToneSettings {
 // Returns nothing if no operator has this name.
 std::optional<Tonemap> tonemap_from_name(std::string_view name);
 
-// The sRGB transfer curve (IEC 61966-2-1) from linear [0, 1] to encoded [0, 1], and its inverse.
-float srgb_from_linear(float linear);
-float linear_from_srgb(float encoded);
-
 // Converts radiance to linear display values in [0, 1]: exposure, then the operator. `srgb` clips; `reinhard`
 // scales the colour by 1 / (1 + luminance) (Reinhard et al. 2002, eq. 3) and clips; `filmic` is Narkowicz's
 // 2015 fit of the ACES curve, per channel. NaN and negative values give 0, +infinity gives 1.

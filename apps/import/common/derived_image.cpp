@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/files/pending_file.h"
+#include "core/spectrum/srgb.h"
 #include "render/picture/image_formats.h"
 
 namespace kaustik::gltf {
@@ -42,13 +43,6 @@ std::optional<std::string> write(const std::filesystem::path& path, const ImageN
   return fmt::format("cannot write \"{}\": {}", path.string(), why);
 }
 
-double linear(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-double encoded(double v) {
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
-
 // A function of an image's values. Those of integer images are multiples of 1/65535, as 8 and 16 bits are, so
 // that for large images a table takes the place of one or two powers for each value.
 class ValueFunction {
@@ -79,8 +73,9 @@ std::optional<std::string> write_tinted(const std::filesystem::path& from, const
   ImageNumbers out{image->width, image->height, 3, true, {}};
   out.values.resize(3 * image->count());
   for (int c = 0; c < 3; ++c) {
-    const ValueFunction tinted(*image,
-                               [&](double v) { return encoded(factor[c] * std::pow(linear(v), exponent)); });
+    const ValueFunction tinted(*image, [&](double v) {
+      return srgb_from_linear(factor[c] * std::pow(linear_from_srgb(v), exponent));
+    });
     for (size_t i = 0; i < image->count(); ++i)
       out.values[3 * i + static_cast<size_t>(c)] = static_cast<float>(tinted(at(*image, i, c)));
   }
@@ -104,7 +99,7 @@ std::optional<ImageMeans> image_means(const std::filesystem::path& from, std::st
   const auto image = read(from, error);
   if (!image) return std::nullopt;
   ImageMeans sum;
-  const ValueFunction decoded(*image, linear);
+  const ValueFunction decoded(*image, linear_from_srgb<double>);
   for (size_t i = 0; i < image->count(); ++i) {
     for (int c = 0; c < 4; ++c) {
       const double stored = at(*image, i, c);

@@ -1,4 +1,5 @@
 #include "apps/import/common/find_file.h"
+#include "core/text.h"
 
 #include <algorithm>
 #include <vector>
@@ -7,12 +8,6 @@ namespace kaustik {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool same_letters(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 bool is_file(const fs::path& path) {
   std::error_code ignored;
@@ -27,7 +22,8 @@ std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name
   for (fs::directory_iterator i(folder.empty() ? "." : folder, error), end; !error && i != end;
        i.increment(error)) {
     const fs::path entry = i->path().filename();
-    if (same_letters(entry.string(), name) && (!found || folder / entry < *found)) found = folder / entry;
+    if (lower_case(entry.string()) == lower_case(name) && (!found || folder / entry < *found))
+      found = folder / entry;
   }
   return found;
 }

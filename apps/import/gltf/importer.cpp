@@ -13,6 +13,7 @@
 #include "apps/import/gltf/meshes.h"
 #include "apps/import/gltf/nodes.h"
 #include "apps/import/view/camera_choice.h"
+#include "core/text.h"
 
 namespace kaustik::gltf {
 namespace {
@@ -186,8 +187,7 @@ class Importer {
 }  // namespace
 
 bool is_gltf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_extension(path);
   return extension == ".gltf" || extension == ".glb";
 }
 

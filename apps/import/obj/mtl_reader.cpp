@@ -8,6 +8,7 @@
 
 #include "apps/import/common/find_file.h"
 #include "apps/import/obj/obj_text.h"
+#include "core/text.h"
 
 namespace kaustik::obj {
 namespace {

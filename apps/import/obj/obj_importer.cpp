@@ -11,6 +11,7 @@
 #include "apps/import/obj/obj_meshes.h"
 #include "apps/import/obj/obj_text.h"
 #include "apps/import/obj/obj_triangles.h"
+#include "core/text.h"
 
 namespace kaustik {
 namespace obj {
@@ -149,7 +150,7 @@ std::optional<ObjText> read_triangles(uint32_t file, CountedWarnings& warnings, 
 }  // namespace obj
 
 bool is_obj(const std::filesystem::path& path) {
-  return obj::lower_case(path.extension().string()) == ".obj";
+  return lower_extension(path) == ".obj";
 }
 
 std::optional<SceneDescription> import_obj(const std::filesystem::path& path, Diagnostics& diagnostics) {

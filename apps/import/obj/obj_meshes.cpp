@@ -6,6 +6,7 @@
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/obj/obj_text.h"
 #include "apps/import/obj/obj_triangles.h"
+#include "core/text.h"
 
 namespace kaustik::obj {
 namespace {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "apps/import/obj/obj_text.h"
+#include "core/spectrum/srgb.h"
 
 namespace kaustik::obj {
 namespace {
@@ -137,7 +138,7 @@ class PartReader {
     part_.colours.resize(v_, glm::vec3(1));
     for (int k = 0; k < 3; ++k) {
       const float c = std::isfinite(srgb[k]) ? std::clamp(srgb[k], 0.0f, 1.0f) : 1;
-      part_.colours.back()[k] = c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+      part_.colours.back()[k] = linear_from_srgb(c);
     }
   }
 

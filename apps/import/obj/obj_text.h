@@ -15,9 +15,6 @@ inline bool is_blank(char c) {
 // The text without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 
-// ASCII letters in lower case.
-std::string lower_case(std::string_view text);
-
 // The words of a line, one after the other.
 class Words {
  public:

@@ -9,6 +9,7 @@
 
 #include "core/diagnostics/nearest_name.h"
 #include "core/spectrum/colour_space.h"
+#include "core/text.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -44,8 +45,7 @@ bool is_hole_of_mesh(const Token& token, const Parameter& p) {
   const size_t sign = token.text.starts_with('-') || token.text.starts_with('+') ? 1 : 0;
   if (token.text.size() <= sign || std::string_view("nNiI").find(token.text[sign]) == std::string_view::npos)
     return false;
-  std::string word(token.text.substr(sign));
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string word = lower_case(token.text.substr(sign));
   return word == "nan" || word == "inf" || word == "infinity" || word.starts_with("nan(");
 }
 

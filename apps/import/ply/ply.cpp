@@ -13,6 +13,7 @@
 #include "apps/import/ply/ply_body.h"
 #include "apps/import/ply/polygon.h"
 #include "core/files/content_hash.h"
+#include "core/spectrum/srgb.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -46,8 +47,7 @@ class BareFaces {
 float linear_colour(double value, PlyType type, bool alpha) {
   if (is_integer(type)) value /= size_of(type) == 1 ? 255 : 65535;
   if (!(value >= 0)) return value < 0 ? 0.0f : 1.0f;
-  if (is_integer(type) && !alpha)
-    value = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  if (is_integer(type) && !alpha) value = linear_from_srgb(value);
   return static_cast<float>(std::min(value, 1.0));
 }
 

@@ -10,6 +10,7 @@
 #include "apps/import/obj/obj_text.h"
 #include "core/files/content_hash.h"
 #include "core/math/hash.h"
+#include "core/text.h"
 
 namespace kaustik {
 namespace {
@@ -79,7 +80,7 @@ MeshResult read_ascii(std::string_view text) {
     const size_t end = text.find('\n');
     obj::Words words(text.substr(0, end));
     text.remove_prefix(end == text.npos ? text.size() : end + 1);
-    const std::string keyword = obj::lower_case(words.next());
+    const std::string keyword = lower_case(words.next());
     if (keyword == "facet" || keyword == "outer") count = 0;
     if (keyword != "vertex") continue;
     Point3& p = corners[count++ % 3];

@@ -142,8 +142,8 @@ glm::dmat4 camera_looking_along(const glm::dvec3& eye, const glm::dvec3& ahead, 
           glm::dvec4(eye, 1)};
 }
 
-void add_studio_camera(SceneDescription& scene, double aspect, const SourceLocation& where) {
-  const ModelBox box = box_of(scene);
+void add_studio_camera(SceneDescription& scene, const ModelBox& box, double aspect,
+                       const SourceLocation& where) {
   const glm::dvec3 ahead = -studio_direction(box), up(0, 1, 0);
   glm::dvec3 eye = box.empty ? -ahead : fitting_eye(scene, frame_of(ahead, up), aspect);
   // A model that is a single point has no extent to fill the picture with.
@@ -158,7 +158,7 @@ double studio_radiance(const glm::dvec3& w) {
   return surroundings(w) + light_radiance() * light_shape(w);
 }
 
-std::optional<std::string> add_studio_light(SceneDescription& scene, SourceFiles& files,
+std::optional<std::string> add_studio_light(SceneDescription& scene, const ModelBox& box, SourceFiles& files,
                                             const SourceLocation& where) {
   const auto folder = std::make_shared<const TemporaryFolder>();
   const std::string path = (folder->path() / "studio.exr").string();
@@ -170,7 +170,7 @@ std::optional<std::string> add_studio_light(SceneDescription& scene, SourceFiles
   const SourceLocation in_folder{files.add((folder->path() / "studio").string(), ""), 0, 0};
   DirectiveMaker<LightDescription> light("infinite", where);
   light.add(make_parameter(ParameterType::kString, "filename", std::string("studio.exr"), in_folder));
-  const glm::dvec3 to_camera = studio_direction(box_of(scene));
+  const glm::dvec3 to_camera = studio_direction(box);
   const glm::dvec3 up(0, 1, 0), z = glm::normalize(glm::dvec3(to_camera.x, 0, to_camera.z));
   light->light_to_world = glm::dmat4(glm::dvec4(glm::cross(up, z), 0), glm::dvec4(up, 0), glm::dvec4(z, 0),
                                      glm::dvec4(0, 0, 0, 1));
@@ -180,10 +180,9 @@ std::optional<std::string> add_studio_light(SceneDescription& scene, SourceFiles
   return std::nullopt;
 }
 
-void add_studio_floor(SceneDescription& scene, const SourceLocation& where) {
+void add_studio_floor(SceneDescription& scene, const ModelBox& box, const SourceLocation& where) {
   // Faces that lie on the ground and the floor must not share a plane.
   constexpr double kGap = 1e-3, kRadius = 8;
-  const ModelBox box = box_of(scene);
   DirectiveMaker<MaterialDescription> material("diffuse", where);
   material.rgb("reflectance", glm::dvec3(kFloorReflectance));
   material->name = "studio floor";

@@ -21,19 +21,22 @@ inline constexpr double kStudioBackground = 0.38;
 // worlds: seen along -z, +x points right. (pbrt's LookAt assumes a left-handed world.)
 glm::dmat4 camera_looking_along(const glm::dvec3& eye, const glm::dvec3& ahead, const glm::dvec3& up);
 
+// `box` below is that of the scene (box_of).
+
 // Adds a perspective camera that sees all points of the scene in a picture of this aspect ratio (width /
 // height), from the right of +z and above.
-void add_studio_camera(SceneDescription& scene, double aspect, const SourceLocation& where);
+void add_studio_camera(SceneDescription& scene, const ModelBox& box, double aspect,
+                       const SourceLocation& where);
 
 // Radiance of the studio from a direction (unit) in its own frame: +y up, the camera towards +z.
 double studio_radiance(const glm::dvec3& w);
 
 // Adds the light of the studio as an image in a temporary folder, which the description keeps. Returns an
 // error message if the image cannot be written.
-std::optional<std::string> add_studio_light(SceneDescription& scene, SourceFiles& files,
+std::optional<std::string> add_studio_light(SceneDescription& scene, const ModelBox& box, SourceFiles& files,
                                             const SourceLocation& where);
 
 // Adds a wide diffuse disk just below the model.
-void add_studio_floor(SceneDescription& scene, const SourceLocation& where);
+void add_studio_floor(SceneDescription& scene, const ModelBox& box, const SourceLocation& where);
 
 }  // namespace kaustik

@@ -42,8 +42,14 @@ class ViewMaker {
  private:
   const SourceLocation& where() const { return scene_.location; }
   void complain(const std::string& message) { diagnostics_.error({}, message); }
+  // Of the triangles of the file, over which one pass is enough.
+  const ModelBox& box() {
+    if (!box_) box_ = box_of(scene_);
+    return *box_;
+  }
+
   void add_camera() {
-    add_studio_camera(scene_, options_.aspect, where());
+    add_studio_camera(scene_, box(), options_.aspect, where());
     if (!options_.look_at)
       diagnostics_.warning(where(), "the file has no camera: one that sees the whole scene is used");
   }
@@ -57,7 +63,7 @@ class ViewMaker {
       return diagnostics_.warning(
           where(), fmt::format("the file has no light{}: a white sky of radiance 1 is used", reach));
     }
-    if (const auto error = add_studio_light(scene_, diagnostics_.files, where()))
+    if (const auto error = add_studio_light(scene_, box(), diagnostics_.files, where()))
       return complain(fmt::format("cannot make the studio's light: {}", *error));
     diagnostics_.warning(where(), fmt::format("the file has no light{}: it is shown in a studio; --sky sets "
                                               "another light, --floor off leaves the floor out",
@@ -65,8 +71,8 @@ class ViewMaker {
   }
 
   void add_floor() {
-    if (box_of(scene_).empty) return complain("--floor on: the file has no triangles to stand on a floor");
-    add_studio_floor(scene_, where());
+    if (box().empty) return complain("--floor on: the file has no triangles to stand on a floor");
+    add_studio_floor(scene_, box(), where());
   }
 
   void add_even_sky(const glm::dvec3& radiance) {
@@ -94,6 +100,12 @@ class ViewMaker {
     scene_.lights.push_back(std::move(*sky));
   }
 
+  // The scene's camera, or pbrt's default where there is none.
+  CameraDescription& camera() {
+    if (!scene_.camera) scene_.camera = std::move(*DirectiveMaker<CameraDescription>("perspective", where()));
+    return *scene_.camera;
+  }
+
   void look_at() {
     const auto& v = *options_.look_at;
     const glm::dvec3 eye(v[0], v[1], v[2]), target(v[3], v[4], v[5]), up(v[6], v[7], v[8]);
@@ -103,11 +115,7 @@ class ViewMaker {
       return complain("--look-at: eye and target must differ, and up must not point along the line of sight");
     glm::dmat4 to_world = camera_looking_along(eye, glm::normalize(ahead), glm::normalize(up));
     if (!is_right_handed()) to_world[0] = -to_world[0];
-    if (!scene_.camera) {
-      DirectiveMaker<CameraDescription> camera("perspective", where());
-      scene_.camera = std::move(*camera);
-    }
-    scene_.camera->camera_to_world = to_world;
+    camera().camera_to_world = to_world;
   }
 
   // Whether the scene's world, as its camera shows it, is right-handed: pbrt's is not, unless the file
@@ -118,11 +126,7 @@ class ViewMaker {
   }
 
   void set_fov() {
-    if (!scene_.camera) {
-      DirectiveMaker<CameraDescription> camera("perspective", where());
-      scene_.camera = std::move(*camera);
-    }
-    CameraDescription& camera = *scene_.camera;
+    CameraDescription& camera = this->camera();
     if (camera.type != "perspective")
       return complain(fmt::format("--fov is for perspective cameras: this one is {}", camera.type));
     std::erase_if(camera.parameters, [](const Parameter& p) { return p.name == "fov"; });
@@ -134,6 +138,7 @@ class ViewMaker {
   const ViewOptions& options_;
   Convention convention_;
   Diagnostics& diagnostics_;
+  std::optional<ModelBox> box_;
 };
 
 }  // namespace

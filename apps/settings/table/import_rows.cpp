@@ -1,11 +1,7 @@
 // The rows of settings that decide how scene files of other programs are read.
 
-#include <fmt/ranges.h>
-
 #include "apps/command_line/values.h"
-#include "apps/settings/table/rows.h"
-#include "core/diagnostics/nearest_name.h"
-#include "render/settings/names.h"
+#include "apps/settings/table/choice_row.h"
 
 namespace kaustik::app {
 
@@ -14,28 +10,14 @@ namespace {
 constexpr float kFramesPerSecond = 24;
 
 Setting light_unit_row() {
-  Setting s{.name = "light-unit",
-            .commands = kImportingCommands,
-            .kind = ValueKind::kChoice,
-            .value_name = "NAME",
-            .range = fmt::format("{}", fmt::join(kLightUnitNames, ", ")),
-            .default_text = std::string(kLightUnitNames[0]),
-            .doc =
-                "What the numbers of a glTF file's lights mean. photometric: candela and lux, divided by 683 "
-                "lm/W. watt: the power of point and spot lights and W/m^2 of directional ones, which old "
-                "exporters wrote."};
-  s.choices.assign(kLightUnitNames.begin(), kLightUnitNames.end());
-  s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
-    const auto unit = render::from_name<LightUnit>(kLightUnitNames, texts[0]);
-    if (!unit)
-      return fmt::format("`{}` is not a valid value{}", texts[0], name_hint(texts[0], kLightUnitNames));
-    settings.import_options.light_unit = *unit;
-    return std::nullopt;
+  const auto unit = [](auto& settings) -> auto& {
+    return settings.import_options.light_unit;
   };
-  s.show = [](const Settings& settings) {
-    return as_texts(kLightUnitNames[static_cast<size_t>(settings.import_options.light_unit)]);
-  };
-  return s;
+  return choice_row<LightUnit>(
+      "light-unit", kImportingCommands, unit, kLightUnitNames,
+      "What the numbers of a glTF file's lights mean. photometric: candela and lux, divided by 683 "
+      "lm/W. watt: the power of point and spot lights and W/m^2 of directional ones, which old "
+      "exporters wrote.");
 }
 
 // Seconds and frames set the same moment.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "apps/command_line/values.h"
+#include "apps/settings/table/choice_row.h"
 #include "apps/settings/table/number_settings.h"
 #include "apps/settings/table/quality.h"
 #include "apps/settings/table/rows.h"
@@ -65,32 +66,13 @@ Setting count(std::string_view name, CommandSet commands, std::string_view unit,
   return s;
 }
 
-template <size_t N>
-Complaint not_a_choice(const std::string& text, const std::array<std::string_view, N>& names) {
-  return fmt::format("`{}` is not a valid value{}", text, name_hint(text, names));
-}
-
-// A row for one of several names. Field is an enum, or an optional enum, which the method sets if it is
-// unset.
 template <class Enum, class Field, size_t N>
 Setting choice(std::string_view name, CommandSet commands, Field RenderSettings::*field,
                const std::array<std::string_view, N>& names, std::string default_text, std::string_view doc) {
-  Setting s{.name = name, .commands = commands, .kind = ValueKind::kChoice, .value_name = "NAME", .doc = doc};
-  s.choices.assign(names.begin(), names.end());
-  s.range = fmt::format("{}", fmt::join(names, ", "));
-  s.default_text = std::move(default_text);
-  s.assign = [field, names](Settings& settings, ValueTexts texts) -> Complaint {
-    const std::optional<Enum> value = render::from_name<Enum>(names, texts[0]);
-    if (!value) return not_a_choice(texts[0], names);
-    settings.render.*field = *value;
-    return std::nullopt;
+  const auto in_render = [field](auto& settings) -> auto& {
+    return settings.render.*field;
   };
-  s.show = [field, names](const Settings& settings) -> std::vector<std::string> {
-    const std::optional<Enum> value = settings.render.*field;
-    if (!value) return {};
-    return as_texts(names[static_cast<size_t>(*value)]);
-  };
-  return s;
+  return choice_row<Enum>(name, commands, in_render, names, std::move(default_text), doc);
 }
 
 template <class Enum, size_t N>

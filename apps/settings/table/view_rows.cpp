@@ -1,11 +1,7 @@
 // The rows of settings that say from where a scene is seen, and by which light.
 
-#include <fmt/ranges.h>
-
 #include "apps/command_line/values.h"
-#include "apps/settings/table/rows.h"
-#include "core/diagnostics/nearest_name.h"
-#include "render/settings/names.h"
+#include "apps/settings/table/choice_row.h"
 
 namespace kaustik::app {
 
@@ -113,26 +109,13 @@ Setting sky_row() {
 }
 
 Setting floor_row() {
-  Setting s{.name = "floor",
-            .commands = kImportingCommands,
-            .kind = ValueKind::kChoice,
-            .value_name = "NAME",
-            .range = fmt::format("{}", fmt::join(kFloorNames, ", ")),
-            .default_text = std::string(kFloorNames[0]),
-            .doc =
-                "A floor just below the model of a glTF or OBJ file, which takes its shadow and its "
-                "caustics. auto: on for a model that has neither camera nor light."};
-  s.choices.assign(kFloorNames.begin(), kFloorNames.end());
-  s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
-    const auto floor = render::from_name<Floor>(kFloorNames, texts[0]);
-    if (!floor) return fmt::format("`{}` is not a valid value{}", texts[0], name_hint(texts[0], kFloorNames));
-    settings.import_options.view.floor = *floor;
-    return std::nullopt;
+  const auto floor = [](auto& settings) -> auto& {
+    return settings.import_options.view.floor;
   };
-  s.show = [](const Settings& settings) {
-    return as_texts(kFloorNames[static_cast<size_t>(settings.import_options.view.floor)]);
-  };
-  return s;
+  return choice_row<Floor>(
+      "floor", kImportingCommands, floor, kFloorNames,
+      "A floor just below the model of a glTF or OBJ file, which takes its shadow and its "
+      "caustics. auto: on for a model that has neither camera nor light.");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "core/math/hash.h"
+#include "core/spectrum/srgb.h"
 #include "render/picture/exr_file.h"
 #include "tests/render/support/image_statistics.h"
 #include "tests/support/file_size_limit.h"

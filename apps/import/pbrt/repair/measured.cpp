@@ -9,6 +9,7 @@
 
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/pbrt/repair/repairs.h"
+#include "core/text.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -16,9 +17,7 @@ namespace {
 using Type = ParameterType;
 
 std::string lower_stem(std::string_view file) {
-  std::string stem(file.substr(file.find_last_of("/\\") + 1));
-  for (char& c : stem) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return stem;
+  return lower_case(file.substr(file.find_last_of("/\\") + 1));
 }
 
 bool has_any(std::string_view text, std::initializer_list<std::string_view> words) {

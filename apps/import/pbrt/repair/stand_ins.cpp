@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/import/pbrt/repair/repairs.h"
+#include "core/text.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -42,8 +43,8 @@ void keep_sample_count(Directive& sampler) {
 
 // The longest known material with which the name begins, in any case, as in "subsurfaceSPPM"; empty if none.
 std::string known_beginning(std::string_view name) {
-  std::string lower(name), longest;
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = lower_case(name);
+  std::string longest;
   for (const TypeSpec* type : category("Material").types) {
     if (lower.starts_with(type->name) && type->name.size() > longest.size()) longest = type->name;
   }
