@@ -84,6 +84,7 @@ class PassRenderer {
     const RenderContext ctx{input_,
                             photons_.maps(),
                             photons_.visibility(),
+                            photons_.sky(),
                             part,
                             pass_samples(part, input_.settings, input_.plan),
                             camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
@@ -105,6 +106,7 @@ class PassRenderer {
       return false;
     }
     photons_.predict_visibility(input_, statistics);
+    photons_.learn_sky(input_, statistics);
     return true;
   }
 

@@ -47,12 +47,16 @@ inline bool transmits(const Bsdf& bsdf) {
 inline bool lit_from_one_side(const Bsdf& bsdf) {
   return std::visit([]<class B>(const B&) { return B::kLitFromOneSide; }, bsdf);
 }
-// pi f where f is the same for all directions on wo's side and zero on the other; nothing for other BSDFs.
-inline std::optional<Rgb> constant_pi_f(const Bsdf& bsdf) {
+// The diffuse lobes as a product of a factor of wo (local) and one of wi; nothing where they are none.
+inline std::optional<SeparatedF> separated(const Bsdf& bsdf, const Vector3& wo) {
   return std::visit(
-      []<class B>(const B& b) -> std::optional<Rgb> {
-        if constexpr (HasConstantValue<B> && !B::kTransmits) return b.pi_f(false);
-        return std::nullopt;
+      [&]<class B>(const B& b) -> std::optional<SeparatedF> {
+        if constexpr (MaySeparate<B>)
+          return b.separated(wo);
+        else if constexpr (HasConstantValue<B> && !B::kTransmits)
+          return SeparatedF{b.pi_f(false), {}};
+        else
+          return std::nullopt;
       },
       bsdf);
 }

@@ -41,6 +41,8 @@
 // These members are optional and make gathering faster:
 //   Rgb pi_f(transmitted) const
 //     pi f, where f is the same for all wi on a side
+//   std::optional<SeparatedF> separated(wo) const
+//     the diffuse lobes as a product of a factor of wo and one of wi, for values that are one
 //   seen_from(wo)
 //     an object whose f(wi) equals f(wo, wi), for many wi
 // tests/core/support/bsdf_examples.h holds the values of each BSDF that all tests of BSDFs run over.
@@ -49,6 +51,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/bsdf/microfacet/coat.h"
 #include "core/math/vec.h"
 
 namespace kaustik {
@@ -61,9 +64,10 @@ struct Lobes {
   bool diffuse = false;
   bool specular = false;
   bool glossy = false;  // the specular part has finite width, so lights can be sampled there
+  bool rough = false;   // the diffuse part holds a microfacet lobe, which scatters little of what a photon brings
 };
 inline constexpr Lobes kDiffuseLobes{true, false, false}, kDeltaLobes{false, true, false},
-    kGlossyLobes{false, true, true};
+    kGlossyLobes{false, true, true}, kRoughLobes{true, false, false, true};
 
 // The lobes whose value is asked for: those under which photons are gathered, or those of finite width that
 // are followed.
@@ -96,6 +100,13 @@ inline bool same_hemisphere(const Vector3& a, const Vector3& b) {
   return a.z * b.z > 0;
 }
 
+// Diffuse lobes whose value for wi on wo's side is  of_wo T(wi) / pi,  T being the coat's transmittance, and
+// zero on the other side.
+struct SeparatedF {
+  Rgb of_wo{0};
+  Coat coat{};
+};
+
 template <class B>
 concept HasGlossyValue = requires(const B& b, const Vector3& w) {
   { b.f_glossy(w, w) } -> std::same_as<Rgb>;
@@ -109,6 +120,10 @@ concept SamplesParts = requires(const B& b, const Vector3& w, float uc, const Po
 template <class B>
 concept HasConstantValue = requires(const B& b) {
   { b.pi_f(true) } -> std::same_as<Rgb>;
+};
+template <class B>
+concept MaySeparate = requires(const B& b, const Vector3& wo) {
+  { b.separated(wo) } -> std::same_as<std::optional<SeparatedF>>;
 };
 
 // What every BSDF must have; the meanings are at the top of this file.

@@ -47,9 +47,19 @@ Rgb CoatedDiffuse::f(const Vector3& wo, const Vector3& wi) const {
   return coat_is_diffuse() ? from_base + f_coat(wo, wi) : from_base;
 }
 
+Coat CoatedDiffuse::coat() const {
+  return {eta, facets.smooth() ? 0 : mean_alpha(facets)};
+}
+
 CoatedDiffuse::Seen::Seen(const CoatedDiffuse& bsdf, const Vector3& wo)
-    : bsdf_(&bsdf), wo_(wo), from_base_(bsdf.base * (kInvPi * bsdf.transmittance(wo))) {
-  if (!bsdf.facets.smooth()) through_ = RoughTransmittance(mean_alpha(bsdf.facets), bsdf.eta);
+    : bsdf_(&bsdf),
+      wo_(wo),
+      from_base_(bsdf.base * (kInvPi * bsdf.transmittance(wo))),
+      through_(bsdf.coat()) {}
+
+std::optional<SeparatedF> CoatedDiffuse::separated(const Vector3& wo) const {
+  if (coat_is_diffuse()) return std::nullopt;
+  return SeparatedF{base * transmittance(wo), coat()};
 }
 
 float CoatedDiffuse::pdf(const Vector3& wo, const Vector3& wi) const {

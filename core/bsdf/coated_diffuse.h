@@ -4,7 +4,6 @@
 #include "core/bsdf/bsdf_types.h"
 #include "core/bsdf/microfacet/fresnel.h"
 #include "core/bsdf/microfacet/ggx.h"
-#include "core/bsdf/microfacet/rough_coat.h"
 
 namespace kaustik {
 
@@ -33,7 +32,9 @@ struct CoatedDiffuse {
   static CoatedDiffuse from_reflectance(const Rgb& rho, float eta, const Ggx& facets = {});
 
   bool anisotropic() const { return facets.anisotropic(); }
-  Lobes lobes() const { return {true, !coat_is_diffuse(), !facets.smooth() && !coat_is_diffuse()}; }
+  Lobes lobes() const {
+    return {true, !coat_is_diffuse(), !facets.smooth() && !coat_is_diffuse(), coat_is_diffuse()};
+  }
   Rgb f(const Vector3& wo, const Vector3& wi) const;
   // Evaluates f for one wo and many wi.
   class Seen {
@@ -42,17 +43,18 @@ struct CoatedDiffuse {
     Rgb f(const Vector3& wi) const {
       if (!same_hemisphere(wo_, wi)) return Rgb(0);
       const float z = abs_cos_theta(wi);
-      const float T = bsdf_->facets.smooth() ? 1 - fresnel_dielectric(z, bsdf_->eta) : through_(z);
-      return bsdf_->coat_is_diffuse() ? from_base_ * T + bsdf_->f_coat(wo_, wi) : from_base_ * T;
+      const Rgb from_base = from_base_ * through_(z);
+      return bsdf_->coat_is_diffuse() ? from_base + bsdf_->f_coat(wo_, wi) : from_base;
     }
 
    private:
     const CoatedDiffuse* bsdf_;
     Vector3 wo_;
     Rgb from_base_;  // without the factor T(wi)
-    RoughTransmittance through_;
+    CoatTransmittance through_;
   };
   Seen seen_from(const Vector3& wo) const { return {*this, wo}; }
+  std::optional<SeparatedF> separated(const Vector3& wo) const;
   float pdf(const Vector3& wo, const Vector3& wi) const;
   Rgb f_glossy(const Vector3& wo, const Vector3& wi) const;
   float pdf_glossy(const Vector3& wo, const Vector3& wi) const;
@@ -66,6 +68,7 @@ struct CoatedDiffuse {
   Rgb albedo() const;
 
  private:
+  Coat coat() const;
   bool coat_is_diffuse() const { return !facets.smooth() && !facets.is_narrow(); }
   float transmittance(const Vector3& w) const;
   float share_of_coat(const Vector3& wo) const;

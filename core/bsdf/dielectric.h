@@ -25,7 +25,7 @@ struct Dielectric {
   bool anisotropic() const { return facets.anisotropic(); }
   Lobes lobes() const {
     if (facets.smooth()) return kDeltaLobes;
-    return facets.is_narrow() ? kGlossyLobes : kDiffuseLobes;
+    return facets.is_narrow() ? kGlossyLobes : kRoughLobes;
   }
   Rgb f(const Vector3& wo, const Vector3& wi) const { return lobes().diffuse ? f_rough(wo, wi) : Rgb(0); }
   float pdf(const Vector3& wo, const Vector3& wi) const { return lobes().diffuse ? pdf_rough(wo, wi) : 0; }

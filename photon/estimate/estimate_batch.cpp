@@ -9,20 +9,34 @@ namespace kaustik::photon {
 void EstimateBatch::begin_block() {
   latest_.fill(kNone);
   gathers_.clear();
+  completed_ = 0;
 }
 
 bool EstimateBatch::add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
                         const Bsdf& bsdf, const EstimateSettings& settings, const Rgb& weight, Rgb* radiance,
                         float* photons) {
   if (map.empty()) return true;
-  const std::optional<Rgb> pi_f = constant_pi_f(bsdf);
-  if (!pi_f || settings.leaf) return false;
+  const std::optional<SeparatedF> f = separated(bsdf, si.shading_frame().to_local(wo));
+  if (!f || settings.leaf) return false;
   const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
-  const Point x{si, wo, n};
-  uint32_t gather = gather_near(map, settings, x);
-  if (gather == kNone) gather = new_gather(map, settings, x);
-  waiting_.push_back({gather, weight * *pi_f * kInvPi, radiance, photons});
+  const Point x{si, wo, n, f->coat};
+  const uint32_t gather = find_or_prepare(map, settings, x);
+  if (!gathers_[gather].done) complete(settings, x, &gathers_[gather]);
+  waiting_.push_back({gather, weight * f->of_wo * kInvPi, radiance, photons});
   return true;
+}
+
+double EstimateBatch::share_of_disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
+                                    const Bsdf& bsdf, const EstimateSettings& settings) {
+  const std::optional<SeparatedF> f = separated(bsdf, si.shading_frame().to_local(wo));
+  const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
+  return gathers_[find_or_prepare(map, settings, {si, wo, n, f ? f->coat : Coat{}})].share;
+}
+
+uint32_t EstimateBatch::find_or_prepare(const PhotonMap& map, const EstimateSettings& settings,
+                                        const Point& x) {
+  const uint32_t near = gather_near(map, settings, x);
+  return near == kNone ? prepare(map, settings, x) : near;
 }
 
 uint32_t EstimateBatch::gather_near(const PhotonMap& map, const EstimateSettings& settings,
@@ -32,7 +46,7 @@ uint32_t EstimateBatch::gather_near(const PhotonMap& map, const EstimateSettings
   for (int looked_at = 0; i != kNone && looked_at < kLookedAt; ++looked_at, i = gathers_[i].previous) {
     const Gather& g = gathers_[i];
     const float shared = kShared * g.query.radius;
-    if (g.map == &map && g.query.surface_group == x.si.surface_group &&
+    if (g.map == &map && g.coat == x.coat && g.query.surface_group == x.si.surface_group &&
         length_squared(g.query.p - x.si.p) <= shared * shared && glm::dot(g.query.n, x.n) > kSameSide) {
       if (!g.cut || !WallCut(*settings.walls, x.si, x.wo, x.n, shared).hides(g.query.p, g.wo)) return i;
     }
@@ -40,21 +54,51 @@ uint32_t EstimateBatch::gather_near(const PhotonMap& map, const EstimateSettings
   return kNone;
 }
 
-uint32_t EstimateBatch::new_gather(const PhotonMap& map, const EstimateSettings& settings, const Point& x) {
+uint32_t EstimateBatch::prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x) {
   GatherQuery query{x.si.p, x.n, x.si.surface_group, settings.radius, kAllPhotons};
   if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters_);
   std::optional<WallCut> cut;
   if (settings.walls && settings.walls->near(x.si.p))
     cut.emplace(*settings.walls, x.si, x.wo, x.n, query.radius);
   if (cut && !cut->cuts()) cut.reset();
-  const uint64_t accepted = counters_.accepted;
-  Rgb flux = cut ? gather_flux(map, query, settings.kernel, *cut, counters_)
-                 : gather_flux(map, query, settings.kernel, counters_);
-  if (settings.edges && !is_black(flux))
-    flux /= float(share_of_disc(settings, x.si, query.radius, cut ? &*cut : nullptr));
-  gathers_.push_back(
-      {&map, query, latest_[pixel_], flux, float(counters_.accepted - accepted), x.wo, bool(cut)});
+  const double share =
+      settings.edges ? photon::share_of_disc(settings, x.si, query.radius, cut ? &*cut : nullptr) : 1;
+  gathers_.push_back({&map, query, x.coat, latest_[pixel_], share, x.wo, bool(cut)});
   return latest_[pixel_] = static_cast<uint32_t>(gathers_.size() - 1);
+}
+
+void EstimateBatch::complete(const EstimateSettings& settings, const Point& x, Gather* gather) {
+  const PhotonMap& map = *gather->map;
+  // The point from which the gather was prepared may differ from x by less than the gathers that are shared.
+  std::optional<WallCut> cut;
+  if (gather->cut) cut.emplace(*settings.walls, x.si, x.wo, x.n, gather->query.radius);
+  const WallCut* const cuts = cut ? &*cut : nullptr;
+  const uint64_t accepted = counters_.accepted;
+  const KernelSpec& kernel = settings.kernel;
+  gather->flux = x.coat != Coat{} ? gather_through_coat(*gather, kernel, x, cuts)
+                 : cuts           ? gather_flux(map, gather->query, kernel, *cuts, counters_)
+                                  : gather_flux(map, gather->query, kernel, counters_);
+  gather->flux /= float(gather->share);
+  gather->accepted = float(counters_.accepted - accepted);
+  gather->done = true;
+  ++completed_;
+}
+
+Rgb EstimateBatch::gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x,
+                                       const WallCut* cut) {
+  const CoatTransmittance through(x.coat);
+  const KernelTerms terms = kernel_terms(kernel, gather.query.radius);
+  const Normal3 ns = glm::dot(x.wo, x.si.ns) < 0 ? -x.si.ns : x.si.ns;
+  Rgb flux(0);
+  for_each_photon(
+      *gather.map, gather.query,
+      [&](const Photon& photon, float distance_squared) {
+        if (cut && cut->hides(photon.p, photon.wi)) return void(--counters_.accepted);
+        if (const float z = glm::dot(photon.wi, ns); z > 0)
+          flux += through(z) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
+      },
+      counters_);
+  return flux;
 }
 
 void EstimateBatch::flush(GatherCounters& counters) {

@@ -26,17 +26,22 @@ class EstimateBatch {
 
   // Takes the estimate and returns true; flush() will then add weight times estimate_radiance(), at this
   // point or at one nearby in the same pixel, to *radiance, and the number of photons that counted to
-  // *photons. Returns false and does nothing for the leaf lookup and for BSDFs other than Lambertian, whose
-  // value differs from photon to photon. map and settings must stay valid until flush().
+  // *photons. Returns false and does nothing for the leaf lookup and for BSDFs that are no product of a factor
+  // of wo and one of wi (SeparatedF). map and settings must stay valid until flush().
   bool add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
            const EstimateSettings& settings, const Rgb& weight, Rgb* radiance, float* photons);
+
+  // Returns share_of_disc() at this point or at one nearby in the same pixel, whose gather a following add()
+  // then completes.
+  double share_of_disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
+                       const EstimateSettings& settings);
 
   // Adds the estimates that were taken, in the order of the add() calls, and the counts of the gathers to
   // `counters`. They are added after everything that was added to the sums directly.
   void flush(GatherCounters& counters);
 
   // Number of different points at which maps were gathered since begin_block().
-  size_t gathers() const { return gathers_.size(); }
+  size_t gathers() const { return completed_; }
 
  private:
   static constexpr uint32_t kNone = ~0u;
@@ -45,11 +50,14 @@ class EstimateBatch {
   struct Gather {
     const PhotonMap* map;
     GatherQuery query;
+    Coat coat;
     uint32_t previous;  // previous gather of the same pixel
-    Rgb flux{0};        // W/m^2, corrected for the share of the disc on the surface
+    double share;       // of the disc on the surface
+    Vector3 wo{0};      // from which the point was seen
+    bool cut = false;   // whether walls cut the disc
+    bool done = false;  // whether the photons have been gathered
+    Rgb flux{0};        // W/m^2 through the coat, corrected for the share
     float accepted = 0;
-    Vector3 wo{0};     // from which the point was seen
-    bool cut = false;  // whether walls cut the disc
   };
   struct Waiting {
     uint32_t gather;
@@ -62,11 +70,16 @@ class EstimateBatch {
     const SurfaceInteraction& si;
     const Vector3& wo;
     const Normal3& n;
+    Coat coat;
   };
+  uint32_t find_or_prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
   uint32_t gather_near(const PhotonMap& map, const EstimateSettings& settings, const Point& x) const;
-  uint32_t new_gather(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
+  uint32_t prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
+  void complete(const EstimateSettings& settings, const Point& x, Gather* gather);
+  Rgb gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x, const WallCut* cut);
 
   uint32_t pixel_ = 0;
+  size_t completed_ = 0;
   std::array<uint32_t, kPixels> latest_{};
   std::vector<Gather> gathers_;
   std::vector<Waiting> waiting_;

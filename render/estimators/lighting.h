@@ -13,15 +13,24 @@ enum class LightWeight {
   kMis     // its MIS share against BSDF sampling (power heuristic, Veach 1997, section 9.2.4)
 };
 
-// Estimates  int f(wo, wi) Le V |cos| dwi  over all lights, in W/(m^2 sr), with at most one shadow ray. Few
-// lights are all sampled, and one of them is chosen for the shadow ray by its contribution (resampling,
-// Talbot et al. 2005); of many lights one is chosen by the scene's LightSampler. Any surface in between
+// Estimates  int f(wo, wi) Le V |cos| dwi  over all lights, in W/(m^2 sr). Few lights are all sampled, with a
+// shadow ray each: one ray for all of them could not tell a light that is hidden from one that is not. Of many
+// lights kLightChoices samples are drawn from the scene's LightSampler, and one of them is chosen for the only
+// shadow ray by its contribution (resampled importance sampling, Talbot et al. 2005). Any surface in between
 // blocks, including glass, since light through specular surfaces belongs to the caustic class. Delta lights
-// always have weight one. With ctx.visibility most shadow rays are skipped, and V is an unbiased
-// estimate that may be negative (photon/visibility/visibility_tree.h). Always draws three dimensions. part:
-// the lobes of f that count.
+// always have weight one. With ctx.visibility most shadow rays are skipped, and V is an unbiased estimate that
+// may be negative (photon/visibility/visibility_tree.h). The number of dimensions that are drawn depends on the
+// number of lights only. part: the lobes of f that count.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
                   TileCounters& counters, LobePart part = LobePart::kDiffuse);
+
+// Number of samples that compete for the shadow ray where the scene has more lights than can all be sampled.
+inline constexpr uint32_t kLightChoices = 4;
+
+// Whether light samples alone are noisy at x, so that the direct light there should be shared with a BSDF
+// sample: beside an extended light, where a few samples of its area carry nearly all of its light, and at rough
+// microfacet lobes, which reflect little of most lights.
+bool direct_needs_bsdf_sample(const Scene& scene, const ShadingPoint& x);
 
 // Direct light as if nothing were in the way (V = 1). Sums all lights, so that noise comes only from their
 // extent; of more than kMostLightsSummed lights one is chosen. Always draws three dimensions.
@@ -41,6 +50,6 @@ float emitter_hit_weight(const Scene& scene, const LightReceiver& x, const Vecto
 
 // Radiance of the infinite lights for a ray from x that escapes, each light multiplied by the MIS weight of
 // BSDF sampling.
-Rgb escaped_weighted(const Scene& scene, const LightReceiver& x, const Ray& ray, float bsdf_pdf);
+Rgb escaped_weighted(const RenderContext& ctx, const LightReceiver& x, const Ray& ray, float bsdf_pdf);
 
 }  // namespace kaustik::render

@@ -16,14 +16,16 @@ struct PathState {
   bool has_pdf = false;   // that event was by no delta lobe, so lights were sampled there too
   LightReceiver ref;      // where that event was
   float pdf = 0;          // density of the ray that left it
+  Point3 from{0};         // the point that the ray left
+  float segment = 0;      // length of the path since the last diffuse event, metres
 };
 
 bool caustics_by_map(const RenderContext& ctx) {
   return ctx.plan.caustics == CausticEstimator::kPhotons;
 }
 
-bool follows_indirect(const RenderContext& ctx) {
-  return ctx.plan.indirect == IndirectEstimator::kPaths;
+bool follows_indirect(PathReach reach) {
+  return reach >= PathReach::kMaps;
 }
 
 // Where light that the path meets is added; null when another estimator accounts for it. specular: whether
@@ -50,16 +52,29 @@ void add_escape(const RenderContext& ctx, const PathState& path, const Ray& ray,
   if (ctx.scene.infinite_lights.empty()) return;
   if (Rgb* owner = owner_of_light(ctx, path, path.specular, light))
     *owner += path.beta *
-              (path.has_pdf ? escaped_weighted(ctx.scene, path.ref, ray, path.pdf) : escaped(ctx.scene, ray));
+              (path.has_pdf ? escaped_weighted(ctx, path.ref, ray, path.pdf) : escaped(ctx.scene, ray));
 }
 
-// Light that arrives at y, the end of a diffuse segment, and is scattered along the path by y's diffuse
-// lobes.
-Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler, TileCounters& counters) {
-  Rgb sum = sample_direct(ctx, y, LightWeight::kMis, sampler, counters);
+// Light that arrives at y, the end of a diffuse segment, from the lights and through specular surfaces, and is
+// scattered along the path by y's diffuse lobes.
+Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, LightWeight weight, Sampler& sampler,
+             TileCounters& counters) {
+  Rgb sum = sample_direct(ctx, y, weight, sampler, counters);
   if (caustics_by_map(ctx))
     sum += photon::estimate_radiance(ctx.maps.caustic.map, y.si, y.wo, *y.bsdf, ctx.maps.caustic.estimate,
                                      counters.gather);
+  return sum;
+}
+
+// All light that y scatters along the path, with the indirect map in place of further events.
+Rgb arriving_at_end(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler,
+                    TileCounters& counters) {
+  const bool shared = direct_needs_bsdf_sample(ctx.scene, y);
+  Rgb sum =
+      arriving(ctx, y, shared ? LightWeight::kMis : LightWeight::kAlone, sampler, counters) +
+      photon::estimate_radiance(ctx.maps.indirect.map, y.si, y.wo, *y.bsdf, ctx.maps.indirect.estimate,
+                                counters.gather);
+  if (shared) sum += trace_path(ctx, y, PathReach::kLights, sampler, counters).direct;
   return sum;
 }
 
@@ -71,6 +86,7 @@ bool continue_path(const ShadingPoint& v, Scatter part, PathState* path, Ray* ra
   if (!s->transmission) path->roulette *= max_component(s->weight);
   path->specular = s->specular;
   path->diffuse += !s->specular;
+  if (!s->specular) path->segment = 0;
   path->has_pdf = !s->specular || s->glossy;
   path->ref = v.receiver();
   path->pdf = s->pdf;
@@ -91,32 +107,38 @@ bool survives(PathState* path, Sampler& sampler) {
   return true;
 }
 
-// Adds the light that the path collects at y; false where the path ends.
-bool visit(const RenderContext& ctx, const ShadingPoint& y, PathState* path, PathLight* light,
-           Sampler& sampler, TileCounters& counters) {
+// Whether maps give all the light that y's diffuse lobes scatter.
+bool reads_maps_at(const RenderContext& ctx, PathReach reach, const PathState& path) {
+  return reach == PathReach::kMaps && path.segment >= ctx.maps.indirect.estimate.radius;
+}
+
+// Adds the light that the path collects at y and chooses the lobes by which it goes on; nothing where it ends.
+std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, PathReach reach, PathState* path,
+                             PathLight* light, Sampler& sampler, TileCounters& counters) {
   const Lobes parts = lobes(*y.bsdf);
-  if (parts.diffuse) {
-    if (follows_indirect(ctx))
-      light->indirect += path->beta * arriving(ctx, y, sampler, counters);
-    else if (!parts.specular)
-      return false;
-  }
+  const bool at_end = reads_maps_at(ctx, reach, *path);
+  if (parts.diffuse && follows_indirect(reach))
+    light->indirect += path->beta * (at_end ? arriving_at_end(ctx, y, sampler, counters)
+                                            : arriving(ctx, y, LightWeight::kMis, sampler, counters));
   if (parts.glossy) {
     if (Rgb* owner = owner_of_light(ctx, *path, true, light))
       *owner += path->beta * sample_direct(ctx, y, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
   }
-  return !parts.diffuse || survives(path, sampler);
+  const bool specular_only = at_end || !follows_indirect(reach);
+  if (specular_only && !parts.specular) return {};
+  if (parts.diffuse && !survives(path, sampler)) return {};
+  return specular_only ? Scatter::kSpecular : Scatter::kEither;
 }
 
 }  // namespace
 
-PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler,
+PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
                      TileCounters& counters) {
   PathLight light;
   PathState path;
+  path.from = x.si.p;
   Ray ray;
   if (!continue_path(x, Scatter::kDiffuse, &path, &ray, sampler)) return light;
-  const Scatter part = follows_indirect(ctx) ? Scatter::kEither : Scatter::kSpecular;
   while (true) {
     ++counters.rays.bounce;
     SurfaceInteraction si;
@@ -125,10 +147,12 @@ PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& s
       return light;
     }
     add_light(ctx, path, si, ray, &light);
-    if (++path.events > ctx.settings.max_bounces) return light;
+    if (reach == PathReach::kLights || ++path.events > ctx.settings.max_bounces) return light;
+    path.segment += glm::distance(si.p, path.from);
+    path.from = si.p;
     const ShadingPoint y(ctx.scene, si, -ray.d);
-    if (!visit(ctx, y, &path, &light, sampler, counters)) return light;
-    if (!continue_path(y, part, &path, &ray, sampler)) return light;
+    const std::optional<Scatter> part = visit(ctx, y, reach, &path, &light, sampler, counters);
+    if (!part || !continue_path(y, *part, &path, &ray, sampler)) return light;
   }
 }
 

@@ -10,20 +10,31 @@ struct PathLight {
   Rgb direct{0}, caustic{0}, indirect{0};
 };
 
+// How far a path is followed. Each value includes what the ones before it find.
+enum class PathReach {
+  kNone,
+  kLights,    // one ray: lights that are seen straight from x
+  kSpecular,  // through specular surfaces to a light: caustics
+  kMaps,      // to the first diffuse surface that is farther away than the indirect map's radius; the maps
+              // are gathered there (final gather, Jensen 2001, section 9.4)
+  kRoulette   // until Russian roulette ends the path
+};
+
 // Traces one path that starts at x with a sample of its diffuse lobes. What it meets decides the class:
 //
 //   a light straight from x                direct, with the MIS weight of BSDF sampling (if samples_lights())
 //   a light after specular surfaces only   caustic (--caustics paths)
-//   light after a second diffuse event     indirect (--indirect paths)
+//   light after a second diffuse event     indirect (reach kMaps and kRoulette)
 //
 // At each further non-specular point y the path collects light samples (with MIS) and the light that arrives
 // at y through specular surfaces. The latter comes from the caustic map if there is one, and lights met
 // through specular surfaces are then not counted again; otherwise from lights met and, at glossy lobes,
 // lights sampled. `--caustics off` therefore leaves out only the class L S+ D S* E; indirect light stays
-// complete as far as paths can find it. Russian roulette starts at the third non-specular point. Unbiased
-// except for the caustic map's kernel. At most max_bounces scattering events from x to the light, x included.
-// Requires traces_paths(ctx.plan).
-PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, Sampler& sampler,
+// complete as far as paths can find it. With reach kMaps the path ends at the first such y that is not too
+// near, where the indirect map adds the light of all further events. Russian roulette starts at the third
+// non-specular point. Unbiased except for the maps' kernels. At most max_bounces scattering events from x to
+// the light, x included, apart from those of the map's photons. Requires reach > kNone.
+PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
                      TileCounters& counters);
 
 }  // namespace kaustik::render

@@ -15,6 +15,7 @@
 #include <array>
 
 #include "render/estimators/path_integrator.h"
+#include "render/maps/surroundings.h"
 
 namespace kaustik::render {
 
@@ -57,14 +58,63 @@ bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, Lec
   return answer.use_photons();
 }
 
-// When a path leaves x anyway, BSDF sampling finds lights too, and the two techniques share the direct light.
-LightWeight light_weight(const EstimatorPlan& plan) {
-  return samples_lights(plan.direct) && traces_paths(plan) ? LightWeight::kMis : LightWeight::kAlone;
+// How the light that the diffuse lobes of a point scatter is estimated.
+struct PointPlan {
+  bool indirect_disc = false;  // gather the indirect map at the point itself
+  PathReach path = PathReach::kNone;
+};
+
+// Fewer bounces than this are kept exactly by paths: the photons that a final gather reads at its far end may
+// have one event too many, whose light fades with each bounce.
+constexpr int kDeepEnough = 8;
+
+// Least share of the indirect map's disc that must lie on the surface: that of a disc in a corner, where three
+// walls meet. On narrow surfaces the correction for the missing share is a guess.
+constexpr double kLeastSupport = 0.2;
+
+// Least clearance at which the indirect map's disc is gathered, in metres. A disc of radius r at a point of
+// clearance c misjudges its irradiance by about (r / c)^2 / 8 of it, since the irradiance varies over distances
+// of c; a final gather has a standard error of about kNoise of it for each sample. The two are equal here.
+float least_clearance(const RenderContext& ctx) {
+  constexpr float kNoise = 0.7f;
+  const float error = kNoise / std::sqrt(float(ctx.settings.spp));
+  return ctx.maps.indirect.estimate.radius / std::sqrt(8 * error);
+}
+
+// Whether the indirect map's disc at x tells the irradiance of x: it lies on the surface and, unless blurred,
+// is small compared with the distances of other surfaces.
+bool trusts_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred,
+                 photon::EstimateBatch* batch) {
+  const photon::EstimateSettings& estimate = ctx.maps.indirect.estimate;
+  if (!ctx.maps.surroundings) return true;  // without photons, nothing is gathered
+  if (!blurred) {
+    const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
+    if (ctx.maps.surroundings->clearance(x.si.p, n) < least_clearance(ctx)) return false;
+  }
+  if (!estimate.edges || estimate.leaf) return true;
+  return batch->share_of_disc(ctx.maps.indirect.map, x.si, x.wo, *x.bsdf, estimate) >= kLeastSupport;
+}
+
+// blurred: the point is seen through a glossy lobe that is wider than the indirect map's disc.
+PointPlan plan_point(const RenderContext& ctx, const ShadingPoint& x, bool blurred,
+                     photon::EstimateBatch* batch) {
+  const EstimatorPlan& plan = ctx.plan;
+  PointPlan point;
+  if (samples_lights(plan.direct) && direct_needs_bsdf_sample(ctx.scene, x)) point.path = PathReach::kLights;
+  if (plan.caustics == CausticEstimator::kPaths) point.path = PathReach::kSpecular;
+  if (plan.indirect == IndirectEstimator::kPaths) point.path = PathReach::kRoulette;
+  if (plan.indirect == IndirectEstimator::kPhotons) point.indirect_disc = true;
+  if (plan.indirect != IndirectEstimator::kFinalGather) return point;
+  if ((blurred || !lobes(*x.bsdf).rough) && trusts_disc(ctx, x, blurred, batch))
+    point.indirect_disc = true;
+  else
+    point.path = ctx.settings.max_bounces < kDeepEnough ? PathReach::kRoulette : PathReach::kMaps;
+  return point;
 }
 
 // Adds beta times the direct light at x.
-void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
-                const MapEstimator& maps) {
+void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, LightWeight weight,
+                Sampler& sampler, const MapEstimator& maps) {
   Rgb* const to = &maps.result->direct;
   switch (ctx.plan.direct) {
     case DirectEstimator::kPhotons:
@@ -80,21 +130,27 @@ void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta
     case DirectEstimator::kPredicted:
       break;
   }
-  *to += beta * sample_direct(ctx, x, light_weight(ctx.plan), sampler, maps.counters);
+  *to += beta * sample_direct(ctx, x, weight, sampler, maps.counters);
 }
 
 // Adds the light that the diffuse lobes of x scatter, seen through a specular chain of throughput beta. Paths
 // add nothing to a class that another estimator accounts for.
-void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
-                   const MapEstimator& maps) {
+void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, bool blurred,
+                   Sampler& sampler, const MapEstimator& maps) {
   PixelResult* const result = maps.result;
-  add_direct(ctx, x, beta, sampler, maps);
-  if (maps.sample.light == SampleLight::kTraced) return;
-  if (ctx.plan.caustics == CausticEstimator::kPhotons) maps.add(ctx.maps.caustic, x, beta, &result->caustic);
-  if (ctx.plan.indirect == IndirectEstimator::kPhotons)
-    maps.add(ctx.maps.indirect, x, beta, &result->indirect);
-  if (!traces_paths(ctx.plan)) return;
-  const PathLight path = trace_path(ctx, x, sampler, maps.counters);
+  PointPlan point = plan_point(ctx, x, blurred, maps.sample.batch);
+  const bool traced_only = maps.sample.light == SampleLight::kTraced;
+  if (traced_only) point = {false, std::min(point.path, PathReach::kLights)};
+  // When a path leaves x anyway, it finds lights too, and shares the direct light with the light samples.
+  const bool shared = samples_lights(ctx.plan.direct) && point.path != PathReach::kNone;
+  add_direct(ctx, x, beta, shared ? LightWeight::kMis : LightWeight::kAlone, sampler, maps);
+  if (!traced_only) {
+    if (ctx.plan.caustics == CausticEstimator::kPhotons)
+      maps.add(ctx.maps.caustic, x, beta, &result->caustic);
+    if (point.indirect_disc) maps.add(ctx.maps.indirect, x, beta, &result->indirect);
+  }
+  if (point.path == PathReach::kNone) return;
+  const PathLight path = trace_path(ctx, x, point.path, sampler, maps.counters);
   result->direct += beta * path.direct;
   result->caustic += beta * path.caustic;
   result->indirect += beta * path.indirect;
@@ -121,6 +177,7 @@ struct Branch {
   float share = 1;  // share of the sample: the product of the Fresnel factors where it was split
   int events = 0;
   LastScatter last{};
+  bool blurred = false;  // an earlier lobe of the chain blurs more than the indirect map's disc
 };
 
 // Emission that the ray meets. After a glossy lobe it has the MIS weight of BSDF sampling, since lights are
@@ -131,8 +188,8 @@ Rgb emission_seen(const Scene& scene, const LastScatter& last, const SurfaceInte
   if (!last.glossy || is_black(Le)) return Le;
   return Le * emitter_hit_weight(scene, last.ref, d, last.pdf, si);
 }
-Rgb escape_seen(const Scene& scene, const LastScatter& last, const Ray& ray) {
-  return last.glossy ? escaped_weighted(scene, last.ref, ray, last.pdf) : escaped(scene, ray);
+Rgb escape_seen(const RenderContext& ctx, const LastScatter& last, const Ray& ray) {
+  return last.glossy ? escaped_weighted(ctx, last.ref, ray, last.pdf) : escaped(ctx.scene, ray);
 }
 
 // Russian roulette for chains over coated surfaces whose throughput is below kDim: they soon contribute
@@ -153,6 +210,14 @@ float gather_weight(float share, Sampler& sampler) {
   if (share >= kBright) return 1;
   const float q = share / kBright;
   return sampler.next_1d() < q ? 1 / q : 0;
+}
+
+// Whether the chain's glossy lobes blur what lies `distance` ahead by more than the indirect map's disc. A lobe
+// of density pdf is taken for a cone of solid angle 1 / pdf.
+bool is_blurred(const RenderContext& ctx, const Branch& branch, float distance) {
+  const float radius = ctx.maps.indirect.estimate.radius;
+  return branch.blurred ||
+         (branch.last.glossy && distance * distance >= kPi * branch.last.pdf * radius * radius);
 }
 
 // Traces one camera sample through all branches of its specular chains.
@@ -179,7 +244,7 @@ class CameraPath {
   // Adds the light at the end of a branch and continues the branch if the surface has specular lobes.
   void visit(const Branch& branch, const Hit& hit) {
     if (!hit.valid()) {
-      result_->emitted += branch.beta * escape_seen(ctx_.scene, branch.last, branch.ray);
+      result_->emitted += branch.beta * escape_seen(ctx_, branch.last, branch.ray);
       return;
     }
     const Vector3 wo = -branch.ray.d;
@@ -192,21 +257,22 @@ class CameraPath {
     const Lobes parts = lobes(*x.bsdf);
     if (parts.diffuse)
       if (const float weight = gather_weight(branch.share, sampler_); weight > 0)
-        add_reflected(ctx_, x, weight * branch.beta, sampler_, maps_);
+        add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_, maps_);
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy)
       result_->emitted +=
           branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
-    if (parts.glossy || parts.diffuse || !split(branch, cone, x)) continue_specular(branch, cone, x);
+    if (parts.glossy || parts.diffuse || !split(branch, cone, x))
+      continue_specular(branch, cone, x, is_blurred(ctx_, branch, hit.t));
   }
 
-  void continue_specular(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
+  void continue_specular(const Branch& from, const RayCone& cone, const ShadingPoint& x, bool blurred) {
     const auto s = scatter(x, sampler_, Scatter::kSpecular);
     if (!s) return;
     Rgb beta = from.beta * s->weight;
     if (lobes(*x.bsdf).diffuse && !survives_coats(&beta, sampler_)) return;
     push({x.si.spawn(s->wi), cone, beta, from.share, from.events + 1,
-          LastScatter{s->glossy, x.receiver(), s->pdf}});
+          LastScatter{s->glossy, x.receiver(), s->pdf}, blurred});
   }
 
   // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
@@ -220,7 +286,7 @@ class CameraPath {
     if (from.share * std::min(reflected->pdf, refracted->pdf) < kDim) return false;
     for (const BsdfSample* s : {&*reflected, &*refracted})
       push({x.si.spawn(s->wi), cone, from.beta * s->weight * s->pdf, from.share * s->pdf, from.events + 1,
-            LastScatter{false, x.receiver(), s->pdf}});
+            LastScatter{false, x.receiver(), s->pdf}, from.blurred});
     return true;
   }
 

@@ -4,6 +4,7 @@
 #include "photon/visibility/visibility_tree.h"
 #include "render/camera/ray_cone.h"
 #include "render/maps/photon_maps.h"
+#include "render/maps/sky_guide.h"
 #include "render/plan/pass_share.h"
 #include "render/plan/render_input.h"
 #include "render/statistics/statistics.h"
@@ -13,6 +14,7 @@ namespace kaustik::render {
 struct RenderContext : RenderInput {
   const PhotonMaps& maps;
   const photon::VisibilityTree* visibility = nullptr;  // null: shadow rays are not predicted
+  const SkyGuide* sky = nullptr;                       // null: light samples of skies are not guided
   PassShare pass{};
   PassSamples samples{};
   RayCone cone{};  // cone of a camera ray

@@ -158,6 +158,12 @@ void PassPhotons::set_areas(const Scene& scene) {
   }
 }
 
+void PassPhotons::find_surroundings(const RenderInput& input) {
+  if (input.plan.indirect != IndirectEstimator::kFinalGather) return;
+  if (!surroundings_) surroundings_ = std::make_unique<const Surroundings>(input);
+  maps_.surroundings = surroundings_.get();
+}
+
 bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
                        RenderStatistics* statistics) {
   if (!kinds_needed(input.plan).any()) return true;
@@ -173,6 +179,7 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
   find_walls(input);
   set_estimates(input.settings, pass);
   set_areas(input.scene);
+  find_surroundings(input);
   note_radii(*radii_, statistics);
   add_sizes(maps_, statistics);
   statistics->photon_build_s += watch.seconds();
@@ -186,6 +193,15 @@ void PassPhotons::predict_visibility(const RenderInput& input, RenderStatistics*
   visibility_ = std::make_unique<const photon::VisibilityTree>(photon::predict_visibility(
       input.scene, input.bvh,
       {settings.seed, visibility_photons(input.scene.camera, settings), settings.emission}));
+  statistics->photon_trace_s += watch.seconds();
+}
+
+void PassPhotons::learn_sky(const RenderInput& input, RenderStatistics* statistics) {
+  if (input.settings.method != Method::kAuto || input.scene.infinite_lights.empty()) return;
+  if (std::exchange(sky_is_known_, true)) return;
+  const Stopwatch watch;
+  auto sky = std::make_unique<const SkyGuide>(input);
+  if (sky->useful()) sky_ = std::move(sky);
   statistics->photon_trace_s += watch.seconds();
 }
 

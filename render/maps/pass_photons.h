@@ -10,6 +10,8 @@
 #include "render/maps/gather_radii.h"
 #include "render/maps/photon_maps.h"
 #include "render/maps/photon_shoots.h"
+#include "render/maps/sky_guide.h"
+#include "render/maps/surroundings.h"
 
 namespace kaustik::render {
 
@@ -29,6 +31,9 @@ class PassPhotons {
   // Makes the visibility tree for `predicted`, unless it exists. It depends on scene and settings but not on
   // the pass; whatever it predicts, the image is unbiased. Its time is added to that of the photons.
   void predict_visibility(const RenderInput& input, RenderStatistics* statistics);
+  // Learns where the sky is visible for method `auto`, unless that is known already. A function of scene and
+  // settings; whatever it learns, the image is unbiased.
+  void learn_sky(const RenderInput& input, RenderStatistics* statistics);
   // The tree depends on the number of samples: call this before they change.
   void forget_visibility() { visibility_.reset(); }
 
@@ -36,6 +41,8 @@ class PassPhotons {
   const PhotonMaps& maps() const { return maps_; }
   // Null: nothing is predicted.
   const photon::VisibilityTree* visibility() const { return visibility_.get(); }
+  // Null: samples of skies are not guided.
+  const SkyGuide* sky() const { return sky_.get(); }
   // r0 of the first pass; empty until it is known, and if the plan needs no photons.
   const std::optional<GatherRadii>& radii() const { return radii_; }
 
@@ -46,6 +53,7 @@ class PassPhotons {
   void find_walls(const RenderInput& input);
   void set_estimates(const RenderSettings& settings, const PassShare& pass);
   void set_areas(const Scene& scene);
+  void find_surroundings(const RenderInput& input);
   std::shared_ptr<const photon::SurfaceAreas> areas_for(float radius, const Scene& scene) const;
 
   // State of the current pass.
@@ -59,7 +67,10 @@ class PassPhotons {
   std::unique_ptr<const photon::Walls> walls_;     // null: none, or not looked for yet
   bool walls_are_known_ = false;
   PhotonGuides guides_;
+  std::unique_ptr<const Surroundings> surroundings_;
   std::unique_ptr<const photon::VisibilityTree> visibility_;
+  std::unique_ptr<const SkyGuide> sky_;  // null: not useful, or not looked for yet
+  bool sky_is_known_ = false;
 };
 
 // Photons of the first pass, shot in advance, with their statistics.

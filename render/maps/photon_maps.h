@@ -9,6 +9,8 @@
 
 namespace kaustik::render {
 
+class Surroundings;
+
 // A map and the settings with which it is gathered.
 struct GatherMap {
   photon::PhotonMap map;
@@ -21,6 +23,7 @@ struct PhotonMaps {
   GatherMap direct, caustic, indirect;
   photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which gathers from it with direct.estimate
   photon::LectureSettings lecture;
+  const Surroundings* surroundings = nullptr;  // for `final-gather`; null for other estimators
 };
 
 }  // namespace kaustik::render

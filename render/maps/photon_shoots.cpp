@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/stopwatch.h"
-#include "render/maps/visible_points.h"
+#include "render/maps/visible_density.h"
 
 namespace kaustik::render {
 

@@ -1,12 +1,9 @@
 #pragma once
-// Points where light is gathered: the first points with diffuse lobes that camera rays meet, and their
-// density.
+// Points where light is gathered: the first points with diffuse lobes that camera rays meet.
 
-#include <unordered_map>
 #include <vector>
 
 #include "photon/gather/gather_query.h"
-#include "photon/record/photon.h"
 #include "render/plan/render_input.h"
 
 namespace kaustik::render {
@@ -14,26 +11,14 @@ namespace kaustik::render {
 struct VisiblePoint {
   photon::GatherQuery query;  // radius unset; n on the viewer's side
   bool both_sides = false;    // the BSDF transmits, so light from the other side is gathered too
+  SurfaceInteraction si{};
 };
 
 // Traces `count` camera rays and returns the points of those that meet one. A function of scene and settings.
 std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count);
 
-// Number of visible points in a cell of space, for each side of the surfaces in it: photons in cells with few
-// points matter to few pixels, those in empty cells to hardly any. A cell is a 32nd as wide as the box of all
-// points.
-class VisibleDensity {
- public:
-  explicit VisibleDensity(const std::vector<VisiblePoint>& points);
-  // Count of the cell that the photon lies in, for normals similar to its own. Thread-safe.
-  float at(const photon::Photon& photon) const;
-
- private:
-  uint64_t key(const Point3& p, const Normal3& n) const;
-
-  Point3 low_{0};
-  float per_cell_ = 0;  // cells per metre
-  std::unordered_map<uint64_t, float> counts_;
-};
+// Number of visible points from which the surroundings are explored: one for every 8 pixels, within the range
+// that is useful. Independent of the number of samples, which may be settled later.
+uint32_t pilot_count(const RenderInput& input);
 
 }  // namespace kaustik::render

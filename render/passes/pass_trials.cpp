@@ -55,6 +55,7 @@ double seconds_of(const RenderInput& input, const PassPhotons& photons,
   const RenderContext ctx{input,
                           photons.maps(),
                           photons.visibility(),
+                          photons.sky(),
                           pass,
                           pass_samples(pass, settings, input.plan),
                           camera_cone(camera, pass.end_sample)};
@@ -115,6 +116,7 @@ SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photo
   const std::vector<PixelRange> windows = windows_of(rendered_range(settings.crop, input.scene.camera));
   RenderStatistics ignored;
   photons->predict_visibility(input, &ignored);
+  photons->learn_sky(input, &ignored);
   const auto seconds = [&](int spp, float adaptive) {
     RenderSettings tried = settings;
     tried.spp = spp, tried.adaptive = adaptive;

@@ -34,9 +34,10 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
       // Direct light with predicted visibility has the error of shadow rays in less time. Nothing is
       // predicted for a sky, since part of it is visible nearly everywhere. Indirect light from photons has
       // less error in the same time than paths on every scene measured, and no fireflies where a small bright
-      // patch lights the room (docs/decisions/032-indirect-light-from-photons.md).
+      // patch lights the room (docs/decisions/032-indirect-light-from-photons.md); a final gather replaces it
+      // where other surfaces are near (docs/decisions/042-final-gather-by-place.md).
       plan.direct = needs.any_light && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
-      plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
+      plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kFinalGather;
       break;
   }
   return plan;
@@ -82,7 +83,7 @@ void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* note
     notes->push_back(
         "direct photons are not stored: only the flux of shadow photons is subtracted; saves a record per "
         "photon");
-  if (plan.indirect != Indirect::kPhotons)
+  if (!kinds.indirect)
     notes->push_back(std::string("indirect photons are not traced: indirect light ") +
                      (plan.indirect == Indirect::kPaths ? "comes from paths" : "is off") +
                      "; saves each photon's path after its first diffuse surface");
@@ -124,7 +125,7 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
   kinds.direct = plan.direct == DirectEstimator::kPhotons || plan.direct == DirectEstimator::kLecture;
   kinds.shadow = plan.direct == DirectEstimator::kLecture || plan.direct == DirectEstimator::kSigned;
   kinds.caustic = plan.caustics == CausticEstimator::kPhotons;
-  kinds.indirect = plan.indirect == IndirectEstimator::kPhotons;
+  kinds.indirect = reads_indirect_photons(plan);
   return kinds;
 }
 

@@ -32,7 +32,12 @@ inline bool samples_lights(DirectEstimator direct) {
   return direct == DirectEstimator::kShadowRays || direct == DirectEstimator::kPredicted;
 }
 
-// Whether paths are followed from the camera side.
+// Whether indirect light is read from a photon map, at visible points or at the ends of paths.
+inline bool reads_indirect_photons(const EstimatorPlan& plan) {
+  return plan.indirect == IndirectEstimator::kPhotons || plan.indirect == IndirectEstimator::kFinalGather;
+}
+
+// Whether paths are followed from the camera side at every point.
 inline bool traces_paths(const EstimatorPlan& plan) {
   return plan.caustics == CausticEstimator::kPaths || plan.indirect == IndirectEstimator::kPaths;
 }

@@ -30,6 +30,9 @@ class LightSampler {
   std::optional<Choice> choose(const LightReceiver& x, float u) const;
   // Probability with which choose() returns this light.
   float probability(const LightReceiver& x, uint32_t light) const;
+  // Whether x lies so near to an extended light that samples of the light's area are noisy there
+  // (LightTree::any_near).
+  bool any_near(const LightReceiver& x) const { return tree_.any_near(x); }
 
  private:
   // Probability of each light without a position, and of the tree.

@@ -58,6 +58,12 @@ void improve(Split& best, const Buckets& buckets, int axis, double elongation) {
   }
 }
 
+// Whether p is nearer to the box than half the box's diagonal.
+bool is_near(const Bounds3& box, const Point3& p) {
+  const Vector3 to_box = p - glm::clamp(p, box.min, box.max);
+  return 4 * length_squared(to_box) < length_squared(box.diagonal());
+}
+
 }  // namespace
 
 LightTree::LightTree(const std::vector<Light>& lights) : trails_(lights.size()) {
@@ -154,6 +160,26 @@ float LightTree::probability(const LightReceiver& x, uint32_t light) const {
     node = &nodes_[node->first_child + (goes_right ? 1 : 0)];
   }
   return probability;
+}
+
+bool LightTree::any_near(const LightReceiver& x) const {
+  if (nodes_.empty()) return false;
+  // One entry a level waits, and the tree has at most 64 levels below its root.
+  std::array<uint32_t, 65> waiting;
+  size_t count = 0;
+  waiting[count++] = 0;
+  while (count > 0) {
+    const Node& node = nodes_[waiting[--count]];
+    // The box of a node holds those of its lights, so a light is only near where its nodes are.
+    if (!is_near(node.bounds.box, x.p)) continue;
+    if (!node.leaf) {
+      waiting[count++] = node.first_child;
+      waiting[count++] = node.first_child + 1;
+    } else if (node.bounds.importance(x) > 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace kaustik

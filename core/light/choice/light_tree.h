@@ -29,6 +29,10 @@ class LightTree {
   // Probability with which choose() returns this light.
   float probability(const LightReceiver& x, uint32_t light) const;
 
+  // Whether some light can contribute at x whose box is nearer than half the box's diagonal. There the light
+  // fills a large solid angle, and the density of its area samples varies by orders of magnitude.
+  bool any_near(const LightReceiver& x) const;
+
   bool empty() const { return nodes_.empty(); }
 
  private:

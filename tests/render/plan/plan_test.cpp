@@ -39,7 +39,7 @@ TEST(Plan, PresetsForASceneThatNeedsEverything) {
       {Method::kMc, Direct::kShadowRays, Caustic::kPaths, Indirect::kPaths},
       {Method::kHybrid, Direct::kLecture, Caustic::kPhotons, Indirect::kPaths},
       {Method::kPhoton, Direct::kPhotons, Caustic::kPhotons, Indirect::kPhotons},
-      {Method::kAuto, Direct::kPredicted, Caustic::kPhotons, Indirect::kPhotons},
+      {Method::kAuto, Direct::kPredicted, Caustic::kPhotons, Indirect::kFinalGather},
   };
   for (const Row& row : table) {
     RenderSettings settings;

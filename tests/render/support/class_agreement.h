@@ -111,7 +111,8 @@ inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) 
   for (const auto direct : {DirectEstimator::kShadowRays, DirectEstimator::kPhotons,
                             DirectEstimator::kLecture, DirectEstimator::kPredicted, DirectEstimator::kSigned})
     for (const auto caustics : {CausticEstimator::kPhotons, CausticEstimator::kPaths})
-      for (const auto indirect : {IndirectEstimator::kPaths, IndirectEstimator::kPhotons}) {
+      for (const auto indirect :
+           {IndirectEstimator::kPaths, IndirectEstimator::kPhotons, IndirectEstimator::kFinalGather}) {
         settings.direct = direct;
         settings.caustics = caustics;
         settings.indirect = indirect;

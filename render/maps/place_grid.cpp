@@ -1,0 +1,33 @@
+#include "render/maps/place_grid.h"
+
+#include <algorithm>
+
+namespace kaustik::render {
+
+namespace {
+
+// Index, 0 to 5, of the cube's side through which the normal points.
+uint64_t cube_side(const Normal3& n) {
+  const glm::vec3 size = glm::abs(n);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  return uint64_t(2 * axis + (n[axis] < 0));
+}
+
+}  // namespace
+
+PlaceGrid::PlaceGrid(const std::vector<VisiblePoint>& points, float cells) : cells_(cells) {
+  Bounds3 bounds;
+  for (const VisiblePoint& point : points) bounds.add(point.query.p);
+  const Vector3 size = bounds.diagonal();
+  const float widest = std::max({size.x, size.y, size.z});
+  low_ = bounds.min;
+  per_cell_ = widest > 0 ? cells / widest : 0;
+}
+
+uint64_t PlaceGrid::key(const Point3& p, const Normal3& n) const {
+  const glm::vec3 cell = glm::clamp((p - low_) * per_cell_, glm::vec3(-1), glm::vec3(cells_ + 1));
+  const glm::uvec3 c(glm::floor(cell) + 1.0f);
+  return (uint64_t(c.x) << 40 | uint64_t(c.y) << 24 | uint64_t(c.z) << 8) | cube_side(n);
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,33 @@
+#pragma once
+// Density of visible points.
+
+#include <unordered_map>
+
+#include "photon/record/photon.h"
+#include "render/maps/place_grid.h"
+
+namespace kaustik::render {
+
+// Number of visible points in a cell of space, for each side of the surfaces in it: photons in cells with few
+// points matter to few pixels, those in empty cells to hardly any. A cell is a 32nd as wide as the box of all
+// points.
+class VisibleDensity {
+ public:
+  explicit VisibleDensity(const std::vector<VisiblePoint>& points) : grid_(points, 32) {
+    for (const VisiblePoint& point : points) {
+      ++counts_[grid_.key(point.query.p, point.query.n)];
+      if (point.both_sides) ++counts_[grid_.key(point.query.p, -point.query.n)];
+    }
+  }
+  // Count of the cell that the photon lies in, for normals similar to its own. Thread-safe.
+  float at(const photon::Photon& photon) const {
+    const auto found = counts_.find(grid_.key(photon.p, photon.n));
+    return found == counts_.end() ? 0 : found->second;
+  }
+
+ private:
+  PlaceGrid grid_;
+  std::unordered_map<uint64_t, float> counts_;
+};
+
+}  // namespace kaustik::render

@@ -1,0 +1,64 @@
+// Tests clearances between two planes, where they have a closed form.
+
+#include "render/maps/surroundings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/render/support/test_scenes.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+// A floor of side 200 under a ceiling at height 1, or under the open sky, seen around the origin.
+Scene two_planes(bool ceiling, float scale = 1) {
+  Scene scene;
+  const uint32_t white = add_material(scene, Lambertian{Rgb(0.5f)});
+  add_shape(scene, horizontal({0, 0, 0}, 100 * scale, 100 * scale, true, white));
+  if (ceiling) add_shape(scene, horizontal({0, scale, 0}, 100 * scale, 100 * scale, false, white));
+  look_at(scene, {-0.2f * scale, 0.4f * scale, 0}, {0, 0, 0}, {0, 1, 0}, 60, 32, 32);
+  finalize_scene(scene);
+  return scene;
+}
+
+Surroundings surroundings_of(const Scene& scene) {
+  const accel::Bvh bvh(scene);
+  const RenderSettings settings;
+  const EstimatorPlan plan;
+  return Surroundings({scene, bvh, settings, plan});
+}
+
+// Under a plane at height 1 the distance in direction theta is 1 / cos(theta), whose inverse has the mean 2/3
+// over a cosine-weighted hemisphere and the variance 1/2 - 4/9. A cell has at least 4 points of 16 rays, which
+// are stratified; the share of the sky beyond the ceiling's border is 1e-4.
+TEST(Surroundings, ClearanceUnderACeilingIsOneAndAHalfTimesItsHeight) {
+  const Surroundings found = surroundings_of(two_planes(true));
+  const double deviation = std::sqrt((1 / 2.0 - 4 / 9.0) / 64);
+  for (const float x : {-0.05f, 0.0f, 0.04f})
+    EXPECT_NEAR(1 / double(found.clearance({x, 0, 0}, {0, 1, 0})), 2 / 3.0, 4 * deviation);
+}
+
+TEST(Surroundings, IsInfiniteInTheOpenAndUnknownElsewhere) {
+  const Surroundings found = surroundings_of(two_planes(false));
+  EXPECT_EQ(found.clearance({0, 0, 0}, {0, 1, 0}), kInfinity);
+  EXPECT_EQ(found.clearance({0, 0, 0}, {0, -1, 0}), 0);  // the camera does not see this side
+  EXPECT_EQ(found.clearance({0, 5, 0}, {0, 1, 0}), 0);
+}
+
+TEST(Surroundings, ScalesByPowersOfTwo) {
+  const Surroundings one = surroundings_of(two_planes(true));
+  for (const int k : {-20, 15}) {
+    const float scale = std::ldexp(1.0f, k);
+    const Surroundings scaled = surroundings_of(two_planes(true, scale));
+    for (int i = -5; i <= 5; ++i) {
+      const Point3 p(0.02f * float(i), 0, 0.01f * float(i));
+      EXPECT_EQ(scaled.clearance(scale * p, {0, 1, 0}), scale * one.clearance(p, {0, 1, 0}));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kaustik::render
