@@ -27,10 +27,27 @@ nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json blocks_json(const render::CompareResult& r) {
+  nlohmann::ordered_json out;
+  for (size_t i = 0; i < render::kBlockSides.size(); ++i)
+    out[std::to_string(render::kBlockSides[i])] = r.relmse_of_blocks[i];
+  return out;
+}
+
+// The relMSE of all sides but single pixels.
+std::string blocks_text(const render::CompareResult& r) {
+  std::string text;
+  for (size_t i = 1; i < render::kBlockSides.size(); ++i)
+    text += fmt::format("{0}{1:.6g} ({2} x {2})", i > 1 ? ", " : "", r.relmse_of_blocks[i],
+                        render::kBlockSides[i]);
+  return text;
+}
+
 std::string as_json(const render::CompareResult& r, bool within_limit) {
   nlohmann::ordered_json out;
   out["rmse"] = r.rmse;
   out["relmse"] = r.relmse;
+  out["relmse_of_blocks"] = blocks_json(r);
   out["psnr"] = number_or_null(r.psnr);
   out["max_difference"] = {
       {"value", r.max_difference}, {"x", r.max_x}, {"y", r.max_y}, {"channel", r.max_channel}};
@@ -46,11 +63,11 @@ std::string as_json(const render::CompareResult& r, bool within_limit) {
 
 std::string as_text(const render::CompareResult& r) {
   std::string text = fmt::format(
-      "RMSE            {:.6g}\nrelMSE          {:.6g}\nPSNR            {:.2f} dB\n"
+      "RMSE            {:.6g}\nrelMSE          {:.6g}\nof blocks       {}\nPSNR            {:.2f} dB\n"
       "largest error   {:.6g} at x {} y {}, channel {}\nmean            {:.6g}, reference {:.6g}\n"
       "pixels          {} compared, {} masked",
-      r.rmse, r.relmse, r.psnr, r.max_difference, r.max_x, r.max_y, "RGB"[r.max_channel % 3], r.mean_image,
-      r.mean_reference, r.compared, r.masked);
+      r.rmse, r.relmse, blocks_text(r), r.psnr, r.max_difference, r.max_x, r.max_y, "RGB"[r.max_channel % 3],
+      r.mean_image, r.mean_reference, r.compared, r.masked);
   if (r.nan_image + r.nan_reference > 0) {
     text += fmt::format("\nnot finite      {} pixels of the image, {} of the reference", r.nan_image,
                         r.nan_reference);

@@ -1,12 +1,17 @@
 #pragma once
 // Difference between an image and a reference.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "render/picture/image.h"
 
 namespace kaustik::render {
+
+// Sides in pixels of the blocks over which compare() takes means: pictures of pixels that are up to 8 times
+// coarser.
+inline constexpr std::array<int, 4> kBlockSides = {1, 2, 4, 8};
 
 struct CompareOptions {
   // Leaves out all pixels within 2 pixels (a 5 x 5 square, cut at the image's border) of reference pixels
@@ -22,6 +27,11 @@ struct CompareResult {
   uint64_t nan_image = 0, nan_reference = 0;  // pixels with a NaN or infinite channel, left out of the means
   double rmse = 0;                            // sqrt(mean (I - R)^2)
   double relmse = 0;                          // mean (I - R)^2 / (R^2 + 0.01)
+  // relMSE of the means over blocks of k x k pixels, for each k of kBlockSides; the first is relmse. Blocks
+  // are counted from the upper left corner and cut at the border; only their compared pixels enter their
+  // means, and a block weighs as much as it has compared pixels. Noise of independent samples falls by k^2,
+  // while blotches wider than a block stay as they are.
+  std::array<double, kBlockSides.size()> relmse_of_blocks{};
   // 20 log10(peak / rmse), dB; peak = largest compared reference channel; infinite where rmse is 0
   double psnr = 0;
   double max_difference = 0;  // largest |I - R|

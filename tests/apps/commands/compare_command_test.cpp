@@ -32,10 +32,21 @@ TEST_F(CompareCommand, ReportsAKnownError) {
   // One of 48 pixels is off by 1; all values are exact in binary, and only doubles round.
   EXPECT_NEAR(json["rmse"].get<double>(), std::sqrt(1.0 / 48), 1e-12);
   EXPECT_NEAR(json["relmse"].get<double>(), 1.0 / (0.25 + 0.01) / 48, 1e-12);
+  // The pixel's blocks of 2 x 2 and 4 x 4 are whole; of the 8 x 6 pixels there is one block of 8 x 8.
+  for (const auto& [side, pixels] : {std::pair("1", 1.0), {"2", 4.0}, {"4", 16.0}, {"8", 48.0}}) {
+    EXPECT_NEAR(json["relmse_of_blocks"][side].get<double>(), 1 / pixels / (0.25 + 0.01) / 48, 1e-12);
+  }
   EXPECT_EQ(json["max_difference"]["value"], 1.0);
   EXPECT_EQ(json["max_difference"]["x"], 3);
   EXPECT_EQ(json["max_difference"]["y"], 2);
   EXPECT_EQ(json["pixels"]["compared"], 48);
+}
+
+TEST_F(CompareCommand, PrintsTheErrorOfBlocks) {
+  const std::string reference = picture("r.exr", 0.5f, 0.5f), image = picture("i.exr", 0.5f, 1.5f);
+  // 1 / 0.26 / 48 = 0.0801282 for single pixels; a 4th, a 16th and a 48th of it for blocks.
+  EXPECT_THAT(run_kaustik({"compare", reference, image}).out,
+              HasSubstr("of blocks       0.0200321 (2 x 2), 0.00500801 (4 x 4), 0.00166934 (8 x 8)\n"));
 }
 
 TEST_F(CompareCommand, EqualPicturesHaveNoError) {
