@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -30,6 +31,18 @@ std::vector<bool> bright_mask(const Image& reference, float threshold) {
           mask[size_t(v) * size_t(reference.width) + size_t(u)] = true;
     }
   return mask;
+}
+
+struct BlockDeviation {
+  double value = 0;
+  int x = 0, y = 0;
+  double image = 0, reference = 0;
+};
+
+// The smallest deviation that at least this share of the sorted ones does not exceed.
+double quantile(const std::vector<BlockDeviation>& sorted, double share) {
+  const double rank = std::ceil(share * double(sorted.size()));
+  return sorted[size_t(std::max(1.0, rank)) - 1].value;
 }
 
 struct Sums {
@@ -118,7 +131,9 @@ double relative_squared(double value, double reference) {
 }
 
 std::vector<bool> masked_pixels(const Image& reference, const CompareOptions& options) {
-  if (options.mask_bright) return bright_mask(reference, *options.mask_bright);
+  if (options.mask_from) require_same_size(reference, *options.mask_from);
+  if (options.mask_bright)
+    return bright_mask(options.mask_from ? *options.mask_from : reference, *options.mask_bright);
   return std::vector<bool>(reference.pixels.size(), false);
 }
 
@@ -147,6 +162,31 @@ CompareResult compare(const Image& reference, const Image& image, const CompareO
   for (size_t i = 1; i < kBlockSides.size(); ++i)
     result.relmse_of_blocks[i] = relmse_of_blocks(reference, image, compared, kBlockSides[i]);
   return result;
+}
+
+BlockDeviations compare_blocks(const Image& reference, const Image& image, int side,
+                               const CompareOptions& options) {
+  require_same_size(reference, image);
+  const std::vector<bool> compared = compared_pixels(reference, image, masked_pixels(reference, options));
+  std::vector<BlockDeviation> found;
+  for_each_block(reference, image, compared, side, [&](int x, int y, const BlockSums& block) {
+    const double channels = 3.0 * double(block.pixels);
+    const double I = (block.image.x + block.image.y + block.image.z) / channels;
+    const double R = (block.reference.x + block.reference.y + block.reference.z) / channels;
+    if (I != 0 || R != 0) found.push_back({R != 0 ? std::abs(I / R - 1) : kInfinity, x, y, I, R});
+  });
+  BlockDeviations out;
+  out.blocks = found.size();
+  if (found.empty()) return out;
+  for (const BlockDeviation& block : found) out.mean += block.value / double(found.size());
+  std::stable_sort(found.begin(), found.end(),
+                   [](const BlockDeviation& a, const BlockDeviation& b) { return a.value < b.value; });
+  out.median = quantile(found, 0.5);
+  out.quantile95 = quantile(found, 0.95);
+  const BlockDeviation& worst = found.back();
+  out.largest = worst.value, out.x = worst.x, out.y = worst.y;
+  out.image = worst.image, out.reference = worst.reference;
+  return out;
 }
 
 Image relative_error(const Image& reference, const Image& image) {

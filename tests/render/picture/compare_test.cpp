@@ -150,6 +150,65 @@ TEST(CompareBlocks, MeansLeaveOutMaskedPixelsAndNan) {
   EXPECT_NEAR(r.relmse_of_blocks[3], all * all / 1.01, 1e-12);
 }
 
+// Blocks of 2 x 2 pixels over 5 x 4, so the last column's have two pixels. Their means are exact in float:
+// deviations of 1/4, 0, 1, 1/2 and infinity; one block is black in both pictures.
+TEST(CompareBlocks, DeviationsMatchValuesByHand) {
+  Image reference(5, 4, Rgb(1));
+  Image image = reference;
+  image.at(0, 0) += Rgb(1);        // the mean of four pixels is off by 1/4
+  image.at(4, 0) -= Rgb(3, 3, 0);  // that of two pixels and three channels by -1
+  for (const auto& [x, y] : {std::pair(0, 2), {1, 2}, {0, 3}, {1, 3}}) {
+    reference.at(x, y) = Rgb(0.5f);
+    image.at(x, y) = Rgb(0.25f);
+  }
+  BlockDeviations found = compare_blocks(reference, image, 2);
+  EXPECT_EQ(found.blocks, 6u);
+  EXPECT_NEAR(found.mean, (0.25 + 0 + 1 + 0.5 + 0 + 0) / 6, 1e-15);
+  EXPECT_EQ(found.median, 0);  // the third of 0, 0, 0, 1/4, 1/2, 1
+  EXPECT_EQ(found.quantile95, 1);
+  EXPECT_EQ(found.largest, 1);
+  EXPECT_EQ(found.x, 4);
+  EXPECT_EQ(found.y, 0);
+  EXPECT_EQ(found.image, 0);
+  EXPECT_EQ(found.reference, 1);
+
+  for (const int y : {2, 3}) reference.at(4, y) = Rgb(0);
+  for (const int x : {2, 3})
+    for (const int y : {0, 1}) reference.at(x, y) = image.at(x, y) = Rgb(0);
+  found = compare_blocks(reference, image, 2);
+  EXPECT_EQ(found.blocks, 5u);  // not the one that is black in both
+  EXPECT_TRUE(std::isinf(found.largest));
+  EXPECT_EQ(found.y, 2);
+  EXPECT_EQ(found.median, 0.5);  // the third of 0, 1/4, 1/2, 1, infinity
+  EXPECT_EQ(compare_blocks(Image(2, 2), Image(2, 2), 2).blocks, 0u);
+}
+
+// The 95 % quantile of 40 deviations is the 38th: two of them are larger. Each block is one pixel.
+TEST(CompareBlocks, QuantileLeavesOutTheRarest) {
+  const Image reference(40, 1, Rgb(1));
+  Image image = reference;
+  for (int x = 0; x < 40; ++x) image.at(39 - x, 0) = Rgb(1 + float(x + 1) / 64);
+  const BlockDeviations found = compare_blocks(reference, image, 1);
+  EXPECT_EQ(found.quantile95, 38.0 / 64);
+  EXPECT_EQ(found.median, 20.0 / 64);
+  EXPECT_EQ(found.x, 0);
+}
+
+// The mask of a layer is that of the whole picture.
+TEST(Compare, MaskMayComeFromAnotherPicture) {
+  const Image layer(8, 8, Rgb(1));
+  Image whole = layer, image = layer;
+  whole.at(0, 0) = Rgb(5);
+  image.at(2, 2) = Rgb(9);
+  const CompareResult r = compare(layer, image, {.mask_bright = 4.0f, .mask_from = &whole});
+  EXPECT_EQ(r.masked, 9u);
+  EXPECT_EQ(r.relmse, 0);
+  EXPECT_EQ(compare_blocks(layer, image, 4, {.mask_bright = 4.0f, .mask_from = &whole}).largest, 0);
+  EXPECT_GT(compare(layer, image, {4.0f}).relmse, 0);
+  const Image other(8, 7);
+  EXPECT_THROW(compare(layer, image, {.mask_bright = 4.0f, .mask_from = &other}), std::invalid_argument);
+}
+
 TEST(Compare, SizesMustAgree) {
   EXPECT_THROW(compare(Image(2, 2), Image(2, 3)), std::invalid_argument);
   EXPECT_THROW(compare(Image(), Image()), std::invalid_argument);
