@@ -69,7 +69,8 @@ def sppm_row(args, scene, reference, image, radius):
     for factor in map(float, args.sppm_radii.split(",")):
         one, three = (timed(factor * radius, n)["seconds"] for n in (1, 3))
         iterations = max(1, math.floor(1 + (args.seconds - one) / max(1e-3, (three - one) / 2)))
-        timed(factor * radius, iterations)
+        seconds = timed(factor * radius, iterations)["seconds"]
+        iterations = max(1, round(iterations * args.seconds / seconds))
         found.append((errors(args, reference, image, layers=False)["relmse"], factor * radius, iterations))
     _, best, iterations = min(found)
     return f"SPPM, {iterations} iterations, r = {best:.3g}", lambda image, seed: timed(best, iterations, seed)
@@ -180,16 +181,22 @@ def ratio(result, first, second, get):
     return a / b if b else None
 
 
+def error_of(reference):
+    """What is known about the reference's own relMSE: what it states, or its difference from the other one if that is less."""
+    stated = reference.get("stated", {}).get(reference["used"], {}).get("relmse")
+    return None if stated is None else min(stated, reference["relmse"])
+
+
 def sentences(result):
     """What the table means, as lines."""
     def relmse(t):
         return t["relmse"]
     masked = median_of(result["trials"]["auto, T"], lambda t: t["masked"])
-    known = result["reference"].get("stated", {}).get(result["reference"]["used"], {})
-    yield (f"Reference: {result['reference']['used']}, which states relMSE {number(known.get('relmse'))}; "
+    error = error_of(result["reference"])
+    yield (f"Reference: {result['reference']['used']}, whose own relMSE is {number(error)} or less; "
            f"{100 * masked:.1f} % of the pixels masked.")
     least = min(median_of(trials, relmse) for trials in result["trials"].values())
-    if known and 4 * known["relmse"] > least:
+    if error and 4 * error > least:
         yield f"The reference's own error is more than a quarter of the least that is measured, {number(least)}."
     yield (f"relMSE of auto to mc at equal time: {number(ratio(result, 'auto, T', 'mc, T', relmse))}, in blocks of 8 x 8: "
            f"{number(ratio(result, 'auto, T', 'mc, T', lambda t: t['relmse_of_blocks']['8']))}; "

@@ -74,8 +74,9 @@ def stated(picture):
 
 
 def agreement(mc, auto):
-    """Compares two pictures by their stated errors and by the means of their classes."""
-    within, squares, expected, count = 0, 0.0, 0.0, 0
+    """Compares two pictures by their stated errors and by the means of their classes. `relmse` is that of one to the other: the sum
+    of the errors of both, since they are independent, and so no less than that of each."""
+    within, squares, relative, expected, count = 0, 0.0, 0.0, 0.0, 0
     for c, (first, second) in enumerate(zip(squares_of_errors(mc), squares_of_errors(auto))):
         a, b = mc.colours("")[c], auto.colours("")[c]
         for i, (e, f) in enumerate(zip(first, second)):
@@ -83,11 +84,12 @@ def agreement(mc, auto):
                 continue
             within += abs(a[i] - b[i]) <= 1.645 * math.sqrt(e + f)
             squares += (a[i] - b[i]) ** 2
+            relative += (a[i] - b[i]) ** 2 / (a[i] * a[i] + 0.01)
             expected += e + f
             count += 1
     ratio = math.sqrt(squares / expected) if expected > 0 else 1.0
     classes = {name: class_difference(mc, auto, name) for name in CLASSES}
-    out = {"within_bound": within / max(1, count), "rmse_over_stated": ratio, "classes": classes,
+    out = {"within_bound": within / max(1, count), "rmse_over_stated": ratio, "relmse": relative / max(1, count), "classes": classes,
            "bias": mc.mean("bias") + auto.mean("bias")}
     return {**out, "complaints": complaints(out)}
 
