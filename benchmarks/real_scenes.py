@@ -67,9 +67,10 @@ def sppm_row(args, scene, reference, image, radius):
         return {"seconds": seconds, "cpu": cpu, "render_seconds": seconds}
     found = []
     for factor in map(float, args.sppm_radii.split(",")):
-        one, three = (timed(factor * radius, n)["seconds"] for n in (1, 3))
-        iterations = max(1, math.floor(1 + (args.seconds - one) / max(1e-3, (three - one) / 2)))
-        seconds = timed(factor * radius, iterations)["seconds"]
+        iterations, seconds = 1, timed(factor * radius, 1)["seconds"]
+        while seconds < args.seconds / 2:  # until the start of the process weighs little
+            iterations = math.ceil(iterations * min(8, 0.8 * args.seconds / seconds))
+            seconds = timed(factor * radius, iterations)["seconds"]
         iterations = max(1, round(iterations * args.seconds / seconds))
         found.append((errors(args, reference, image, layers=False)["relmse"], factor * radius, iterations))
     _, best, iterations = min(found)
@@ -184,7 +185,7 @@ def ratio(result, first, second, get):
 def error_of(reference):
     """What is known about the reference's own relMSE: what it states, or its difference from the other one if that is less."""
     stated = reference.get("stated", {}).get(reference["used"], {}).get("relmse")
-    return None if stated is None else min(stated, reference["relmse"])
+    return None if stated is None else min(stated, reference.get("relmse", math.inf))
 
 
 def sentences(result):
@@ -234,11 +235,7 @@ def run_scene(args, scene, name):
     if args.make_references:
         tell(f"{name}: two references of {args.make_references:g} s each")
         report_reference(name, references.make(args, scene, name))
-    if args.trials == 0:
-        return None
-    result = measure(args, scene, name)
-    print("", *table(result), "", *sentences(result), sep="\n", flush=True)
-    return result
+    return measure(args, scene, name) if args.trials > 0 else None
 
 
 def names_of(scenes):
@@ -264,7 +261,7 @@ def parse():
     parser.add_argument("--mask-bright", type=float, default=4, metavar="L", help="see `kaustik compare`; 0: nothing is masked")
     parser.add_argument("--sppm", metavar="PROGRAM", help="benchmarks/sppm_rival, to compare with")
     parser.add_argument("--sppm-photons", default="100000", help="of each iteration")
-    parser.add_argument("--sppm-radii", default="0.25,0.5,1,2", help="in units of the largest that auto takes")
+    parser.add_argument("--sppm-radii", default="0.125,0.25,0.5,1", help="in units of the largest that auto takes")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE")
     return parser.parse_args()
 
@@ -276,11 +273,14 @@ def main():
     for scene, name in zip(args.scenes, names_of(args.scenes)):
         try:
             result = run_scene(args, scene, name)
-            results += [result] if result else []
         except Failed as failure:
             failures += 1
             tell(f"{name}: {failure}")
-        (args.json or args.references / "results.json").write_text(json.dumps(results, indent=1) + "\n")
+            continue
+        if result:
+            results.append(result)
+            (args.json or args.references / "results.json").write_text(json.dumps(results, indent=1) + "\n")
+            print("", *table(result), "", *sentences(result), sep="\n", flush=True)
     if len(results) > 1:
         print("", *summary(results), sep="\n")
     sys.exit(1 if failures else 0)
