@@ -201,7 +201,11 @@ def sentences(result):
         yield f"The reference's own error is more than a quarter of the least that is measured, {number(least)}."
     yield (f"relMSE of auto to mc at equal time: {number(ratio(result, 'auto, T', 'mc, T', relmse))}, in blocks of 8 x 8: "
            f"{number(ratio(result, 'auto, T', 'mc, T', lambda t: t['relmse_of_blocks']['8']))}; "
-           f"auto at T to mc at 10 T: {number(ratio(result, 'auto, T', 'mc, 10 T', relmse))}.")
+           f"auto at T to mc at 10 T: {number(ratio(result, 'auto, T', 'mc, 10 T', relmse))}; "
+           f"relMSE x processor seconds: {number(ratio(result, 'auto, T', 'mc, T', lambda t: t['relmse'] * t['cpu']))}.")
+    took = median_of(result["trials"]["auto, T"], lambda t: t["seconds"])
+    if abs(took / result["seconds"] - 1) > 0.2:
+        yield f"auto took {took:.1f} s of the {result['seconds']:g} s, so the ratios are not those of equal time."
     if "other auto, T" in result["trials"]:
         yield (f"relMSE to that of the other program: auto {number(ratio(result, 'auto, T', 'other auto, T', relmse))}, "
                f"mc {number(ratio(result, 'mc, T', 'other mc, T', relmse))}.")
