@@ -5,6 +5,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
 
 #include "images/open_image.h"
 #include "images/texture_cache.h"
@@ -52,6 +56,38 @@ std::pair<int, int> colour_channels(const OIIO::ImageSpec& spec) {
   return {0, spec.nchannels >= 3 ? 3 : 1};
 }
 
+// The names of all layers: what stands before the last dot of a channel's name.
+std::set<std::string> layers_of(const OIIO::ImageSpec& spec) {
+  std::set<std::string> names;
+  for (const std::string& channel : spec.channelnames)
+    if (const size_t dot = channel.rfind('.'); dot != std::string::npos) names.insert(channel.substr(0, dot));
+  return names;
+}
+
+// Indices of a layer's channels R, G, B or X, Y, Z, or of its only one; none if there is no such layer, or if
+// its channels are others.
+std::vector<int> channels_of(const OIIO::ImageSpec& spec, const std::string& layer) {
+  for (const char* const letters : {"RGB", "XYZ"}) {
+    std::vector<int> found;
+    for (int c = 0; c < 3; ++c) found.push_back(spec.channelindex(layer + '.' + letters[c]));
+    if (*std::min_element(found.begin(), found.end()) >= 0) return found;
+  }
+  std::vector<int> found;
+  for (int c = 0; c < spec.nchannels; ++c) {
+    const std::string& name = spec.channelnames[size_t(c)];
+    if (name.starts_with(layer + '.') && name.rfind('.') == layer.size()) found.push_back(c);
+  }
+  return found.size() == 1 ? found : std::vector<int>{};
+}
+
+std::string no_layer(const OIIO::ImageSpec& spec, const std::string& layer) {
+  const std::set<std::string> there = layers_of(spec);
+  if (there.empty()) return fmt::format("it has no layer `{}`, nor any other", layer);
+  if (there.contains(layer))
+    return fmt::format("the layer `{}` has neither channels R, G, B nor X, Y, Z nor a single one", layer);
+  return fmt::format("it has no layer `{}`; there are: {}", layer, fmt::join(there, ", "));
+}
+
 // Why an image is refused by its header, which may be broken or hostile; empty if it is accepted.
 std::string refusal(const OIIO::ImageSpec& spec, Channels channels, uint64_t most_pixels) {
   constexpr int kLongestSide = 1 << 16;
@@ -97,6 +133,28 @@ class OpenImageIo final : public render::ImageFormats {
     out.values.resize(out.count() * size_t(count));
     if (!in->read_image(0, 0, first, first + count, OIIO::TypeDesc::FLOAT, out.values.data()))
       return fail(in->geterror());
+    return out;
+  }
+
+  std::optional<ImageNumbers> read_layer(const std::string& path, const std::string& layer,
+                                         uint64_t most_pixels, std::string& error) const override {
+    const auto fail = [&](std::string why) {
+      error = std::move(why);
+      return std::nullopt;
+    };
+    const auto in = open_image(path, {}, error);
+    if (!in) return std::nullopt;
+    const OIIO::ImageSpec spec = in->spec();
+    if (std::string why = refusal(spec, Channels::kColour, most_pixels); !why.empty())
+      return fail(std::move(why));
+    const std::vector<int> chosen = channels_of(spec, layer);
+    if (chosen.empty()) return fail(no_layer(spec, layer));
+    ImageNumbers out{spec.width, spec.height, int(chosen.size()), !spec.format.is_floating_point(), {}};
+    out.values.resize(out.count() * chosen.size());
+    for (size_t c = 0; c < chosen.size(); ++c)
+      if (!in->read_image(0, 0, chosen[c], chosen[c] + 1, OIIO::TypeDesc::FLOAT, out.values.data() + c,
+                          OIIO::stride_t(chosen.size() * sizeof(float))))
+        return fail(in->geterror());
     return out;
   }
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/command_line/whole_numbers.h"
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/session/files/collisions.h"
@@ -18,24 +19,70 @@ namespace {
 
 struct CompareOptions {
   std::string reference, image, heatmap;
+  std::string layer;   // empty: the whole picture
+  std::string blocks;  // the text of --blocks; empty: no deviations of blocks
   bool json = false;
   std::optional<float> max_relmse, mask_bright;
 };
 
-// JSON cannot represent infinity, the PSNR of equal pictures.
+constexpr int kLargestBlock = 65536;  // pixels a side, that of the largest picture
+
+// JSON cannot represent infinity, such as the PSNR of equal pictures.
 nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-std::string as_json(const render::CompareResult& r, bool within_limit) {
+nlohmann::ordered_json blocks_json(const render::CompareResult& r) {
   nlohmann::ordered_json out;
+  for (size_t i = 0; i < render::kBlockSides.size(); ++i)
+    out[std::to_string(render::kBlockSides[i])] = r.relmse_of_blocks[i];
+  return out;
+}
+
+// The relMSE of all sides but single pixels.
+std::string blocks_text(const render::CompareResult& r) {
+  std::string text;
+  for (size_t i = 1; i < render::kBlockSides.size(); ++i)
+    text += fmt::format("{0}{1:.6g} ({2} x {2})", i > 1 ? ", " : "", r.relmse_of_blocks[i],
+                        render::kBlockSides[i]);
+  return text;
+}
+
+// What one call finds.
+struct Comparison {
+  render::CompareResult result;
+  int side = 0;                                   // of --blocks; 0 without it
+  std::optional<render::BlockDeviations> blocks;  // of --blocks
+};
+
+nlohmann::ordered_json deviations_json(const render::BlockDeviations& b, int side) {
+  return {{"side", side},
+          {"count", b.blocks},
+          {"mean", number_or_null(b.mean)},
+          {"median", number_or_null(b.median)},
+          {"quantile_95", number_or_null(b.quantile95)},
+          {"largest",
+           {{"value", number_or_null(b.largest)},
+            {"x", b.x},
+            {"y", b.y},
+            {"mean", b.image},
+            {"reference_mean", b.reference}}}};
+}
+
+std::string as_json(const Comparison& found, const CompareOptions& options, bool within_limit) {
+  const render::CompareResult& r = found.result;
+  nlohmann::ordered_json out;
+  if (!options.layer.empty()) out["layer"] = options.layer;
   out["rmse"] = r.rmse;
   out["relmse"] = r.relmse;
+  out["relmse_of_blocks"] = blocks_json(r);
   out["psnr"] = number_or_null(r.psnr);
   out["max_difference"] = {
       {"value", r.max_difference}, {"x", r.max_x}, {"y", r.max_y}, {"channel", r.max_channel}};
   out["mean"] = r.mean_image;
   out["reference_mean"] = r.mean_reference;
+  out["mean_ratio"] = number_or_null(r.mean_image / r.mean_reference);
+  if (found.blocks) out["block_deviations"] = deviations_json(*found.blocks, found.side);
   out["pixels"] = {{"compared", r.compared},
                    {"masked", r.masked},
                    {"not_finite", r.nan_image},
@@ -44,32 +91,56 @@ std::string as_json(const render::CompareResult& r, bool within_limit) {
   return out.dump(2);
 }
 
-std::string as_text(const render::CompareResult& r) {
-  std::string text = fmt::format(
-      "RMSE            {:.6g}\nrelMSE          {:.6g}\nPSNR            {:.2f} dB\n"
-      "largest error   {:.6g} at x {} y {}, channel {}\nmean            {:.6g}, reference {:.6g}\n"
-      "pixels          {} compared, {} masked",
-      r.rmse, r.relmse, r.psnr, r.max_difference, r.max_x, r.max_y, "RGB"[r.max_channel % 3], r.mean_image,
-      r.mean_reference, r.compared, r.masked);
+std::string deviations_text(const render::BlockDeviations& b, int side) {
+  const std::string blocks = fmt::format("{0} x {0}", side);
+  if (b.blocks == 0) return fmt::format("\n{:15} black in both pictures", blocks);
+  return fmt::format(
+      "\n{:15} |I / R - 1| of {} blocks: mean {:.3g} %, median {:.3g} %, 95 % quantile {:.3g} %,\n"
+      "                largest {:.3g} % at x {} y {}: mean {:.6g}, reference {:.6g}",
+      blocks, b.blocks, 100 * b.mean, 100 * b.median, 100 * b.quantile95, 100 * b.largest, b.x, b.y, b.image,
+      b.reference);
+}
+
+std::string as_text(const Comparison& found, const CompareOptions& options) {
+  const render::CompareResult& r = found.result;
+  std::string text = options.layer.empty() ? "" : fmt::format("layer           {}\n", options.layer);
+  text += fmt::format(
+      "RMSE            {:.6g}\nrelMSE          {:.6g}\nof blocks       {}\nPSNR            {:.2f} dB\n"
+      "largest error   {:.6g} at x {} y {}, channel {}\nmean            {:.6g}, reference {:.6g}",
+      r.rmse, r.relmse, blocks_text(r), r.psnr, r.max_difference, r.max_x, r.max_y, "RGB"[r.max_channel % 3],
+      r.mean_image, r.mean_reference);
+  if (r.mean_reference != 0) text += fmt::format(", ratio {:.6g}", r.mean_image / r.mean_reference);
+  text += fmt::format("\npixels          {} compared, {} masked", r.compared, r.masked);
   if (r.nan_image + r.nan_reference > 0) {
     text += fmt::format("\nnot finite      {} pixels of the image, {} of the reference", r.nan_image,
                         r.nan_reference);
   }
+  if (found.blocks) text += deviations_text(*found.blocks, found.side);
   return text;
 }
 
+// The picture, or the layer of it that is asked for.
+render::Image picture_of(const std::string& path, const CompareOptions& options) {
+  return options.layer.empty() ? render::read_image(path) : render::read_layer(path, options.layer);
+}
+
 // Compares the files, and writes the heat map. Throws ExitError (bad command line) for pictures that cannot
-// be read or differ in size.
-render::CompareResult compare_files(const CompareOptions& options, FileWriter& writer) {
+// be read, lack the layer or differ in size.
+Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
+  const int side = options.blocks.empty() ? 0 : int(whole_number("--blocks", options.blocks, kLargestBlock));
   try {
-    const render::Image reference = render::read_image(options.reference);
-    const render::Image image = render::read_image(options.image);
-    const render::CompareResult result =
-        render::compare(reference, image, {.mask_bright = options.mask_bright});
+    const render::Image reference = picture_of(options.reference, options);
+    const render::Image image = picture_of(options.image, options);
+    std::optional<render::Image> whole;
+    render::CompareOptions compared{.mask_bright = options.mask_bright};
+    if (!options.layer.empty() && options.mask_bright)
+      compared.mask_from = &whole.emplace(render::read_image(options.reference));
+    Comparison found{render::compare(reference, image, compared), side, {}};
+    if (side > 0) found.blocks = render::compare_blocks(reference, image, side, compared);
     if (!options.heatmap.empty())
       writer.write(options.heatmap,
                    [&] { render::write_image(options.heatmap, render::heatmap(reference, image)); });
-    return result;
+    return found;
   } catch (const render::ImageError& error) {
     throw ExitError(kBadCommandLine, error.what());
   } catch (const std::invalid_argument& error) {
@@ -84,12 +155,13 @@ int run_compare(const CompareOptions& options, const Console& console) {
   Console quiet = console;
   quiet.quiet = true;  // compare has no log
   FileWriter writer(quiet);
-  const render::CompareResult result = compare_files(options, writer);
+  const Comparison found = compare_files(options, writer);
+  const render::CompareResult& result = found.result;
   if (result.compared == 0) throw ExitError(kBadCommandLine, "there is no pixel to compare");
   // A pixel that is not finite in the image only counts as an infinite error.
   const bool finite = result.nan_image == 0;
   const bool within = !options.max_relmse || (finite && result.relmse <= *options.max_relmse);
-  console.out << (options.json ? as_json(result, within) : as_text(result)) << '\n';
+  console.out << (options.json ? as_json(found, options, within) : as_text(found, options)) << '\n';
   if (!within) {
     console.error(finite ? fmt::format("relMSE {:.6g} is above {:.6g}", result.relmse, *options.max_relmse)
                          : fmt::format("{} pixels of the image are not finite", result.nan_image));
@@ -105,6 +177,15 @@ Command make_compare_command() {
   command.add_argument("REF", options->reference, "Reference picture");
   command.add_argument("IMG", options->image, "Picture to compare, of the same size");
   command.add_flag("--json", options->json, "Print JSON");
+  command
+      .add_text(
+          "--layer", "NAME", options->layer,
+          "Compare this layer of both pictures (EXR files; see `render --aov`) instead of the whole ones")
+      .choices = choices_of(render::kLayerNames);
+  command.add_text(
+      "--blocks", "N", options->blocks,
+      "Also print how far the means of blocks of N x N pixels are from those of the reference: mean, median, "
+      "95 % quantile and largest of |I / R - 1|");
   command.add_text("--heatmap", "FILE", options->heatmap,
                    "Write the relative squared error per pixel as a picture in false colours");
   command.add_number(

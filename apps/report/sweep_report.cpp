@@ -74,6 +74,21 @@ std::string number_or_dash(const std::optional<double>& value) {
   return value ? fmt::format("{:.3g}", *value) : "-";
 }
 
+// A cell of the table for each size of blocks but single pixels.
+std::string blocks_html(const SweepCell& cell) {
+  std::string out;
+  for (size_t i = 1; i < cell.relmse_of_blocks.size(); ++i)
+    out += fmt::format("<td>{:.3g}</td>", cell.relmse_of_blocks[i]);
+  return out;
+}
+
+std::string blocks_heads() {
+  std::string out;
+  for (size_t i = 1; i < render::kBlockSides.size(); ++i)
+    out += fmt::format("<th scope=\"col\">{0} x {0}</th>", render::kBlockSides[i]);
+  return out;
+}
+
 std::string table_html(const SweepResult& result) {
   const std::vector<size_t> front = pareto_front(result.cells);
   std::string out;
@@ -82,10 +97,11 @@ std::string table_html(const SweepResult& result) {
     const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
     out += fmt::format(
         "<tr{}><th "
-        "scope=\"row\"><code>{}</code></th><td>{}</td><td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "scope=\"row\"><code>{}</code></th><td>{}</td><td>{:.3g}</td>{}<td>{}</td><td>{}</td><td>{}</td>"
         "<td>{:.3g}</td><td>{}</td></tr>\n",
         on_front ? " class=\"front\"" : "", html_escaped(cell.flags), percent(std::sqrt(cell.error.relmse)),
-        cell.error.relmse, number_or_dash(cell.error.bias2), number_or_dash(cell.error.variance),
+        cell.error.relmse, blocks_html(cell), number_or_dash(cell.error.bias2),
+        number_or_dash(cell.error.variance),
         cell.point.reads_photons() ? fmt::format("{:.3g}", cell.r0()) : "-", cell.time(),
         on_front ? "yes" : "");
   }
@@ -110,6 +126,7 @@ std::string sweep_report(const SweepResult& result, const std::string& folder) {
                                      {"scene", name},
                                      {"facts", facts_html(result)},
                                      {"advice", advice_html(result)},
+                                     {"blocks", blocks_heads()},
                                      {"table", table_html(result)},
                                      {"settings", settings_html(result)},
                                      {"data", script_json(data.dump())},

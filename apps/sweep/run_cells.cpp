@@ -84,7 +84,10 @@ class CellRun {
   void add(const RenderOutcome& outcome, bool first) {
     const render::Image image = render::image_of(outcome.result.film);
     errors_.add(image);
-    cell_.relmse_by_seed.push_back(render::compare(sweep_.reference.image, image, sweep_.compare).relmse);
+    const render::CompareResult compared = render::compare(sweep_.reference.image, image, sweep_.compare);
+    cell_.relmse_by_seed.push_back(compared.relmse);
+    for (size_t i = 0; i < compared.relmse_of_blocks.size(); ++i)
+      cell_.relmse_of_blocks[i] += compared.relmse_of_blocks[i] / double(sweep_.grid.seeds);
     const auto seconds = phase_seconds(outcome);
     for (size_t i = 0; i < kPhases; ++i) seconds_[i].push_back(seconds[i]);
     if (!first) return;

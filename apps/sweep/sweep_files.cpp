@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "apps/bench/bench_json.h"
 #include "render/settings/names.h"
@@ -14,12 +15,24 @@ namespace {
 
 constexpr int kFormat = 1;  // incremented when readers of the old format would misread the new one
 
+// The columns of relMSE of blocks, and the sides of the blocks; `relmse` is that of single pixels.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kBlockColumns = {
+    {{"relmse_2", "2"}, {"relmse_4", "4"}, {"relmse_8", "8"}}};
+static_assert(kBlockColumns.size() + 1 == render::kBlockSides.size());
+
 Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
 std::optional<double> optional_number(const Json& in) {
   return in.is_null() ? std::nullopt : std::optional(in.get<double>());
+}
+
+// The values by the sides of their blocks.
+Json blocks_json(const std::array<double, render::kBlockSides.size()>& values) {
+  Json out;
+  for (size_t i = 0; i < values.size(); ++i) out[std::to_string(render::kBlockSides[i])] = values[i];
+  return out;
 }
 
 Json error_json(const SweepCell& cell) {
@@ -29,6 +42,7 @@ Json error_json(const SweepCell& cell) {
           {"bias2", or_null(e.bias2)},
           {"variance", or_null(e.variance)},
           {"relmse_by_seed", cell.relmse_by_seed},
+          {"relmse_of_blocks", blocks_json(cell.relmse_of_blocks)},
           {"pixels", {{"compared", e.compared}, {"masked", e.masked}, {"not_finite", e.not_finite}}}};
 }
 
@@ -82,6 +96,8 @@ SweepCell cell_from_json(const Json& in) {
   cell.error.bias2 = optional_number(error.at("bias2"));
   cell.error.variance = optional_number(error.at("variance"));
   error.at("relmse_by_seed").get_to(cell.relmse_by_seed);
+  for (size_t i = 0; i < render::kBlockSides.size(); ++i)
+    error.at("relmse_of_blocks").at(std::to_string(render::kBlockSides[i])).get_to(cell.relmse_of_blocks[i]);
   error.at("pixels").at("compared").get_to(cell.error.compared);
   error.at("pixels").at("masked").get_to(cell.error.masked);
   error.at("pixels").at("not_finite").get_to(cell.error.not_finite);
@@ -119,7 +135,9 @@ Json sweep_json(const SweepResult& result) {
 }
 
 std::string sweep_csv(const SweepResult& result) {
-  std::string csv = "method,photons,radius,spp,seeds,r0_m,relmse,relative_rmse,bias2,variance,seconds";
+  std::string csv = "method,photons,radius,spp,seeds,r0_m,relmse,relative_rmse,bias2,variance";
+  for (const auto& [name, side] : kBlockColumns) csv += fmt::format(",{}", name);
+  csv += ",seconds";
   for (size_t i = 0; i + 1 < kPhases; ++i) csv += fmt::format(",seconds_{}", kPhaseNames[i]);
   csv += ",pareto\n";
   const Json json = sweep_json(result);
@@ -134,6 +152,7 @@ std::string sweep_csv(const SweepResult& result) {
     for (const char* key : {"photons", "radius", "spp", "seeds"}) add(cell[key]);
     add(cell["r0"].is_null() ? Json(nullptr) : cell["r0"]["largest"]);
     for (const char* key : {"relmse", "relative_rmse", "bias2", "variance"}) add(cell["error"][key]);
+    for (const auto& [name, side] : kBlockColumns) add(cell["error"]["relmse_of_blocks"][std::string(side)]);
     add(cell["seconds"]["total"]["median"]);
     for (size_t i = 0; i + 1 < kPhases; ++i) add(cell["seconds"][std::string(kPhaseNames[i])]["median"]);
     add(cell["pareto"]);

@@ -15,9 +15,11 @@ namespace kaustik::app {
 // The measurements of one point of the grid over all seeds.
 struct SweepCell {
   SweepPoint point;
-  std::string flags;                    // flags_of the point
-  render::ErrorParts error;             // over the seeds
-  std::vector<double> relmse_by_seed;   // relMSE of each image
+  std::string flags;                   // flags_of the point
+  render::ErrorParts error;            // over the seeds
+  std::vector<double> relmse_by_seed;  // relMSE of each image
+  // relMSE of means over blocks, the mean over the seeds; see CompareResult
+  std::array<double, render::kBlockSides.size()> relmse_of_blocks{};
   std::array<Spread, kPhases> seconds;  // by Phase, over the seeds
   render::GatherRadii radii;            // r0 of each map with the first seed, metres; 0 = not gathered from
   std::string picture, error_map;       // of the first seed; file names in the sweep's folder

@@ -57,6 +57,12 @@ class ImageFormats {
   virtual std::optional<ImageNumbers> read(const std::string& path, Channels channels, uint64_t most_pixels,
                                            std::string& error) const = 0;
 
+  // Reads one layer of a file's first picture like read(): the channels R, G, B or X, Y, Z whose names begin
+  // with the layer's name and a dot (`direct.R`), or else the one channel of that layer. Also fails if there
+  // is no such layer; `error` then lists those that there are.
+  virtual std::optional<ImageNumbers> read_layer(const std::string& path, const std::string& layer,
+                                                 uint64_t most_pixels, std::string& error) const = 0;
+
   // Both functions make the bytes of a file in memory, so that only write_file() (core/files/pending_file.h)
   // writes to a disk, which may be full: libjpeg would end the process then, and libpng reports nothing. On
   // failure they return nothing and set `error` to the reason.

@@ -89,6 +89,18 @@ void write_srgb8(const std::string& path, const Image& image, const ToneSettings
   if (!error.empty()) throw ImageError(path, error);
 }
 
+// An image of three channels, or of the first one three times.
+Image image_from(const ImageNumbers& numbers) {
+  const size_t channels = size_t(numbers.channels);
+  Image image(numbers.width, numbers.height);
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const float v = numbers.values[i * channels + size_t(channels == 3 ? c : 0)];
+      image.pixels[i][c] = numbers.integers ? linear_from_srgb(v) : v;
+    }
+  return image;
+}
+
 }  // namespace
 
 std::vector<Layer> layers_from_names(const std::vector<std::string>& names) {
@@ -140,14 +152,14 @@ Image read_image(const std::string& path, uint64_t most_pixels) {
   std::string error;
   const auto numbers = image_formats().read(path, Channels::kColour, most_pixels, error);
   if (!numbers) throw ImageError(path, error);
-  const size_t channels = size_t(numbers->channels);
-  Image image(numbers->width, numbers->height);
-  for (size_t i = 0; i < image.pixels.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      const float v = numbers->values[i * channels + size_t(channels == 3 ? c : 0)];
-      image.pixels[i][c] = numbers->integers ? linear_from_srgb(v) : v;
-    }
-  return image;
+  return image_from(*numbers);
+}
+
+Image read_layer(const std::string& path, const std::string& layer, uint64_t most_pixels) {
+  std::string error;
+  const auto numbers = image_formats().read_layer(path, layer, most_pixels, error);
+  if (!numbers) throw ImageError(path, error);
+  return image_from(*numbers);
 }
 
 }  // namespace kaustik::render

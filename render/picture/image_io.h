@@ -68,4 +68,8 @@ inline constexpr uint64_t kMostPixelsRead = uint64_t{1} << 30;
 // that ImageFormats::read() refuses.
 Image read_image(const std::string& path, uint64_t most_pixels = kMostPixelsRead);
 
+// Reads one layer of a picture, as write_film() names them: three channels, or one three times. Throws as
+// read_image() does; the message for a layer that the file does not have lists those that it has.
+Image read_layer(const std::string& path, const std::string& layer, uint64_t most_pixels = kMostPixelsRead);
+
 }  // namespace kaustik::render

@@ -159,7 +159,10 @@ def check_table(browser, rows):
     for line, row in zip(lines, rows):
         texts = [cell.text for cell in line.find_elements(By.CSS_SELECTOR, "th,td")]
         assert abs(float(texts[2]) - float(row["relmse"])) <= 0.005 * float(row["relmse"]), (texts, row)
-        assert (texts[7] == "yes") == (row["pareto"] == "true")
+        for place, side in enumerate((2, 4, 8), 3):
+            coarse = float(row[f"relmse_{side}"])
+            assert abs(float(texts[place]) - coarse) <= 0.005 * coarse, (texts, row)
+        assert (texts[10] == "yes") == (row["pareto"] == "true")
 
 
 def colours_in(browser, chart):

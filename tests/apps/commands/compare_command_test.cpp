@@ -12,6 +12,7 @@ namespace {
 using test::Outcome;
 using test::run_kaustik;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class CompareCommand : public test::ProgramTest {
  protected:
@@ -32,10 +33,21 @@ TEST_F(CompareCommand, ReportsAKnownError) {
   // One of 48 pixels is off by 1; all values are exact in binary, and only doubles round.
   EXPECT_NEAR(json["rmse"].get<double>(), std::sqrt(1.0 / 48), 1e-12);
   EXPECT_NEAR(json["relmse"].get<double>(), 1.0 / (0.25 + 0.01) / 48, 1e-12);
+  // The pixel's blocks of 2 x 2 and 4 x 4 are whole; of the 8 x 6 pixels there is one block of 8 x 8.
+  for (const auto& [side, pixels] : {std::pair("1", 1.0), {"2", 4.0}, {"4", 16.0}, {"8", 48.0}}) {
+    EXPECT_NEAR(json["relmse_of_blocks"][side].get<double>(), 1 / pixels / (0.25 + 0.01) / 48, 1e-12);
+  }
   EXPECT_EQ(json["max_difference"]["value"], 1.0);
   EXPECT_EQ(json["max_difference"]["x"], 3);
   EXPECT_EQ(json["max_difference"]["y"], 2);
   EXPECT_EQ(json["pixels"]["compared"], 48);
+}
+
+TEST_F(CompareCommand, PrintsTheErrorOfBlocks) {
+  const std::string reference = picture("r.exr", 0.5f, 0.5f), image = picture("i.exr", 0.5f, 1.5f);
+  // 1 / 0.26 / 48 = 0.0801282 for single pixels; a 4th, a 16th and a 48th of it for blocks.
+  EXPECT_THAT(run_kaustik({"compare", reference, image}).out,
+              HasSubstr("of blocks       0.0200321 (2 x 2), 0.00500801 (4 x 4), 0.00166934 (8 x 8)\n"));
 }
 
 TEST_F(CompareCommand, EqualPicturesHaveNoError) {
@@ -75,6 +87,90 @@ TEST_F(CompareCommand, WritesAHeatmap) {
   ASSERT_EQ(run_kaustik({"compare", reference, image, "--heatmap", path("h.png")}).code, kDone);
   const render::Image heat = render::read_image(path("h.png"));
   EXPECT_GT(luminance(heat.at(3, 2)), luminance(heat.at(0, 0)));
+}
+
+// A film with light in two classes; direct light is `direct` everywhere.
+std::string film_with_layers(const std::string& path, float direct, const std::vector<std::string>& layers) {
+  render::Film film(8, 6);
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 8; ++x) {
+      film.at(x, y).emitted = Rgb(x == 0 && y == 0 ? 9.0f : 0.0f);
+      film.at(x, y).direct = Rgb(direct);
+      film.at(x, y).depth = 2;
+    }
+  render::write_film(path, film, {.layers = render::layers_from_names(layers)});
+  return path;
+}
+
+TEST_F(CompareCommand, ComparesOneLayer) {
+  const std::string reference = film_with_layers(path("r.exr"), 0.5f, {"emitted", "direct", "depth"});
+  const std::string image = film_with_layers(path("i.exr"), 0.75f, {"emitted", "direct", "depth"});
+  const auto json_of = [&](const std::string& layer) {
+    const Outcome outcome = run_kaustik({"compare", reference, image, "--layer", layer, "--json"});
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  };
+  // All numbers are exact in float and double.
+  EXPECT_EQ(json_of("direct")["layer"], "direct");
+  EXPECT_EQ(json_of("direct")["rmse"], 0.25);
+  EXPECT_EQ(json_of("direct")["mean_ratio"], 1.5);
+  EXPECT_EQ(json_of("emitted")["rmse"], 0);
+  EXPECT_EQ(json_of("emitted")["mean_ratio"], 1);
+  EXPECT_EQ(json_of("depth")["mean"], 2);  // a layer of one channel
+  EXPECT_THAT(run_kaustik({"compare", reference, image, "--layer", "direct"}).out,
+              HasSubstr("mean            0.75, reference 0.5, ratio 1.5\n"));
+  // The bright pixel of the whole picture masks 3 x 3 pixels of a layer without bright pixels.
+  const Outcome masked =
+      run_kaustik({"compare", reference, image, "--layer", "direct", "--json", "--mask-bright", "4"});
+  EXPECT_EQ(nlohmann::json::parse(masked.out)["pixels"]["masked"], 9);
+}
+
+TEST_F(CompareCommand, NamesTheLayersThatThereAre) {
+  const std::string reference = film_with_layers(path("r.exr"), 0.5f, {"emitted", "direct", "depth"});
+  const std::string image = film_with_layers(path("i.exr"), 0.5f, {"emitted"});
+  const Outcome unknown = run_kaustik({"compare", reference, image, "--layer", "emission"});
+  EXPECT_EQ(unknown.code, kBadCommandLine);
+  EXPECT_THAT(unknown.err, HasSubstr("r.exr: it has no layer `emission`; there are: depth, direct, emitted"));
+  const Outcome lacking = run_kaustik({"compare", reference, image, "--layer", "direct"});
+  EXPECT_EQ(lacking.code, kBadCommandLine);
+  EXPECT_THAT(lacking.err, HasSubstr("i.exr: it has no layer `direct`; there are: emitted"));
+  const std::string plain = picture("plain.exr", 0.5f, 0.5f);
+  EXPECT_THAT(run_kaustik({"compare", plain, plain, "--layer", "direct"}).err,
+              HasSubstr("it has no layer `direct`, nor any other"));
+}
+
+TEST_F(CompareCommand, BlocksReportDeviations) {
+  const std::string reference = picture("r.exr", 0.5f, 0.5f), image = picture("i.exr", 0.5f, 1.5f);
+  const Outcome outcome = run_kaustik({"compare", reference, image, "--json", "--blocks", "4"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  // One pixel of the first block's 16 is off by 1: its mean is 0.5625, an eighth above 0.5.
+  const nlohmann::json blocks = nlohmann::json::parse(outcome.out)["block_deviations"];
+  EXPECT_EQ(blocks["side"], 4);
+  EXPECT_EQ(blocks["count"], 4);
+  EXPECT_EQ(blocks["mean"], 0.125 / 4);
+  EXPECT_EQ(blocks["median"], 0);
+  EXPECT_EQ(blocks["quantile_95"], 0.125);
+  EXPECT_EQ(blocks["largest"]["value"], 0.125);
+  EXPECT_EQ(blocks["largest"]["x"], 0);
+  EXPECT_EQ(blocks["largest"]["mean"], 0.5625);
+  EXPECT_THAT(
+      run_kaustik({"compare", reference, image, "--blocks", "4"}).out,
+      HasSubstr("4 x 4           |I / R - 1| of 4 blocks: mean 3.12 %, median 0 %, 95 % quantile 12.5 %"));
+  EXPECT_THAT(run_kaustik({"compare", reference, image}).out, Not(HasSubstr("|I / R - 1|")));
+  EXPECT_EQ(run_kaustik({"compare", reference, image, "--blocks", "0"}).code, kBadCommandLine);
+  EXPECT_EQ(run_kaustik({"compare", reference, image, "--blocks", "x"}).code, kBadCommandLine);
+}
+
+// JSON has no infinity.
+TEST_F(CompareCommand, LightWhereTheReferenceIsBlackIsNull) {
+  const std::string reference = picture("r.exr", 0, 0), image = picture("i.exr", 0, 1);
+  const Outcome outcome = run_kaustik({"compare", reference, image, "--json", "--blocks", "4"});
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(json["mean_ratio"].is_null());
+  EXPECT_TRUE(json["block_deviations"]["largest"]["value"].is_null());
+  EXPECT_EQ(json["block_deviations"]["count"], 1);
+  EXPECT_THAT(run_kaustik({"compare", reference, reference, "--blocks", "4"}).out,
+              HasSubstr("4 x 4           black in both pictures"));
 }
 
 TEST_F(CompareCommand, BadPicturesExitWithTwo) {

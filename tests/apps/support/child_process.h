@@ -33,7 +33,9 @@ class ChildProcess {
     if (pid_ > 0 && !ended_) ended_ = waitpid(pid_, &status_, WNOHANG) == pid_;
     return pid_ > 0 && !ended_;
   }
-  void kill(int signal) const { ::kill(pid_, signal); }
+  void kill(int signal) const {
+    if (pid_ > 0) ::kill(pid_, signal);  // 0 would mean the test's own group
+  }
   // Returns the exit code, or -1 when a signal ended the process.
   int wait() {
     if (pid_ > 0 && !ended_) waitpid(pid_, &status_, 0);

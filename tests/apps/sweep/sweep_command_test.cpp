@@ -112,6 +112,8 @@ TEST_F(SweepCommand, CsvAndJsonAgree) {
     EXPECT_EQ(row["radius"], cells[i]["radius"].is_null() ? "" : cells[i]["radius"].get<std::string>());
     for (const char* key : {"relmse", "relative_rmse", "bias2", "variance"})
       EXPECT_EQ(row[key], cells[i]["error"][key].dump()) << key;
+    for (const char* side : {"2", "4", "8"})
+      EXPECT_EQ(row[std::string("relmse_") + side], cells[i]["error"]["relmse_of_blocks"][side].dump());
     EXPECT_EQ(row["seconds"], cells[i]["seconds"]["total"]["median"].dump());
     EXPECT_EQ(row["pareto"], cells[i]["pareto"].dump());
     // The parts of the error add up as error_parts.h says; sums of 1152 doubles.
@@ -128,11 +130,17 @@ TEST_F(SweepCommand, ErrorsMatchTheRender) {
   expect_done(sweep(against_file()));
   const Json cell = result()["cells"][3];
   ASSERT_EQ(cell["flags"], "--photons 4k --radius 2x --spp 2");
+  Json sum = {{"1", 0.0}, {"2", 0.0}, {"4", 0.0}, {"8", 0.0}};
   for (const char* seed : {"0", "1"}) {
     expect_done({"render", scene_, "--photons", "4k", "--radius", "2x", "--spp", "2", "--seed", seed, "-o",
                  path("a.exr"), "-q"});
     const Outcome compared = run_kaustik({"compare", path("ref.exr"), path("a.exr"), "--json"});
-    EXPECT_EQ(cell["error"]["relmse_by_seed"][size_t(seed[0] - '0')], Json::parse(compared.out)["relmse"]);
+    const Json json = Json::parse(compared.out);
+    EXPECT_EQ(cell["error"]["relmse_by_seed"][size_t(seed[0] - '0')], json["relmse"]);
+    for (auto& [side, value] : sum.items()) value = double(value) + double(json["relmse_of_blocks"][side]);
+  }
+  for (const auto& [side, value] : sum.items()) {  // the mean of two rounds once in double
+    EXPECT_NEAR(cell["error"]["relmse_of_blocks"][side], double(value) / 2, 1e-15) << side;
   }
 }
 

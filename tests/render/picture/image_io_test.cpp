@@ -92,6 +92,24 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
   EXPECT_EQ(image.at(2, 1), film.at(2, 1).radiance());
 }
 
+TEST(ImageIo, ReadsOneLayer) {
+  const std::string path = output_file("one-layer.exr");
+  const Film film = numbered_film();
+  write_film(path, film, {.layers = layers_from_names({"all"})});
+  const Image direct = read_layer(path, "direct"), normal = read_layer(path, "normal");
+  const Image depth = read_layer(path, "depth");
+  ASSERT_EQ(direct.width, 3);
+  ASSERT_EQ(direct.height, 2);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x) {
+      EXPECT_EQ(direct.at(x, y), film.at(x, y).direct);
+      EXPECT_EQ(normal.at(x, y), film.at(x, y).normal);
+      EXPECT_EQ(depth.at(x, y), Rgb(film.at(x, y).depth));  // a single channel three times
+    }
+  EXPECT_THROW(read_layer(path, "dir"), ImageError);
+  EXPECT_THROW(read_layer(path, ""), ImageError);
+}
+
 TEST(ImageIo, CropIsTheDataWindow) {
   const std::string path = output_file("crop.exr");
   const Film film = numbered_film(1, 3, 5);
