@@ -64,7 +64,8 @@ struct Lobes {
   bool diffuse = false;
   bool specular = false;
   bool glossy = false;  // the specular part has finite width, so lights can be sampled there
-  bool rough = false;   // the diffuse part holds a microfacet lobe, which scatters little of what a photon brings
+  bool rough =
+      false;  // the diffuse part holds a microfacet lobe, which scatters little of what a photon brings
 };
 inline constexpr Lobes kDiffuseLobes{true, false, false}, kDeltaLobes{false, true, false},
     kGlossyLobes{false, true, true}, kRoughLobes{true, false, false, true};

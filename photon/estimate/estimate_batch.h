@@ -26,15 +26,15 @@ class EstimateBatch {
 
   // Takes the estimate and returns true; flush() will then add weight times estimate_radiance(), at this
   // point or at one nearby in the same pixel, to *radiance, and the number of photons that counted to
-  // *photons. Returns false and does nothing for the leaf lookup and for BSDFs that are no product of a factor
-  // of wo and one of wi (SeparatedF). map and settings must stay valid until flush().
+  // *photons. Returns false and does nothing for the leaf lookup and for BSDFs that are no product of a
+  // factor of wo and one of wi (SeparatedF). map and settings must stay valid until flush().
   bool add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
            const EstimateSettings& settings, const Rgb& weight, Rgb* radiance, float* photons);
 
   // Returns share_of_disc() at this point or at one nearby in the same pixel, whose gather a following add()
   // then completes.
-  double share_of_disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
-                       const EstimateSettings& settings);
+  double share_of_disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
+                       const Bsdf& bsdf, const EstimateSettings& settings);
 
   // Adds the estimates that were taken, in the order of the add() calls, and the counts of the gathers to
   // `counters`. They are added after everything that was added to the sums directly.

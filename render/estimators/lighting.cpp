@@ -57,7 +57,8 @@ struct WeightedLightSample {
   LightSample at;
   Rgb contribution{0};
 };
-// Density of the samples of an infinite light: its own, mixed half and half with the guide where there is one.
+// Density of the samples of an infinite light: its own, mixed half and half with the guide where there is
+// one.
 float guided_pdf(float of_light, const SkyGuide::Directions& guide, const Vector3& wi) {
   return guide.empty() ? of_light : 0.5f * (of_light + guide.pdf(wi));
 }
@@ -89,8 +90,7 @@ std::optional<WeightedLightSample> sample_light(const RenderContext& ctx, uint32
                                                 const Point2& u) {
   const Light& from = ctx.scene.lights[light];
   const LightReceiver receiver = x.receiver();
-  const SkyGuide::Directions guide =
-      is_infinite(from) ? sky_guide(ctx, receiver) : SkyGuide::Directions{};
+  const SkyGuide::Directions guide = is_infinite(from) ? sky_guide(ctx, receiver) : SkyGuide::Directions{};
   const auto s = guide.empty() ? sample_Li(from, receiver, u) : sample_guided(from, receiver, guide, u);
   if (!s || !(s->pdf > 0)) return std::nullopt;
   const Rgb f = f_cos(x, s->wi, part);

@@ -14,13 +14,13 @@ enum class LightWeight {
 };
 
 // Estimates  int f(wo, wi) Le V |cos| dwi  over all lights, in W/(m^2 sr). Few lights are all sampled, with a
-// shadow ray each: one ray for all of them could not tell a light that is hidden from one that is not. Of many
-// lights kLightChoices samples are drawn from the scene's LightSampler, and one of them is chosen for the only
-// shadow ray by its contribution (resampled importance sampling, Talbot et al. 2005). Any surface in between
-// blocks, including glass, since light through specular surfaces belongs to the caustic class. Delta lights
-// always have weight one. With ctx.visibility most shadow rays are skipped, and V is an unbiased estimate that
-// may be negative (photon/visibility/visibility_tree.h). The number of dimensions that are drawn depends on the
-// number of lights only. part: the lobes of f that count.
+// shadow ray each: one ray for all of them could not tell a light that is hidden from one that is not. Of
+// many lights kLightChoices samples are drawn from the scene's LightSampler, and one of them is chosen for
+// the only shadow ray by its contribution (resampled importance sampling, Talbot et al. 2005). Any surface in
+// between blocks, including glass, since light through specular surfaces belongs to the caustic class. Delta
+// lights always have weight one. With ctx.visibility most shadow rays are skipped, and V is an unbiased
+// estimate that may be negative (photon/visibility/visibility_tree.h). The number of dimensions that are
+// drawn depends on the number of lights only. part: the lobes of f that count.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
                   TileCounters& counters, LobePart part = LobePart::kDiffuse);
 
@@ -28,8 +28,8 @@ Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight w
 inline constexpr uint32_t kLightChoices = 4;
 
 // Whether light samples alone are noisy at x, so that the direct light there should be shared with a BSDF
-// sample: beside an extended light, where a few samples of its area carry nearly all of its light, and at rough
-// microfacet lobes, which reflect little of most lights.
+// sample: beside an extended light, where a few samples of its area carry nearly all of its light, and at
+// rough microfacet lobes, which reflect little of most lights.
 bool direct_needs_bsdf_sample(const Scene& scene, const ShadingPoint& x);
 
 // Direct light as if nothing were in the way (V = 1). Sums all lights, so that noise comes only from their

@@ -51,12 +51,12 @@ void add_light(const RenderContext& ctx, const PathState& path, const SurfaceInt
 void add_escape(const RenderContext& ctx, const PathState& path, const Ray& ray, PathLight* light) {
   if (ctx.scene.infinite_lights.empty()) return;
   if (Rgb* owner = owner_of_light(ctx, path, path.specular, light))
-    *owner += path.beta *
-              (path.has_pdf ? escaped_weighted(ctx, path.ref, ray, path.pdf) : escaped(ctx.scene, ray));
+    *owner +=
+        path.beta * (path.has_pdf ? escaped_weighted(ctx, path.ref, ray, path.pdf) : escaped(ctx.scene, ray));
 }
 
-// Light that arrives at y, the end of a diffuse segment, from the lights and through specular surfaces, and is
-// scattered along the path by y's diffuse lobes.
+// Light that arrives at y, the end of a diffuse segment, from the lights and through specular surfaces, and
+// is scattered along the path by y's diffuse lobes.
 Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, LightWeight weight, Sampler& sampler,
              TileCounters& counters) {
   Rgb sum = sample_direct(ctx, y, weight, sampler, counters);
@@ -70,10 +70,9 @@ Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, LightWeight weight
 Rgb arriving_at_end(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler,
                     TileCounters& counters) {
   const bool shared = direct_needs_bsdf_sample(ctx.scene, y);
-  Rgb sum =
-      arriving(ctx, y, shared ? LightWeight::kMis : LightWeight::kAlone, sampler, counters) +
-      photon::estimate_radiance(ctx.maps.indirect.map, y.si, y.wo, *y.bsdf, ctx.maps.indirect.estimate,
-                                counters.gather);
+  Rgb sum = arriving(ctx, y, shared ? LightWeight::kMis : LightWeight::kAlone, sampler, counters) +
+            photon::estimate_radiance(ctx.maps.indirect.map, y.si, y.wo, *y.bsdf, ctx.maps.indirect.estimate,
+                                      counters.gather);
   if (shared) sum += trace_path(ctx, y, PathReach::kLights, sampler, counters).direct;
   return sum;
 }
@@ -112,9 +111,10 @@ bool reads_maps_at(const RenderContext& ctx, PathReach reach, const PathState& p
   return reach == PathReach::kMaps && path.segment >= ctx.maps.indirect.estimate.radius;
 }
 
-// Adds the light that the path collects at y and chooses the lobes by which it goes on; nothing where it ends.
-std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, PathReach reach, PathState* path,
-                             PathLight* light, Sampler& sampler, TileCounters& counters) {
+// Adds the light that the path collects at y and chooses the lobes by which it goes on; nothing where it
+// ends.
+std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, PathReach reach,
+                             PathState* path, PathLight* light, Sampler& sampler, TileCounters& counters) {
   const Lobes parts = lobes(*y.bsdf);
   const bool at_end = reads_maps_at(ctx, reach, *path);
   if (parts.diffuse && follows_indirect(reach))
@@ -140,7 +140,8 @@ PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach 
   Ray ray;
   if (!continue_path(x, Scatter::kDiffuse, &path, &ray, sampler)) return light;
   while (true) {
-    ++counters.rays.bounce;
+    // A ray that looks for lights alone counts as the shadow ray whose work it shares.
+    ++(reach == PathReach::kLights ? counters.rays.shadow : counters.rays.bounce);
     SurfaceInteraction si;
     if (!ctx.bvh.intersect(ray, &si)) {
       add_escape(ctx, path, ray, &light);

@@ -68,34 +68,34 @@ struct PointPlan {
 // have one event too many, whose light fades with each bounce.
 constexpr int kDeepEnough = 8;
 
-// Least share of the indirect map's disc that must lie on the surface: that of a disc in a corner, where three
-// walls meet. On narrow surfaces the correction for the missing share is a guess.
+// Least share of the indirect map's disc that must lie on the surface: that of a disc in a corner, where
+// three walls meet. On narrow surfaces the correction for the missing share is a guess, which may be wrong by
+// half.
 constexpr double kLeastSupport = 0.2;
+constexpr float kErrorOfGuess = 0.5f;
 
-// Least clearance at which the indirect map's disc is gathered, in metres. A disc of radius r at a point of
-// clearance c misjudges its irradiance by about (r / c)^2 / 8 of it, since the irradiance varies over distances
-// of c; a final gather has a standard error of about kNoise of it for each sample. The two are equal here.
-float least_clearance(const RenderContext& ctx) {
-  constexpr float kNoise = 0.7f;
-  const float error = kNoise / std::sqrt(float(ctx.settings.spp));
-  return ctx.maps.indirect.estimate.radius / std::sqrt(8 * error);
+// Relative error of a disc of this radius at a place of this clearance: the irradiance varies over distances
+// of the clearance, and the mean over a disc of the half of its second derivative times the square of the
+// distance is r^2 / 8 of that. Of a place without known clearance, that of the radius is assumed.
+float error_of_disc(float radius, float clearance) {
+  const float ratio = clearance > 0 ? radius / clearance : 1;
+  return std::min(ratio * ratio / 8, kErrorOfGuess);
 }
 
-// Whether the indirect map's disc at x tells the irradiance of x: it lies on the surface and, unless blurred,
-// is small compared with the distances of other surfaces.
-bool trusts_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred,
-                 photon::EstimateBatch* batch) {
+// Whether the indirect map's disc at x is a better estimate than a final gather. blurred: the point is seen
+// through a glossy lobe that is wider than the disc, so that only the disc's support matters.
+bool takes_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred, photon::EstimateBatch* batch) {
   const photon::EstimateSettings& estimate = ctx.maps.indirect.estimate;
   if (!ctx.maps.surroundings) return true;  // without photons, nothing is gathered
-  if (!blurred) {
-    const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
-    if (ctx.maps.surroundings->clearance(x.si.p, n) < least_clearance(ctx)) return false;
-  }
+  const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
+  const Place place = ctx.maps.surroundings->at(x.si.p, n);
+  const float error_of_path = place.noise / std::sqrt(float(ctx.settings.spp));
+  if (error_of_path >= kErrorOfGuess) return true;
+  if (!blurred && error_of_disc(estimate.radius, place.clearance) > error_of_path) return false;
   if (!estimate.edges || estimate.leaf) return true;
   return batch->share_of_disc(ctx.maps.indirect.map, x.si, x.wo, *x.bsdf, estimate) >= kLeastSupport;
 }
 
-// blurred: the point is seen through a glossy lobe that is wider than the indirect map's disc.
 PointPlan plan_point(const RenderContext& ctx, const ShadingPoint& x, bool blurred,
                      photon::EstimateBatch* batch) {
   const EstimatorPlan& plan = ctx.plan;
@@ -105,7 +105,7 @@ PointPlan plan_point(const RenderContext& ctx, const ShadingPoint& x, bool blurr
   if (plan.indirect == IndirectEstimator::kPaths) point.path = PathReach::kRoulette;
   if (plan.indirect == IndirectEstimator::kPhotons) point.indirect_disc = true;
   if (plan.indirect != IndirectEstimator::kFinalGather) return point;
-  if ((blurred || !lobes(*x.bsdf).rough) && trusts_disc(ctx, x, blurred, batch))
+  if ((blurred || !lobes(*x.bsdf).rough) && takes_disc(ctx, x, blurred, batch))
     point.indirect_disc = true;
   else
     point.path = ctx.settings.max_bounces < kDeepEnough ? PathReach::kRoulette : PathReach::kMaps;
@@ -212,8 +212,8 @@ float gather_weight(float share, Sampler& sampler) {
   return sampler.next_1d() < q ? 1 / q : 0;
 }
 
-// Whether the chain's glossy lobes blur what lies `distance` ahead by more than the indirect map's disc. A lobe
-// of density pdf is taken for a cone of solid angle 1 / pdf.
+// Whether the chain's glossy lobes blur what lies `distance` ahead by more than the indirect map's disc. A
+// lobe of density pdf is taken for a cone of solid angle 1 / pdf.
 bool is_blurred(const RenderContext& ctx, const Branch& branch, float distance) {
   const float radius = ctx.maps.indirect.estimate.radius;
   return branch.blurred ||

@@ -10,8 +10,8 @@
 
 namespace kaustik::render {
 
-// A density of directions for light samples of skies. In a room the sky is seen through a window, of which the
-// light's own density knows nothing. Rays from visible points find the directions that are open; their
+// A density of directions for light samples of skies. In a room the sky is seen through a window, of which
+// the light's own density knows nothing. Rays from visible points find the directions that are open; their
 // irradiance is added to cells of directions for each cell of space. The guide is mixed with the light's own
 // density, so that samples stay unbiased whatever was learned (Vorba et al. 2014, "On-line Learning of
 // Parametric Mixture Models for Light Transport Simulation", guides paths likewise). A function of scene and
@@ -46,7 +46,7 @@ class SkyGuide {
  private:
   // Grids of space from fine to coarse. A place is looked up in the finest grid with enough open rays there.
   static constexpr std::array<float, 3> kResolution = {16, 6, 2};
-  static constexpr uint32_t kEnough = 24;
+  static constexpr uint32_t kEnough = 12;
 
   using Cells = std::unordered_map<uint64_t, DiscreteDistribution>;
 

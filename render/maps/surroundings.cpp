@@ -1,10 +1,11 @@
-// Measures clearances by rays from visible points.
+// Explores surroundings by cosine-weighted rays, and samples the direct light where they end.
 
 #include "render/maps/surroundings.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
@@ -16,54 +17,100 @@ namespace {
 
 // Separates the random numbers of these rays from all others.
 constexpr uint64_t kClearanceStream = 0xC1EA;
-constexpr int kRaysEach = 16;
 constexpr int kMostSpecular = 4;
 
-// Distance along the ray to the first surface with diffuse lobes, through specular ones; infinite if there is
-// none.
-float free_path(const RenderInput& input, Ray ray, Sampler& sampler) {
-  float distance = 0;
-  for (int events = 0; events <= kMostSpecular; ++events) {
-    SurfaceInteraction si;
-    if (!input.bvh.intersect(ray, &si)) return kInfinity;
-    distance += glm::distance(ray.o, si.p);
-    const ShadingPoint y(input.scene, si, -ray.d);
-    if (!y.specular()) return distance;
-    const auto s = scatter(y, sampler);
-    if (!s) return distance;
-    ray = si.spawn(s->wi);
-  }
-  return distance;
+// One sample of the light, as the luminance that y scatters of it; 0 if it is hidden.
+float sample_of(const RenderInput& input, const Light& light, const ShadingPoint& y, const Point2& u) {
+  const auto s = sample_Li(light, y.receiver(), u);
+  if (!s || !(s->pdf > 0)) return 0;
+  const float L = luminance(f_cos(y, s->wi) * s->Li) / s->pdf;
+  if (!(L > 0)) return 0;
+  Ray ray = s->infinite ? y.si.spawn(s->wi) : y.si.spawn(s->wi, 1);
+  if (!s->infinite) ray.d = s->p_light - ray.o;
+  return input.bvh.occluded(ray) ? 0 : L;
 }
 
-// Mean of 1 / distance over the hemisphere about n, weighted by the cosine.
-float inverse_clearance(const RenderInput& input, const SurfaceInteraction& si, const Normal3& n,
-                        Sampler& sampler) {
-  const Frame frame = Frame::from_z(n);
-  float sum = 0;
-  for (int i = 0; i < kRaysEach; ++i) {
-    const Point2 u = sampler.next_2d();
-    const Point2 stratified((float(i % 4) + u.x) / 4, (float(i / 4) + u.y) / 4);
-    const Vector3 wi = frame.to_world(sample_cosine_hemisphere(stratified));
-    if (!(glm::dot(wi, n) > 0)) continue;
-    if (const float distance = free_path(input, si.spawn(wi), sampler); distance > 0) sum += 1 / distance;
+// Samples the direct light that y scatters, as luminance: a few lights each, one of many.
+float direct_sample(const RenderInput& input, const ShadingPoint& y, Sampler& sampler) {
+  const float u_light = sampler.next_1d();
+  const Point2 u = sampler.next_2d();
+  const std::vector<Light>& lights = input.scene.lights;
+  if (lights.size() > LightSampler::kMostByPower) {
+    const auto choice = input.scene.light_sampler.choose(y.receiver(), u_light);
+    return choice ? sample_of(input, lights[choice->light], y, u) / choice->probability : 0;
   }
-  return sum / kRaysEach;
+  float sum = 0;
+  for (const Light& light : lights) sum += sample_of(input, light, y, u);
+  return sum;
+}
+
+struct Met {
+  float distance = kInfinity;  // to the first surface with diffuse lobes, through specular ones
+  float light = 0;             // luminance that it scatters back
+};
+
+Met follow(const RenderInput& input, Ray ray, Sampler& sampler) {
+  Met met{0, 0};
+  for (int events = 0; events <= kMostSpecular; ++events) {
+    SurfaceInteraction si;
+    if (!input.bvh.intersect(ray, &si)) return {};
+    met.distance += glm::distance(ray.o, si.p);
+    const ShadingPoint y(input.scene, si, -ray.d);
+    if (!y.specular()) {
+      met.light = direct_sample(input, y, sampler);
+      return met;
+    }
+    const auto s = scatter(y, sampler);
+    if (!s) return met;
+    ray = si.spawn(s->wi);
+  }
+  return met;
 }
 
 }  // namespace
 
+void Surroundings::Cell::add(const Cell& other) {
+  inverse += other.inverse;
+  light += other.light;
+  squared += other.squared;
+  rays += other.rays;
+}
+
+float Surroundings::Cell::noise() const {
+  constexpr double kEven = 0.7;
+  if (!(light > 0)) return float(kEven);
+  return float(std::max(std::sqrt(std::max(squared * rays / (light * light) - 1, 0.0)), kEven));
+}
+
+Surroundings::Cell Surroundings::explore(const RenderInput& input, const SurfaceInteraction& si,
+                                         const Normal3& n, Sampler& sampler) {
+  const Frame frame = Frame::from_z(n);
+  Cell sum;
+  for (int i = 0; i < kRaysEach; ++i) {
+    const Point2 u = sampler.next_2d();
+    const Point2 stratified((float(i % 4) + u.x) / 4, (float(i / 4) + u.y) / 4);
+    const Vector3 wi = frame.to_world(sample_cosine_hemisphere(stratified));
+    ++sum.rays;
+    if (!(glm::dot(wi, n) > 0)) continue;
+    const Met met = follow(input, si.spawn(wi), sampler);
+    if (met.distance > 0) sum.inverse += 1 / double(met.distance);
+    sum.light += double(met.light);
+    sum.squared += double(met.light) * double(met.light);
+  }
+  return sum;
+}
+
 Surroundings::Surroundings(const RenderInput& input) {
   const std::vector<VisiblePoint> points = visible_points(input, pilot_count(input));
   struct Found {
-    float front = 0, back = 0;  // 1 / clearance
+    Cell front, back;
   };
   std::vector<Found> found(points.size());
   tbb::parallel_for(size_t{0}, points.size(), [&](size_t i) {
     Sampler sampler(hash_combine(input.settings.seed, kClearanceStream), i);
     const VisiblePoint& x = points[i];
-    found[i].front = inverse_clearance(input, x.si, x.query.n, sampler);
-    if (x.both_sides) found[i].back = inverse_clearance(input, x.si, -x.query.n, sampler);
+    found[i].front = explore(input, x.si, x.query.n, sampler);
+    if (x.both_sides) found[i].back = explore(input, x.si, -x.query.n, sampler);
   });
   for (size_t grid = 0; grid < grids_.size(); ++grid) grids_[grid] = {points, kResolution[grid]};
   for (size_t i = 0; i < points.size(); ++i) {
@@ -72,22 +119,22 @@ Surroundings::Surroundings(const RenderInput& input) {
   }
 }
 
-void Surroundings::add(const Point3& p, const Normal3& n, float inverse) {
-  for (size_t grid = 0; grid < grids_.size(); ++grid) {
-    Cell& cell = cells_[grid][grids_[grid].key(p, n)];
-    cell.inverse += inverse;
-    ++cell.points;
-  }
+void Surroundings::add(const Point3& p, const Normal3& n, const Cell& found) {
+  for (size_t grid = 0; grid < grids_.size(); ++grid) cells_[grid][grids_[grid].key(p, n)].add(found);
+  all_.add(found);
 }
 
-float Surroundings::clearance(const Point3& p, const Normal3& n) const {
+Place Surroundings::at(const Point3& p, const Normal3& n) const {
+  const auto coarse = cells_.back().find(grids_.back().key(p, n));
+  if (coarse == cells_.back().end()) return {0, all_.noise()};
+  const float noise = (coarse->second.rays >= kEnoughForNoise ? coarse->second : all_).noise();
   for (size_t grid = 0; grid < grids_.size(); ++grid) {
     const auto found = cells_[grid].find(grids_[grid].key(p, n));
-    if (found == cells_[grid].end() || found->second.points < kEnough[grid]) continue;
+    if (found == cells_[grid].end() || found->second.rays < kEnough[grid]) continue;
     const Cell& cell = found->second;
-    return cell.inverse > 0 ? float(cell.points) / cell.inverse : kInfinity;
+    return {cell.inverse > 0 ? float(cell.rays / cell.inverse) : kInfinity, noise};
   }
-  return 0;
+  return {0, noise};
 }
 
 }  // namespace kaustik::render

@@ -1,41 +1,62 @@
 #pragma once
-// How near other surfaces are to the points that the camera sees.
+// What is around the points that the camera sees: how near other surfaces are, and how unevenly they shine.
 
 #include <array>
 #include <unordered_map>
 
+#include "core/sampling/sampler.h"
 #include "render/maps/place_grid.h"
 
 namespace kaustik::render {
 
-// The clearance of a place: the harmonic mean of the distances that light travels to it from the other
-// surfaces, in metres, weighted by the cosine at the place; infinite in the open. The irradiance of a place
-// varies over distances of about its clearance (Ward, Rubinstein and Clear 1988, "A Ray Tracing Solution for
-// Diffuse Interreflection"). Sampled at points that the camera sees and averaged in cells of space. A function
-// of scene and settings, which scales exactly with the scene for powers of two. Immutable; thread-safe.
+// What decides between the two ways to estimate the indirect light of a place.
+struct Place {
+  // Harmonic mean of the distances that light travels to the place from the other surfaces, weighted by the
+  // cosine at the place; metres, infinite in the open. The irradiance of a place varies over distances of
+  // about its clearance (Ward, Rubinstein and Clear 1988, "A Ray Tracing Solution for Diffuse
+  // Interreflection").
+  float clearance = 0;
+  // Relative standard deviation of the light that one random ray from the place brings.
+  float noise = 0;
+};
+
+// Explores the surroundings of points that the camera sees by rays, and averages them in cells of space. A
+// function of scene and settings; clearances scale exactly with the scene for powers of two. Immutable;
+// thread-safe.
 class Surroundings {
  public:
   explicit Surroundings(const RenderInput& input);
 
-  // Clearance of the surface at p whose lit side has the normal n; 0 where nothing is known, since the camera
-  // hardly sees this place.
-  float clearance(const Point3& p, const Normal3& n) const;
+  // The surface at p whose lit side has the normal n; clearance 0 where nothing is known, since the camera
+  // hardly sees it.
+  Place at(const Point3& p, const Normal3& n) const;
 
  private:
-  // Sum over the points of a cell.
+  // Sums over the rays of a cell.
   struct Cell {
-    float inverse = 0;  // of 1 / clearance
-    uint32_t points = 0;
+    double inverse = 0;             // of 1 / distance
+    double light = 0, squared = 0;  // of the radiance that a ray brings, and of its square
+    uint32_t rays = 0;
+
+    void add(const Cell& other);
+    // The least value is that of a place whose surroundings shine evenly.
+    float noise() const;
   };
   using Cells = std::unordered_map<uint64_t, Cell>;
-  // Grids from fine to coarse. A place is looked up in the finest grid that has enough points there.
+  static constexpr int kRaysEach = 16;  // rays from a visible point
+  // Grids from fine to coarse. A place is looked up in the finest grid that has enough rays there; its noise
+  // in the coarsest, since a few bright rays decide about it.
   static constexpr std::array<float, 3> kResolution = {64, 32, 16};
-  static constexpr std::array<uint32_t, 3> kEnough = {4, 2, 1};
+  static constexpr std::array<uint32_t, 3> kEnough = {4 * kRaysEach, 2 * kRaysEach, kRaysEach};
+  static constexpr uint32_t kEnoughForNoise = 16 * kRaysEach;
 
-  void add(const Point3& p, const Normal3& n, float inverse);
+  static Cell explore(const RenderInput& input, const SurfaceInteraction& si, const Normal3& n,
+                      Sampler& sampler);
+  void add(const Point3& p, const Normal3& n, const Cell& found);
 
   std::array<PlaceGrid, kResolution.size()> grids_;
   std::array<Cells, kResolution.size()> cells_;
+  Cell all_;
 };
 
 }  // namespace kaustik::render

@@ -50,7 +50,7 @@ std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t coun
 }
 
 uint32_t pilot_count(const RenderInput& input) {
-  constexpr uint64_t kFewest = 1u << 10, kMost = 1u << 14, kPixelsEach = 8;
+  constexpr uint64_t kFewest = 1u << 12, kMost = 1u << 14, kPixelsEach = 2;
   const Camera& camera = input.scene.camera;
   const uint64_t pixels = static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height);
   return static_cast<uint32_t>(std::clamp(pixels / kPixelsEach, kFewest, kMost));

@@ -17,8 +17,8 @@ struct VisiblePoint {
 // Traces `count` camera rays and returns the points of those that meet one. A function of scene and settings.
 std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count);
 
-// Number of visible points from which the surroundings are explored: one for every 8 pixels, within the range
-// that is useful. Independent of the number of samples, which may be settled later.
+// Number of visible points from which the surroundings are explored: one for every second pixel, within the
+// range that is useful. Independent of the number of samples, which may be settled later.
 uint32_t pilot_count(const RenderInput& input);
 
 }  // namespace kaustik::render

@@ -194,8 +194,10 @@ void add_methods(std::vector<Setting>& table) {
       "indirect", kRenderingCommands, &RenderSettings::indirect, render::kIndirectNames,
       std::string(kByMethod),
       "Estimator of indirect light, which reaches the visible surface after a diffuse reflection elsewhere. "
-      "paths: by path tracing. photons: from photon maps. final-gather: from photon maps where their radius is "
-      "small compared with the distance of other surfaces, elsewhere by a path to the next surface, where the "
+      "paths: by path tracing. photons: from photon maps. final-gather: from photon maps where their radius "
+      "is "
+      "small compared with the distance of other surfaces, elsewhere by a path to the next surface, where "
+      "the "
       "maps are read. off: none."));
 }
 

@@ -16,9 +16,7 @@ float mixed(float by_tree, float by_power) {
 }  // namespace
 
 LightSampler::LightSampler(const std::vector<Light>& lights, size_t most_by_power)
-    : by_power_(lights.size() <= most_by_power),
-      power_(light_power_distribution(lights)),
-      tree_(lights) {
+    : by_power_(lights.size() <= most_by_power), power_(light_power_distribution(lights)), tree_(lights) {
   if (by_power_) return;
   for (uint32_t i = 0; i < lights.size(); ++i) {
     if (!bounds_of(lights[i]) && luminance(power(lights[i])) > 0) placeless_.push_back(i);

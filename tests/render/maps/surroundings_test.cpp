@@ -32,20 +32,20 @@ Surroundings surroundings_of(const Scene& scene) {
 }
 
 // Under a plane at height 1 the distance in direction theta is 1 / cos(theta), whose inverse has the mean 2/3
-// over a cosine-weighted hemisphere and the variance 1/2 - 4/9. A cell has at least 4 points of 16 rays, which
-// are stratified; the share of the sky beyond the ceiling's border is 1e-4.
+// over a cosine-weighted hemisphere and the variance 1/2 - 4/9. A cell has at least 4 points of 16 rays,
+// which are stratified; the share of the sky beyond the ceiling's border is 1e-4.
 TEST(Surroundings, ClearanceUnderACeilingIsOneAndAHalfTimesItsHeight) {
   const Surroundings found = surroundings_of(two_planes(true));
   const double deviation = std::sqrt((1 / 2.0 - 4 / 9.0) / 64);
   for (const float x : {-0.05f, 0.0f, 0.04f})
-    EXPECT_NEAR(1 / double(found.clearance({x, 0, 0}, {0, 1, 0})), 2 / 3.0, 4 * deviation);
+    EXPECT_NEAR(1 / double(found.at({x, 0, 0}, {0, 1, 0}).clearance), 2 / 3.0, 4 * deviation);
 }
 
 TEST(Surroundings, IsInfiniteInTheOpenAndUnknownElsewhere) {
   const Surroundings found = surroundings_of(two_planes(false));
-  EXPECT_EQ(found.clearance({0, 0, 0}, {0, 1, 0}), kInfinity);
-  EXPECT_EQ(found.clearance({0, 0, 0}, {0, -1, 0}), 0);  // the camera does not see this side
-  EXPECT_EQ(found.clearance({0, 5, 0}, {0, 1, 0}), 0);
+  EXPECT_EQ(found.at({0, 0, 0}, {0, 1, 0}).clearance, kInfinity);
+  EXPECT_EQ(found.at({0, 0, 0}, {0, -1, 0}).clearance, 0);  // the camera does not see this side
+  EXPECT_EQ(found.at({0, 5, 0}, {0, 1, 0}).clearance, 0);
 }
 
 TEST(Surroundings, ScalesByPowersOfTwo) {
@@ -55,7 +55,7 @@ TEST(Surroundings, ScalesByPowersOfTwo) {
     const Surroundings scaled = surroundings_of(two_planes(true, scale));
     for (int i = -5; i <= 5; ++i) {
       const Point3 p(0.02f * float(i), 0, 0.01f * float(i));
-      EXPECT_EQ(scaled.clearance(scale * p, {0, 1, 0}), scale * one.clearance(p, {0, 1, 0}));
+      EXPECT_EQ(scaled.at(scale * p, {0, 1, 0}).clearance, scale * one.at(p, {0, 1, 0}).clearance);
     }
   }
 }
