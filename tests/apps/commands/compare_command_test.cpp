@@ -98,7 +98,7 @@ std::string film_with_layers(const std::string& path, float direct, const std::v
       film.at(x, y).direct = Rgb(direct);
       film.at(x, y).depth = 2;
     }
-  render::write_film(path, film, {.layers = render::layers_from_names(layers)});
+  render::write_film(path, film, {render::layers_from_names(layers), {}, {}});
   return path;
 }
 

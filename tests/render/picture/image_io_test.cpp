@@ -95,7 +95,7 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
 TEST(ImageIo, ReadsOneLayer) {
   const std::string path = output_file("one-layer.exr");
   const Film film = numbered_film();
-  write_film(path, film, {.layers = layers_from_names({"all"})});
+  write_film(path, film, {layers_from_names({"all"}), {}, {}});
   const Image direct = read_layer(path, "direct"), normal = read_layer(path, "normal");
   const Image depth = read_layer(path, "depth");
   ASSERT_EQ(direct.width, 3);
