@@ -8,9 +8,9 @@ namespace kaustik {
 
 // The effects that this scene requires. All others are left out, and the log says so.
 struct SceneNeeds {
-  bool specular = false;           // some surface has a specular part: caustics are possible
-  bool delta = false;              // some specular part is a delta lobe: lights cannot be sampled there
-  bool diffuse = false;            // some surface has a diffuse part: photon maps are useful
+  bool specular = false;  // some surface has a specular part: caustics are possible
+  bool delta = false;     // some specular part is a delta lobe: lights cannot be sampled there
+  bool diffuse = false;   // some surface that is not black has a diffuse part: photon maps are useful
   bool only_delta_lights = false;  // no ray can hit a light: caustics need photons
   bool infinite_light = false;
   bool sky_alone = false;  // all lights are infinite: visibility is hard to predict

@@ -23,10 +23,19 @@ void set_scene_sphere(std::vector<Light>& lights, const Bounds3& bounds) {
   }
 }
 
+// Whether surfaces of this material scatter nothing at all, like the body of a lamp.
+bool scatters_nothing(const Material& material) {
+  if (!material.constant()) return false;
+  const auto* diffuse = std::get_if<Lambertian>(&material.typical());
+  return diffuse && is_black(diffuse->reflectance);
+}
+
 SceneNeeds needs_of(const Scene& scene) {
   SceneNeeds needs;
   for (const Shape& shape : scene.shapes) {
-    const Lobes parts = scene.materials[shape.material].lobes();
+    const Material& material = scene.materials[shape.material];
+    if (scatters_nothing(material)) continue;
+    const Lobes parts = material.lobes();
     needs.specular |= parts.specular;
     needs.delta |= parts.specular && !parts.glossy;
     needs.diffuse |= parts.diffuse;

@@ -26,11 +26,12 @@ bool EstimateBatch::add(const PhotonMap& map, const SurfaceInteraction& si, cons
   return true;
 }
 
-double EstimateBatch::share_of_disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
-                                    const Bsdf& bsdf, const EstimateSettings& settings) {
+EstimateBatch::Disc& EstimateBatch::disc(const PhotonMap& map, const SurfaceInteraction& si,
+                                         const Vector3& wo, const Bsdf& bsdf,
+                                         const EstimateSettings& settings) {
   const std::optional<SeparatedF> f = separated(bsdf, si.shading_frame().to_local(wo));
   const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
-  return gathers_[find_or_prepare(map, settings, {si, wo, n, f ? f->coat : Coat{}})].share;
+  return gathers_[find_or_prepare(map, settings, {si, wo, n, f ? f->coat : Coat{}})].disc;
 }
 
 uint32_t EstimateBatch::find_or_prepare(const PhotonMap& map, const EstimateSettings& settings,
@@ -63,7 +64,7 @@ uint32_t EstimateBatch::prepare(const PhotonMap& map, const EstimateSettings& se
   if (cut && !cut->cuts()) cut.reset();
   const double share =
       settings.edges ? photon::share_of_disc(settings, x.si, query.radius, cut ? &*cut : nullptr) : 1;
-  gathers_.push_back({&map, query, x.coat, latest_[pixel_], share, x.wo, bool(cut)});
+  gathers_.push_back({&map, query, x.coat, latest_[pixel_], {share}, x.wo, bool(cut)});
   return latest_[pixel_] = static_cast<uint32_t>(gathers_.size() - 1);
 }
 
@@ -78,7 +79,7 @@ void EstimateBatch::complete(const EstimateSettings& settings, const Point& x, G
   gather->flux = x.coat != Coat{} ? gather_through_coat(*gather, kernel, x, cuts)
                  : cuts           ? gather_flux(map, gather->query, kernel, *cuts, counters_)
                                   : gather_flux(map, gather->query, kernel, counters_);
-  gather->flux /= float(gather->share);
+  gather->flux /= float(gather->disc.share);
   gather->accepted = float(counters_.accepted - accepted);
   gather->done = true;
   ++completed_;

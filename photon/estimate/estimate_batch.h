@@ -31,10 +31,15 @@ class EstimateBatch {
   bool add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
            const EstimateSettings& settings, const Rgb& weight, Rgb* radiance, float* photons);
 
-  // Returns share_of_disc() at this point or at one nearby in the same pixel, whose gather a following add()
-  // then completes.
-  double share_of_disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
-                       const Bsdf& bsdf, const EstimateSettings& settings);
+  // What is known of a disc before its photons are gathered.
+  struct Disc {
+    double share;      // of the disc on the surface
+    uint8_t note = 0;  // of the caller, 0 at first; forgotten with the gather
+  };
+  // Returns the disc of this point or of one nearby in the same pixel, whose gather a following add() then
+  // completes. The reference is valid until the next call of another member.
+  Disc& disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
+             const EstimateSettings& settings);
 
   // Adds the estimates that were taken, in the order of the add() calls, and the counts of the gathers to
   // `counters`. They are added after everything that was added to the sums directly.
@@ -52,7 +57,7 @@ class EstimateBatch {
     GatherQuery query;
     Coat coat;
     uint32_t previous;  // previous gather of the same pixel
-    double share;       // of the disc on the surface
+    Disc disc;
     Vector3 wo{0};      // from which the point was seen
     bool cut = false;   // whether walls cut the disc
     bool done = false;  // whether the photons have been gathered

@@ -75,25 +75,36 @@ constexpr double kLeastSupport = 0.2;
 constexpr float kErrorOfGuess = 0.5f;
 
 // Relative error of a disc of this radius at a place of this clearance: the irradiance varies over distances
-// of the clearance, and the mean over a disc of the half of its second derivative times the square of the
-// distance is r^2 / 8 of that. Of a place without known clearance, that of the radius is assumed.
+// of about twice the clearance, and the mean over a disc of the half of its second derivative times the
+// square of the distance is r^2 / 8 of that. Of a place without known clearance, that of the radius is
+// assumed.
 float error_of_disc(float radius, float clearance) {
   const float ratio = clearance > 0 ? radius / clearance : 1;
-  return std::min(ratio * ratio / 8, kErrorOfGuess);
+  return std::min(ratio * ratio / 32, kErrorOfGuess);
 }
 
-// Whether the indirect map's disc at x is a better estimate than a final gather. blurred: the point is seen
-// through a glossy lobe that is wider than the disc, so that only the disc's support matters.
-bool takes_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred, photon::EstimateBatch* batch) {
-  const photon::EstimateSettings& estimate = ctx.maps.indirect.estimate;
-  if (!ctx.maps.surroundings) return true;  // without photons, nothing is gathered
+// Whether a disc of this share of the surface, at x, is a better estimate than a final gather. blurred: the
+// point is seen through a glossy lobe that is wider than the disc, so that only the disc's support matters.
+bool disc_is_better(const RenderContext& ctx, const ShadingPoint& x, bool blurred, double share) {
   const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
   const Place place = ctx.maps.surroundings->at(x.si.p, n);
   const float error_of_path = place.noise / std::sqrt(float(ctx.settings.spp));
   if (error_of_path >= kErrorOfGuess) return true;
-  if (!blurred && error_of_disc(estimate.radius, place.clearance) > error_of_path) return false;
-  if (!estimate.edges || estimate.leaf) return true;
-  return batch->share_of_disc(ctx.maps.indirect.map, x.si, x.wo, *x.bsdf, estimate) >= kLeastSupport;
+  const float radius = ctx.maps.indirect.estimate.radius;
+  if (!blurred && error_of_disc(radius, place.clearance) > error_of_path) return false;
+  return share >= kLeastSupport;
+}
+
+// Whether the indirect map's disc is taken at x. The points that share a disc share the answer.
+bool takes_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred, photon::EstimateBatch* batch) {
+  const photon::EstimateSettings& estimate = ctx.maps.indirect.estimate;
+  if (!ctx.maps.surroundings) return true;  // without photons, nothing is gathered
+  if (estimate.leaf) return disc_is_better(ctx, x, blurred, 1);
+  photon::EstimateBatch::Disc& disc = batch->disc(ctx.maps.indirect.map, x.si, x.wo, *x.bsdf, estimate);
+  const uint8_t taken = blurred ? 1 : 2, refused = blurred ? 4 : 8;
+  if (!(disc.note & (taken | refused)))
+    disc.note |= disc_is_better(ctx, x, blurred, disc.share) ? taken : refused;
+  return disc.note & taken;
 }
 
 PointPlan plan_point(const RenderContext& ctx, const ShadingPoint& x, bool blurred,

@@ -32,11 +32,13 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
       break;
     case Method::kAuto:
       // Direct light with predicted visibility has the error of shadow rays in less time. Nothing is
-      // predicted for a sky, since part of it is visible nearly everywhere. Indirect light from photons has
+      // predicted for a sky, since part of it is visible nearly everywhere, nor without surfaces that photons
+      // could light. Indirect light from photons has
       // less error in the same time than paths on every scene measured, and no fireflies where a small bright
       // patch lights the room (docs/decisions/032-indirect-light-from-photons.md); a final gather replaces it
       // where other surfaces are near (docs/decisions/042-final-gather-by-place.md).
-      plan.direct = needs.any_light && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
+      plan.direct =
+          needs.any_light && needs.diffuse && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
       plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kFinalGather;
       break;
   }
@@ -56,9 +58,10 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
         : !needs.any_light ? "no light: no caustic pass"
                            : "no diffuse surface: no caustic pass");
   }
-  if (!needs.any_light && plan->indirect != Indirect::kOff && !settings.indirect) {
+  if ((!needs.any_light || !needs.diffuse) && plan->indirect != Indirect::kOff && !settings.indirect) {
     plan->indirect = Indirect::kOff;
-    plan->notes.push_back("no light: no indirect light");
+    plan->notes.push_back(!needs.any_light ? "no light: no indirect light"
+                                           : "no diffuse surface: no indirect light");
   }
 }
 

@@ -57,6 +57,17 @@ TEST(Scene, NeedsFollowFromSurfacesAndLights) {
   EXPECT_FALSE(scene.needs.only_delta_lights);
 }
 
+TEST(Scene, BlackSurfacesAreNotDiffuse) {
+  Scene scene = two_spheres();
+  scene.materials[0] = Lambertian{Rgb(0)};
+  finalize_scene(scene);
+  EXPECT_FALSE(scene.needs.diffuse);
+  EXPECT_TRUE(scene.needs.specular);
+  scene.materials[0] = Lambertian{Rgb(0, 0, 0.01f)};
+  finalize_scene(scene);
+  EXPECT_TRUE(scene.needs.diffuse);
+}
+
 TEST(Scene, EmptySceneIsFinite) {
   Scene scene;
   scene.lights = {InfiniteLight{}};

@@ -72,6 +72,17 @@ TEST(Plan, NoCausticPassWithoutSpecularSurfaces) {
   }
 }
 
+TEST(Plan, NoPhotonsWithoutDiffuseSurfaces) {
+  SceneNeeds needs = needs_of(true);
+  needs.diffuse = false;
+  const EstimatorPlan plan = make_plan({}, needs);
+  EXPECT_EQ(plan.direct, Direct::kShadowRays);
+  EXPECT_EQ(plan.caustics, Caustic::kOff);
+  EXPECT_EQ(plan.indirect, Indirect::kOff);
+  EXPECT_TRUE(mentions(plan, "no diffuse surface: no indirect light"));
+  EXPECT_TRUE(mentions(plan, "no photon pass"));
+}
+
 TEST(Plan, ExplicitChoicesOverrideThePreset) {
   RenderSettings settings;
   settings.method = Method::kPhoton;

@@ -104,7 +104,8 @@ inline Estimate total(const std::vector<Film>& of) {
   return estimate_of(means);
 }
 
-// The settings combined with every way to estimate direct, caustic and indirect light.
+// The settings combined with every way to estimate direct, caustic and indirect light; the final gather only
+// with the direct light that method auto combines it with, since it takes long.
 inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) {
   settings.photons = 100'000;
   std::vector<RenderSettings> all;
@@ -113,6 +114,7 @@ inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) 
     for (const auto caustics : {CausticEstimator::kPhotons, CausticEstimator::kPaths})
       for (const auto indirect :
            {IndirectEstimator::kPaths, IndirectEstimator::kPhotons, IndirectEstimator::kFinalGather}) {
+        if (indirect == IndirectEstimator::kFinalGather && direct != DirectEstimator::kPredicted) continue;
         settings.direct = direct;
         settings.caustics = caustics;
         settings.indirect = indirect;
