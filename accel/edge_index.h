@@ -1,6 +1,6 @@
 #pragma once
 // Finds the boundary edges near a point: by a linear walk in surface groups that have few edges (walls,
-// tables), and by Embree's point query over the boxes of all edges in the others.
+// tables), and by a tree of boxes in each of the others.
 
 #include <memory>
 #include <span>
@@ -23,8 +23,8 @@ class EdgeIndex {
 
   // Finds the edges of the surface group that have a point within radius (metres, closed) of p. Writes their
   // indices in ascending order and returns their number, or out.size() + 1 when they do not all fit; the
-  // contents of out are then unspecified. The result does not depend on the BVH, and scales with the scene by
-  // powers of two.
+  // contents of out are then unspecified. The result does not depend on the trees, and scales with the scene
+  // by powers of two.
   size_t find(const Point3& p, float radius, uint32_t surface_group, std::span<uint32_t> out) const;
 
   const BoundaryEdge& operator[](uint32_t i) const { return edges_[i]; }
@@ -32,11 +32,11 @@ class EdgeIndex {
   uint64_t memory_bytes() const;
 
  private:
-  struct Impl;
+  struct Tree;
   std::vector<BoundaryEdge> edges_;
   // The first edge of each surface group in edges_, and the end of the last one.
   std::vector<uint32_t> group_begin_;
-  std::unique_ptr<Impl> impl_;  // null when there are no edges
+  std::vector<std::unique_ptr<const Tree>> trees_;  // by surface group; null for groups with few edges
 };
 
 // Returns the edges that are true ends, in their order: drops those behind which the same surface group

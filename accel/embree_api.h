@@ -49,27 +49,6 @@ inline void embree_intersect(RTCScene scene, const int* valid, bool coherent, RT
 }
 #endif
 
-// Calls fn(primitive) for every primitive whose box comes within radius of the point, in any order; stops
-// when fn returns false. Embree rounds the distances to boxes, so make the radius a little larger than
-// needed.
-template <class Fn>
-void embree_visit_near(RTCScene scene, float x, float y, float z, float radius, Fn& fn) {
-  RTCPointQuery query;
-  query.x = x;
-  query.y = y;
-  query.z = z;
-  query.time = 0;
-  query.radius = radius;
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  const auto visit = [](RTCPointQueryFunctionArguments* args) {
-    if ((*static_cast<Fn*>(args->userPtr))(args->primID)) return false;
-    args->query->radius = 0;  // a radius of zero ends the query
-    return true;
-  };
-  rtcPointQuery(scene, &query, &context, visit, &fn);
-}
-
 // Embree marks an occluded ray by this value of tfar.
 inline constexpr float kEmbreeOccluded = -std::numeric_limits<float>::infinity();
 

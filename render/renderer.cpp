@@ -58,12 +58,13 @@ ProgressCallback serialised(const ProgressCallback& progress, uint64_t passes) {
 // Renders the passes of one render, one after the other, and holds the state that they share.
 class PassRenderer {
  public:
-  // first: the photons of a single pass, or null. radii: r0, if an earlier render settled it.
-  PassRenderer(const RenderInput& input, uint64_t shares, std::shared_ptr<FirstPhotons> first,
+  // task: its photons are those of a single pass, or null. radii: r0, if an earlier render settled it.
+  PassRenderer(const RenderInput& input, uint64_t shares, const RenderTask& task,
                const std::optional<GatherRadii>& radii, ProgressCallback progress)
       : input_(input),
         shares_(shares),
-        first_(std::move(first)),
+        first_(task.photons),
+        further_work_(task.further_work),
         progress_(std::move(progress)),
         photons_(radii) {}
 
@@ -89,7 +90,7 @@ class PassRenderer {
                             pass_samples(part, input_.settings, input_.plan),
                             camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
     const Stopwatch watch;
-    const bool finished = render_tiles(ctx, progress_, film, statistics);
+    const bool finished = render_tiles(ctx, progress_, film, statistics, further_work_);
     statistics->render_s += watch.seconds();
     statistics->passes += finished;
     return finished;
@@ -117,6 +118,7 @@ class PassRenderer {
   const RenderInput input_;
   uint64_t shares_;
   std::shared_ptr<FirstPhotons> first_;
+  FurtherWork further_work_;
   ProgressCallback progress_;
   PassPhotons photons_;
 };
@@ -209,7 +211,7 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
 
   require(!task.photons || missing == PassSet(0, 1),
           "photons shot in advance can be used only for a single pass");
-  PassRenderer renderer(input, shares, std::move(task.photons), result.sums.radii,
+  PassRenderer renderer(input, shares, task, result.sums.radii,
                         serialised(callback, goal.end() < kMostPasses ? std::max(shares, goal.end()) : 0));
   auto tiles = make_window<PixelSum>(settings.crop, scene.camera);
   result.cancelled = !render_passes(renderer, missing, task, &tiles, &result);

@@ -27,14 +27,6 @@ render::RenderResult render_with_bar(const Job& job, const accel::Bvh& bvh, rend
       std::move(task));
 }
 
-// Chooses settings that fill --time. Returns the photons of the only pass, or null when there are several
-// passes.
-std::shared_ptr<render::FirstPhotons> fill_time(const accel::Bvh& bvh, const InterruptGuard& interrupt,
-                                                const Stopwatch& total, const Console& console, Job* job) {
-  const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
-  return settle_time(job->scene, bvh, total, go_on, console, &job->settings);
-}
-
 // The passes to render: open-ended if a rule decides when to stop, and only the finished ones if the rule is
 // already met.
 render::PassSet goal_of(const Job& job, const RenderSession& session, StopRule& rule) {
@@ -68,6 +60,12 @@ void report_stop(const StopRule& rule, const render::RenderResult& result, const
   const uint64_t passes = result.sums.passes.count();
   console.note(fmt::format("stopped by --{} after {} pass{}{}{}", rule.reason(), passes,
                            passes == 1 ? "" : "es", error.empty() ? "" : ": ", error));
+}
+
+// Logs the options that give the bits of a single pass again.
+void report_filled(double seconds, const render::RenderSettings& settings, const Console& console) {
+  console.note(fmt::format("--time {}s gave --spp {} --photons {} --adaptive {}", seconds, settings.spp,
+                           settings.photons, settings.adaptive));
 }
 
 // Only partial results need a full manifest. It names library versions, for which OpenImageIO must be loaded,
@@ -121,10 +119,12 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     const Stopwatch watch;
     const accel::Bvh bvh(job.scene, job.settings.render.threads);
     times.bvh = watch.seconds();
-    std::shared_ptr<render::FirstPhotons> photons;
-    if (session.fill_time) photons = fill_time(bvh, interrupt, total, console, &job);
-    times.trials = watch.seconds() - times.bvh - (photons ? seconds_of(photons->statistics) : 0);
-    if (photons) job.settings.stop.seconds.reset();  // the settings already fit the time
+    const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
+    FilledTime filled;
+    if (session.fill_time) filled = settle_time(job.scene, bvh, total, go_on, console, &job.settings);
+    const double filled_seconds = filled.photons ? *job.settings.stop.seconds : 0;
+    times.trials = watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
+    if (filled.photons) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
@@ -140,9 +140,12 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
                             .done = std::move(session.done),
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session),
-                            .photons = std::move(photons)};
+                            .further_work = std::move(filled.further_work),
+                            .photons = std::move(filled.photons)};
     RenderOutcome outcome{render_with_bar(job, bvh, std::move(task), bar, interrupt), times};
     bar.clear();
+    if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.further_work);
+    if (filled_seconds > 0) report_filled(filled_seconds, job.settings.render, console);
     outcome.times.total = total.seconds();
     code = finish(job, session, std::move(outcome), checkpoint, rule, console);
   });

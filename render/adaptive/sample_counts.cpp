@@ -91,6 +91,8 @@ void SampleCounts::choose_counts(uint64_t first, double further_work) {
     all.add(half, 1);
     if (half.pixels > 0) roots += std::sqrt(std::max(half.mean * half.pixels, 0.0));
   }
+  counts_before_ = counts_;
+  if (counts_before_.front() == 0) std::ranges::fill(counts_before_, first);
   if (!(all.pixels > 0)) return;
   const double root = roots / all.pixels, least = root * root / 2;
 

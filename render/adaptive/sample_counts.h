@@ -32,9 +32,12 @@ class SampleCounts {
   // together take at most `further_work` times the work of the first. Counts follow the fourth root of
   // variance / (work (mean^2 + m^2)), where m^2 keeps dim pixels from taking all samples; the ratio is that
   // of all light or of traced light, whichever is larger. Where the limit of k is reached, less work is done.
+  // Later calls must allow no less work; no count then falls.
   void choose_counts(uint64_t first, double further_work);
 
   uint64_t count(int x, int y, int half) const { return counts_[index(x, y, half)]; }
+  // The count that the previous call of choose_counts() chose; `first` after the first call.
+  uint64_t count_before(int x, int y, int half) const { return counts_before_[index(x, y, half)]; }
   // Which light the samples beyond the first ones compute.
   SampleLight light(int x, int y, int half) const { return lights_[index(x, y, half)]; }
 
@@ -50,7 +53,7 @@ class SampleCounts {
 
   int first_column_, first_row_, columns_, rows_;
   std::vector<SampleSpread> spreads_;
-  std::vector<uint64_t> counts_;
+  std::vector<uint64_t> counts_, counts_before_;
   std::vector<SampleLight> lights_;
 };
 

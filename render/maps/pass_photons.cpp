@@ -96,30 +96,35 @@ void PassPhotons::free_maps() {
   maps_.shadow = {};
 }
 
-// Finds surface edges and bends, which depend on the scene alone, unless they are there already.
-void PassPhotons::find_edges(const RenderInput& input) {
-  if (edges_) return;
-  edges_ = std::make_unique<accel::EdgeIndex>(
-      accel::without_continued(find_boundary_edges(input.scene.shapes, &bends_), input.bvh));
+void PassPhotons::explore(const RenderInput& input) {
+  if (!kinds_needed(input.plan).any()) return;
+  ExploredScene& known = *explored_;
+  if (!known.edges) {
+    std::vector<BoundaryEdge> edges = find_boundary_edges(input.scene.shapes, &known.bends);
+    known.edges =
+        std::make_unique<accel::EdgeIndex>(accel::without_continued(std::move(edges), input.bvh));
+  }
+  if (!known.feet) known.feet = accel::find_wall_feet(input.scene, *known.edges);
+  if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather)
+    known.surroundings = std::make_unique<const Surroundings>(input);
 }
 
-// Finds the feet of walls, unless they are there already. Later passes have smaller discs than the first one
-// of this process.
-void PassPhotons::find_walls(const RenderInput& input) {
+// Prepares the feet of walls for the radii of the first pass of this process; later passes have smaller discs.
+void PassPhotons::find_walls(const Scene& scene) {
   if (std::exchange(walls_are_known_, true)) return;
-  std::vector<BoundaryEdge> feet = accel::find_wall_feet(input.scene, *edges_);
   const float radius = std::max({radii_->direct, radii_->caustic, radii_->indirect});
-  if (!feet.empty() && radius > 0)
-    walls_ = std::make_unique<photon::Walls>(std::move(feet), input.scene.bounds, radius);
+  if (!explored_->feet->empty() && radius > 0)
+    walls_ = std::make_unique<photon::Walls>(*explored_->feet, scene.bounds, radius);
 }
 
 // Sets the radii and k-nearest counts for this pass; both shrink from pass to pass.
-void PassPhotons::set_estimates(const RenderSettings& settings, const PassShare& pass) {
+void PassPhotons::set_estimates(const RenderInput& input, const PassShare& pass) {
+  const RenderSettings& settings = input.settings;
   const double squared = shrink_.squared(pass.pass, settings.alpha.value_or(1)), shrink = std::sqrt(squared);
   const auto shrunk = [&](float radius) { return static_cast<float>(double(radius) * shrink); };
   for (GatherMap* gather : gather_maps(maps_)) {
     gather->estimate = estimate_settings(settings, pass);
-    if (settings.lookup != Lookup::kLeaf) gather->estimate.edges = edges_.get();
+    if (settings.lookup != Lookup::kLeaf) gather->estimate.edges = explored_->edges.get();
     gather->estimate.walls = walls_.get();
   }
   if (radii_->caustic_nearest > 0 && settings.nearest == 0)
@@ -134,6 +139,8 @@ void PassPhotons::set_estimates(const RenderSettings& settings, const PassShare&
   maps_.direct.estimate.radius = shrunk(radii_->direct);
   maps_.caustic.estimate.radius = shrunk(radii_->caustic);
   maps_.indirect.estimate.radius = shrunk(radii_->indirect);
+  const bool chooses = input.plan.indirect == IndirectEstimator::kFinalGather;
+  maps_.surroundings = chooses ? explored_->surroundings.get() : nullptr;
   // M0 is a limit, so it is rounded down.
   maps_.lecture = {shrunk(radii_->direct), share(settings.node_photons, pass),
                    static_cast<uint32_t>(settings.min_photons / pass.shares)};
@@ -143,7 +150,7 @@ void PassPhotons::set_estimates(const RenderSettings& settings, const PassShare&
 std::shared_ptr<const photon::SurfaceAreas> PassPhotons::areas_for(float radius, const Scene& scene) const {
   for (const GatherMap* gather : {&maps_.direct, &maps_.caustic, &maps_.indirect})
     if (gather->areas && gather->areas->radius() == radius) return gather->areas;
-  return std::make_shared<const photon::SurfaceAreas>(scene, bends_, radius);
+  return std::make_shared<const photon::SurfaceAreas>(scene, explored_->bends, radius);
 }
 
 // Sets the areas of curved surfaces for each map. Maps with k-nearest estimates go without: where photons are
@@ -158,12 +165,6 @@ void PassPhotons::set_areas(const Scene& scene) {
   }
 }
 
-void PassPhotons::find_surroundings(const RenderInput& input) {
-  if (input.plan.indirect != IndirectEstimator::kFinalGather) return;
-  if (!surroundings_) surroundings_ = std::make_unique<const Surroundings>(input);
-  maps_.surroundings = surroundings_.get();
-}
-
 bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
                        RenderStatistics* statistics) {
   if (!kinds_needed(input.plan).any()) return true;
@@ -175,11 +176,10 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
   const Stopwatch watch;
   build_maps(input, std::move(shot));
   if (!radii_) radii_ = settle_radii(input, pass, maps_);
-  find_edges(input);
-  find_walls(input);
-  set_estimates(input.settings, pass);
+  explore(input);
+  find_walls(input.scene);
+  set_estimates(input, pass);
   set_areas(input.scene);
-  find_surroundings(input);
   note_radii(*radii_, statistics);
   add_sizes(maps_, statistics);
   statistics->photon_build_s += watch.seconds();
@@ -198,10 +198,9 @@ void PassPhotons::predict_visibility(const RenderInput& input, RenderStatistics*
 
 void PassPhotons::learn_sky(const RenderInput& input, RenderStatistics* statistics) {
   if (input.settings.method != Method::kAuto || input.scene.infinite_lights.empty()) return;
-  if (std::exchange(sky_is_known_, true)) return;
+  if (explored_->sky) return;
   const Stopwatch watch;
-  auto sky = std::make_unique<const SkyGuide>(input);
-  if (sky->useful()) sky_ = std::move(sky);
+  explored_->sky = std::make_unique<const SkyGuide>(input);
   statistics->photon_trace_s += watch.seconds();
 }
 

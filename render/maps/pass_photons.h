@@ -15,11 +15,23 @@
 
 namespace kaustik::render {
 
+// What is found out about a scene once, whatever the photons; each member is null until it is needed. The
+// estimates of maps point to it.
+struct ExploredScene {
+  std::unique_ptr<const accel::EdgeIndex> edges;  // edges of surfaces
+  std::vector<SurfaceBend> bends;                 // bend of surfaces, by surface group; set with edges
+  std::optional<std::vector<BoundaryEdge>> feet;  // of walls
+  std::unique_ptr<const Surroundings> surroundings;
+  std::unique_ptr<const SkyGuide> sky;
+};
+
 class PassPhotons {
  public:
   PassPhotons() = default;
   // radii: r0 of all passes, if known.
   explicit PassPhotons(const std::optional<GatherRadii>& radii) : radii_(radii) {}
+  // For other photons of a scene of which much is known already.
+  explicit PassPhotons(std::shared_ptr<ExploredScene> explored) : explored_(std::move(explored)) {}
 
   // Shoots and builds the photons that the plan needs in one pass, replacing the maps of the previous pass.
   // If r0 is not known yet, it is determined from these maps, that is by the first pass. Adds to the photon
@@ -28,6 +40,8 @@ class PassPhotons {
   bool make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
             RenderStatistics* statistics);
 
+  // Finds out about the scene what make() needs, as far as it is not known yet.
+  void explore(const RenderInput& input);
   // Makes the visibility tree for `predicted`, unless it exists. It depends on scene and settings but not on
   // the pass; whatever it predicts, the image is unbiased. Its time is added to that of the photons.
   void predict_visibility(const RenderInput& input, RenderStatistics* statistics);
@@ -42,18 +56,21 @@ class PassPhotons {
   // Null: nothing is predicted.
   const photon::VisibilityTree* visibility() const { return visibility_.get(); }
   // Null: samples of skies are not guided.
-  const SkyGuide* sky() const { return sky_.get(); }
+  const SkyGuide* sky() const {
+    return explored_->sky && explored_->sky->useful() ? explored_->sky.get() : nullptr;
+  }
+  // What was found out about the scene. Depends on the scene and on settings other than the numbers of
+  // photons and samples.
+  const std::shared_ptr<ExploredScene>& explored() const { return explored_; }
   // r0 of the first pass; empty until it is known, and if the plan needs no photons.
   const std::optional<GatherRadii>& radii() const { return radii_; }
 
  private:
   void build_maps(const RenderInput& input, photon::ShootResult&& shot);
   void free_maps();
-  void find_edges(const RenderInput& input);
-  void find_walls(const RenderInput& input);
-  void set_estimates(const RenderSettings& settings, const PassShare& pass);
+  void find_walls(const Scene& scene);
+  void set_estimates(const RenderInput& input, const PassShare& pass);
   void set_areas(const Scene& scene);
-  void find_surroundings(const RenderInput& input);
   std::shared_ptr<const photon::SurfaceAreas> areas_for(float radius, const Scene& scene) const;
 
   // State of the current pass.
@@ -62,15 +79,11 @@ class PassPhotons {
   // State shared by all passes.
   std::optional<GatherRadii> radii_;
   RadiusShrink shrink_;
-  std::unique_ptr<const accel::EdgeIndex> edges_;  // edges of surfaces; the estimates point to it
-  std::vector<SurfaceBend> bends_;                 // bend of surfaces, by surface group
-  std::unique_ptr<const photon::Walls> walls_;     // null: none, or not looked for yet
+  std::shared_ptr<ExploredScene> explored_ = std::make_shared<ExploredScene>();
+  std::unique_ptr<const photon::Walls> walls_;  // null: none, or not looked for yet
   bool walls_are_known_ = false;
   PhotonGuides guides_;
-  std::unique_ptr<const Surroundings> surroundings_;
   std::unique_ptr<const photon::VisibilityTree> visibility_;
-  std::unique_ptr<const SkyGuide> sky_;  // null: not useful, or not looked for yet
-  bool sky_is_known_ = false;
 };
 
 // Photons of the first pass, shot in advance, with their statistics.

@@ -3,6 +3,7 @@
 #include "render/passes/pass_trials.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,36 +46,70 @@ std::vector<PixelRange> windows_of(const PixelRange& whole) {
   return windows;
 }
 
-// Seconds for the samples of all pixels, extrapolated from those of the windows.
-double seconds_of(const RenderInput& input, const PassPhotons& photons,
-                  const std::vector<PixelRange>& windows) {
-  const Stopwatch watch;
-  const RenderSettings& settings = input.settings;
-  const Camera& camera = input.scene.camera;
-  const PassShare pass = pass_share(0, 1, settings.photons, settings.spp);
-  const RenderContext ctx{input,
-                          photons.maps(),
-                          photons.visibility(),
-                          photons.sky(),
-                          pass,
-                          pass_samples(pass, settings, input.plan),
-                          camera_cone(camera, pass.end_sample)};
-  tbb::parallel_for(size_t(0), windows.size(), [&](size_t i) {
-    const PixelRange& w = windows[i];
+// Renders trial windows and extrapolates to the picture.
+class WindowTrials {
+ public:
+  WindowTrials(const RenderInput& input, const PassPhotons& photons)
+      : input_(input),
+        photons_(photons),
+        whole_(rendered_range(input.settings.crop, input.scene.camera)),
+        windows_(windows_of(whole_)) {
+    // Neighbouring windows are alike, and a trial that is cut short should still see all of the picture.
+    std::ranges::stable_sort(windows_, std::less<>(), [](const PixelRange& w) {
+      return hash_combine(uint64_t(w.x0) << 32 | uint64_t(w.y0), kWindowOrder);
+    });
+  }
+
+  // Seconds for these samples of all pixels. Renders no further windows once `most` seconds have passed; the
+  // trials that follow take the same windows.
+  double seconds(int spp, float adaptive, double most = kInfinity) {
+    RenderSettings tried = input_.settings;
+    tried.spp = spp, tried.adaptive = adaptive;
+    const RenderInput input{input_.scene, input_.bvh, tried, input_.plan};
+    const size_t together = 2 * size_t(tbb::this_task_arena::max_concurrency());
+    const Stopwatch watch;
+    size_t done = 0;
+    while (done < windows_.size() && (done == 0 || watch.seconds() < most)) {
+      const size_t end = std::min(windows_.size(), done + together);
+      tbb::parallel_for(done, end, [&](size_t i) { render(input, windows_[i]); });
+      done = end;
+    }
+    const double seconds = watch.seconds();
+    windows_.resize(done);
+    uint64_t pixels = 0;
+    for (const PixelRange& w : windows_) pixels += w.pixels();
+    return seconds * double(whole_.pixels()) / double(pixels);
+  }
+
+ private:
+  static constexpr uint64_t kWindowOrder = 0x717A15;
+
+  void render(const RenderInput& input, const PixelRange& w) const {
+    const Camera& camera = input.scene.camera;
+    const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
+    const RenderContext ctx{input,
+                            photons_.maps(),
+                            photons_.visibility(),
+                            photons_.sky(),
+                            pass,
+                            pass_samples(pass, input.settings, input.plan),
+                            camera_cone(camera, pass.end_sample)};
     FilmSums film(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height);
     RenderStatistics ignored;
     render_tiles(ctx, {}, &film, &ignored);
-  });
-  const double seconds = watch.seconds();
-  uint64_t pixels = 0;
-  for (const PixelRange& w : windows) pixels += w.pixels();
-  return seconds * double(rendered_range(settings.crop, camera).pixels()) / double(pixels);
-}
+  }
+
+  const RenderInput& input_;
+  const PassPhotons& photons_;
+  PixelRange whole_;
+  std::vector<PixelRange> windows_;
+};
 
 }  // namespace
 
-FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress) {
-  FirstPhotons first;
+FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
+                         std::shared_ptr<ExploredScene> explored) {
+  FirstPhotons first{PassPhotons(std::move(explored)), {}};
   first.photons.make(input, pass_share(0, 1, input.settings.photons, 1), progress, &first.statistics);
   return first;
 }
@@ -89,11 +124,13 @@ PhotonCost photon_cost(double few, double more) {
 
 PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress) {
   PhotonTrial trial;
-  const auto shoot = [&](uint64_t photons) {
+  PassPhotons& photons = trial.first.photons;
+  photons.explore(input);
+  const auto shoot = [&](uint64_t count) {
     const Stopwatch watch;
     RenderSettings few = input.settings;
-    few.photons = photons;
-    trial.first = shoot_first({input.scene, input.bvh, few, input.plan}, progress);
+    few.photons = count;
+    trial.first = shoot_first({input.scene, input.bvh, few, input.plan}, progress, photons.explored());
     return watch.seconds();
   };
   const double few = shoot(kFewPhotons);
@@ -110,26 +147,33 @@ SampleCost sample_cost(double one, double four, double four_further, double adap
   return cost;
 }
 
-SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons) {
-  if (!photons->radii()) return {.each = 1};  // cancelled
-  const RenderSettings& settings = input.settings;
-  const std::vector<PixelRange> windows = windows_of(rendered_range(settings.crop, input.scene.camera));
+namespace {
+
+void learn_for_samples(const RenderInput& input, PassPhotons* photons) {
   RenderStatistics ignored;
   photons->predict_visibility(input, &ignored);
   photons->learn_sky(input, &ignored);
-  const auto seconds = [&](int spp, float adaptive) {
-    RenderSettings tried = settings;
-    tried.spp = spp, tried.adaptive = adaptive;
-    return seconds_of({input.scene, input.bvh, tried, input.plan}, *photons, windows);
-  };
-  const Stopwatch watch;
-  const float w = settings.adaptive;
-  const double one = seconds(1, w);
-  SampleCost cost{0, one / (1 + double(w)), w > 0 ? one / (1 + double(w)) : 0};
-  if (watch.seconds() < most) {
-    const double four = seconds(4, 0);
-    cost = sample_cost(one, four, w > 0 ? seconds(4, w) : four, double(w));
-  }
+}
+
+}  // namespace
+
+double try_one_sample(const RenderInput& input, double most, PassPhotons* photons) {
+  learn_for_samples(input, photons);
+  const double seconds = WindowTrials(input, *photons).seconds(1, 0, most);
+  photons->forget_visibility();
+  return seconds;
+}
+
+SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons) {
+  if (!photons->radii()) return {.each = 1};  // cancelled
+  learn_for_samples(input, photons);
+  const float w = input.settings.adaptive;
+  // The three trials of a window together take about this many times as long as the first.
+  const double all = 1 + 4 / (1 + double(w)) + 4;
+  WindowTrials trials(input, *photons);
+  const double one = trials.seconds(1, w, most / all);
+  const double four = trials.seconds(4, 0);
+  const SampleCost cost = sample_cost(one, four, w > 0 ? trials.seconds(4, w) : four, double(w));
   photons->forget_visibility();  // it depends on settings.spp
   return cost;
 }

@@ -29,15 +29,19 @@ struct PhotonTrial {
   FirstPhotons first;
 };
 
-// Shoots a few photons, and more of them if that took less than `most` seconds.
+// Explores the scene, shoots a few photons, and more of them if that took less than `most` seconds.
 PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress);
 
 // Shoots the photons of a render that has a single pass. They have no radii if the progress callback
-// cancelled.
-FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress);
+// cancelled. explored: what earlier photons of the same scene found out about it.
+FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
+                         std::shared_ptr<ExploredScene> explored = std::make_shared<ExploredScene>());
 
-// Renders one sample with these photons, and four if one took less than `most` seconds. Without photons
-// (cancelled) the result is meaningless.
+// Seconds for one sample of every pixel with these photons, measured in about `most` seconds.
+double try_one_sample(const RenderInput& input, double most, PassPhotons* photons);
+
+// Renders one sample and four, without and with adaptive ones, with these photons in as many windows as take
+// about `most` seconds, at least a few. Without photons (cancelled) the result is meaningless.
 SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons);
 
 }  // namespace kaustik::render

@@ -85,17 +85,19 @@ class TilePass {
   }
 
   // False when the progress callback cancelled.
-  bool render() {
+  bool render(const FurtherWork& further_work) {
     if (!report()) return false;  // where there is one tile, its end is too late to cancel
+    const Stopwatch watch;
     if (!each_tile(&TilePass::first_samples)) return false;
     if (!counts_) return true;
-    counts_->choose_counts(samples(), ctx_.samples.further_work);
-    sort_by_work();
     further_ = true;
-    return each_tile(&TilePass::further_samples);
+    return further_rounds(watch.seconds(), further_work);
   }
 
-  void fill(RenderStatistics* statistics) const { merged_.fill(statistics); }
+  void fill(RenderStatistics* statistics) const {
+    merged_.fill(statistics);
+    statistics->further_work = work_;
+  }
 
  private:
   uint64_t samples() const { return ctx_.samples.end - ctx_.samples.first; }  // first samples of each pixel
@@ -111,13 +113,29 @@ class TilePass {
   }
 
   bool further_samples(const PixelRange& block, photon::EstimateBatch* batch, TileWork* work) {
-    const uint64_t first = ctx_.samples.end;
+    const uint64_t first = ctx_.samples.first;
     for (int half = 0; half < kHalves; ++half) {
-      const uint64_t more = counts_->count(block.x0, block.y0, half) - samples();
-      const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd, first, first + more,
+      const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd,
+                              first + counts_->count_before(block.x0, block.y0, half),
+                              first + counts_->count(block.x0, block.y0, half),
                               counts_->light(block.x0, block.y0, half)};
       if (!render_block(ctx_, block, range, batch, {&film_, nullptr, &work->result}, work->go_on))
         return false;
+    }
+    return true;
+  }
+
+  // Renders adaptive samples in rounds. seconds: what the first samples took.
+  bool further_rounds(double seconds, const FurtherWork& further_work) {
+    for (double end = kFirstRound; work_ < end; end *= 2) {
+      const double all = further_work ? further_work(work_, seconds) : ctx_.samples.further_work;
+      if (!(std::min(end, all) > work_)) return true;
+      work_ = std::min(end, all);
+      counts_->choose_counts(samples(), work_);
+      sort_by_work();
+      const Stopwatch watch;
+      if (!each_tile(&TilePass::further_samples)) return false;
+      seconds = watch.seconds();
     }
     return true;
   }
@@ -196,15 +214,16 @@ class TilePass {
   std::mutex mutex_;  // guards merged_, the callback, and done_ while tiles are rendered
   uint64_t done_ = 0, to_do_ = 0;
   bool further_ = false;  // adaptive samples are being added
+  double work_ = 0;       // that adaptive samples were allowed so far
   std::atomic<bool> cancelled_{false};
 };
 
 }  // namespace
 
 bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
-                  RenderStatistics* statistics) {
+                  RenderStatistics* statistics, const FurtherWork& further_work) {
   TilePass pass(ctx, progress, film);
-  const bool finished = pass.render();
+  const bool finished = pass.render(further_work);
   pass.fill(statistics);
   return finished;
 }

@@ -2,6 +2,8 @@
 // Renders the image in square tiles, in parallel. Every sample is a function of (seed, pixel, number) alone,
 // so the result has the same bits for any number of threads.
 
+#include <functional>
+
 #include "render/estimators/render_context.h"
 #include "render/film/film.h"
 #include "render/plan/progress.h"
@@ -10,10 +12,20 @@ namespace kaustik::render {
 
 inline constexpr int kTileSize = 16;
 
+// Returns how much work adaptive samples may add in all, as a multiple of that of the first samples. Asked
+// before each round of them: `done` is what earlier rounds were allowed, `seconds` what the last round, or the
+// first samples, took.
+using FurtherWork = std::function<double(double done, double seconds)>;
+
+// Adaptive samples come in rounds, each of which may double the work of those before it. Rounds end at fixed
+// multiples of the first samples' work, so that the same total gives the same bits.
+inline constexpr double kFirstRound = 0.75;
+
 // Adds the samples of ctx.pass to each pixel of the film's window, and their ray, gather, lecture and drop
 // counts to statistics. False when the progress callback cancelled; then tiles are missing. The callback is
-// called at the start, after each tile, and several times a second within long ones.
+// called at the start, after each tile, and several times a second within long ones. If ctx allows adaptive
+// samples, further_work, if set, says how many; statistics says what it allowed.
 bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
-                  RenderStatistics* statistics);
+                  RenderStatistics* statistics, const FurtherWork& further_work = {});
 
 }  // namespace kaustik::render

@@ -17,11 +17,17 @@ namespace {
 // Shares of the time: what photons get (measured, docs/decisions/005-time-is-filled-by-one-pass.md), and a
 // reserve, because a pass is never cut short.
 constexpr double kPhotons = 0.28, kMargin = 0.03;
-constexpr double kTrial = 0.2;  // share of the time after which no larger trial follows
+// Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
+// of samples.
+constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.02;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
-// Most adaptive samples per base sample. Measured: up to here they are worth about as much as base samples.
-constexpr double kMostFurther = 3;
+// Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples. There
+// are more only where the trials took samples for slower than they were.
+constexpr double kMostFurther = 12;
+// Least adaptive samples, where the first samples have used the time up: none at all would be a render of
+// other units for its sums.
+constexpr double kLeastFurther = 0.01;
 // A render is split into passes if it would take longer than this (seconds) and fit this many samples per
 // pixel: a single pass would show nothing for long, and more adaptive samples would hardly be placed better.
 constexpr double kLongPass = 4;
@@ -47,14 +53,6 @@ int samples_within(const render::SampleCost& cost, double adaptive, double secon
   return spp;
 }
 
-// The adaptive samples per base sample that fit, rounded down to hundredths, so that the log can state them
-// exactly; not less than asked for.
-float further_within(const render::SampleCost& cost, int spp, double asked, double seconds) {
-  if (!(asked > 0)) return 0;
-  const double fits = (seconds - cost.of(spp, 0)) / std::max(spp * cost.further, 1e-9);
-  return float(std::clamp(std::floor(100 * fits) / 100, asked, std::max(asked, kMostFurther)));
-}
-
 // The photons that fit, rounded down to two digits, so that the log can state them exactly.
 uint64_t photons_within(const render::PhotonCost& cost, double seconds, double fewest) {
   const double photons = std::clamp((seconds - cost.fixed) / cost.each, std::max(fewest, 10.0), 1e12);
@@ -76,25 +74,25 @@ class TimePlan {
         plan_(render::make_plan(render_, scene.needs)),
         fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)) {}
 
-  // Returns null if the render is split into passes, and photons without radii if it was cancelled.
-  std::shared_ptr<render::FirstPhotons> settle() {
-    render::PhotonTrial trial = render::try_photons(input(), kTrial * seconds_, progress_);
-    if (!trial.first.photons.radii()) return std::make_shared<render::FirstPhotons>(std::move(trial.first));
+  FilledTime settle() {
+    render::PhotonTrial trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_);
+    if (!trial.first.photons.radii()) return {std::make_shared<render::FirstPhotons>(std::move(trial.first)), {}};
     if (seconds_ > kLongPass) {
-      const render::SampleCost cost = samples(&trial.first.photons);
-      if (cost.of(kManySamples, render_.adaptive) < (1 - kPhotons) * left()) {
-        set_passes(trial.cost, cost);
-        return nullptr;
+      const double one = render::try_one_sample(input(), kSampleTrial / 4 * seconds_, &trial.first.photons);
+      if (one * kManySamples * (1 + double(render_.adaptive)) < (1 - kPhotons) * left()) {
+        set_passes(trial.cost, {.each = one, .further = one});
+        return {};
       }
     }
     render_.photons = photons_within(trial.cost, kPhotons * left(), fewest_);
     render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
+    const std::shared_ptr<render::ExploredScene> explored = trial.first.photons.explored();
     trial = {};
-    auto first = std::make_shared<render::FirstPhotons>(render::shoot_first(input(), progress_));
-    const render::SampleCost cost = samples(&first->photons);
+    auto first = std::make_shared<render::FirstPhotons>(render::shoot_first(input(), progress_, explored));
+    const render::SampleCost cost =
+        render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
-    render_.adaptive = further_within(cost, render_.spp, render_.adaptive, left());
-    return first;
+    return {std::move(first), further_work(cost)};
   }
 
  private:
@@ -104,8 +102,19 @@ class TimePlan {
     const uint64_t pixels = render::rendered_range(render_.crop, scene_.camera).pixels();
     return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels);
   }
-  render::SampleCost samples(render::PassPhotons* photons) const {
-    return render::try_samples(input(), kTrial * seconds_, photons);
+
+  // The adaptive samples that fit by the time that samples took so far. Rounded down to hundredths, so that the
+  // log can state them exactly. Until there are some, they are taken to cost as in the trial.
+  std::function<double(double, double)> further_work(const render::SampleCost& cost) const {
+    if (!(render_.adaptive > 0)) return {};
+    const double spp = render_.spp;
+    const double trial = std::max(spp * cost.further / cost.of(spp, 0), 0.1);
+    return [plan = *this, trial, before = 0.0](double done, double seconds) mutable {
+      const double each = done > 0 ? seconds / (done - before) : seconds * trial;
+      before = done;
+      const double fits = done + plan.left() / std::max(each, 1e-9);
+      return double(float(std::clamp(std::floor(100 * fits) / 100, std::max(done, kLeastFurther), kMostFurther)));
+    };
   }
 
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
@@ -140,21 +149,20 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
          render::kinds_needed(render::make_plan(settings.render, needs)).any();
 }
 
-std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const accel::Bvh& bvh,
-                                                  const Stopwatch& total,
-                                                  const render::ProgressCallback& progress,
-                                                  const Console& console, Settings* settings) {
-  auto photons = TimePlan(scene, bvh, total, progress, settings).settle();
-  if (photons && !photons->photons.radii()) return photons;
-  if (!photons) settle_error_settings(console, settings);
+FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
+                       const render::ProgressCallback& progress, const Console& console, Settings* settings) {
+  FilledTime filled = TimePlan(scene, bvh, total, progress, settings).settle();
+  if (filled.photons && !filled.photons->photons.radii()) return filled;
+  if (!filled.photons) settle_error_settings(console, settings);
   const render::RenderSettings& render = settings->render;
+  const std::string choice =
+      filled.photons
+          ? ", and adaptive samples until the time is up"
+          : fmt::format(" --passes {} --alpha {}, and more passes until the time is up", render.passes,
+                        *render.alpha);
   console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}", *settings->stop.seconds,
-                           render.spp, render.photons,
-                           photons
-                               ? fmt::format(" --adaptive {}", render.adaptive)
-                               : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
-                                             render.passes, *render.alpha)));
-  return photons;
+                           render.spp, render.photons, choice));
+  return filled;
 }
 
 }  // namespace kaustik::app

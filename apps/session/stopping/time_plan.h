@@ -1,6 +1,7 @@
 #pragma once
 // Chooses the photons and samples that fill --time.
 
+#include <functional>
 #include <memory>
 
 #include "accel/bvh.h"
@@ -19,13 +20,19 @@ namespace kaustik::app {
 bool time_decides(const Settings& settings, const SettingOverrides& given, const SceneNeeds& needs,
                   bool writes_passes);
 
-// Chooses photons, samples and passes by short trial renders, and logs them. Plans a single pass, whose
-// adaptive samples are placed best, and returns its photons (without radii if `progress` cancelled). If that
-// pass would be long, plans an open-ended number of passes and returns null. `total`: started with the
-// command. Call it within the render's task arena.
-std::shared_ptr<render::FirstPhotons> settle_time(const Scene& scene, const accel::Bvh& bvh,
-                                                  const Stopwatch& total,
-                                                  const render::ProgressCallback& progress,
-                                                  const Console& console, Settings* settings);
+// A render that was planned to fill a time.
+struct FilledTime {
+  // Of a single pass, whose adaptive samples are placed best; without radii if the progress callback cancelled.
+  // Null: several passes.
+  std::shared_ptr<render::FirstPhotons> photons;
+  // For render::RenderTask: chooses the adaptive samples of a single pass while it is rendered. May be empty.
+  std::function<double(double done, double seconds)> further_work;
+};
+
+// Chooses photons, samples and passes by short trial renders, and logs them. If a single pass would be long,
+// plans an open-ended number of passes. `total`: started with the command. Call it within the render's task
+// arena. The arguments must outlive the result.
+FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
+                       const render::ProgressCallback& progress, const Console& console, Settings* settings);
 
 }  // namespace kaustik::app
