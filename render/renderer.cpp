@@ -10,6 +10,7 @@
 #include "core/stopwatch.h"
 #include "render/adaptive/sample_counts.h"
 #include "render/camera/pixel_range.h"
+#include "render/estimators/disc_pilots.h"
 #include "render/film/error_estimate.h"
 #include "render/maps/pass_photons.h"
 #include "render/passes/passes.h"
@@ -82,7 +83,7 @@ class PassRenderer {
   bool render(uint64_t pass, FilmSums* film, RenderStatistics* statistics) {
     const PassShare part = share(pass);
     if (!make_maps(part, statistics)) return false;
-    const RenderContext ctx{input_,
+    RenderContext ctx{input_,
                             photons_.maps(),
                             photons_.visibility(),
                             photons_.sky(),
@@ -90,6 +91,8 @@ class PassRenderer {
                             pass_samples(part, input_.settings, input_.plan),
                             camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
     const Stopwatch watch;
+    const std::unique_ptr<const DiscCorrection> discs = measure_discs(ctx);
+    ctx.discs = discs.get();
     const bool finished = render_tiles(ctx, progress_, film, statistics, further_work_);
     statistics->render_s += watch.seconds();
     statistics->passes += finished;

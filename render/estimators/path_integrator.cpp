@@ -70,9 +70,10 @@ Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, LightWeight weight
 Rgb arriving_at_end(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler,
                     TileCounters& counters) {
   const bool shared = direct_needs_bsdf_sample(ctx.scene, y);
+  const Rgb gathered = photon::estimate_radiance(ctx.maps.indirect.map, y.si, y.wo, *y.bsdf,
+                                                 ctx.maps.indirect.estimate, counters.gather);
   Rgb sum = arriving(ctx, y, shared ? LightWeight::kMis : LightWeight::kAlone, sampler, counters) +
-            photon::estimate_radiance(ctx.maps.indirect.map, y.si, y.wo, *y.bsdf, ctx.maps.indirect.estimate,
-                                      counters.gather);
+            disc_factor(ctx, y) * gathered;
   if (shared) sum += trace_path(ctx, y, PathReach::kLights, sampler, counters).direct;
   return sum;
 }

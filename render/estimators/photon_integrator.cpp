@@ -14,7 +14,7 @@
 
 #include <array>
 
-#include "render/estimators/path_integrator.h"
+#include "render/estimators/disc_pilots.h"
 #include "render/maps/surroundings.h"
 
 namespace kaustik::render {
@@ -63,10 +63,6 @@ struct PointPlan {
   bool indirect_disc = false;  // gather the indirect map at the point itself
   PathReach path = PathReach::kNone;
 };
-
-// Fewer bounces than this are kept exactly by paths: the photons that a final gather reads at its far end may
-// have one event too many, whose light fades with each bounce.
-constexpr int kDeepEnough = 8;
 
 // Least share of the indirect map's disc that must lie on the surface: that of a disc in a corner, where
 // three walls meet. On narrow surfaces the correction for the missing share is a guess, which may be wrong by
@@ -119,7 +115,7 @@ PointPlan plan_point(const RenderContext& ctx, const ShadingPoint& x, bool blurr
   if ((blurred || !lobes(*x.bsdf).rough) && takes_disc(ctx, x, blurred, batch))
     point.indirect_disc = true;
   else
-    point.path = ctx.settings.max_bounces < kDeepEnough ? PathReach::kRoulette : PathReach::kMaps;
+    point.path = final_gather_reach(ctx);
   return point;
 }
 
@@ -158,7 +154,7 @@ void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& b
   if (!traced_only) {
     if (ctx.plan.caustics == CausticEstimator::kPhotons)
       maps.add(ctx.maps.caustic, x, beta, &result->caustic);
-    if (point.indirect_disc) maps.add(ctx.maps.indirect, x, beta, &result->indirect);
+    if (point.indirect_disc) maps.add(ctx.maps.indirect, x, disc_factor(ctx, x) * beta, &result->indirect);
   }
   if (point.path == PathReach::kNone) return;
   const PathLight path = trace_path(ctx, x, point.path, sampler, maps.counters);

@@ -29,7 +29,7 @@ std::optional<VisiblePoint> visible_point(const RenderInput& input, uint32_t ind
     const ShadingPoint x(scene, si, -ray.d);
     if (!x.specular()) {
       const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;
-      return VisiblePoint{{si.p, n, si.surface_group}, transmits(*x.bsdf), si};
+      return VisiblePoint{{si.p, n, si.surface_group}, transmits(*x.bsdf), si, x.wo};
     }
     const auto s = scatter(x, sampler);
     if (!s) return {};

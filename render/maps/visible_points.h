@@ -12,6 +12,7 @@ struct VisiblePoint {
   photon::GatherQuery query;  // radius unset; n on the viewer's side
   bool both_sides = false;    // the BSDF transmits, so light from the other side is gathered too
   SurfaceInteraction si{};
+  Vector3 wo{0};  // unit, to the viewer
 };
 
 // Traces `count` camera rays and returns the points of those that meet one. A function of scene and settings.

@@ -65,45 +65,94 @@ class WindowTrials {
   double seconds(int spp, float adaptive, double most = kInfinity) {
     RenderSettings tried = input_.settings;
     tried.spp = spp, tried.adaptive = adaptive;
+    const PassShare pass = pass_share(0, 1, tried.photons, spp);
+    films_ = {};
+    return seconds(tried, pass_samples(pass, tried, input_.plan), most);
+  }
+
+  // Seconds for kInHalf samples of all pixels, from number `first` on, whose sums films() then holds.
+  static constexpr uint64_t kInHalf = 2;
+  double seconds_of_half(uint64_t first, double most = kInfinity) {
+    RenderSettings tried = input_.settings;
+    tried.spp = 2 * kInHalf;
+    return seconds(tried, {first, first + kInHalf, 0}, most);
+  }
+  std::vector<FilmSums> take_films() { return std::move(films_); }
+
+ private:
+  static constexpr uint64_t kWindowOrder = 0x717A15;
+
+  double seconds(const RenderSettings& tried, const PassSamples& samples, double most) {
     const RenderInput input{input_.scene, input_.bvh, tried, input_.plan};
     const size_t together = 2 * size_t(tbb::this_task_arena::max_concurrency());
+    films_.assign(windows_.size(), {});
     const Stopwatch watch;
     size_t done = 0;
     while (done < windows_.size() && (done == 0 || watch.seconds() < most)) {
       const size_t end = std::min(windows_.size(), done + together);
-      tbb::parallel_for(done, end, [&](size_t i) { render(input, windows_[i]); });
+      tbb::parallel_for(done, end, [&](size_t i) { films_[i] = render(input, samples, windows_[i]); });
       done = end;
     }
     const double seconds = watch.seconds();
     windows_.resize(done);
+    films_.resize(done);
     uint64_t pixels = 0;
     for (const PixelRange& w : windows_) pixels += w.pixels();
     return seconds * double(whole_.pixels()) / double(pixels);
   }
 
- private:
-  static constexpr uint64_t kWindowOrder = 0x717A15;
-
-  void render(const RenderInput& input, const PixelRange& w) const {
+  FilmSums render(const RenderInput& input, const PassSamples& samples, const PixelRange& w) const {
     const Camera& camera = input.scene.camera;
     const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
-    const RenderContext ctx{input,
-                            photons_.maps(),
-                            photons_.visibility(),
-                            photons_.sky(),
-                            pass,
-                            pass_samples(pass, input.settings, input.plan),
-                            camera_cone(camera, pass.end_sample)};
+    const RenderContext ctx{input, photons_.maps(), photons_.visibility(), photons_.sky(),
+                            pass,  samples,         camera_cone(camera, pass.end_sample)};
     FilmSums film(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height);
     RenderStatistics ignored;
     render_tiles(ctx, {}, &film, &ignored);
+    return film;
   }
 
   const RenderInput& input_;
   const PassPhotons& photons_;
   PixelRange whole_;
   std::vector<PixelRange> windows_;
+  std::vector<FilmSums> films_;  // of the last trial
 };
+
+double luminance_of(const glm::dvec3& c) {
+  return double(luminance(Rgb(c)));
+}
+
+// What two halves of the samples say: the difference of independent estimates is their noise.
+ErrorSources error_sources(const std::vector<FilmSums>& first, const std::vector<FilmSums>& second) {
+  constexpr double kHalf = WindowTrials::kInHalf;
+  struct Pixel {
+    double all, noise, mapped;
+  };
+  std::vector<Pixel> pixels;
+  double mean = 0;
+  for (size_t i = 0; i < first.size(); ++i)
+    for (int y = 0; y < first[i].height(); ++y)
+      for (int x = 0; x < first[i].width(); ++x) {
+        const PixelSum &a = first[i].at(x, y), &b = second[i].at(x, y);
+        const double once = luminance_of(a.emitted + a.direct + a.caustic + a.indirect);
+        const double again = luminance_of(b.emitted + b.direct + b.caustic + b.indirect);
+        const double mapped = luminance_of(a.caustic + a.indirect + b.caustic + b.indirect);
+        pixels.push_back({(once + again) / (2 * kHalf), (once - again) / kHalf, mapped / (2 * kHalf)});
+        mean += pixels.back().all;
+      }
+  mean /= double(std::max<size_t>(pixels.size(), 1));
+  ErrorSources sum;
+  for (const Pixel& p : pixels) {
+    constexpr double kMostOfPixel = 16;  // so that a bright pixel does not decide alone
+    const double unit = p.all * p.all + 0.01 * mean * mean;
+    if (!(unit > 0)) continue;
+    // The variance of the difference of two means of kHalf samples is 2 / kHalf times that of a sample.
+    sum.samples += std::min(p.noise * p.noise * kHalf / 2 / unit, kMostOfPixel) / double(pixels.size());
+    sum.mapped += p.mapped * p.mapped / unit / double(pixels.size());
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -130,11 +179,14 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
     const Stopwatch watch;
     RenderSettings few = input.settings;
     few.photons = count;
-    trial.first = shoot_first({input.scene, input.bvh, few, input.plan}, progress, photons.explored());
+    photons.make({input.scene, input.bvh, few, input.plan}, pass_share(0, 1, count, 1), progress,
+                 &trial.first.statistics);
     return watch.seconds();
   };
-  const double few = shoot(kFewPhotons);
-  trial.cost = few < most ? photon_cost(few, shoot(kMorePhotons)) : PhotonCost{0, few / double(kFewPhotons)};
+  const double first = shoot(kFewPhotons);
+  const uint64_t more = first < most ? kMorePhotons : kFewPhotons;
+  const double each = shoot(more) / double(more);
+  trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each};
   return trial;
 }
 
@@ -157,11 +209,14 @@ void learn_for_samples(const RenderInput& input, PassPhotons* photons) {
 
 }  // namespace
 
-double try_one_sample(const RenderInput& input, double most, PassPhotons* photons) {
+SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* photons) {
   learn_for_samples(input, photons);
-  const double seconds = WindowTrials(input, *photons).seconds(1, 0, most);
+  WindowTrials trials(input, *photons);
+  const double first_seconds = trials.seconds_of_half(0, most / 2);
+  const std::vector<FilmSums> first = trials.take_films();
+  const double seconds = first_seconds + trials.seconds_of_half(WindowTrials::kInHalf);
   photons->forget_visibility();
-  return seconds;
+  return {seconds / (2 * WindowTrials::kInHalf), error_sources(first, trials.take_films())};
 }
 
 SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons) {

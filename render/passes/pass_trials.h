@@ -37,8 +37,18 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
 FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
                          std::shared_ptr<ExploredScene> explored = std::make_shared<ExploredScene>());
 
-// Seconds for one sample of every pixel with these photons, measured in about `most` seconds.
-double try_one_sample(const RenderInput& input, double most, PassPhotons* photons);
+// Where the error of a picture comes from, as means over its pixels relative to the square of their luminance
+// (to which the square of a tenth of the picture's mean is added).
+struct ErrorSources {
+  double samples = 0;  // variance of one sample, given the photons
+  double mapped = 0;   // square of the caustic and indirect light
+};
+struct SampleTrial {
+  double seconds = 0;  // for one sample of every pixel
+  ErrorSources errors;
+};
+// Renders a few samples in windows with these photons for about `most` seconds.
+SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* photons);
 
 // Renders one sample and four, without and with adaptive ones, with these photons in as many windows as take
 // about `most` seconds, at least a few. Without photons (cancelled) the result is meaningless.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
+#include <cstdio>
 
 #include "apps/session/stopping/stop_rules.h"
 #include "render/camera/pixel_range.h"
@@ -14,9 +16,11 @@ namespace kaustik::app {
 
 namespace {
 
-// Shares of the time: what photons get (measured, docs/decisions/005-time-is-filled-by-one-pass.md), and a
-// reserve, because a pass is never cut short.
-constexpr double kPhotons = 0.28, kMargin = 0.03;
+// Shares of the time: the least and the most that photons get, and a reserve.
+constexpr double kLeastPhotons = 0.03, kMostPhotons = 0.5, kMargin = 0.03;
+// Relative squared error of an estimate from a map after a million photons were emitted
+// (docs/decisions/005-time-is-filled-by-one-pass.md).
+const double kErrorOfMillion = getenv("KAPPA") ? atof(getenv("KAPPA")) : 0.005;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.02;
@@ -77,14 +81,15 @@ class TimePlan {
   FilledTime settle() {
     render::PhotonTrial trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_);
     if (!trial.first.photons.radii()) return {std::make_shared<render::FirstPhotons>(std::move(trial.first)), {}};
-    if (seconds_ > kLongPass) {
-      const double one = render::try_one_sample(input(), kSampleTrial / 4 * seconds_, &trial.first.photons);
-      if (one * kManySamples * (1 + double(render_.adaptive)) < (1 - kPhotons) * left()) {
-        set_passes(trial.cost, {.each = one, .further = one});
-        return {};
-      }
+    const render::SampleTrial sample =
+        render::try_one_sample(input(), kSampleTrial / 2 * seconds_, &trial.first.photons);
+    const double share = photon_share(trial, sample);
+    if (seconds_ > kLongPass &&
+        sample.seconds * kManySamples * (1 + double(render_.adaptive)) < (1 - share) * left()) {
+      set_passes(trial.cost, {.each = sample.seconds, .further = sample.seconds}, share);
+      return {};
     }
-    render_.photons = photons_within(trial.cost, kPhotons * left(), fewest_);
+    render_.photons = photons_within(trial.cost, share * left(), fewest_);
     render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
     const std::shared_ptr<render::ExploredScene> explored = trial.first.photons.explored();
     trial = {};
@@ -117,12 +122,28 @@ class TimePlan {
     };
   }
 
+  // The share of the time that photons get: where the sum of the noise of samples and of the photons' error is
+  // least. The photons' error is taken to fall as the number in reach of an estimate grows.
+  double photon_share(const render::PhotonTrial& trial, const render::SampleTrial& sample) const {
+    const double each = std::max(trial.cost.each, 1e-12);
+    double best = kLeastPhotons, least = HUGE_VAL;
+    for (double share = kLeastPhotons; share <= kMostPhotons; share += 0.01) {
+      const double samples = (1 - share) * left() / sample.seconds;
+      const double photons = std::max(share * left() / each, 1.0);
+      const double error = sample.errors.samples / std::max(samples, 1e-9) +
+                           sample.errors.mapped * kErrorOfMillion / std::pow(photons / 1e6, 2.0 / 3);
+      if (error < least) least = error, best = share;
+    }
+    if (getenv("SHOW")) fprintf(stderr, "traced %g mapped %g sec %g each %g share %g\n", sample.errors.samples, sample.errors.mapped, sample.seconds, each, best);
+    return best;
+  }
+
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
   // them.
-  void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples) {
+  void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples, double share) {
     const double each = left() / kPasses;
-    const int spp = samples_within(samples, 0, (1 - kPhotons) * each, kMostSamples);
-    render_.photons = kErrorPasses * photons_within(photons, kPhotons / (1 - kPhotons) * samples.of(spp, 0),
+    const int spp = samples_within(samples, 0, (1 - share) * each, kMostSamples);
+    render_.photons = kErrorPasses * photons_within(photons, share / (1 - share) * samples.of(spp, 0),
                                                     fewest_ / kErrorPasses);
     render_.spp = int(kErrorPasses) * spp;
     render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
