@@ -14,7 +14,7 @@ class EstimateBatch {
   // photons in the disc, only a share of 4 kShared / pi, at most a sixth, would differ for the second point,
   // so its own estimate would add little information. Neither estimate is closer to the true value than the
   // other.
-  static constexpr float kShared = 1.0f / 8;
+  static constexpr float kShared = 1.0f / 4;
 
   static constexpr uint32_t kPixels = 16;
 

@@ -11,7 +11,7 @@ namespace {
 // Separates the random numbers of these paths from all others.
 constexpr uint64_t kPilotPaths = 0xD15C;
 constexpr int kPathsEach = 4;
-constexpr uint64_t kSamplesEach = 8;  // of the pass, for each path
+constexpr uint64_t kSamplesEach = 4;  // of the pass, for each path
 constexpr uint64_t kMostPoints = 1u << 16;
 constexpr uint64_t kFewestPoints = 64;
 

@@ -13,12 +13,25 @@ constexpr double kLeastFactor = 0.25, kMostFactor = 4;
 // How many times its variance the square of a difference must be to count. Few bright paths make ratios skew:
 // with 1 the picture of a room lit through a gap became brighter by 6 %.
 constexpr double kDoubt = 4;
+constexpr uint32_t kFewestPoints = 8;  // whose spread is worth something
+
+// Mean of the squares of path - ratio disc in units of the disc's square. Dim points count as bright ones do:
+// there, few bright paths bring much of the light.
+double mean_relative_variance(const std::vector<TwoEstimates>& found, const PointSums& all) {
+  const double least = 0.1 * all.disc / all.count, ratio = all.ratio();
+  double sum = 0;
+  for (const TwoEstimates& e : found) {
+    const double relative = (e.path - ratio * e.disc) / std::max(e.disc, least);
+    sum += relative * relative;
+  }
+  return sum / double(found.size());
+}
 
 // The ratio of a cell, drawn towards `prior` by its noise. relative_variance: of one point's estimate in
 // units of the square of its disc, over all points; a cell that met no bright path by chance has too little
 // of its own.
 double shrunk_ratio(const PointSums& cell, double prior, double relative_variance) {
-  if (!(cell.disc > 0) || cell.count < 2) return prior;
+  if (!(cell.disc > 0) || cell.count < kFewestPoints) return prior;
   const double own = cell.residual() * cell.count / (cell.count - 1.0);
   const double variance = std::max(own, relative_variance * cell.disc_squared) / (cell.disc * cell.disc);
   const double difference = cell.ratio() - prior, squared = difference * difference;
@@ -33,7 +46,7 @@ DiscCorrection::DiscCorrection(const std::vector<VisiblePoint>& points,
   PointSums all;
   for (const TwoEstimates& e : found) all.add(e);
   if (!(all.disc > 0)) return;
-  const double relative_variance = all.residual() / all.disc_squared;
+  const double relative_variance = mean_relative_variance(found, all);
   everywhere_ = float(shrunk_ratio(all, 1, relative_variance));
   for (size_t level = 0; level < kResolution.size(); ++level) {
     grids_[level] = {points, kResolution[level]};
