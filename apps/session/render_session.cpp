@@ -122,9 +122,9 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
     FilledTime filled;
     if (session.fill_time) filled = settle_time(job.scene, bvh, total, go_on, console, &job.settings);
-    const double filled_seconds = filled.photons ? *job.settings.stop.seconds : 0;
+    const double filled_seconds = filled.single_pass ? *job.settings.stop.seconds : 0;
     times.trials = watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
-    if (filled.photons) job.settings.stop.seconds.reset();  // the settings already fit the time
+    if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)

@@ -220,7 +220,7 @@ SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* p
 }
 
 SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons) {
-  if (!photons->radii()) return {.each = 1};  // cancelled
+  if (!photons->radii() && kinds_needed(input.plan).any()) return {.each = 1};  // cancelled
   learn_for_samples(input, photons);
   const float w = input.settings.adaptive;
   // The three trials of a window together take about this many times as long as the first.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 
 #include "apps/session/stopping/stop_rules.h"
 #include "render/camera/pixel_range.h"
@@ -20,7 +18,7 @@ namespace {
 constexpr double kLeastPhotons = 0.03, kMostPhotons = 0.5, kMargin = 0.03;
 // Relative squared error of an estimate from a map after a million photons were emitted
 // (docs/decisions/005-time-is-filled-by-one-pass.md).
-const double kErrorOfMillion = getenv("KAPPA") ? atof(getenv("KAPPA")) : 0.005;
+constexpr double kErrorOfMillion = 0.01;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.02;
@@ -76,28 +74,26 @@ class TimePlan {
         seconds_(*settings->stop.seconds),
         render_(settings->render),
         plan_(render::make_plan(render_, scene.needs)),
+        gathers_(render::kinds_needed(plan_).any()),
         fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)) {}
 
   FilledTime settle() {
-    render::PhotonTrial trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_);
-    if (!trial.first.photons.radii()) return {std::make_shared<render::FirstPhotons>(std::move(trial.first)), {}};
+    render::PhotonTrial trial;
+    if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_);
+    auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
+    if (cancelled(*first)) return {true, std::move(first), {}};
     const render::SampleTrial sample =
-        render::try_one_sample(input(), kSampleTrial / 2 * seconds_, &trial.first.photons);
-    const double share = photon_share(trial, sample);
+        render::try_one_sample(input(), kSampleTrial / 2 * seconds_, &first->photons);
+    const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (seconds_ > kLongPass &&
         sample.seconds * kManySamples * (1 + double(render_.adaptive)) < (1 - share) * left()) {
       set_passes(trial.cost, {.each = sample.seconds, .further = sample.seconds}, share);
       return {};
     }
-    render_.photons = photons_within(trial.cost, share * left(), fewest_);
-    render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
-    const std::shared_ptr<render::ExploredScene> explored = trial.first.photons.explored();
-    trial = {};
-    auto first = std::make_shared<render::FirstPhotons>(render::shoot_first(input(), progress_, explored));
-    const render::SampleCost cost =
-        render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
+    if (gathers_) *first = shoot(trial.cost, share * left(), first->photons.explored());
+    const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
-    return {std::move(first), further_work(cost)};
+    return {true, gathers_ ? std::move(first) : nullptr, further_work(cost)};
   }
 
  private:
@@ -106,6 +102,15 @@ class TimePlan {
   double left() const {
     const uint64_t pixels = render::rendered_range(render_.crop, scene_.camera).pixels();
     return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels);
+  }
+
+  bool cancelled(const render::FirstPhotons& first) const { return gathers_ && !first.photons.radii(); }
+
+  render::FirstPhotons shoot(const render::PhotonCost& cost, double seconds,
+                             std::shared_ptr<render::ExploredScene> explored) {
+    render_.photons = photons_within(cost, seconds, fewest_);
+    render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
+    return render::shoot_first(input(), progress_, std::move(explored));
   }
 
   // The adaptive samples that fit by the time that samples took so far. Rounded down to hundredths, so that the
@@ -124,8 +129,8 @@ class TimePlan {
 
   // The share of the time that photons get: where the sum of the noise of samples and of the photons' error is
   // least. The photons' error is taken to fall as the number in reach of an estimate grows.
-  double photon_share(const render::PhotonTrial& trial, const render::SampleTrial& sample) const {
-    const double each = std::max(trial.cost.each, 1e-12);
+  double photon_share(const render::PhotonCost& cost, const render::SampleTrial& sample) const {
+    const double each = std::max(cost.each, 1e-12);
     double best = kLeastPhotons, least = HUGE_VAL;
     for (double share = kLeastPhotons; share <= kMostPhotons; share += 0.01) {
       const double samples = (1 - share) * left() / sample.seconds;
@@ -134,7 +139,6 @@ class TimePlan {
                            sample.errors.mapped * kErrorOfMillion / std::pow(photons / 1e6, 2.0 / 3);
       if (error < least) least = error, best = share;
     }
-    if (getenv("SHOW")) fprintf(stderr, "traced %g mapped %g sec %g each %g share %g\n", sample.errors.samples, sample.errors.mapped, sample.seconds, each, best);
     return best;
   }
 
@@ -143,8 +147,9 @@ class TimePlan {
   void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples, double share) {
     const double each = left() / kPasses;
     const int spp = samples_within(samples, 0, (1 - share) * each, kMostSamples);
-    render_.photons = kErrorPasses * photons_within(photons, share / (1 - share) * samples.of(spp, 0),
-                                                    fewest_ / kErrorPasses);
+    if (gathers_)
+      render_.photons = kErrorPasses * photons_within(photons, share / (1 - share) * samples.of(spp, 0),
+                                                      fewest_ / kErrorPasses);
     render_.spp = int(kErrorPasses) * spp;
     render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
   }
@@ -156,6 +161,7 @@ class TimePlan {
   double seconds_;
   render::RenderSettings& render_;
   render::EstimatorPlan plan_;
+  bool gathers_;   // whether there are photons at all
   double fewest_;  // photons
 };
 
@@ -166,18 +172,19 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
   const bool said = given.sets("photons") || given.sets("spp") || given.sets("quality");
   const bool passes = settings.render.passes > 0 || settings.stop.target_error || writes_passes ||
                       names_error_layer(settings.render.aov) || settings.render.estimate_bias.value_or(false);
+  const render::EstimatorPlan plan = render::make_plan(settings.render, needs);
   return settings.stop.seconds && !said && !passes &&
-         render::kinds_needed(render::make_plan(settings.render, needs)).any();
+         (render::kinds_needed(plan).any() || !render::traces_paths(plan));
 }
 
 FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
                        const render::ProgressCallback& progress, const Console& console, Settings* settings) {
   FilledTime filled = TimePlan(scene, bvh, total, progress, settings).settle();
   if (filled.photons && !filled.photons->photons.radii()) return filled;
-  if (!filled.photons) settle_error_settings(console, settings);
+  if (!filled.single_pass) settle_error_settings(console, settings);
   const render::RenderSettings& render = settings->render;
   const std::string choice =
-      filled.photons
+      filled.single_pass
           ? ", and adaptive samples until the time is up"
           : fmt::format(" --passes {} --alpha {}, and more passes until the time is up", render.passes,
                         *render.alpha);

@@ -15,15 +15,14 @@ namespace kaustik::app {
 
 // Whether trials choose photons, samples and passes in place of the scene's settings. They do if --time is
 // given without photons, samples or quality. They do not if passes are needed, because of --passes, an error
-// estimate, or files that hold passes (`writes_passes`), nor if the render gathers no photons: path tracing
-// can stop after any pass.
+// estimate, or files that hold passes (`writes_passes`), nor for path tracing, which can stop after any pass.
 bool time_decides(const Settings& settings, const SettingOverrides& given, const SceneNeeds& needs,
                   bool writes_passes);
 
 // A render that was planned to fill a time.
 struct FilledTime {
-  // Of a single pass, whose adaptive samples are placed best; without radii if the progress callback cancelled.
-  // Null: several passes.
+  bool single_pass = false;  // adaptive samples are placed best in one
+  // Of the single pass, if it gathers any; without radii if the progress callback cancelled.
   std::shared_ptr<render::FirstPhotons> photons;
   // For render::RenderTask: chooses the adaptive samples of a single pass while it is rendered. May be empty.
   std::function<double(double done, double seconds)> further_work;
