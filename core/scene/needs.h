@@ -10,6 +10,7 @@ namespace kaustik {
 struct SceneNeeds {
   bool specular = false;  // some surface has a specular part: caustics are possible
   bool delta = false;     // some specular part is a delta lobe: lights cannot be sampled there
+  bool glossy = false;    // some surface has only a glossy lobe, which reflects
   bool diffuse = false;   // some surface that is not black has a diffuse part: photon maps are useful
   bool only_delta_lights = false;  // no ray can hit a light: caustics need photons
   bool infinite_light = false;

@@ -38,6 +38,7 @@ SceneNeeds needs_of(const Scene& scene) {
     const Lobes parts = material.lobes();
     needs.specular |= parts.specular;
     needs.delta |= parts.specular && !parts.glossy;
+    needs.glossy |= parts.glossy && !parts.diffuse && !transmits(material.typical());
     needs.diffuse |= parts.diffuse;
   }
   needs.any_light = !scene.lights.empty();

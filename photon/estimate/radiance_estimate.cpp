@@ -65,6 +65,37 @@ struct ReflectedRadiance {
   }
 };
 
+// The sum over the photons whose directions are faint in the glossy lobes.
+struct GlossyTail {
+  const PhotonMap& map;
+  const GatherQuery& query;
+  const KernelSpec& kernel;
+  const Frame& frame;
+  const Vector3& wo;   // local
+  const WallCut* cut;  // null where no wall is near
+  GatherCounters& counters;
+  float most_pdf;
+
+  template <class AnyBsdf>
+  Rgb operator()(const AnyBsdf& bsdf) const {
+    Rgb Lr(0);
+    if constexpr (HasGlossyValue<AnyBsdf>) {
+      if (!bsdf.lobes().glossy) return Lr;
+      const KernelTerms terms = kernel_terms(kernel, query.radius);
+      for_each_photon(
+          map, query,
+          [&](const Photon& photon, float distance_squared) {
+            if (cut && cut->hides(photon.p, photon.wi)) return void(--counters.accepted);
+            const Vector3 wi = frame.to_local(photon.wi);
+            if (!(bsdf.pdf_glossy(wo, wi) < most_pdf)) return;
+            Lr += bsdf.f_glossy(wo, wi) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
+          },
+          counters);
+    }
+    return Lr;
+  }
+};
+
 // A point of the surface, its BSDF, and the direction from which it is seen.
 struct SeenPoint {
   const SurfaceInteraction& si;
@@ -72,15 +103,17 @@ struct SeenPoint {
   const Bsdf& bsdf;
 };
 
+// Sum is ReflectedRadiance or GlossyTail, more its last members.
+template <class Sum, class... More>
 Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery& disc,
-                     const EstimateSettings& settings, GatherCounters& counters) {
+                     const EstimateSettings& settings, GatherCounters& counters, const More&... more) {
   const Frame frame = x.si.shading_frame();
   const Vector3 wo = frame.to_local(x.wo);
   std::optional<WallCut> cut;
   if (settings.walls && settings.walls->near(x.si.p))
     cut.emplace(*settings.walls, x.si, x.wo, disc.n, disc.radius);
   const WallCut* const cuts = cut && cut->cuts() ? &*cut : nullptr;
-  const Rgb Lr = std::visit(ReflectedRadiance{map, disc, settings.kernel, frame, wo, cuts, counters}, x.bsdf);
+  const Rgb Lr = std::visit(Sum{map, disc, settings.kernel, frame, wo, cuts, counters, more...}, x.bsdf);
   if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
   return Lr / float(share_of_disc(settings, x.si, disc.radius, cuts));
 }
@@ -92,10 +125,10 @@ Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& 
   GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
   if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters);
   if (settings.leaf) query.within = map.find_cell(si.p, settings.node_photons, query.radius).range;
-  const Rgb Lr = radiance_of_disc(map, x, query, settings, counters);
+  const Rgb Lr = radiance_of_disc<ReflectedRadiance>(map, x, query, settings, counters);
   if (bias) {
     query.radius /= 2;
-    bias->bias += (Lr - radiance_of_disc(map, x, query, settings, bias->counters)) * (4 / 3.0f);
+    bias->bias += (Lr - radiance_of_disc<ReflectedRadiance>(map, x, query, settings, bias->counters)) * (4 / 3.0f);
   }
   return Lr;
 }
@@ -123,6 +156,16 @@ Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const 
   const Rgb Lr = radiance_from_side(map, x, n, settings, counters, bias);
   if (!transmits(bsdf)) return Lr;
   return Lr + radiance_from_side(map, x, -n, settings, counters, bias);
+}
+
+Rgb estimate_glossy_tail(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
+                         const Bsdf& bsdf, const EstimateSettings& settings, float most_pdf,
+                         GatherCounters& counters) {
+  if (map.empty()) return Rgb(0);
+  const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
+  GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
+  if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters);
+  return radiance_of_disc<GlossyTail>(map, {si, wo, bsdf}, query, settings, counters, most_pdf);
 }
 
 }  // namespace kaustik::photon

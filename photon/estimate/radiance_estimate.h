@@ -58,6 +58,13 @@ Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const 
                       const EstimateSettings& settings, GatherCounters& counters,
                       BiasEstimate* bias = nullptr);
 
+// The same sum over the photons whose directions are faint in the glossy lobes: with f_r that of the glossy
+// lobes, and only where their density of samples, pdf_glossy(wo, wi), is below most_pdf (1/sr). Photons of
+// the viewer's side count. Zero for BSDFs without glossy lobes and empty maps. Thread-safe.
+Rgb estimate_glossy_tail(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
+                         const Bsdf& bsdf, const EstimateSettings& settings, float most_pdf,
+                         GatherCounters& counters);
+
 // Radius of the disc whose photons count in a K-nearest estimate, at most query.radius. The K-th photon
 // itself is excluded: K - 1 photons in the disc that reaches the K-th give an unbiased estimate of density, K
 // photons do not (Silverman 1986, section 5.2).

@@ -78,6 +78,7 @@ class GuideLearner {
                     << (round < kRounds ? 0 : round - kRounds + 1);
     trace.max_bounces = settings_.max_bounces;
     trace.emission = settings_.emission;
+    trace.under_glossy = settings_.under_glossy;
     trace.kinds = only(settings_.kind);
     trace.guide = guide.empty() ? nullptr : &guide;
     return trace;

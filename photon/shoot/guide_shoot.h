@@ -22,6 +22,7 @@ struct GuideSettings {
   std::function<float(const Photon&)> importance{};
   // If more than this fraction of the uniform photons is useful, nothing is guided.
   double enough = 2;
+  bool under_glossy = false;  // as in TraceSettings
 };
 
 struct LearnedGuide {

@@ -35,6 +35,8 @@ struct TraceSettings {
   std::optional<uint32_t> light{};
   // Draws the starts of all lights; must not be empty. Null: starts are uniform.
   const EmissionGuide* guide = nullptr;
+  // Leave caustic photons under the glossy lobes of surfaces that only reflect, too.
+  bool under_glossy = false;
   // Only the requested kinds are traced: without `indirect`, for instance, a photon ends at its first diffuse
   // surface.
   KindMask kinds;

@@ -226,7 +226,11 @@ class Tracer {
     std::visit(
         [&](const auto& bsdf) {
           const Lobes lobes = bsdf.lobes();
-          leave_photon(k, si, photon, !(lobes.diffuse || scene_.materials[si.material].lobes().diffuse));
+          using B = std::remove_cvref_t<decltype(bsdf)>;
+          const bool glossy = settings_.under_glossy && !B::kTransmits && lobes.glossy &&
+                              walkers_.state[k].kind() == PhotonKind::kCaustic;
+          const bool gathers = lobes.diffuse || scene_.materials[si.material].lobes().diffuse || glossy;
+          leave_photon(k, si, photon, !gathers);
           if (walkers_.state[k].is_straight()) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
           const bool wanted = settings_.kinds.indirect || (lobes.specular && settings_.kinds.caustic);
           if (wanted && !is_last(k)) scatter_alone(k, bsdf, si, photon);

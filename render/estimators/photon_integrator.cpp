@@ -15,6 +15,7 @@
 #include <array>
 
 #include "render/estimators/disc_pilots.h"
+#include "render/estimators/glossy_tails.h"
 #include "render/maps/surroundings.h"
 
 namespace kaustik::render {
@@ -184,6 +185,7 @@ struct Branch {
   float share = 1;  // share of the sample: the product of the Fresnel factors where it was split
   int events = 0;
   LastScatter last{};
+  Tail tail = Tail::kNone;
   bool blurred = false;  // an earlier lobe of the chain blurs more than the indirect map's disc
 };
 
@@ -250,13 +252,14 @@ class CameraPath {
 
   // Adds the light at the end of a branch and continues the branch if the surface has specular lobes.
   void visit(const Branch& branch, const Hit& hit) {
+    const bool sees_lights = branch.tail != Tail::kBehind;
     if (!hit.valid()) {
-      result_->emitted += branch.beta * escape_seen(ctx_, branch.last, branch.ray);
+      if (sees_lights) result_->emitted += branch.beta * escape_seen(ctx_, branch.last, branch.ray);
       return;
     }
     const Vector3 wo = -branch.ray.d;
     const SurfaceInteraction si = make_interaction(ctx_.scene.shapes, branch.ray, hit);
-    result_->emitted += branch.beta * emission_seen(ctx_.scene, branch.last, si, branch.ray.d);
+    if (sees_lights) result_->emitted += branch.beta * emission_seen(ctx_.scene, branch.last, si, branch.ray.d);
     const RayCone cone = branch.cone.after(hit.t);
     const bool constant = ctx_.scene.materials[si.material].constant();
     const ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
@@ -266,11 +269,22 @@ class CameraPath {
       if (const float weight = gather_weight(branch.share, sampler_); weight > 0)
         add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_, maps_);
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
-    if (parts.glossy)
-      result_->emitted +=
-          branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
+    if (parts.glossy && branch.tail == Tail::kNone) add_glossy(branch, x);
+    if (branch.tail != Tail::kNone && !ctx_.scene.needs.diffuse) return;  // nothing else can be met
     if (parts.glossy || parts.diffuse || !split(branch, cone, x))
       continue_specular(branch, cone, x, is_blurred(ctx_, branch, hit.t));
+  }
+
+  // Adds the light that the glossy lobes of x scatter straight from lights, and in their tails from the
+  // caustic map.
+  void add_glossy(const Branch& branch, const ShadingPoint& x) {
+    result_->emitted +=
+        branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
+    if (!gathers_tail(ctx_, x)) return;
+    if (const float weight = gather_weight(branch.share, sampler_); weight > 0)
+      result_->emitted += weight * branch.beta *
+                          photon::estimate_glossy_tail(ctx_.maps.caustic.map, x.si, x.wo, *x.bsdf,
+                                                       ctx_.maps.caustic.estimate, kTailPdf, counters_.gather);
   }
 
   void continue_specular(const Branch& from, const RayCone& cone, const ShadingPoint& x, bool blurred) {
@@ -278,8 +292,10 @@ class CameraPath {
     if (!s) return;
     Rgb beta = from.beta * s->weight;
     if (lobes(*x.bsdf).diffuse && !survives_coats(&beta, sampler_)) return;
+    Tail tail = behind_event(from.tail);
+    if (tail == Tail::kNone && s->glossy && gathers_tail(ctx_, x) && in_tail(x, s->wi)) tail = Tail::kLeft;
     push({x.si.spawn(s->wi), cone, beta, from.share, from.events + 1,
-          LastScatter{s->glossy, x.receiver(), s->pdf}, blurred});
+          LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred});
   }
 
   // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
@@ -293,7 +309,7 @@ class CameraPath {
     if (from.share * std::min(reflected->pdf, refracted->pdf) < kDim) return false;
     for (const BsdfSample* s : {&*reflected, &*refracted})
       push({x.si.spawn(s->wi), cone, from.beta * s->weight * s->pdf, from.share * s->pdf, from.events + 1,
-            LastScatter{false, x.receiver(), s->pdf}, from.blurred});
+            LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.blurred});
     return true;
   }
 

@@ -25,6 +25,7 @@ std::unique_ptr<const photon::LearnedGuide> learn_guide(const RenderInput& input
   constexpr uint32_t kPoints = 1u << 14;
   const RenderSettings& s = input.settings;
   photon::GuideSettings guide{s.seed, s.photons, s.max_bounces, s.emission, kind};
+  guide.under_glossy = input.plan.glossy_tails;
   if (beside_others) guide.enough = kEnoughCaustics;
   std::optional<VisibleDensity> visible;
   if (kind == PhotonKind::kIndirect) {
@@ -87,6 +88,7 @@ photon::TraceSettings trace_settings(const RenderSettings& settings, const Estim
   trace.max_bounces = settings.max_bounces;
   trace.emission = settings.emission;
   trace.kinds = kinds_needed(plan);
+  trace.under_glossy = plan.glossy_tails;
   trace.shadow_behind_specular = plan.direct == DirectEstimator::kSigned;
   return trace;
 }

@@ -49,7 +49,8 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
   if (!needs.any_light) plan->notes.push_back("no light: the image is black");
   // Caustics are the only class that may be empty by construction: without specular surfaces, light, or
   // surfaces that receive it.
-  const bool empty = !needs.specular || !needs.any_light || !needs.diffuse;
+  const bool received = needs.diffuse || plan->glossy_tails;
+  const bool empty = !needs.specular || !needs.any_light || !received;
   if (empty && plan->caustics != Caustic::kOff && !settings.caustics) {
     plan->caustics = Caustic::kOff;
     plan->notes.push_back(
@@ -114,6 +115,8 @@ EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs)
   if (settings.direct) plan.direct = *settings.direct;
   if (settings.caustics) plan.caustics = *settings.caustics;
   if (settings.indirect) plan.indirect = *settings.indirect;
+  plan.glossy_tails = settings.method == Method::kAuto && plan.caustics == Caustic::kPhotons && needs.glossy &&
+                      needs.any_light;
   leave_out(settings, needs, &plan);
   plan.notes.insert(plan.notes.begin(),
                     fmt::format("method {}: direct {}, caustics {}, indirect {}", name_of(settings.method),

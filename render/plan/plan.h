@@ -15,6 +15,9 @@ struct EstimatorPlan {
   DirectEstimator direct = DirectEstimator::kShadowRays;
   CausticEstimator caustics = CausticEstimator::kOff;
   IndirectEstimator indirect = IndirectEstimator::kOff;
+  // Light that arrives by way of specular surfaces in the faint directions of a glossy lobe comes from the
+  // caustic map (render/estimators/glossy_tails.h).
+  bool glossy_tails = false;
   std::vector<std::string> notes;  // one sentence each: what was chosen or left out, and why
 };
 

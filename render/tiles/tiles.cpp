@@ -127,7 +127,7 @@ class TilePass {
 
   // Renders adaptive samples in rounds. seconds: what the first samples took.
   bool further_rounds(double seconds, const FurtherWork& further_work) {
-    for (double end = kFirstRound; work_ < end; end *= 2) {
+    for (double end = kFirstRound;; end = next_round(end)) {
       const double all = further_work ? further_work(work_, seconds) : ctx_.samples.further_work;
       if (!(std::min(end, all) > work_)) return true;
       work_ = std::min(end, all);
@@ -137,7 +137,6 @@ class TilePass {
       if (!each_tile(&TilePass::further_samples)) return false;
       seconds = watch.seconds();
     }
-    return true;
   }
 
   // Starts with the tiles that take most samples, so that no thread is left with a long one at the end.

@@ -17,9 +17,14 @@ inline constexpr int kTileSize = 16;
 // first samples, took.
 using FurtherWork = std::function<double(double done, double seconds)>;
 
-// Adaptive samples come in rounds, each of which may double the work of those before it. Rounds end at fixed
-// multiples of the first samples' work, so that the same total gives the same bits.
+// Adaptive samples come in rounds, which end at fixed multiples of the first samples' work, so that the same
+// total gives the same bits: 0.75, 1.125, 1.5, 2.25, 3, ...
 inline constexpr double kFirstRound = 0.75;
+inline double next_round(double end) {
+  double doubled = kFirstRound;
+  while (2 * doubled <= end) doubled *= 2;
+  return end == doubled ? 1.5 * doubled : 2 * doubled;
+}
 
 // Adds the samples of ctx.pass to each pixel of the film's window, and their ray, gather, lecture and drop
 // counts to statistics. False when the progress callback cancelled; then tiles are missing. The callback is
