@@ -3,6 +3,7 @@
 
 #include "core/geometry/boundary_edges.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -223,10 +224,20 @@ constexpr size_t kMaxSidesOfJoint = 64;
 
 void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges,
                     std::vector<SurfaceBend>* bends) {
-  std::vector<OpenSide> open;
-  for (uint32_t i = 0; i < shapes.size(); ++i)
+  std::vector<std::vector<OpenSide>> of_shape(shapes.size());
+  std::vector<SurfaceBend> bend_of_shape(shapes.size());
+  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
     if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[i].geometry))
-      add_open_sides(*mesh, i, shapes[i].surface_group, &open, &(*bends)[shapes[i].surface_group]);
+      add_open_sides(*mesh, uint32_t(i), shapes[i].surface_group, &of_shape[i], &bend_of_shape[i]);
+  });
+  std::vector<OpenSide> open;
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    open.insert(open.end(), of_shape[i].begin(), of_shape[i].end());
+    of_shape[i] = {};
+    SurfaceBend& bend = (*bends)[shapes[i].surface_group];
+    bend.bend += bend_of_shape[i].bend;
+    bend.oriented = bend.oriented && bend_of_shape[i].oriented;
+  }
   const auto key = [](const OpenSide& s) { return std::tie(s.surface_group, s.ends, s.shape, s.corner); };
   tbb::parallel_sort(open.begin(), open.end(),
                      [&](const OpenSide& a, const OpenSide& b) { return key(a) < key(b); });

@@ -58,7 +58,7 @@ inline constexpr double kLeastShare = 1.0 / 16;
 
 // If more edges than this lie within a disc, the outline is finer than the disc resolves: no correction is
 // made.
-inline constexpr size_t kMaxEdgesInReach = 512;
+inline constexpr size_t kMaxEdgesInReach = 192;
 
 // Share of the kernel's mass on si's surface, in [kLeastShare, 1], by which the sum over photons in the disc
 // of `radius` metres at si must be divided. An edge counts if photons in front of it count at si and those

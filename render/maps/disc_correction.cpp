@@ -47,7 +47,7 @@ DiscCorrection::DiscCorrection(const std::vector<VisiblePoint>& points,
   for (const TwoEstimates& e : found) all.add(e);
   if (!(all.disc > 0)) return;
   const double relative_variance = mean_relative_variance(found, all);
-  everywhere_ = float(shrunk_ratio(all, 1, relative_variance));
+  const double everywhere = shrunk_ratio(all, 1, relative_variance);
   for (size_t level = 0; level < kResolution.size(); ++level) {
     grids_[level] = {points, kResolution[level]};
     const auto key = [&](size_t of_level, size_t point) {
@@ -59,15 +59,16 @@ DiscCorrection::DiscCorrection(const std::vector<VisiblePoint>& points,
       cell.sums.add(found[i]);
       cell.parent = level > 0 ? key(level - 1, i) : 0;
     }
-    refine(level, relative_variance, &cells);
+    refine(level, everywhere, relative_variance, &cells);
   }
 }
 
 // Sets the factors of a level. Those of the cells within a coarser one give the light that its factor gives,
 // for that is known best: noise that passes for a difference is positive more often than negative.
-void DiscCorrection::refine(size_t level, double relative_variance, std::unordered_map<uint64_t, Cell>* cells) {
+void DiscCorrection::refine(size_t level, double everywhere, double relative_variance,
+                            std::unordered_map<uint64_t, Cell>* cells) {
   const auto factor_of_parent = [&](const Cell& cell) {
-    return level > 0 ? double(factors_[level - 1].at(cell.parent)) : double(everywhere_);
+    return level > 0 ? double(factors_[level - 1].at(cell.parent)) : everywhere;
   };
   struct Light {
     double wanted = 0, given = 0;
@@ -91,7 +92,7 @@ float DiscCorrection::at(const Point3& p, const Normal3& n) const {
     const auto found = factors_[level].find(grids_[level].blurred_key(p, n));
     if (found != factors_[level].end()) return found->second;
   }
-  return everywhere_;
+  return 1;
 }
 
 }  // namespace kaustik::render

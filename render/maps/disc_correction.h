@@ -45,8 +45,8 @@ class DiscCorrection {
   // found: one for each point; noise of the paths is told apart from errors of the discs by their spread.
   DiscCorrection(const std::vector<VisiblePoint>& points, const std::vector<TwoEstimates>& found);
 
-  // Factor for a disc at p on the side of n. Cells are blurred: nearby points may get the factors of
-  // neighbouring cells.
+  // Factor for a disc at p on the side of n; 1 where there was no point near. Cells are blurred: nearby points
+  // may get the factors of neighbouring cells.
   float at(const Point3& p, const Normal3& n) const;
 
  private:
@@ -59,11 +59,11 @@ class DiscCorrection {
     uint64_t parent = 0;  // key of the coarser cell
     double factor = 1;
   };
-  void refine(size_t level, double relative_variance, std::unordered_map<uint64_t, Cell>* cells);
+  void refine(size_t level, double everywhere, double relative_variance,
+              std::unordered_map<uint64_t, Cell>* cells);
 
   std::array<PlaceGrid, kResolution.size()> grids_;
   std::array<std::unordered_map<uint64_t, float>, kResolution.size()> factors_;
-  float everywhere_ = 1;
 };
 
 }  // namespace kaustik::render

@@ -19,8 +19,7 @@ namespace kaustik::render {
 
 namespace {
 
-// Two trial shoots fit a line to the cost per photon. Including the learning of guides, it predicted up to
-// four million photons within a third on every scene measured.
+// The first trial shoot learns the guides, too, and the second one tells what a photon takes without that.
 constexpr uint64_t kFewPhotons = 1u << 14, kMorePhotons = 1u << 16;
 // Side of a trial window in pixels: a few blocks of rays, which share gathers. This many windows sample the
 // parts of a picture well enough.
@@ -161,14 +160,6 @@ FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progr
   FirstPhotons first{PassPhotons(std::move(explored)), {}};
   first.photons.make(input, pass_share(0, 1, input.settings.photons, 1), progress, &first.statistics);
   return first;
-}
-
-PhotonCost photon_cost(double few, double more) {
-  const double slope = (more - few) / double(kMorePhotons - kFewPhotons);
-  PhotonCost cost;
-  cost.each = std::max(slope, more / double(2 * kMorePhotons));
-  cost.fixed = std::max(few - double(kFewPhotons) * cost.each, 0.0);
-  return cost;
 }
 
 PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress) {

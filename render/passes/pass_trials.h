@@ -18,10 +18,8 @@ struct SampleCost {
   double of(double spp, double adaptive) const { return fixed + spp * (each + adaptive * further); }
 };
 
-// Fits a line to the measured seconds: of 2^14 and 2^16 photons; of one sample with further ones, of four
-// samples without and of four with them. A slope below half of the larger trial's mean cost is attributed to
-// noise and raised to it.
-PhotonCost photon_cost(double few, double more);
+// Fits a line to the measured seconds of one sample with further ones, of four samples without and of four
+// with them. A slope below half of the larger trial's mean cost is attributed to noise and raised to it.
 SampleCost sample_cost(double one, double four, double four_further, double adaptive);
 
 struct PhotonTrial {

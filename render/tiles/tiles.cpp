@@ -81,7 +81,7 @@ class TilePass {
     const PixelRange window{film->x0(), film->x0() + film->width(), film->y0(), film->y0() + film->height()};
     window.for_each_square(kTileSize, [this](const PixelRange& tile) { tiles_.push_back(tile); });
     if (ctx.samples.further_work > 0) counts_.emplace(*film);
-    to_do_ = tiles_.size() * (counts_ ? 2 : 1);
+    to_do_ = tiles_.size() * (1 + rounds_of(ctx.samples.further_work));
   }
 
   // False when the progress callback cancelled.
@@ -133,6 +133,7 @@ class TilePass {
       work_ = std::min(end, all);
       counts_->choose_counts(samples(), work_);
       sort_by_work();
+      to_do_ = std::max(to_do_, done_ + tiles_.size());
       const Stopwatch watch;
       if (!each_tile(&TilePass::further_samples)) return false;
       seconds = watch.seconds();

@@ -25,6 +25,13 @@ inline double next_round(double end) {
   while (2 * doubled <= end) doubled *= 2;
   return end == doubled ? 1.5 * doubled : 2 * doubled;
 }
+// The number of rounds for this much work.
+inline size_t rounds_of(double work) {
+  if (!(work > 0)) return 0;
+  size_t rounds = 1;
+  for (double end = kFirstRound; end < work; end = next_round(end)) ++rounds;
+  return rounds;
+}
 
 // Adds the samples of ctx.pass to each pixel of the film's window, and their ray, gather, lecture and drop
 // counts to statistics. False when the progress callback cancelled; then tiles are missing. The callback is

@@ -148,10 +148,10 @@ TEST(Render, CancelledTileKeepsItsFirstSamples) {
   const accel::Bvh bvh(scene);
   RenderSettings settings;
   settings.method = Method::kRaytrace;
-  settings.spp = 64;
+  settings.spp = 4096;
   settings.adaptive = 0;
   const auto first = render(scene, bvh, settings);
-  settings.adaptive = 100;
+  settings.adaptive = 0.75f;
   // The callback takes longer than the time between two calls, so the next one comes within the tile.
   const auto cut = render(scene, bvh, settings, [within = 0](const Progress& p) mutable {
     std::this_thread::sleep_for(std::chrono::milliseconds(p.done == 1 ? 120 : 0));

@@ -92,6 +92,27 @@ TEST(RadianceEstimate, NearestUsesTheDiscOfTheKthPhoton) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(Lr[c], expected[c], expected[c] * 5 / std::sqrt(float(kNearest)));
 }
 
+// All light comes from one direction, which is in the tail of the glossy lobe or is not.
+TEST(RadianceEstimate, TheTailOfAGlossyLobeIsGathered) {
+  const PhotonMap map = even_floor(kIrradiance);
+  const Conductor metal{Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.4f, 2.2f), {0.15f, 0.15f}};
+  ASSERT_TRUE(metal.lobes().glossy);
+  const Vector3 wi(0, 0, 1);
+  const float pdf = metal.pdf_glossy(kViewer, wi);
+  const Rgb expected = metal.f_glossy(kViewer, wi) * kIrradiance;
+  const EstimateSettings settings{0.1f, {KernelType::kEpanechnikov, 1}, 0, false, 64};
+  GatherCounters counters;
+  const auto tail = [&](const Bsdf& bsdf, float most_pdf) {
+    return estimate_glossy_tail(map, middle(), kViewer, bsdf, settings, most_pdf, counters);
+  };
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(tail(metal, 1.01f * pdf)[c], expected[c],
+                expected[c] * tolerance(0.1f, KernelType::kEpanechnikov));
+  EXPECT_EQ(tail(metal, 0.99f * pdf), Rgb(0));
+  EXPECT_EQ(tail(Lambertian{Rgb(0.5f)}, 1e9f), Rgb(0));
+  EXPECT_EQ(tail(Mirror{}, 1e9f), Rgb(0));
+}
+
 TEST(RadianceEstimate, OtherGroupsAndTheOtherSideDoNotCount) {
   const PhotonMap map = even_floor(kIrradiance);
   const EstimateSettings settings{0.1f, {}, 0, false, 64};

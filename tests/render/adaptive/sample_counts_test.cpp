@@ -120,6 +120,27 @@ TEST(SampleCounts, StayWithinTheWorkAndFollowTheRootOfTheVariance) {
   EXPECT_GT(double(sum), all / 2);  // doubling every count would exceed the work
 }
 
+// More work never takes samples away, and the counts of the round before are kept.
+TEST(SampleCounts, GrowFromRoundToRound) {
+  const auto spread = [](int x, int y, int) { return spread_by({std::ldexp(1.0, 3 * x + y), 1.0}); };
+  SampleCounts counts = counts_of(spread, 4, 0.75);
+  const auto each = [](const auto& check) {
+    for (int y = 0; y < kPixels; y += kRayBlock)
+      for (int x = 0; x < kPixels; x += kRayBlock)
+        for (int half = 0; half < kHalves; ++half) check(x, y, half);
+  };
+  each([&](int x, int y, int half) { EXPECT_EQ(counts.count_before(x, y, half), 4u); });
+  const SampleCounts first = counts;
+  counts.choose_counts(4, 3);
+  uint64_t more = 0;
+  each([&](int x, int y, int half) {
+    EXPECT_EQ(counts.count_before(x, y, half), first.count(x, y, half));
+    EXPECT_GE(counts.count(x, y, half), first.count(x, y, half));
+    more += counts.count(x, y, half) - first.count(x, y, half);
+  });
+  EXPECT_GT(more, 0u);
+}
+
 TEST(SampleCounts, AreEvenWhereNothingDiffers) {
   const auto even = [](double variance) { return [=](int, int, int) { return spread_by({variance, 1.0}); }; };
   const auto dark = counts_of(even(0), 4, 3), noisy = counts_of(even(0.1), 4, 3),
