@@ -89,7 +89,8 @@ void DiscCorrection::refine(size_t level, double everywhere, double relative_var
 
 float DiscCorrection::at(const Point3& p, const Normal3& n) const {
   for (size_t level = kResolution.size(); level-- > 0;) {
-    const auto found = factors_[level].find(grids_[level].blurred_key(p, n));
+    auto found = factors_[level].find(grids_[level].blurred_key(p, n));
+    if (found == factors_[level].end()) found = factors_[level].find(grids_[level].key(p, n));
     if (found != factors_[level].end()) return found->second;
   }
   return 1;
