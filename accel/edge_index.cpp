@@ -14,7 +14,7 @@ namespace kaustik::accel {
 
 namespace {
 
-constexpr uint32_t kFewEdges = 16;    // up to this many, a linear walk is no slower than a descent of the tree
+constexpr uint32_t kFewEdges = 16;  // up to this many, a linear walk is no slower than a descent of the tree
 constexpr uint32_t kEdgesOfLeaf = 4;  // at most
 constexpr int kDeepest = 64;          // halving 2^32 edges takes 32 levels
 
@@ -47,7 +47,7 @@ struct EdgeIndex::Tree {
   }
 
   template <class Visit>
-  void visit_near(const Point3& p, float radius, const Visit& visit) const;
+  bool visit_near(const Point3& p, float radius, size_t most, const Visit& visit) const;
 
  private:
   void build(const std::vector<BoundaryEdge>& edges, uint32_t begin, uint32_t end);
@@ -80,25 +80,31 @@ void EdgeIndex::Tree::build(const std::vector<BoundaryEdge>& edges, uint32_t beg
 }
 
 // Calls visit(edge) for the edges of all leaves whose boxes come within radius of p, until it returns false.
+// False if a node with more than `most` edges lies within the radius as a whole.
 template <class Visit>
-void EdgeIndex::Tree::visit_near(const Point3& p, float radius, const Visit& visit) const {
+bool EdgeIndex::Tree::visit_near(const Point3& p, float radius, size_t most, const Visit& visit) const {
   const glm::dvec3 center(p);
   const double reach = double(radius) * double(radius);
   std::array<uint32_t, kDeepest> waiting{0};
   for (int count = 1; count > 0;) {
     const uint32_t at = waiting[size_t(--count)];
     const Node& node = nodes[at];
-    const glm::dvec3 gap = glm::max(glm::max(glm::dvec3(node.low) - center, center - glm::dvec3(node.high)),
-                                    glm::dvec3(0));
+    const glm::dvec3 gap =
+        glm::max(glm::max(glm::dvec3(node.low) - center, center - glm::dvec3(node.high)), glm::dvec3(0));
     if (glm::dot(gap, gap) > reach) continue;
+    if (node.end - node.begin > most) {
+      const glm::dvec3 far = glm::max(center - glm::dvec3(node.low), glm::dvec3(node.high) - center);
+      if (glm::dot(far, far) <= reach) return false;
+    }
     if (node.second_child == 0) {
       for (uint32_t i = node.begin; i < node.end; ++i)
-        if (!visit(order[i])) return;
+        if (!visit(order[i])) return true;
     } else {
       waiting[size_t(count++)] = node.second_child;
       waiting[size_t(count++)] = at + 1;
     }
   }
+  return true;
 }
 
 EdgeIndex::EdgeIndex(std::vector<BoundaryEdge> edges) : edges_(std::move(edges)) {
@@ -131,10 +137,11 @@ size_t EdgeIndex::find(const Point3& p, float radius, uint32_t surface_group, st
   };
   const Tree* const tree = trees_[surface_group].get();
   if (!tree) {
-    for (uint32_t i = group_begin_[surface_group]; i < group_begin_[surface_group + 1] && visit(i); ++i) continue;
+    for (uint32_t i = group_begin_[surface_group]; i < group_begin_[surface_group + 1] && visit(i); ++i)
+      continue;
     return count;
   }
-  tree->visit_near(p, radius, visit);
+  if (!tree->visit_near(p, radius, out.size(), visit)) return out.size() + 1;
   std::sort(out.begin(), out.begin() + std::ptrdiff_t(std::min(count, out.size())));
   return count;
 }

@@ -84,12 +84,12 @@ class PassRenderer {
     const PassShare part = share(pass);
     if (!make_maps(part, statistics)) return false;
     RenderContext ctx{input_,
-                            photons_.maps(),
-                            photons_.visibility(),
-                            photons_.sky(),
-                            part,
-                            pass_samples(part, input_.settings, input_.plan),
-                            camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
+                      photons_.maps(),
+                      photons_.visibility(),
+                      photons_.sky(),
+                      part,
+                      pass_samples(part, input_.settings, input_.plan),
+                      camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
     const Stopwatch watch;
     const std::unique_ptr<const DiscCorrection> discs = measure_discs(ctx);
     ctx.discs = discs.get();

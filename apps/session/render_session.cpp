@@ -123,7 +123,8 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     FilledTime filled;
     if (session.fill_time) filled = settle_time(job.scene, bvh, total, go_on, console, &job.settings);
     const double filled_seconds = filled.single_pass ? *job.settings.stop.seconds : 0;
-    times.trials = watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
+    times.trials =
+        watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);

@@ -128,7 +128,8 @@ Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& 
   const Rgb Lr = radiance_of_disc<ReflectedRadiance>(map, x, query, settings, counters);
   if (bias) {
     query.radius /= 2;
-    bias->bias += (Lr - radiance_of_disc<ReflectedRadiance>(map, x, query, settings, bias->counters)) * (4 / 3.0f);
+    bias->bias +=
+        (Lr - radiance_of_disc<ReflectedRadiance>(map, x, query, settings, bias->counters)) * (4 / 3.0f);
   }
   return Lr;
 }

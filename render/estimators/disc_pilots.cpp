@@ -21,8 +21,8 @@ TwoEstimates estimate_at(const RenderContext& ctx, const VisiblePoint& point, Sa
   TileCounters ignored;
   TwoEstimates found;
   const GatherMap& indirect = ctx.maps.indirect;
-  found.disc = double(luminance(photon::estimate_radiance(indirect.map, x.si, x.wo, *x.bsdf,
-                                                          indirect.estimate, ignored.gather)));
+  found.disc = double(luminance(
+      photon::estimate_radiance(indirect.map, x.si, x.wo, *x.bsdf, indirect.estimate, ignored.gather)));
   const PathReach reach = final_gather_reach(ctx);
   for (int i = 0; i < kPathsEach; ++i)
     found.path += double(luminance(trace_path(ctx, x, reach, sampler, ignored).indirect)) / kPathsEach;
@@ -58,7 +58,8 @@ std::unique_ptr<const DiscCorrection> measure_discs(const RenderContext& ctx) {
 
 PathReach final_gather_reach(const RenderContext& ctx) {
   constexpr int kDeepEnough = 8;
-  return ctx.settings.max_bounces < kDeepEnough ? PathReach::kRoulette : PathReach::kMaps;
+  const bool reads_caustics = ctx.plan.caustics == CausticEstimator::kPhotons || !ctx.scene.needs.specular;
+  return ctx.settings.max_bounces < kDeepEnough || !reads_caustics ? PathReach::kRoulette : PathReach::kMaps;
 }
 
 }  // namespace kaustik::render

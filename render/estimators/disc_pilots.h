@@ -14,7 +14,8 @@ std::unique_ptr<const DiscCorrection> measure_discs(const RenderContext& ctx);
 
 // How far a final gather follows paths. With fewer than eight bounces it follows them to their end: the
 // photons that are read at the far end of a diffuse segment may have one event too many, whose light fades
-// with each bounce.
+// with each bounce. So it does where there are caustics and no map of them, which would be missing at the
+// end.
 PathReach final_gather_reach(const RenderContext& ctx);
 
 }  // namespace kaustik::render

@@ -259,7 +259,8 @@ class CameraPath {
     }
     const Vector3 wo = -branch.ray.d;
     const SurfaceInteraction si = make_interaction(ctx_.scene.shapes, branch.ray, hit);
-    if (sees_lights) result_->emitted += branch.beta * emission_seen(ctx_.scene, branch.last, si, branch.ray.d);
+    if (sees_lights)
+      result_->emitted += branch.beta * emission_seen(ctx_.scene, branch.last, si, branch.ray.d);
     const RayCone cone = branch.cone.after(hit.t);
     const bool constant = ctx_.scene.materials[si.material].constant();
     const ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
@@ -282,9 +283,10 @@ class CameraPath {
         branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
     if (!gathers_tail(ctx_, x)) return;
     if (const float weight = gather_weight(branch.share, sampler_); weight > 0)
-      result_->emitted += weight * branch.beta *
-                          photon::estimate_glossy_tail(ctx_.maps.caustic.map, x.si, x.wo, *x.bsdf,
-                                                       ctx_.maps.caustic.estimate, kTailPdf, counters_.gather);
+      result_->emitted +=
+          weight * branch.beta *
+          photon::estimate_glossy_tail(ctx_.maps.caustic.map, x.si, x.wo, *x.bsdf, ctx_.maps.caustic.estimate,
+                                       kTailPdf, counters_.gather);
   }
 
   void continue_specular(const Branch& from, const RayCone& cone, const ShadingPoint& x, bool blurred) {

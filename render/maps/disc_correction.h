@@ -45,8 +45,8 @@ class DiscCorrection {
   // found: one for each point; noise of the paths is told apart from errors of the discs by their spread.
   DiscCorrection(const std::vector<VisiblePoint>& points, const std::vector<TwoEstimates>& found);
 
-  // Factor for a disc at p on the side of n; 1 where there was no point near. Cells are blurred: nearby points
-  // may get the factors of neighbouring cells.
+  // Factor for a disc at p on the side of n; 1 where there was no point near. Cells are blurred: nearby
+  // points may get the factors of neighbouring cells.
   float at(const Point3& p, const Normal3& n) const;
 
  private:

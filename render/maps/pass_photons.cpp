@@ -101,15 +101,15 @@ void PassPhotons::explore(const RenderInput& input) {
   ExploredScene& known = *explored_;
   if (!known.edges) {
     std::vector<BoundaryEdge> edges = find_boundary_edges(input.scene.shapes, &known.bends);
-    known.edges =
-        std::make_unique<accel::EdgeIndex>(accel::without_continued(std::move(edges), input.bvh));
+    known.edges = std::make_unique<accel::EdgeIndex>(accel::without_continued(std::move(edges), input.bvh));
   }
   if (!known.feet) known.feet = accel::find_wall_feet(input.scene, *known.edges);
   if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather)
     known.surroundings = std::make_unique<const Surroundings>(input);
 }
 
-// Prepares the feet of walls for the radii of the first pass of this process; later passes have smaller discs.
+// Prepares the feet of walls for the radii of the first pass of this process; later passes have smaller
+// discs.
 void PassPhotons::find_walls(const Scene& scene) {
   if (std::exchange(walls_are_known_, true)) return;
   const float radius = std::max({radii_->direct, radii_->caustic, radii_->indirect});

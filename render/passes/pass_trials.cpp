@@ -103,8 +103,13 @@ class WindowTrials {
   FilmSums render(const RenderInput& input, const PassSamples& samples, const PixelRange& w) const {
     const Camera& camera = input.scene.camera;
     const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
-    const RenderContext ctx{input, photons_.maps(), photons_.visibility(), photons_.sky(),
-                            pass,  samples,         camera_cone(camera, pass.end_sample)};
+    const RenderContext ctx{input,
+                            photons_.maps(),
+                            photons_.visibility(),
+                            photons_.sky(),
+                            pass,
+                            samples,
+                            camera_cone(camera, pass.end_sample)};
     FilmSums film(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height);
     RenderStatistics ignored;
     render_tiles(ctx, {}, &film, &ignored);

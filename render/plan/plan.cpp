@@ -115,8 +115,8 @@ EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs)
   if (settings.direct) plan.direct = *settings.direct;
   if (settings.caustics) plan.caustics = *settings.caustics;
   if (settings.indirect) plan.indirect = *settings.indirect;
-  plan.glossy_tails = settings.method == Method::kAuto && plan.caustics == Caustic::kPhotons && needs.glossy &&
-                      needs.any_light;
+  plan.glossy_tails = settings.method == Method::kAuto && plan.caustics == Caustic::kPhotons &&
+                      needs.glossy && needs.any_light;
   leave_out(settings, needs, &plan);
   plan.notes.insert(plan.notes.begin(),
                     fmt::format("method {}: direct {}, caustics {}, indirect {}", name_of(settings.method),

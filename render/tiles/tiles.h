@@ -13,8 +13,8 @@ namespace kaustik::render {
 inline constexpr int kTileSize = 16;
 
 // Returns how much work adaptive samples may add in all, as a multiple of that of the first samples. Asked
-// before each round of them: `done` is what earlier rounds were allowed, `seconds` what the last round, or the
-// first samples, took.
+// before each round of them: `done` is what earlier rounds were allowed, `seconds` what the last round, or
+// the first samples, took.
 using FurtherWork = std::function<double(double done, double seconds)>;
 
 // Adaptive samples come in rounds, which end at fixed multiples of the first samples' work, so that the same

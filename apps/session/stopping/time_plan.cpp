@@ -24,8 +24,8 @@ constexpr double kErrorOfMillion = 0.01;
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.02;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
-// Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples. There
-// are more only where the trials took samples for slower than they were.
+// Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples.
+// There are more only where the trials took samples for slower than they were.
 constexpr double kMostFurther = 12;
 // Least adaptive samples, where the first samples have used the time up: none at all would be a render of
 // other units for its sums.
@@ -113,8 +113,8 @@ class TimePlan {
     return render::shoot_first(input(), progress_, std::move(explored));
   }
 
-  // The adaptive samples that fit by the time that samples took so far. Rounded down to hundredths, so that the
-  // log can state them exactly. Until there are some, they are taken to cost as in the trial.
+  // The adaptive samples that fit by the time that samples took so far. Rounded down to hundredths, so that
+  // the log can state them exactly. Until there are some, they are taken to cost as in the trial.
   std::function<double(double, double)> further_work(const render::SampleCost& cost) const {
     if (!(render_.adaptive > 0)) return {};
     const double spp = render_.spp;
@@ -123,12 +123,13 @@ class TimePlan {
       const double each = done > 0 ? seconds / (done - before) : seconds * trial;
       before = done;
       const double fits = done + plan.left() / std::max(each, 1e-9);
-      return double(float(std::clamp(std::floor(100 * fits) / 100, std::max(done, kLeastFurther), kMostFurther)));
+      return double(
+          float(std::clamp(std::floor(100 * fits) / 100, std::max(done, kLeastFurther), kMostFurther)));
     };
   }
 
-  // The share of the time that photons get: where the sum of the noise of samples and of the photons' error is
-  // least. The photons' error is taken to fall as the number in reach of an estimate grows.
+  // The share of the time that photons get: where the sum of the noise of samples and of the photons' error
+  // is least. The photons' error is taken to fall as the number in reach of an estimate grows.
   double photon_share(const render::PhotonCost& cost, const render::SampleTrial& sample) const {
     const double each = std::max(cost.each, 1e-12);
     double best = kLeastPhotons, least = HUGE_VAL;
@@ -184,10 +185,9 @@ FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatc
   if (!filled.single_pass) settle_error_settings(console, settings);
   const render::RenderSettings& render = settings->render;
   const std::string choice =
-      filled.single_pass
-          ? ", and adaptive samples until the time is up"
-          : fmt::format(" --passes {} --alpha {}, and more passes until the time is up", render.passes,
-                        *render.alpha);
+      filled.single_pass ? ", and adaptive samples until the time is up"
+                         : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
+                                       render.passes, *render.alpha);
   console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}", *settings->stop.seconds,
                            render.spp, render.photons, choice));
   return filled;

@@ -29,7 +29,8 @@ std::vector<TwoEstimates> estimates(const Fn& ratio, double noise) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> deviation(0, noise);
   std::vector<TwoEstimates> found;
-  for (const VisiblePoint& point : points_of_square()) found.push_back({1, ratio(point.query.p) + deviation(random)});
+  for (const VisiblePoint& point : points_of_square())
+    found.push_back({1, ratio(point.query.p) + deviation(random)});
   return found;
 }
 
@@ -39,7 +40,8 @@ double mean_factor(const DiscCorrection& correction, float x0, float x1) {
   double sum = 0;
   int count = 0;
   for (const VisiblePoint& point : points_of_square())
-    if (point.query.p.x >= x0 && point.query.p.x < x1) sum += double(correction.at(point.query.p, kUp)), ++count;
+    if (point.query.p.x >= x0 && point.query.p.x < x1)
+      sum += double(correction.at(point.query.p, kUp)), ++count;
   return sum / count;
 }
 
