@@ -136,6 +136,7 @@ class TilePass {
       to_do_ = std::max(to_do_, done_ + tiles_.size());
       const Stopwatch watch;
       if (!each_tile(&TilePass::further_samples)) return false;
+      if (work_ < end) return true;  // a further round would not begin where it should
       seconds = watch.seconds();
     }
   }
