@@ -29,8 +29,8 @@ auto seen_from(const AnyBsdf& bsdf, const Vector3& wo) {
   }
 }
 
-// Lr = sum of f_r(x, wo, wi_p) flux_p K(|x - x_p|); f_r is taken out of the sum where it is constant.
-struct ReflectedRadiance {
+// The disc over which photons are summed, and the point that scatters their light.
+struct DiscSum {
   const PhotonMap& map;
   const GatherQuery& query;
   const KernelSpec& kernel;
@@ -38,7 +38,10 @@ struct ReflectedRadiance {
   const Vector3& wo;   // local
   const WallCut* cut;  // null where no wall is near
   GatherCounters& counters;
+};
 
+// Lr = sum of f_r(x, wo, wi_p) flux_p K(|x - x_p|); f_r is taken out of the sum where it is constant.
+struct ReflectedRadiance : DiscSum {
   template <HasConstantValue ConstantBsdf>
   Rgb operator()(const ConstantBsdf& bsdf) const {
     const bool transmitted = glm::dot(query.n, frame.z) * wo.z < 0;
@@ -66,14 +69,7 @@ struct ReflectedRadiance {
 };
 
 // The sum over the photons whose directions are faint in the glossy lobes.
-struct GlossyTail {
-  const PhotonMap& map;
-  const GatherQuery& query;
-  const KernelSpec& kernel;
-  const Frame& frame;
-  const Vector3& wo;   // local
-  const WallCut* cut;  // null where no wall is near
-  GatherCounters& counters;
+struct GlossyTail : DiscSum {
   float most_pdf;
 
   template <class AnyBsdf>
@@ -113,7 +109,7 @@ Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery
   if (settings.walls && settings.walls->near(x.si.p))
     cut.emplace(*settings.walls, x.si, x.wo, disc.n, disc.radius);
   const WallCut* const cuts = cut && cut->cuts() ? &*cut : nullptr;
-  const Rgb Lr = std::visit(Sum{map, disc, settings.kernel, frame, wo, cuts, counters, more...}, x.bsdf);
+  const Rgb Lr = std::visit(Sum{{map, disc, settings.kernel, frame, wo, cuts, counters}, more...}, x.bsdf);
   if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
   return Lr / float(share_of_disc(settings, x.si, disc.radius, cuts));
 }

@@ -65,11 +65,10 @@ class WindowTrials {
     RenderSettings tried = input_.settings;
     tried.spp = spp, tried.adaptive = adaptive;
     const PassShare pass = pass_share(0, 1, tried.photons, spp);
-    films_ = {};
     return seconds(tried, pass_samples(pass, tried, input_.plan), most);
   }
 
-  // Seconds for kInHalf samples of all pixels, from number `first` on, whose sums films() then holds.
+  // Seconds for kInHalf samples of all pixels, from number `first` on, whose sums take_films() then gives.
   static constexpr uint64_t kInHalf = 2;
   double seconds_of_half(uint64_t first, double most = kInfinity) {
     RenderSettings tried = input_.settings;

@@ -131,11 +131,11 @@ class TimePlan {
   // The share of the time that photons get: where the sum of the noise of samples and of the photons' error
   // is least. The photons' error is taken to fall as the number in reach of an estimate grows.
   double photon_share(const render::PhotonCost& cost, const render::SampleTrial& sample) const {
-    const double each = std::max(cost.each, 1e-12);
+    const double each = std::max(cost.each, 1e-12), time = left();
     double best = kLeastPhotons, least = HUGE_VAL;
     for (double share = kLeastPhotons; share <= kMostPhotons; share += 0.01) {
-      const double samples = (1 - share) * left() / sample.seconds;
-      const double photons = std::max(share * left() / each, 1.0);
+      const double samples = (1 - share) * time / sample.seconds;
+      const double photons = std::max(share * time / each, 1.0);
       const double error = sample.errors.samples / std::max(samples, 1e-9) +
                            sample.errors.mapped * kErrorOfMillion / std::pow(photons / 1e6, 2.0 / 3);
       if (error < least) least = error, best = share;
