@@ -51,7 +51,7 @@ std::vector<BoundaryEdge> without_continued(std::vector<BoundaryEdge> edges, con
   for (size_t i = 0; i < edges.size(); ++i)
     if (!continued[i]) edges[kept++] = edges[i];
   edges.resize(kept);
-  edges.shrink_to_fit();
+  if (kept < edges.capacity() / 2) edges.shrink_to_fit();
   return edges;
 }
 

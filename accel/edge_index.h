@@ -15,7 +15,7 @@ class Bvh;
 // Immutable after construction; const members may be called from any thread.
 class EdgeIndex {
  public:
-  // Sorts the edges by surface group and keeps their order within a group.
+  // Sorts the edges by surface group, and by place within a group of many; those of others keep their order.
   explicit EdgeIndex(std::vector<BoundaryEdge> edges);
   ~EdgeIndex();
   EdgeIndex(EdgeIndex&&) noexcept;
@@ -23,8 +23,8 @@ class EdgeIndex {
 
   // Finds the edges of the surface group that have a point within radius (metres, closed) of p. Writes their
   // indices in ascending order and returns their number, or out.size() + 1 when they do not all fit; the
-  // contents of out are then unspecified. The result does not depend on the trees, and scales with the scene
-  // by powers of two.
+  // contents of out are then unspecified. Which edges are found depends on distances alone, and scales with
+  // the scene by powers of two.
   size_t find(const Point3& p, float radius, uint32_t surface_group, std::span<uint32_t> out) const;
 
   const BoundaryEdge& operator[](uint32_t i) const { return edges_[i]; }

@@ -3,7 +3,9 @@
 
 #include "accel/wall_feet.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -29,6 +31,7 @@ struct Face {
   Normal3 n;
   Bounds3 box;
   uint32_t group = 0;
+  uint32_t order = 0;  // among all faces
 };
 
 using Faces = std::vector<const Face*>;
@@ -45,8 +48,10 @@ bool overlap(const Bounds3& a, const Bounds3& b) {
          a.min.z <= b.max.z && b.min.z <= a.max.z;
 }
 
-void add_faces(const Shape& shape, std::vector<Face>* faces) {
+std::vector<Face> faces_of(const Shape& shape) {
   const TriangleMesh& mesh = *shape.mesh();
+  std::vector<Face> faces;
+  faces.reserve(mesh.indices.size());
   const auto* const instance = std::get_if<InstancedMesh>(&shape.geometry);
   for (const auto& triangle : mesh.indices) {
     Face face;
@@ -59,8 +64,9 @@ void add_faces(const Shape& shape, std::vector<Face>* faces) {
     if (face.n == Normal3(0)) continue;
     face.box = grown(face.box);
     face.group = shape.surface_group;
-    faces->push_back(face);
+    faces.push_back(face);
   }
+  return faces;
 }
 
 bool is_glass(const Material& material) {
@@ -201,7 +207,7 @@ class Join {
     const auto middle = faces->begin() + std::ptrdiff_t(faces->size() / 2);
     std::nth_element(faces->begin(), middle, faces->end(), [axis](const Face* a, const Face* b) {
       const float ca = twice_center(*a)[axis], cb = twice_center(*b)[axis];
-      return ca != cb ? ca < cb : a < b;
+      return ca != cb ? ca < cb : a->order < b->order;
     });
     return middle;
   }
@@ -236,7 +242,7 @@ bool lies_on_end(const BoundaryEdge& foot, const EdgeIndex& ends) {
            std::any_of(found.begin(), found.begin() + std::ptrdiff_t(count),
                        [&](uint32_t i) { return std::abs(glm::dot(ends[i].n, foot.n)) > kBendOfOthers; });
   };
-  return ends_at(0.05f) && ends_at(0.5f) && ends_at(0.95f);
+  return ends_at(0.5f) && ends_at(0.05f) && ends_at(0.95f);
 }
 
 // The shapes with the fewest triangles, in their order.
@@ -264,30 +270,52 @@ auto order_of(const BoundaryEdge& e) {
                     e.both_sides);
 }
 
+// The triangles of a shape, and what they may be.
+struct ShapeFaces {
+  std::vector<Face> faces;
+  bool floors = false, walls = false;
+};
+
+std::vector<ShapeFaces> faces_of(const Scene& scene) {
+  const std::vector<uint32_t> shapes = coarse_shapes(scene);
+  std::vector<ShapeFaces> found(shapes.size());
+  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
+    const Shape& shape = scene.shapes[shapes[i]];
+    const Material& material = scene.materials[shape.material];
+    found[i].floors = material.lobes().diffuse;
+    found[i].walls = !shape.has_alpha() && !is_glass(material);
+    if (found[i].floors || found[i].walls) found[i].faces = faces_of(shape);
+  });
+  return found;
+}
+
+void drop_those_on_ends(const EdgeIndex& ends, std::vector<BoundaryEdge>* feet) {
+  std::vector<uint8_t> on_end(feet->size());
+  tbb::parallel_for(size_t{0}, feet->size(), [&](size_t i) { on_end[i] = lies_on_end((*feet)[i], ends); });
+  size_t kept = 0;
+  for (size_t i = 0; i < feet->size(); ++i)
+    if (!on_end[i]) (*feet)[kept++] = (*feet)[i];
+  feet->resize(kept);
+}
+
 }  // namespace
 
 std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends) {
-  std::vector<Face> faces;
-  std::vector<std::pair<uint32_t, size_t>> ends_of_shapes;  // shape, number of faces up to it
-  for (const uint32_t i : coarse_shapes(scene)) {
-    add_faces(scene.shapes[i], &faces);
-    ends_of_shapes.push_back({i, faces.size()});
-  }
+  std::vector<ShapeFaces> shapes = faces_of(scene);
   Faces floors, walls;
-  const Face* face = faces.data();
-  for (const auto& [i, end] : ends_of_shapes) {
-    const Material& material = scene.materials[scene.shapes[i].material];
-    const bool is_wall = !scene.shapes[i].has_alpha() && !is_glass(material);
-    for (; face != faces.data() + end; ++face) {
-      if (material.lobes().diffuse) floors.push_back(face);
-      if (is_wall) walls.push_back(face);
+  uint32_t order = 0;
+  for (ShapeFaces& shape : shapes)
+    for (Face& face : shape.faces) {
+      face.order = order++;
+      if (shape.floors) floors.push_back(&face);
+      if (shape.walls) walls.push_back(&face);
     }
-  }
   Join join;
   std::vector<BoundaryEdge> feet = join.run(std::move(floors), std::move(walls));
   if (join.gave_up()) return {};
-  std::erase_if(feet, [&](const BoundaryEdge& foot) { return lies_on_end(foot, ends); });
-  std::sort(feet.begin(), feet.end(), [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+  drop_those_on_ends(ends, &feet);
+  tbb::parallel_sort(feet.begin(), feet.end(),
+                     [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
   feet.erase(std::unique(feet.begin(), feet.end(),
                          [](const auto& a, const auto& b) { return order_of(a) == order_of(b); }),
              feet.end());

@@ -47,7 +47,7 @@ struct MeshSide {
 // A side that must be compared with other meshes.
 struct OpenSide {
   std::array<PointBits, 2> ends;  // sorted
-  uint32_t surface_group, shape, corner;
+  uint32_t shape, corner;
 };
 
 // For each vertex, the first vertex at the same position.
@@ -122,7 +122,7 @@ size_t distinct_triangles(const TriangleMesh& mesh, std::span<const MeshSide> si
   return count;
 }
 
-void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, std::vector<OpenSide>* open,
+void add_open_sides(const TriangleMesh& mesh, uint32_t shape, std::vector<OpenSide>* open,
                     SurfaceBend* bends) {
   const std::vector<MeshSide> sides = sides_of(mesh);
   for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
@@ -141,7 +141,7 @@ void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, st
       const auto [low, high] = ends_of(mesh, sides[i]);
       std::array<PointBits, 2> ends = {bits_of(low), bits_of(high)};
       std::sort(ends.begin(), ends.end());
-      open->push_back({ends, group, shape, sides[i].corner});
+      open->push_back({ends, shape, sides[i].corner});
     }
   }
 }
@@ -149,7 +149,8 @@ void add_open_sides(const TriangleMesh& mesh, uint32_t shape, uint32_t group, st
 // All sides that meet at one edge, over all meshes.
 class Joint {
  public:
-  Joint(const std::vector<Shape>& shapes, std::span<const OpenSide> sides) {
+  Joint(const std::vector<Shape>& shapes, std::span<const OpenSide> sides)
+      : group_(shapes[sides[0].shape].surface_group) {
     for (const OpenSide& side : sides) {
       const auto& mesh = std::get<TriangleMesh>(shapes[side.shape].geometry);
       const uint32_t t = side.corner / 3, k = side.corner % 3;
@@ -170,7 +171,7 @@ class Joint {
       const Facet& facet = facets_[i];
       const OpenSide& side = *facet.side;
       BoundaryEdge edge = make_edge(point_of(side.ends[0]), point_of(side.ends[1]), facet.third,
-                                    facet.orientation * facet.n, side.surface_group);
+                                    facet.orientation * facet.n, group_);
       if (!(edge.height > 0)) continue;
       edge.both_sides = facet.both_sides;
       // If the partner continues in a third facet, this facet simply ends here.
@@ -216,37 +217,44 @@ class Joint {
     return best;
   }
 
+  uint32_t group_;
   std::vector<Facet> facets_;
 };
 
 // Edges of more triangles are skipped: they are no part of a proper surface, and matching takes cubic time.
 constexpr size_t kMaxSidesOfJoint = 64;
 
-void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges,
-                    std::vector<SurfaceBend>* bends) {
-  std::vector<std::vector<OpenSide>> of_shape(shapes.size());
-  std::vector<SurfaceBend> bend_of_shape(shapes.size());
-  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
-    if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[i].geometry))
-      add_open_sides(*mesh, uint32_t(i), shapes[i].surface_group, &of_shape[i], &bend_of_shape[i]);
-  });
+// Adds the edges of the meshes of one surface group, and how much they bend apart from them.
+void add_group_edges(const std::vector<Shape>& shapes, std::span<const uint32_t> meshes,
+                     std::vector<BoundaryEdge>* edges, SurfaceBend* bends) {
   std::vector<OpenSide> open;
-  for (size_t i = 0; i < shapes.size(); ++i) {
-    open.insert(open.end(), of_shape[i].begin(), of_shape[i].end());
-    of_shape[i] = {};
-    SurfaceBend& bend = (*bends)[shapes[i].surface_group];
-    bend.bend += bend_of_shape[i].bend;
-    bend.oriented = bend.oriented && bend_of_shape[i].oriented;
-  }
-  const auto key = [](const OpenSide& s) { return std::tie(s.surface_group, s.ends, s.shape, s.corner); };
+  for (const uint32_t i : meshes)
+    add_open_sides(std::get<TriangleMesh>(shapes[i].geometry), i, &open, bends);
+  const auto key = [](const OpenSide& s) { return std::tie(s.ends, s.shape, s.corner); };
   tbb::parallel_sort(open.begin(), open.end(),
                      [&](const OpenSide& a, const OpenSide& b) { return key(a) < key(b); });
   for (size_t begin = 0, end = 0; begin < open.size(); begin = end) {
-    while (end < open.size() && open[end].surface_group == open[begin].surface_group &&
-           open[end].ends == open[begin].ends)
-      ++end;
+    while (end < open.size() && open[end].ends == open[begin].ends) ++end;
     if (end - begin <= kMaxSidesOfJoint)
       Joint(shapes, std::span(open).subspan(begin, end - begin)).add_edges(edges);
+  }
+}
+
+// Surface groups share no edges, so that each is done apart.
+void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>* edges,
+                    std::vector<SurfaceBend>* bends) {
+  std::vector<std::vector<uint32_t>> meshes(bends->size());
+  for (uint32_t i = 0; i < shapes.size(); ++i)
+    if (std::holds_alternative<TriangleMesh>(shapes[i].geometry)) meshes[shapes[i].surface_group].push_back(i);
+  std::vector<std::vector<BoundaryEdge>> of_group(meshes.size());
+  tbb::parallel_for(size_t{0}, meshes.size(),
+                    [&](size_t g) { add_group_edges(shapes, meshes[g], &of_group[g], &(*bends)[g]); });
+  size_t count = edges->size();
+  for (const auto& some : of_group) count += some.size();
+  edges->reserve(count);
+  for (auto& some : of_group) {
+    edges->insert(edges->end(), some.begin(), some.end());
+    some = {};
   }
 }
 

@@ -51,33 +51,30 @@ void place(const Transform& to_world, Facet* facet) {
   facet->n = glm::normalize(to_world.normal(facet->n));
 }
 
-std::vector<Facet> facets_of(const Shape& shape) {
+void add_facets(const Shape& shape, std::vector<Facet>* facets) {
   const TriangleMesh quadric = tessellated(shape);
   const auto* const instance = std::get_if<InstancedMesh>(&shape.geometry);
   const TriangleMesh& mesh = shape.mesh() ? *shape.mesh() : quadric;
-  std::vector<Facet> facets;
-  facets.reserve(mesh.indices.size());
+  facets->reserve(facets->size() + mesh.indices.size());
   for (const auto& triangle : mesh.indices) {
     Facet facet{{mesh.P[triangle[0]], mesh.P[triangle[1]], mesh.P[triangle[2]]}, {}, shape.surface_group};
     facet.n = triangle_normal(facet.c[1] - facet.c[0], facet.c[2] - facet.c[0]);
     if (facet.n == Normal3(0)) continue;
     facet.n *= outside_of(mesh, triangle, facet.n, shape.flip_normal);
     if (instance) place(instance->to_world, &facet);
-    facets.push_back(facet);
+    facets->push_back(facet);
   }
-  return facets;
 }
 
-// What triangles that lie on each other have in common: group and corners.
+// What triangles of a group that lie on each other have in common: the corners.
 struct Footprint {
-  uint32_t group;
   std::array<std::array<float, 3>, 3> corners;  // sorted
   uint32_t index;
   auto operator<=>(const Footprint&) const = default;
 };
 
 Footprint footprint_of(const Facet& facet, uint32_t index) {
-  Footprint f{facet.group, {}, index};
+  Footprint f{{}, index};
   for (size_t i = 0; i < 3; ++i)  // adding zero makes -0 and 0 the same
     f.corners[i] = {facet.c[i].x + 0.0f, facet.c[i].y + 0.0f, facet.c[i].z + 0.0f};
   std::sort(f.corners.begin(), f.corners.end());
@@ -91,11 +88,8 @@ void drop_copies(std::vector<Facet>* facets) {
   for (uint32_t i = 0; i < facets->size(); ++i) order.push_back(footprint_of((*facets)[i], i));
   tbb::parallel_sort(order.begin(), order.end());
   std::vector<bool> copy(facets->size());
-  const auto same = [](const Footprint& a, const Footprint& b) {
-    return a.group == b.group && a.corners == b.corners;
-  };
   for (size_t first = 0, i = 1; i < order.size(); ++i) {
-    if (!same(order[first], order[i])) first = i;
+    if (order[first].corners != order[i].corners) first = i;
     for (size_t k = first; k < i && !copy[order[i].index]; ++k)
       copy[order[i].index] = glm::dot((*facets)[order[k].index].n, (*facets)[order[i].index].n) > 0;
   }
@@ -193,6 +187,24 @@ PhotonBuffer joined(const std::vector<Piece>& pieces, float unit) {
   return buffer;
 }
 
+// Cuts the surfaces of the chosen groups into pieces, each group apart.
+std::vector<Piece> pieces_of(const Scene& scene, const std::vector<bool>& chosen, float voxel) {
+  std::vector<std::vector<uint32_t>> shapes(chosen.size());
+  for (uint32_t i = 0; i < scene.shapes.size(); ++i)
+    if (chosen[scene.shapes[i].surface_group]) shapes[scene.shapes[i].surface_group].push_back(i);
+  std::vector<std::vector<Piece>> of_group(shapes.size());
+  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t g) {
+    std::vector<Facet> facets;
+    for (const uint32_t i : shapes[g]) add_facets(scene.shapes[i], &facets);
+    drop_copies(&facets);
+    Cutter cutter(scene.bounds, voxel, &of_group[g]);
+    for (const Facet& facet : facets) cutter.cut(facet);
+  });
+  std::vector<Piece> pieces;
+  for (const auto& some : of_group) pieces.insert(pieces.end(), some.begin(), some.end());
+  return pieces;
+}
+
 // Chooses the groups that are curved enough to be summed, as long as their pieces fit into kMostPieces.
 std::vector<bool> curved_groups(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius) {
   std::vector<double> pieces(bends.size());
@@ -220,17 +232,8 @@ SurfaceAreas::SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& b
   const float voxel = radius / kFineness;
   if (!(voxel > 0) || !std::isfinite(voxel)) return;
   covered_ = curved_groups(scene, bends, radius);
-  std::vector<std::vector<Facet>> of_shape(scene.shapes.size());
-  tbb::parallel_for(size_t{0}, scene.shapes.size(), [&](size_t i) {
-    if (covers(scene.shapes[i].surface_group)) of_shape[i] = facets_of(scene.shapes[i]);
-  });
-  std::vector<Facet> facets;
-  for (auto& some : of_shape) facets.insert(facets.end(), some.begin(), some.end());
-  drop_copies(&facets);
-  std::vector<Piece> pieces;
-  Cutter cutter(scene.bounds, voxel, &pieces);
-  for (const Facet& facet : facets) cutter.cut(facet);
-  pieces_ = PhotonMap::build(joined(pieces, std::ldexp(1.0f, std::ilogb(voxel * voxel))), {scene.bounds});
+  pieces_ = PhotonMap::build(joined(pieces_of(scene, covered_, voxel), std::ldexp(1.0f, std::ilogb(voxel * voxel))),
+                             {scene.bounds});
 }
 
 double SurfaceAreas::share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius,
