@@ -21,11 +21,11 @@ TwoEstimates estimate_at(const RenderContext& ctx, const VisiblePoint& point, Sa
   TileCounters ignored;
   TwoEstimates found;
   const GatherMap& indirect = ctx.maps.indirect;
-  found.disc = double(luminance(
-      photon::estimate_radiance(indirect.map, x.si, x.wo, *x.bsdf, indirect.estimate, ignored.gather)));
+  found.disc = glm::dvec3(
+      photon::estimate_radiance(indirect.map, x.si, x.wo, *x.bsdf, indirect.estimate, ignored.gather));
   const PathReach reach = final_gather_reach(ctx);
   for (int i = 0; i < kPathsEach; ++i)
-    found.path += double(luminance(trace_path(ctx, x, reach, sampler, ignored).indirect)) / kPathsEach;
+    found.path += glm::dvec3(trace_path(ctx, x, reach, sampler, ignored).indirect) / double(kPathsEach);
   return found;
 }
 

@@ -20,9 +20,9 @@ enum class PathReach {
   kRoulette   // until Russian roulette ends the path
 };
 
-// The factor that corrects a disc of the indirect map at x; 1 where nothing is known.
-inline float disc_factor(const RenderContext& ctx, const ShadingPoint& x) {
-  return ctx.discs ? ctx.discs->at(x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n) : 1;
+// The factors that correct a disc of the indirect map at x; 1 where nothing is known.
+inline Rgb disc_factor(const RenderContext& ctx, const ShadingPoint& x) {
+  return ctx.discs ? ctx.discs->at(x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n) : Rgb(1);
 }
 
 // Traces one path that starts at x with a sample of its diffuse lobes. What it meets decides the class:

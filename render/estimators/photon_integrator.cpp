@@ -80,6 +80,13 @@ float error_of_disc(float radius, float clearance) {
   return std::min(ratio * ratio / 32, kErrorOfGuess);
 }
 
+// Relative error of a disc whose correction is this factor: where discs are wrong by much, their error varies
+// as much within a cell of the correction.
+float error_of_correction(const Rgb& factor) {
+  const float f = luminance(factor);
+  return std::abs(f - 1) / std::max(f, 1.0f);
+}
+
 // Whether a disc of this share of the surface, at x, is a better estimate than a final gather. blurred: the
 // point is seen through a glossy lobe that is wider than the disc, so that only the disc's support matters.
 bool disc_is_better(const RenderContext& ctx, const ShadingPoint& x, bool blurred, double share) {
@@ -88,6 +95,7 @@ bool disc_is_better(const RenderContext& ctx, const ShadingPoint& x, bool blurre
   const float error_of_path = place.noise / std::sqrt(float(ctx.settings.spp));
   if (error_of_path >= kErrorOfGuess) return true;
   const float radius = ctx.maps.indirect.estimate.radius;
+  if (error_of_correction(disc_factor(ctx, x)) > error_of_path) return false;
   if (!blurred && error_of_disc(radius, place.clearance) > error_of_path) return false;
   return share >= kLeastSupport;
 }

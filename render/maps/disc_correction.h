@@ -4,38 +4,33 @@
 // A disc that is not small beside what surrounds it takes photons from where the irradiance is another:
 // below a table, in a corner, on a narrow surface. The error is smooth over a place, and paths from a few
 // thousand visible points tell it: the ratio of the sum of their estimates to that of the discs' is known for
-// a cell of space long before it is known for a pixel. Estimates of the disc are multiplied by that ratio.
-// What is left is the variation of the error within a cell, and the ratio's noise.
+// a cell of space long before it is known for a pixel. Estimates of the disc are multiplied by that ratio, each
+// colour by its own: a disc that takes light from the floor has the floor's colour. What is left is the
+// variation of the error within a cell, and the ratio's noise.
 
-#include <algorithm>
 #include <array>
 #include <unordered_map>
 
+#include "core/math/vec.h"
 #include "render/maps/place_grid.h"
 
 namespace kaustik::render {
 
-// Two estimates of the luminance of the indirect light that a point scatters to its viewer.
+// Two estimates of the indirect radiance that a point scatters to its viewer.
 struct TwoEstimates {
-  double disc = 0, path = 0;
+  glm::dvec3 disc{0}, path{0};
 };
 
 // Sums over the points of a cell.
 struct PointSums {
-  double disc = 0, path = 0;
-  double disc_squared = 0, path_squared = 0, product = 0;
+  glm::dvec3 disc{0}, path{0};
+  glm::dvec3 disc_squared{0}, path_squared{0}, product{0};
   uint32_t count = 0;
 
   void add(const TwoEstimates& e) {
     disc += e.disc, path += e.path;
     disc_squared += e.disc * e.disc, path_squared += e.path * e.path, product += e.disc * e.path;
     ++count;
-  }
-  double ratio() const { return path / disc; }
-  // Sum of the squares of path - ratio disc.
-  double residual() const {
-    const double r = ratio();
-    return std::max(path_squared - 2 * r * product + r * r * disc_squared, 0.0);
   }
 };
 
@@ -45,9 +40,9 @@ class DiscCorrection {
   // found: one for each point; noise of the paths is told apart from errors of the discs by their spread.
   DiscCorrection(const std::vector<VisiblePoint>& points, const std::vector<TwoEstimates>& found);
 
-  // Factor for a disc at p on the side of n; 1 where there was no point near. Cells are blurred: nearby
+  // Factors for a disc at p on the side of n; 1 where there was no point near. Cells are blurred: nearby
   // points may get the factors of neighbouring cells.
-  float at(const Point3& p, const Normal3& n) const;
+  Rgb at(const Point3& p, const Normal3& n) const;
 
  private:
   // Grids from coarse to fine. The ratio of a cell departs from that of the coarser cell around it as far as
@@ -57,13 +52,13 @@ class DiscCorrection {
   struct Cell {
     PointSums sums;
     uint64_t parent = 0;  // key of the coarser cell
-    double factor = 1;
+    glm::dvec3 factor{1};
   };
-  void refine(size_t level, double everywhere, double relative_variance,
+  void refine(size_t level, const glm::dvec3& everywhere, const glm::dvec3& relative_variance,
               std::unordered_map<uint64_t, Cell>* cells);
 
   std::array<PlaceGrid, kResolution.size()> grids_;
-  std::array<std::unordered_map<uint64_t, float>, kResolution.size()> factors_;
+  std::array<std::unordered_map<uint64_t, Rgb>, kResolution.size()> factors_;
 };
 
 }  // namespace kaustik::render

@@ -30,7 +30,7 @@ std::vector<TwoEstimates> estimates(const Fn& ratio, double noise) {
   std::normal_distribution<double> deviation(0, noise);
   std::vector<TwoEstimates> found;
   for (const VisiblePoint& point : points_of_square())
-    found.push_back({1, ratio(point.query.p) + deviation(random)});
+    found.push_back({glm::dvec3(1), glm::dvec3(ratio(point.query.p) + deviation(random))});
   return found;
 }
 
@@ -41,7 +41,7 @@ double mean_factor(const DiscCorrection& correction, float x0, float x1) {
   int count = 0;
   for (const VisiblePoint& point : points_of_square())
     if (point.query.p.x >= x0 && point.query.p.x < x1)
-      sum += double(correction.at(point.query.p, kUp)), ++count;
+      sum += double(correction.at(point.query.p, kUp).x), ++count;
   return sum / count;
 }
 
@@ -52,7 +52,7 @@ TEST(DiscCorrection, NoiseAloneChangesLittle) {
   const DiscCorrection correction(points_of_square(), estimates([](const Point3&) { return 1.0; }, 1));
   double changed = 0;
   for (const VisiblePoint& point : points_of_square())
-    changed += std::abs(double(correction.at(point.query.p, kUp)) - 1) / (kSide * kSide);
+    changed += std::abs(double(correction.at(point.query.p, kUp).x) - 1) / (kSide * kSide);
   EXPECT_LT(changed, 4 * (1 / 22.0) * 0.4 / std::sqrt(8.0));  // four grids
   EXPECT_NEAR(mean_factor(correction, 0, 1), 1, 4.0 / kSide);
 }
@@ -72,17 +72,27 @@ TEST(DiscCorrection, KeepsTheLightOfThePaths) {
   const auto ratio = [](const Point3& p) { return 1.2 + 0.3 * std::sin(40 * double(p.x)) * double(p.z); };
   const auto found = estimates(ratio, 0);
   double wanted = 0;
-  for (const TwoEstimates& e : found) wanted += e.path / double(found.size());
+  for (const TwoEstimates& e : found) wanted += e.path.x / double(found.size());
   const DiscCorrection correction(points_of_square(), found);
   // The borders of cells are blurred, which mixes neighbours; the least cell is 1/72 wide.
   EXPECT_NEAR(mean_factor(correction, 0, 1), wanted, 0.3 / 72 + 4 * 0.3 * 0.3 / 0.2 / (kSide * kSide));
 }
 
+// A disc that takes red light from elsewhere gets that colour's factor alone.
+TEST(DiscCorrection, CorrectsEachColourByItself) {
+  std::vector<TwoEstimates> found(points_of_square().size());
+  for (TwoEstimates& e : found) e = {glm::dvec3(2, 1, 1), glm::dvec3(1, 1, 1.5)};
+  const Rgb factor = DiscCorrection(points_of_square(), found).at({0.3f, 0, 0.6f}, kUp);
+  EXPECT_NEAR(factor.x, 0.5f, 1e-6f);
+  EXPECT_EQ(factor.y, 1);
+  EXPECT_NEAR(factor.z, 1.5f, 1e-6f);
+}
+
 TEST(DiscCorrection, IsOneWhereNothingIsKnown) {
   const DiscCorrection none({}, {});
-  EXPECT_EQ(none.at({0, 0, 0}, kUp), 1);
+  EXPECT_EQ(none.at({0, 0, 0}, kUp), Rgb(1));
   const std::vector<TwoEstimates> dark(points_of_square().size());
-  EXPECT_EQ(DiscCorrection(points_of_square(), dark).at({0.5f, 0, 0.5f}, kUp), 1);
+  EXPECT_EQ(DiscCorrection(points_of_square(), dark).at({0.5f, 0, 0.5f}, kUp), Rgb(1));
 }
 
 TEST(DiscCorrection, ScalesByPowersOfTwo) {
