@@ -1,6 +1,6 @@
 // One tree of boxes for each surface group that has more than a few edges. A tree of all groups would visit
-// the edges of every object near the point: in a room of fine objects that took most of a render. Edges lie in
-// the order of the leaves, so that a node is a range of them. Distances of edges are exact in double
+// the edges of every object near the point: in a room of fine objects that took most of a render. Edges lie
+// in the order of the leaves, so that a node is a range of them. Distances of edges are exact in double
 // precision, and boxes are tested with a margin, so that the results are the same at every scale.
 
 #include "accel/edge_index.h"

@@ -228,8 +228,7 @@ constexpr size_t kMaxSidesOfJoint = 64;
 void add_group_edges(const std::vector<Shape>& shapes, std::span<const uint32_t> meshes,
                      std::vector<BoundaryEdge>* edges, SurfaceBend* bends) {
   std::vector<OpenSide> open;
-  for (const uint32_t i : meshes)
-    add_open_sides(std::get<TriangleMesh>(shapes[i].geometry), i, &open, bends);
+  for (const uint32_t i : meshes) add_open_sides(std::get<TriangleMesh>(shapes[i].geometry), i, &open, bends);
   const auto key = [](const OpenSide& s) { return std::tie(s.ends, s.shape, s.corner); };
   tbb::parallel_sort(open.begin(), open.end(),
                      [&](const OpenSide& a, const OpenSide& b) { return key(a) < key(b); });
@@ -245,7 +244,8 @@ void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>*
                     std::vector<SurfaceBend>* bends) {
   std::vector<std::vector<uint32_t>> meshes(bends->size());
   for (uint32_t i = 0; i < shapes.size(); ++i)
-    if (std::holds_alternative<TriangleMesh>(shapes[i].geometry)) meshes[shapes[i].surface_group].push_back(i);
+    if (std::holds_alternative<TriangleMesh>(shapes[i].geometry))
+      meshes[shapes[i].surface_group].push_back(i);
   std::vector<std::vector<BoundaryEdge>> of_group(meshes.size());
   tbb::parallel_for(size_t{0}, meshes.size(),
                     [&](size_t g) { add_group_edges(shapes, meshes[g], &of_group[g], &(*bends)[g]); });

@@ -232,8 +232,8 @@ SurfaceAreas::SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& b
   const float voxel = radius / kFineness;
   if (!(voxel > 0) || !std::isfinite(voxel)) return;
   covered_ = curved_groups(scene, bends, radius);
-  pieces_ = PhotonMap::build(joined(pieces_of(scene, covered_, voxel), std::ldexp(1.0f, std::ilogb(voxel * voxel))),
-                             {scene.bounds});
+  pieces_ = PhotonMap::build(
+      joined(pieces_of(scene, covered_, voxel), std::ldexp(1.0f, std::ilogb(voxel * voxel))), {scene.bounds});
 }
 
 double SurfaceAreas::share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius,

@@ -33,8 +33,12 @@ struct ColourSums {
   uint32_t count;
 
   ColourSums(const PointSums& sums, int k)
-      : disc(sums.disc[k]), path(sums.path[k]), disc_squared(sums.disc_squared[k]),
-        path_squared(sums.path_squared[k]), product(sums.product[k]), count(sums.count) {}
+      : disc(sums.disc[k]),
+        path(sums.path[k]),
+        disc_squared(sums.disc_squared[k]),
+        path_squared(sums.path_squared[k]),
+        product(sums.product[k]),
+        count(sums.count) {}
 
   double ratio() const { return path / disc; }
   // Sum of the squares of path - ratio disc.

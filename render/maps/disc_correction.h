@@ -4,8 +4,8 @@
 // A disc that is not small beside what surrounds it takes photons from where the irradiance is another:
 // below a table, in a corner, on a narrow surface. The error is smooth over a place, and paths from a few
 // thousand visible points tell it: the ratio of the sum of their estimates to that of the discs' is known for
-// a cell of space long before it is known for a pixel. Estimates of the disc are multiplied by that ratio, each
-// colour by its own: a disc that takes light from the floor has the floor's colour. What is left is the
+// a cell of space long before it is known for a pixel. Estimates of the disc are multiplied by that ratio,
+// each colour by its own: a disc that takes light from the floor has the floor's colour. What is left is the
 // variation of the error within a cell, and the ratio's noise.
 
 #include <array>
