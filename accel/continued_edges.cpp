@@ -1,9 +1,8 @@
 // Tells the true ends of a surface from edges behind which it continues although no second triangle shares
 // them.
 
-#include <tbb/parallel_for.h>
-
 #include "accel/bvh.h"
+#include "accel/drop_edges.h"
 #include "accel/edge_index.h"
 
 namespace kaustik::accel {
@@ -45,13 +44,8 @@ bool goes_on(const Bvh& bvh, const BoundaryEdge& edge) {
 }  // namespace
 
 std::vector<BoundaryEdge> without_continued(std::vector<BoundaryEdge> edges, const Bvh& bvh) {
-  std::vector<uint8_t> continued(edges.size());
-  tbb::parallel_for(size_t(0), edges.size(), [&](size_t i) { continued[i] = goes_on(bvh, edges[i]); });
-  size_t kept = 0;
-  for (size_t i = 0; i < edges.size(); ++i)
-    if (!continued[i]) edges[kept++] = edges[i];
-  edges.resize(kept);
-  if (kept < edges.capacity() / 2) edges.shrink_to_fit();
+  drop_edges(&edges, [&](const BoundaryEdge& edge) { return goes_on(bvh, edge); });
+  if (edges.size() < edges.capacity() / 2) edges.shrink_to_fit();
   return edges;
 }
 

@@ -45,7 +45,7 @@ class Found {
     while (begin < end) out_[count_++] = begin++;
     return true;
   }
-  // Sorts the indices, which are unspecified if they do not all fit.
+  // Sorts the indices. They are unspecified if they do not all fit.
   void sort() {
     if (count_ <= out_.size()) std::sort(out_.begin(), out_.begin() + std::ptrdiff_t(count_));
   }
@@ -182,11 +182,12 @@ size_t EdgeIndex::find(const Point3& p, float radius, uint32_t surface_group, st
   if (surface_group >= trees_.size() || !(radius >= 0)) return 0;
   Found found(out);
   const uint32_t begin = group_begin_[surface_group], end = group_begin_[surface_group + 1];
-  if (const Tree* const tree = trees_[surface_group].get())
+  if (const Tree* const tree = trees_[surface_group].get()) {
     tree->find(edges_, begin, end, p, radius, &found);
-  else
+    found.sort();
+  } else {
     add_reaching(edges_, begin, end, glm::dvec3(p), radius, &found);
-  found.sort();
+  }
   return found.count();
 }
 

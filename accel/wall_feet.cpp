@@ -14,6 +14,7 @@
 #include <tuple>
 #include <utility>
 
+#include "accel/drop_edges.h"
 #include "core/geometry/triangle_bounds.h"
 #include "core/math/error_bounds.h"
 
@@ -289,15 +290,6 @@ std::vector<ShapeFaces> faces_of(const Scene& scene) {
   return found;
 }
 
-void drop_those_on_ends(const EdgeIndex& ends, std::vector<BoundaryEdge>* feet) {
-  std::vector<uint8_t> on_end(feet->size());
-  tbb::parallel_for(size_t{0}, feet->size(), [&](size_t i) { on_end[i] = lies_on_end((*feet)[i], ends); });
-  size_t kept = 0;
-  for (size_t i = 0; i < feet->size(); ++i)
-    if (!on_end[i]) (*feet)[kept++] = (*feet)[i];
-  feet->resize(kept);
-}
-
 }  // namespace
 
 std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends) {
@@ -313,7 +305,7 @@ std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& en
   Join join;
   std::vector<BoundaryEdge> feet = join.run(std::move(floors), std::move(walls));
   if (join.gave_up()) return {};
-  drop_those_on_ends(ends, &feet);
+  drop_edges(&feet, [&](const BoundaryEdge& foot) { return lies_on_end(foot, ends); });
   tbb::parallel_sort(feet.begin(), feet.end(),
                      [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
   feet.erase(std::unique(feet.begin(), feet.end(),

@@ -41,7 +41,6 @@ using Corners = std::array<Point3, 3>;
 struct Facet {
   Corners c;
   Normal3 n;
-  uint32_t group;
 };
 
 // Transforms an instance's triangle to world space as SurfaceInteraction::n is: the outside stays outside
@@ -57,7 +56,7 @@ void add_facets(const Shape& shape, std::vector<Facet>* facets) {
   const TriangleMesh& mesh = shape.mesh() ? *shape.mesh() : quadric;
   facets->reserve(facets->size() + mesh.indices.size());
   for (const auto& triangle : mesh.indices) {
-    Facet facet{{mesh.P[triangle[0]], mesh.P[triangle[1]], mesh.P[triangle[2]]}, {}, shape.surface_group};
+    Facet facet{{mesh.P[triangle[0]], mesh.P[triangle[1]], mesh.P[triangle[2]]}, {}};
     facet.n = triangle_normal(facet.c[1] - facet.c[0], facet.c[2] - facet.c[0]);
     if (facet.n == Normal3(0)) continue;
     facet.n *= outside_of(mesh, triangle, facet.n, shape.flip_normal);
@@ -99,14 +98,13 @@ void drop_copies(std::vector<Facet>* facets) {
   facets->resize(kept);
 }
 
-// Cuts triangles into pieces.
+// Cuts the triangles of a surface group into pieces.
 class Cutter {
  public:
-  Cutter(const Bounds3& bounds, float voxel, std::vector<Piece>* pieces)
-      : origin_(bounds.min), voxel_(voxel), pieces_(pieces) {}
+  Cutter(const Bounds3& bounds, float voxel, uint32_t group, std::vector<Piece>* pieces)
+      : origin_(bounds.min), voxel_(voxel), group_(group), pieces_(pieces) {}
 
   void cut(const Facet& facet) {
-    group_ = facet.group;
     n_ = facet.n;
     cut(facet.c);
   }
@@ -152,8 +150,8 @@ class Cutter {
 
   Point3 origin_;
   float voxel_;
+  uint32_t group_;
   std::vector<Piece>* pieces_;
-  uint32_t group_ = 0;
   Normal3 n_{0};
 };
 
@@ -197,7 +195,7 @@ std::vector<Piece> pieces_of(const Scene& scene, const std::vector<bool>& chosen
     std::vector<Facet> facets;
     for (const uint32_t i : shapes[g]) add_facets(scene.shapes[i], &facets);
     drop_copies(&facets);
-    Cutter cutter(scene.bounds, voxel, &of_group[g]);
+    Cutter cutter(scene.bounds, voxel, uint32_t(g), &of_group[g]);
     for (const Facet& facet : facets) cutter.cut(facet);
   });
   std::vector<Piece> pieces;

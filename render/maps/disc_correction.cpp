@@ -18,7 +18,7 @@ constexpr uint32_t kFewestPoints = 8;  // whose spread is worth something
 // Mean of the squares of path - ratio disc in units of the disc's square, for each colour. Dim points count
 // as bright ones do: there, few bright paths bring much of the light.
 glm::dvec3 mean_relative_variance(const std::vector<TwoEstimates>& found, const PointSums& all) {
-  const glm::dvec3 least = 0.1 * all.disc / double(all.count), ratio = all.path / all.disc;
+  const glm::dvec3 least = 0.1 * all.disc / double(all.count), ratio = all.ratio();
   glm::dvec3 sum(0);
   for (const TwoEstimates& e : found) {
     const glm::dvec3 relative = (e.path - ratio * e.disc) / glm::max(e.disc, least);
@@ -27,43 +27,21 @@ glm::dvec3 mean_relative_variance(const std::vector<TwoEstimates>& found, const 
   return sum / double(found.size());
 }
 
-// The sums of one colour.
-struct ColourSums {
-  double disc, path, disc_squared, path_squared, product;
-  uint32_t count;
-
-  ColourSums(const PointSums& sums, int k)
-      : disc(sums.disc[k]),
-        path(sums.path[k]),
-        disc_squared(sums.disc_squared[k]),
-        path_squared(sums.path_squared[k]),
-        product(sums.product[k]),
-        count(sums.count) {}
-
-  double ratio() const { return path / disc; }
-  // Sum of the squares of path - ratio disc.
-  double residual() const {
-    const double r = ratio();
-    return std::max(path_squared - 2 * r * product + r * r * disc_squared, 0.0);
-  }
-};
-
-// The ratio of a cell, drawn towards `prior` by its noise. relative_variance: of one point's estimate in
-// units of the square of its disc, over all points; a cell that met no bright path by chance has too little
-// of its own.
-double shrunk_ratio(const ColourSums& cell, double prior, double relative_variance) {
-  if (!(cell.disc > 0) || cell.count < kFewestPoints) return prior;
-  const double own = cell.residual() * cell.count / (cell.count - 1.0);
-  const double variance = std::max(own, relative_variance * cell.disc_squared) / (cell.disc * cell.disc);
-  const double difference = cell.ratio() - prior, squared = difference * difference;
-  if (!(squared > kDoubt * variance)) return prior;
-  return std::clamp(prior + difference * (1 - kDoubt * variance / squared), kLeastFactor, kMostFactor);
-}
-
+// The ratios of a cell, each drawn towards `prior` by its noise. relative_variance: of one point's estimate
+// in units of the square of its disc, over all points; a cell that met no bright path by chance has too
+// little of its own.
 glm::dvec3 shrunk_ratio(const PointSums& cell, const glm::dvec3& prior, const glm::dvec3& relative_variance) {
-  glm::dvec3 ratio;
-  for (int k = 0; k < 3; ++k) ratio[k] = shrunk_ratio(ColourSums(cell, k), prior[k], relative_variance[k]);
-  return ratio;
+  if (cell.count < kFewestPoints) return prior;
+  const glm::dvec3 own = cell.residual() * double(cell.count) / (cell.count - 1.0);
+  const glm::dvec3 variance = glm::max(own, relative_variance * cell.disc_squared) / (cell.disc * cell.disc);
+  const glm::dvec3 difference = cell.ratio() - prior, squared = difference * difference;
+  glm::dvec3 shrunk = prior;
+  for (int k = 0; k < 3; ++k) {
+    if (!(cell.disc[k] > 0 && squared[k] > kDoubt * variance[k])) continue;
+    const double ratio = prior[k] + difference[k] * (1 - kDoubt * variance[k] / squared[k]);
+    shrunk[k] = std::clamp(ratio, kLeastFactor, kMostFactor);
+  }
+  return shrunk;
 }
 
 }  // namespace

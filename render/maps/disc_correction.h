@@ -32,6 +32,12 @@ struct PointSums {
     disc_squared += e.disc * e.disc, path_squared += e.path * e.path, product += e.disc * e.path;
     ++count;
   }
+  glm::dvec3 ratio() const { return path / disc; }
+  // Sum of the squares of path - ratio disc.
+  glm::dvec3 residual() const {
+    const glm::dvec3 r = ratio();
+    return glm::max(path_squared - 2.0 * r * product + r * r * disc_squared, glm::dvec3(0));
+  }
 };
 
 // Immutable; thread-safe.
