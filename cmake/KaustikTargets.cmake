@@ -60,18 +60,32 @@ function(kaustik_library name)
   endif()
 endfunction()
 
-# kaustik_test(<folder> [libraries...]): makes one GoogleTest program per folder, with one ctest entry per case.
+# kaustik_test(<folder> [libraries...]): makes GoogleTest programs of a folder, with one ctest entry per case. Tests that
+# call OpenImageIO are a program of their own, test_<folder>_images: to load it takes longer than most tests.
 function(kaustik_test folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+  set(of_images "")
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} calls REGEX "include .*(OpenImageIO/|textured_scenes.h)" LIMIT_COUNT 1)
+    if(calls)
+      list(APPEND of_images ${source})
+    endif()
+  endforeach()
+  list(REMOVE_ITEM sources ${of_images})
+  kaustik_test_program(test_${folder} ${folder} "${sources}" ${ARGN})
+  kaustik_test_program(test_${folder}_images ${folder} "${of_images}" ${ARGN} OpenImageIO::OpenImageIO)
+endfunction()
+
+function(kaustik_test_program name folder sources)
   if(NOT sources)
     return()
   endif()
-  add_executable(test_${folder} ${sources})
-  target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gtest GTest::gmock GTest::gtest_main)
-  kaustik_precompile(test_${folder} precompiled_tests.h)
-  target_compile_definitions(test_${folder} PRIVATE
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE ${ARGN} GTest::gtest GTest::gmock GTest::gtest_main)
+  kaustik_precompile(${name} precompiled_tests.h)
+  target_compile_definitions(${name} PRIVATE
     KAUSTIK_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     KAUSTIK_SCENES_DIR="${PROJECT_SOURCE_DIR}/scenes"
     KAUSTIK_TEST_OUTPUT_DIR="${CMAKE_CURRENT_BINARY_DIR}/output")
-  gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(${name} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60)
 endfunction()

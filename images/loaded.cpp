@@ -1,6 +1,6 @@
-// image_formats() for the program, which loads OpenImageIO when it is first needed. The library lies beside
+// image_formats() for programs, which load OpenImageIO when it is first needed. The library lies beside
 // the program or in the installation's library folder; the program's relative run path names both
-// (apps/CMakeLists.txt).
+// (images/CMakeLists.txt, apps/CMakeLists.txt).
 
 #include <dlfcn.h>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Interface to OpenImageIO: reading pictures of any format, writing PNG and JPEG, image textures. It is an
 // interface because OpenImageIO brings some 250 libraries, whose loading takes longer than rendering many a
-// scene: the program loads them on first use (images/loaded.cpp), while tests link them (images/linked.cpp).
+// scene: programs load them on first use (images/loaded.cpp).
 // Errors are returned as texts instead of exceptions, so that no exception type has to be the same on both
 // sides of the interface.
 
@@ -81,7 +81,7 @@ class ImageFormats {
   virtual std::shared_ptr<TextureImages> make_textures() const = 0;
 };
 
-// Defined by what is linked into the program: see images/loaded.cpp and images/linked.cpp. Throws
+// Defined by images/loaded.cpp, which loads OpenImageIO when it is first called. Throws
 // std::runtime_error if the library cannot be loaded.
 const ImageFormats& image_formats();
 
