@@ -19,6 +19,7 @@ namespace {
 constexpr uint64_t kSkyStream = 0x5C1E5;
 constexpr int kSide = 16;  // directions are divided into kSide^2 cells of equal solid angle
 constexpr int kSkyRays = 16;
+constexpr double kLittle = 0.15;  // of the light, where samples gain by more than they cost
 constexpr float kCellsPerSteradian = float(kSide * kSide) / (4 * kPi);
 
 uint32_t cell_of(const Vector3& w) {
@@ -85,8 +86,9 @@ SkyGuide::SkyGuide(const RenderInput& input) {
       all += double(ray.irradiance);
       if (ray.open) open += double(ray.irradiance);
     }
-  // Where nearly all light arrives, the lights' own densities are best; where none does, nothing helps.
-  useful_ = open > 0 && open < 0.75 * all;
+  // Where a good part of the light arrives, samples by the lights' own densities are as good, and cheaper;
+  // where none does, nothing helps.
+  useful_ = open > 0 && open < kLittle * all;
   if (!useful_) return;
   for (size_t grid = 0; grid < kResolution.size(); ++grid) {
     grids_[grid] = {points, kResolution[grid]};

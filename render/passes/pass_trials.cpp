@@ -69,7 +69,7 @@ class WindowTrials {
   }
 
   // Seconds for kInHalf samples of all pixels, from number `first` on, whose sums take_films() then gives.
-  static constexpr uint64_t kInHalf = 2;
+  static constexpr uint64_t kInHalf = kTrialSamples / 2;
   double seconds_of_half(uint64_t first, double most = kInfinity) {
     RenderSettings tried = input_.settings;
     tried.spp = 2 * kInHalf;
@@ -126,34 +126,45 @@ double luminance_of(const glm::dvec3& c) {
   return double(luminance(Rgb(c)));
 }
 
-// What two halves of the samples say: the difference of independent estimates is their noise.
-ErrorSources error_sources(const std::vector<FilmSums>& first, const std::vector<FilmSums>& second) {
-  constexpr double kHalf = WindowTrials::kInHalf;
-  struct Pixel {
-    double all, noise, mapped;
+PixelHalves halves_of(const PixelSum& a, const PixelSum& b) {
+  const auto pair = [](const glm::dvec3& first, const glm::dvec3& second) {
+    constexpr double kHalf = WindowTrials::kInHalf;
+    return PixelHalves::Pair{luminance_of(first) / kHalf, luminance_of(second) / kHalf};
   };
-  std::vector<Pixel> pixels;
-  double mean = 0;
-  for (size_t i = 0; i < first.size(); ++i)
-    for (int y = 0; y < first[i].height(); ++y)
-      for (int x = 0; x < first[i].width(); ++x) {
-        const PixelSum &a = first[i].at(x, y), &b = second[i].at(x, y);
-        const double once = luminance_of(a.emitted + a.direct + a.caustic + a.indirect);
-        const double again = luminance_of(b.emitted + b.direct + b.caustic + b.indirect);
-        const double mapped = luminance_of(a.caustic + a.indirect + b.caustic + b.indirect);
-        pixels.push_back({(once + again) / (2 * kHalf), (once - again) / kHalf, mapped / (2 * kHalf)});
-        mean += pixels.back().all;
-      }
-  mean /= double(std::max<size_t>(pixels.size(), 1));
+  const auto all = [](const PixelSum& p) { return p.emitted + p.direct + p.caustic + p.indirect; };
+  return {pair(all(a), all(b)), pair(a.caustic, b.caustic), pair(a.indirect, b.indirect)};
+}
+
+// The blocks of rays of a window.
+void add_blocks(const FilmSums& first, const FilmSums& second,
+                std::vector<std::vector<PixelHalves>>* blocks) {
+  const PixelRange window{0, first.width(), 0, first.height()};
+  window.for_each_square(kRayBlock, [&](const PixelRange& square) {
+    std::vector<PixelHalves>& block = blocks->emplace_back();
+    for (int y = square.y0; y < square.y1; ++y)
+      for (int x = square.x0; x < square.x1; ++x) block.push_back(halves_of(first.at(x, y), second.at(x, y)));
+  });
+}
+
+// What two halves of the samples say: the difference of independent estimates is their noise.
+ErrorSources error_sources(const EstimatorPlan& plan, const std::vector<std::vector<PixelHalves>>& blocks) {
+  double mean = 0, count = 0;
+  for (const auto& block : blocks)
+    for (const PixelHalves& p : block) mean += p.all.mean(), ++count;
+  mean /= std::max(count, 1.0);
   ErrorSources sum;
-  for (const Pixel& p : pixels) {
-    constexpr double kMostOfPixel = 16;  // so that a bright pixel does not decide alone
-    const double unit = p.all * p.all + 0.01 * mean * mean;
-    if (!(unit > 0)) continue;
-    // The variance of the difference of two means of kHalf samples is 2 / kHalf times that of a sample.
-    sum.samples += std::min(p.noise * p.noise * kHalf / 2 / unit, kMostOfPixel) / double(pixels.size());
-    sum.mapped += p.mapped * p.mapped / unit / double(pixels.size());
-  }
+  for (const auto& block : blocks)
+    for (const PixelHalves& p : block) {
+      constexpr double kMostOfPixel = 16;  // so that a bright pixel does not decide alone
+      const double unit = p.all.mean() * p.all.mean() + 0.01 * mean * mean;
+      if (!(unit > 0)) continue;
+      // The mean of n samples has an nth of the variance of one.
+      const double variance = p.all.error() * p.all.error() * kTrialSamples;
+      const double mapped = (plan.caustics == CausticEstimator::kPhotons ? p.caustic.mean() : 0) +
+                            (reads_indirect_photons(plan) ? p.indirect.mean() : 0);
+      sum.samples += std::min(variance / unit, kMostOfPixel) / count;
+      sum.mapped += mapped * mapped / unit / count;
+    }
   return sum;
 }
 
@@ -166,8 +177,10 @@ FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progr
   return first;
 }
 
-PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress) {
+PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress,
+                        std::shared_ptr<ExploredScene> explored) {
   PhotonTrial trial;
+  trial.first.photons = PassPhotons(std::move(explored));
   PassPhotons& photons = trial.first.photons;
   photons.explore(input);
   const auto shoot = [&](uint64_t count) {
@@ -181,7 +194,7 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
   const double first = shoot(kFewPhotons);
   const uint64_t more = first < most ? kMorePhotons : kFewPhotons;
   const double each = shoot(more) / double(more);
-  trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each};
+  trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each, double(more)};
   return trial;
 }
 
@@ -204,14 +217,26 @@ void learn_for_samples(const RenderInput& input, PassPhotons* photons) {
 
 }  // namespace
 
-SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* photons) {
+SampleTrial try_one_sample(const RenderInput& input, double most, bool many, PassPhotons* photons) {
+  constexpr double kHalf = WindowTrials::kInHalf;
+  constexpr int kMany = 8;
   learn_for_samples(input, photons);
   WindowTrials trials(input, *photons);
-  const double first_seconds = trials.seconds_of_half(0, most / 2);
-  const std::vector<FilmSums> first = trials.take_films();
-  const double seconds = first_seconds + trials.seconds_of_half(WindowTrials::kInHalf);
+  const double first_seconds = trials.seconds_of_half(0, most / (many ? 4 : 2));
+  std::vector<FilmSums> first = trials.take_films();
+  SampleTrial trial;
+  trial.seconds = (first_seconds + trials.seconds_of_half(WindowTrials::kInHalf)) / (2 * kHalf);
+  const std::vector<FilmSums> second = trials.take_films();
+  trial.each = trial.seconds;
+  if (many) {
+    const double seconds = trials.seconds(kMany, 0);
+    trial.each = std::max((seconds - kHalf * trial.seconds) / (kMany - kHalf), seconds / (4 * kMany));
+    trial.fixed = std::max(seconds - kMany * trial.each, 0.0);
+  }
   photons->forget_visibility();
-  return {seconds / (2 * WindowTrials::kInHalf), error_sources(first, trials.take_films())};
+  for (size_t i = 0; i < first.size(); ++i) add_blocks(first[i], second[i], &trial.blocks);
+  trial.errors = error_sources(input.plan, trial.blocks);
+  return trial;
 }
 
 SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons) {

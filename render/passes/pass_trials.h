@@ -9,6 +9,7 @@ namespace kaustik::render {
 // Wall-clock seconds of the photons of a pass.
 struct PhotonCost {
   double fixed = 0, each = 0;  // each > 0
+  double photons = 0;          // of the larger trial, whose maps are left
 };
 
 // Wall-clock seconds of the samples of every pixel: of(spp, adaptive) for spp samples and further ones that
@@ -27,11 +28,13 @@ struct PhotonTrial {
   FirstPhotons first;
 };
 
-// Explores the scene, shoots a few photons, and more of them if that took less than `most` seconds.
-PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress);
+// Explores the scene, shoots a few photons, and more of them if that took less than `most` seconds. explored:
+// what earlier photons of the same scene found out about it.
+PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress,
+                        std::shared_ptr<ExploredScene> explored = std::make_shared<ExploredScene>());
 
 // Shoots the photons of a render that has a single pass. They have no radii if the progress callback
-// cancelled. explored: what earlier photons of the same scene found out about it.
+// cancelled.
 FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
                          std::shared_ptr<ExploredScene> explored = std::make_shared<ExploredScene>());
 
@@ -39,14 +42,31 @@ FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progr
 // (to which the square of a tenth of the picture's mean is added).
 struct ErrorSources {
   double samples = 0;  // variance of one sample, given the photons
-  double mapped = 0;   // square of the caustic and indirect light
+  double mapped = 0;   // square of the light that photon maps give
 };
+
+// Samples of each pixel in a trial that measures errors.
+inline constexpr int kTrialSamples = 4;
+
+// Mean luminances of a pixel by either half of the samples of a trial; their difference is noise.
+struct PixelHalves {
+  struct Pair {
+    double first = 0, second = 0;
+    double mean() const { return (first + second) / 2; }
+    double error() const { return (first - second) / 2; }  // a sample of that of mean()
+  };
+  Pair all, caustic, indirect;
+};
+
 struct SampleTrial {
-  double seconds = 0;  // for one sample of every pixel
+  double seconds = 0;          // for one sample of every pixel, where there are few
+  double fixed = 0, each = 0;  // for n samples of every pixel: fixed + n each; shared gathers are fixed
   ErrorSources errors;
+  std::vector<std::vector<PixelHalves>> blocks;  // pixels of the same blocks in each trial, perhaps of fewer
 };
-// Renders a few samples in windows with these photons for about `most` seconds.
-SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* photons);
+// Renders a few samples in windows with these photons for about `most` seconds. many: times more samples,
+// too.
+SampleTrial try_one_sample(const RenderInput& input, double most, bool many, PassPhotons* photons);
 
 // Renders one sample and four, without and with adaptive ones, with these photons in as many windows as take
 // about `most` seconds, at least a few. Without photons (cancelled) the result is meaningless.

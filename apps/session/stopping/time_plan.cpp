@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "apps/session/stopping/path_choice.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "render/camera/pixel_range.h"
 #include "render/passes/passes.h"
@@ -21,6 +22,9 @@ constexpr double kLeastPhotons = 0.03, kMostPhotons = 0.5, kMargin = 0.03;
 constexpr double kErrorOfMillion = 0.01;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
+// Paths take the place of maps where their error is at most this share of the maps': a short trial misses
+// rare bright paths.
+constexpr double kWorthPaths = 0.7;
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.02;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
@@ -62,6 +66,9 @@ uint64_t photons_within(const render::PhotonCost& cost, double seconds, double f
   return uint64_t(std::floor(photons / unit) * unit);
 }
 
+constexpr const char* kPathsNote =
+    "trials found less error in the same time with paths in place of photon maps";
+
 // Runs the trials and makes the choice.
 class TimePlan {
  public:
@@ -81,19 +88,24 @@ class TimePlan {
     render::PhotonTrial trial;
     if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_);
     auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
-    if (cancelled(*first)) return {true, std::move(first), {}};
-    const render::SampleTrial sample =
-        render::try_one_sample(input(), kSampleTrial / 2 * seconds_, &first->photons);
+    if (cancelled(*first)) return {true, std::move(first), {}, {}};
+    render::SampleTrial sample =
+        render::try_one_sample(input(), kSampleTrial / 2 * seconds_, gathers_, &first->photons);
+    const std::string paths = gathers_ ? choose_paths(trial.cost, &sample, &first->photons) : "";
+    if (gathers_ && !paths.empty()) {  // fewer kinds of photons cost less
+      trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, first->photons.explored());
+      *first = std::move(trial.first);
+      if (cancelled(*first)) return {true, std::move(first), paths, {}};
+    }
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
-    if (seconds_ > kLongPass &&
-        sample.seconds * kManySamples * (1 + double(render_.adaptive)) < (1 - share) * left()) {
+    if (takes_passes(sample, share)) {
       set_passes(trial.cost, {.each = sample.seconds, .further = sample.seconds}, share);
-      return {};
+      return {false, nullptr, paths, {}};
     }
     if (gathers_) *first = shoot(trial.cost, share * left(), first->photons.explored());
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
-    return {true, gathers_ ? std::move(first) : nullptr, further_work(cost)};
+    return {true, gathers_ ? std::move(first) : nullptr, paths, further_work(cost)};
   }
 
  private:
@@ -111,6 +123,12 @@ class TimePlan {
     render_.photons = photons_within(cost, seconds, fewest_);
     render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
     return render::shoot_first(input(), progress_, std::move(explored));
+  }
+
+  // Whether the time is filled by passes.
+  bool takes_passes(const render::SampleTrial& sample, double share) const {
+    return seconds_ > kLongPass &&
+           sample.seconds * kManySamples * (1 + double(render_.adaptive)) < (1 - share) * left();
   }
 
   // The adaptive samples that fit by the time that samples took so far. Rounded down to hundredths, so that
@@ -143,14 +161,49 @@ class TimePlan {
     return best;
   }
 
+  // The error that is left of the variance of one sample when the samples of this trial fill a share of the
+  // time.
+  double noise_of(double variance, const render::SampleTrial& sample, double share) const {
+    return variance * sample.each / std::max(share * left() - sample.fixed, sample.each);
+  }
+
+  // Tries paths in place of photon maps and takes them where the picture's error is less by much. Returns the
+  // options that say so.
+  std::string choose_paths(const render::PhotonCost& cost, render::SampleTrial* sample,
+                           render::PassPhotons* photons) {
+    const render::SampleTrial maps = *sample;
+    const render::RenderSettings settings = render_;
+    const double share = photon_share(cost, maps);
+    const double photons_of_pass = share * left() / cost.each / (takes_passes(maps, share) ? kPasses : 1);
+    const double fewer = std::pow(cost.photons / photons_of_pass, 2.0 / 3);
+    double least = HUGE_VAL;
+    std::string options;
+    for (const PathClasses& classes : path_candidates(scene_, settings, plan_)) {
+      const render::RenderSettings tried = with_paths(settings, classes);
+      const render::EstimatorPlan plan = render::make_plan(tried, scene_.needs);
+      const render::SampleTrial paths =
+          render::try_one_sample({scene_, bvh_, tried, plan}, kSampleTrial / 2 * seconds_, false, photons);
+      const TrialComparison found = compare_trials(classes, maps, paths);
+      const bool gathers = render::kinds_needed(plan).any();
+      const double with_maps =
+          noise_of(found.variance_of_maps, maps, 1 - share) + found.error_of_maps * std::min(fewer, 1.0);
+      const double with_paths = noise_of(found.variance_of_paths, paths, gathers ? 1 - kLeastPhotons : 1);
+      if (with_paths >= std::min(least, kWorthPaths * with_maps) || !found.paths_are_known) continue;
+      least = with_paths, *sample = paths, render_ = tried, plan_ = plan, gathers_ = gathers;
+      options = fmt::format("{} --indirect paths", classes.caustics ? " --caustics paths" : "");
+    }
+    return options;
+  }
+
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
   // them.
   void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples, double share) {
     const double each = left() / kPasses;
     const int spp = samples_within(samples, 0, (1 - share) * each, kMostSamples);
-    if (gathers_)
-      render_.photons = kErrorPasses * photons_within(photons, share / (1 - share) * samples.of(spp, 0),
-                                                      fewest_ / kErrorPasses);
+    if (gathers_)  // only the first pass has the fixed cost
+      render_.photons =
+          kErrorPasses * photons_within({.each = photons.each}, share / (1 - share) * samples.of(spp, 0),
+                                        fewest_ / kErrorPasses);
     render_.spp = int(kErrorPasses) * spp;
     render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
   }
@@ -188,8 +241,9 @@ FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatc
       filled.single_pass ? ", and adaptive samples until the time is up"
                          : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
                                        render.passes, *render.alpha);
-  console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}", *settings->stop.seconds,
-                           render.spp, render.photons, choice));
+  if (!filled.paths.empty()) console.note(kPathsNote);
+  console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}{}", *settings->stop.seconds,
+                           render.spp, render.photons, filled.paths, choice));
   return filled;
 }
 

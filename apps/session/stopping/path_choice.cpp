@@ -1,0 +1,104 @@
+#include "apps/session/stopping/path_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kaustik::app {
+
+namespace {
+
+using render::PixelHalves;
+
+// A class that has less than this share of the light need not be known by itself.
+constexpr double kNegligible = 0.03;
+// Largest relative standard error of a mean, and largest share of one pixel in it.
+constexpr double kKnown = 0.1, kMostOfPixel = 0.05;
+// By how much the mean of a map from few photons may exceed that of paths, beyond what noise explains.
+constexpr double kBiasOfMap = 0.15;
+
+// Sums of a class over the pixels of both trials.
+struct ClassSums {
+  double maps = 0, paths = 0;
+  double squared_error = 0, brightest = 0;  // of the paths
+
+  void add(const PixelHalves::Pair& map, const PixelHalves::Pair& path) {
+    maps += map.mean(), paths += path.mean();
+    squared_error += path.error() * path.error();
+    brightest = std::max(brightest, path.mean());
+  }
+  bool known(double picture) const {
+    const double error = std::sqrt(squared_error);
+    const double unsure = std::max(error / kKnown, brightest / kMostOfPixel);
+    return unsure <= std::max(paths, kNegligible * picture) && maps - paths <= 3 * error + kBiasOfMap * maps;
+  }
+};
+
+double squared(double v) {
+  return v * v;
+}
+
+// Adds what one block of both trials says; mean: of the picture.
+void compare_blocks(const std::vector<PixelHalves>& maps, const std::vector<PixelHalves>& paths, double mean,
+                    TrialComparison* sum) {
+  const double pixels = double(std::min(maps.size(), paths.size()));
+  double light_of_maps = 0, light_of_paths = 0, noise_of_maps = 0, noise_of_paths = 0, difference = 0,
+         noise = 0;
+  for (size_t k = 0; k < maps.size(); ++k) {
+    const PixelHalves &a = maps[k], &b = paths[k];
+    light_of_maps += a.all.mean() / pixels, light_of_paths += b.all.mean() / pixels;
+    noise_of_maps += squared(a.all.error()) / pixels;
+    noise_of_paths += squared(b.all.error()) / pixels;
+    difference += (a.caustic.mean() + a.indirect.mean() - b.caustic.mean() - b.indirect.mean()) / pixels;
+    noise += squared((a.caustic.error() + a.indirect.error()) / pixels) +
+             squared((b.caustic.error() + b.indirect.error()) / pixels);
+  }
+  // Of few samples a path may miss the light, and a map of few photons be too dark.
+  const double unit = squared(std::max(light_of_maps, light_of_paths)) + 0.01 * squared(mean);
+  if (!(unit > 0)) return;
+  sum->variance_of_maps += noise_of_maps * render::kTrialSamples / unit;
+  sum->variance_of_paths += noise_of_paths * render::kTrialSamples / unit;
+  sum->error_of_maps += (squared(difference) - noise) / unit;
+}
+
+}  // namespace
+
+std::vector<PathClasses> path_candidates(const Scene& scene, const render::RenderSettings& settings,
+                                         const render::EstimatorPlan& plan) {
+  const bool indirect = plan.indirect == render::IndirectEstimator::kFinalGather && !settings.indirect;
+  if (settings.method != render::Method::kAuto || !indirect) return {};
+  std::vector<PathClasses> candidates{{.indirect = true}};
+  const bool hit_all_lights = std::ranges::none_of(scene.lights, [](const Light& l) { return is_delta(l); });
+  if (plan.caustics == render::CausticEstimator::kPhotons && !settings.caustics && hit_all_lights)
+    candidates.push_back({.caustics = true, .indirect = true});
+  return candidates;
+}
+
+render::RenderSettings with_paths(render::RenderSettings settings, const PathClasses& classes) {
+  if (classes.caustics) settings.caustics = render::CausticEstimator::kPaths;
+  if (classes.indirect) settings.indirect = render::IndirectEstimator::kPaths;
+  return settings;
+}
+
+TrialComparison compare_trials(const PathClasses& classes, const render::SampleTrial& maps,
+                               const render::SampleTrial& paths) {
+  const size_t blocks = std::min(maps.blocks.size(), paths.blocks.size());
+  double picture = 0, pixels = 0;
+  ClassSums caustic, indirect;
+  for (size_t i = 0; i < blocks; ++i)
+    for (size_t k = 0; k < maps.blocks[i].size(); ++k) {
+      const PixelHalves &a = maps.blocks[i][k], &b = paths.blocks[i][k];
+      picture += b.all.mean(), ++pixels;
+      caustic.add(a.caustic, b.caustic), indirect.add(a.indirect, b.indirect);
+    }
+  TrialComparison found;
+  for (size_t i = 0; i < blocks; ++i)
+    compare_blocks(maps.blocks[i], paths.blocks[i], picture / std::max(pixels, 1.0), &found);
+  const double share = 1 / double(std::max<size_t>(blocks, 1));
+  found.variance_of_maps *= share, found.variance_of_paths *= share;
+  found.error_of_maps = std::max(found.error_of_maps * share, 0.0);
+  found.paths_are_known =
+      (!classes.caustics || caustic.known(picture)) && (!classes.indirect || indirect.known(picture));
+  return found;
+}
+
+}  // namespace kaustik::app
