@@ -22,10 +22,11 @@ constexpr double kLeastPhotons = 0.03, kMostPhotons = 0.5, kMargin = 0.03;
 constexpr double kErrorOfMillion = 0.01;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
-// Paths take the place of maps where their error is at most this share of the maps': a short trial misses
-// rare bright paths.
-constexpr double kWorthPaths = 0.7;
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.02;
+// Paths take the place of maps where their error is at most this share of the maps': a short trial misses
+// rare bright paths. Where paths for one class have kHopeless times the maps' error, those for more classes
+// are not tried.
+constexpr double kWorthPaths = 0.7, kHopeless = 4;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples.
@@ -125,8 +126,10 @@ class TimePlan {
     return render::shoot_first(input(), progress_, std::move(explored));
   }
 
-  // Whether the time is filled by passes.
+  // Whether the time is filled by passes. Paths have no adaptive samples, which fill the time of a single
+  // one.
   bool takes_passes(const render::SampleTrial& sample, double share) const {
+    if (render::traces_paths(plan_)) return true;
     return seconds_ > kLongPass &&
            sample.seconds * kManySamples * (1 + double(render_.adaptive)) < (1 - share) * left();
   }
@@ -188,6 +191,7 @@ class TimePlan {
       const double with_maps =
           noise_of(found.variance_of_maps, maps, 1 - share) + found.error_of_maps * std::min(fewer, 1.0);
       const double with_paths = noise_of(found.variance_of_paths, paths, gathers ? 1 - kLeastPhotons : 1);
+      if (with_paths > kHopeless * with_maps) break;
       if (with_paths >= std::min(least, kWorthPaths * with_maps) || !found.paths_are_known) continue;
       least = with_paths, *sample = paths, render_ = tried, plan_ = plan, gathers_ = gathers;
       options = fmt::format("{} --indirect paths", classes.caustics ? " --caustics paths" : "");
