@@ -1,5 +1,5 @@
 // image_formats() for programs, which load OpenImageIO when it is first needed. The library lies beside
-// the program or in the installation's library folder; the program's relative run path names both
+// the program or in the installation's library folder; a program's run path names it
 // (images/CMakeLists.txt, apps/CMakeLists.txt).
 
 #include <dlfcn.h>

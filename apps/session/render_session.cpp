@@ -63,10 +63,9 @@ void report_stop(const StopRule& rule, const render::RenderResult& result, const
 }
 
 // Logs the options that give the bits of a single pass again.
-void report_filled(double seconds, const render::RenderSettings& settings, const std::string& paths,
-                   const Console& console) {
-  console.note(fmt::format("--time {}s gave --spp {} --photons {} --adaptive {}{}", seconds, settings.spp,
-                           settings.photons, settings.adaptive, paths));
+void report_filled(double seconds, const render::RenderSettings& settings, const Console& console) {
+  console.note(fmt::format("--time {}s gave --spp {} --photons {} --adaptive {}", seconds, settings.spp,
+                           settings.photons, settings.adaptive));
 }
 
 // Only partial results need a full manifest. It names library versions, for which OpenImageIO must be loaded,
@@ -147,7 +146,7 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     RenderOutcome outcome{render_with_bar(job, bvh, std::move(task), bar, interrupt), times};
     bar.clear();
     if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.further_work);
-    if (filled_seconds > 0) report_filled(filled_seconds, job.settings.render, filled.paths, console);
+    if (filled_seconds > 0) report_filled(filled_seconds, job.settings.render, console);
     outcome.times.total = total.seconds();
     code = finish(job, session, std::move(outcome), checkpoint, rule, console);
   });

@@ -21,7 +21,7 @@ class SkyGuide {
   // Requires infinite lights.
   explicit SkyGuide(const RenderInput& input);
 
-  // Whether samples gain: some of the light is hidden at the visible points.
+  // Whether samples gain: little of the sky's light arrives at the visible points, but some does.
   bool useful() const { return useful_; }
 
   struct Sample {

@@ -138,11 +138,14 @@ PixelHalves halves_of(const PixelSum& a, const PixelSum& b) {
 // The blocks of rays of a window.
 void add_blocks(const FilmSums& first, const FilmSums& second,
                 std::vector<std::vector<PixelHalves>>* blocks) {
-  const PixelRange window{0, first.width(), 0, first.height()};
+  // Blocks are counted from the corner of the full image.
+  const int x0 = first.x0(), y0 = first.y0();
+  const PixelRange window{x0, x0 + first.width(), y0, y0 + first.height()};
   window.for_each_square(kRayBlock, [&](const PixelRange& square) {
     std::vector<PixelHalves>& block = blocks->emplace_back();
     for (int y = square.y0; y < square.y1; ++y)
-      for (int x = square.x0; x < square.x1; ++x) block.push_back(halves_of(first.at(x, y), second.at(x, y)));
+      for (int x = square.x0; x < square.x1; ++x)
+        block.push_back(halves_of(first.at(x - x0, y - y0), second.at(x - x0, y - y0)));
   });
 }
 
@@ -222,7 +225,7 @@ SampleTrial try_one_sample(const RenderInput& input, double most, bool many, Pas
   constexpr int kMany = 8;
   learn_for_samples(input, photons);
   WindowTrials trials(input, *photons);
-  const double first_seconds = trials.seconds_of_half(0, most / (many ? 4 : 2));
+  const double first_seconds = trials.seconds_of_half(0, most / (many ? 6 : 2));
   std::vector<FilmSums> first = trials.take_films();
   SampleTrial trial;
   trial.seconds = (first_seconds + trials.seconds_of_half(WindowTrials::kInHalf)) / (2 * kHalf);

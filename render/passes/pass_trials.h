@@ -64,8 +64,8 @@ struct SampleTrial {
   ErrorSources errors;
   std::vector<std::vector<PixelHalves>> blocks;  // pixels of the same blocks in each trial, perhaps of fewer
 };
-// Renders a few samples in windows with these photons for about `most` seconds. many: times more samples,
-// too.
+// Renders a few samples in windows with these photons for about `most` seconds. many: eight samples are
+// timed, too, which tells `fixed` from `each`.
 SampleTrial try_one_sample(const RenderInput& input, double most, bool many, PassPhotons* photons);
 
 // Renders one sample and four, without and with adaptive ones, with these photons in as many windows as take

@@ -23,15 +23,15 @@ std::vector<PathClasses> path_candidates(const Scene& scene, const render::Rende
 // The settings with these classes from paths.
 render::RenderSettings with_paths(render::RenderSettings settings, const PathClasses& classes);
 
-// A trial with photon maps beside one with paths, in the blocks of both. Errors and variances are relative,
-// as those of render::ErrorSources.
+// A trial with photon maps beside one with paths, in the blocks of both. Errors and variances are relative to
+// the square of the light of their block, to which the square of a tenth of the picture's mean is added.
 struct TrialComparison {
   double variance_of_maps = 0, variance_of_paths = 0;  // of one sample
   // Of the caustic and indirect light that maps give, at the scale of a block: what differs beyond noise.
   double error_of_maps = 0;
   // Whether the trial met enough of the light that paths bring to be believed: the means of the classes are
-  // known within a tenth, no less than those of the maps, and no pixel brings much of them. Light that paths
-  // meet seldom is missing from most trials; then their noise looks small.
+  // known within a tenth, not less than those of the maps by more than 15 %, and no pixel brings much of
+  // them. Light that paths meet seldom is missing from most trials; then their noise looks small.
   bool paths_are_known = false;
 };
 TrialComparison compare_trials(const PathClasses& classes, const render::SampleTrial& maps,

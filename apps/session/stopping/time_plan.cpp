@@ -92,21 +92,21 @@ class TimePlan {
     if (cancelled(*first)) return {true, std::move(first), {}, {}};
     render::SampleTrial sample =
         render::try_one_sample(input(), kSampleTrial / 2 * seconds_, gathers_, &first->photons);
-    const std::string paths = gathers_ ? choose_paths(trial.cost, &sample, &first->photons) : "";
-    if (gathers_ && !paths.empty()) {  // fewer kinds of photons cost less
+    if (gathers_) choose_paths(trial.cost, &sample, &first->photons);
+    if (gathers_ && !paths_.empty()) {  // fewer kinds of photons cost less
       trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, first->photons.explored());
       *first = std::move(trial.first);
-      if (cancelled(*first)) return {true, std::move(first), paths, {}};
+      if (cancelled(*first)) return {true, std::move(first), {}, {}};
     }
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
       set_passes(trial.cost, {.each = sample.seconds, .further = sample.seconds}, share);
-      return {false, nullptr, paths, {}};
+      return {false, nullptr, paths_, {}};
     }
     if (gathers_) *first = shoot(trial.cost, share * left(), first->photons.explored());
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
-    return {true, gathers_ ? std::move(first) : nullptr, paths, further_work(cost)};
+    return {true, gathers_ ? std::move(first) : nullptr, {}, further_work(cost)};
   }
 
  private:
@@ -129,7 +129,7 @@ class TimePlan {
   // Whether the time is filled by passes. Paths have no adaptive samples, which fill the time of a single
   // one.
   bool takes_passes(const render::SampleTrial& sample, double share) const {
-    if (render::traces_paths(plan_)) return true;
+    if (!paths_.empty()) return true;
     return seconds_ > kLongPass &&
            sample.seconds * kManySamples * (1 + double(render_.adaptive)) < (1 - share) * left();
   }
@@ -166,37 +166,37 @@ class TimePlan {
 
   // The error that is left of the variance of one sample when the samples of this trial fill a share of the
   // time.
-  double noise_of(double variance, const render::SampleTrial& sample, double share) const {
-    return variance * sample.each / std::max(share * left() - sample.fixed, sample.each);
+  double noise_of(double variance, const render::SampleTrial& sample, double share, int passes) const {
+    return variance * sample.each / std::max(share * left() - passes * sample.fixed, sample.each);
   }
 
-  // Tries paths in place of photon maps and takes them where the picture's error is less by much. Returns the
-  // options that say so.
-  std::string choose_paths(const render::PhotonCost& cost, render::SampleTrial* sample,
-                           render::PassPhotons* photons) {
+  // Tries paths in place of photon maps and takes them where the picture's error is less by much.
+  void choose_paths(const render::PhotonCost& cost, render::SampleTrial* sample,
+                    render::PassPhotons* photons) {
     const render::SampleTrial maps = *sample;
     const render::RenderSettings settings = render_;
     const double share = photon_share(cost, maps);
-    const double photons_of_pass = share * left() / cost.each / (takes_passes(maps, share) ? kPasses : 1);
-    const double fewer = std::pow(cost.photons / photons_of_pass, 2.0 / 3);
+    const int passes = takes_passes(maps, share) ? kPasses : 1;
+    const double of_pass = std::max(share * left() / std::max(cost.each, 1e-12) / passes, 1.0);
+    const double fewer = std::min(std::pow(cost.photons / of_pass, 2.0 / 3), 1.0);
     double least = HUGE_VAL;
-    std::string options;
     for (const PathClasses& classes : path_candidates(scene_, settings, plan_)) {
+      if (left() <= 0) return;
       const render::RenderSettings tried = with_paths(settings, classes);
       const render::EstimatorPlan plan = render::make_plan(tried, scene_.needs);
       const render::SampleTrial paths =
           render::try_one_sample({scene_, bvh_, tried, plan}, kSampleTrial / 2 * seconds_, false, photons);
       const TrialComparison found = compare_trials(classes, maps, paths);
       const bool gathers = render::kinds_needed(plan).any();
-      const double with_maps =
-          noise_of(found.variance_of_maps, maps, 1 - share) + found.error_of_maps * std::min(fewer, 1.0);
-      const double with_paths = noise_of(found.variance_of_paths, paths, gathers ? 1 - kLeastPhotons : 1);
-      if (with_paths > kHopeless * with_maps) break;
-      if (with_paths >= std::min(least, kWorthPaths * with_maps) || !found.paths_are_known) continue;
-      least = with_paths, *sample = paths, render_ = tried, plan_ = plan, gathers_ = gathers;
-      options = fmt::format("{} --indirect paths", classes.caustics ? " --caustics paths" : "");
+      const double of_maps =
+          noise_of(found.variance_of_maps, maps, 1 - share, passes) + found.error_of_maps * fewer;
+      const double of_paths =
+          noise_of(found.variance_of_paths, paths, gathers ? 1 - photon_share(cost, paths) : 1, kPasses);
+      if (of_paths > kHopeless * of_maps) return;
+      if (of_paths >= std::min(least, kWorthPaths * of_maps) || !found.paths_are_known) continue;
+      least = of_paths, *sample = paths, render_ = tried, plan_ = plan, gathers_ = gathers;
+      paths_ = fmt::format("{} --indirect paths", classes.caustics ? " --caustics paths" : "");
     }
-    return options;
   }
 
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
@@ -219,8 +219,9 @@ class TimePlan {
   double seconds_;
   render::RenderSettings& render_;
   render::EstimatorPlan plan_;
-  bool gathers_;   // whether there are photons at all
-  double fewest_;  // photons
+  bool gathers_;       // whether there are photons at all
+  double fewest_;      // photons
+  std::string paths_;  // the options by which paths replace maps
 };
 
 }  // namespace

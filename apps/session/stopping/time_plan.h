@@ -25,7 +25,8 @@ struct FilledTime {
   bool single_pass = false;  // adaptive samples are placed best in one
   // Of the single pass, if it gathers any; without radii if the progress callback cancelled.
   std::shared_ptr<render::FirstPhotons> photons;
-  // The options by which paths replace photon maps, each after a space; empty where none does.
+  // The options by which paths replace photon maps, each after a space; empty where none does. Such a render
+  // has passes.
   std::string paths;
   // For render::RenderTask: chooses the adaptive samples of a single pass while it is rendered. May be empty.
   std::function<double(double done, double seconds)> further_work;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/bench_result.h"
+#include "render/picture/image_formats.h"
 #include "tests/apps/support/program.h"
 #include "tests/apps/support/watching.h"
 
@@ -132,6 +133,7 @@ TEST_F(BenchCommand, NamesTheMachineAndTheLibraries) {
 
 TEST_F(BenchCommand, ThreadsBoundsEveryThreadOfTheProcess) {
   const std::string scene = small_scene(film(48, 48));
+  render::image_formats();  // brings libraries with idle threads of their own
   int code = -1;
   const ThreadCounts threads = count_threads([&] {
     code = run_kaustik({"bench", scene, "--photons", "50k", "--spp", "2", "--threads", "1,2", "--repeat", "2",

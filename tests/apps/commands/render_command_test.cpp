@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/picture/image_formats.h"
 #include "render/picture/image_io.h"
 #include "tests/apps/support/program.h"
 #include "tests/apps/support/watching.h"
@@ -173,6 +174,7 @@ TEST_F(RenderCommand, EarlyInterruptWritesNoPictureAndExitsWith130) {
 
 TEST_F(RenderCommand, ThreadsBoundsEveryThreadOfTheProcess) {
   const std::string scene = small_scene(film(64, 64));
+  render::image_formats();  // brings libraries with idle threads of their own
   int code = -1;
   const ThreadCounts threads = count_threads([&] {
     code = run_kaustik({"render", scene, "-o", path("a.exr"), "-o", path("a.png"), "--photons", "50k",
