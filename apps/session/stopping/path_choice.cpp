@@ -15,6 +15,9 @@ constexpr double kNegligible = 0.03;
 constexpr double kKnown = 0.1, kMostOfPixel = 0.05;
 // By how much the mean of a map from few photons may exceed that of paths, beyond what noise explains.
 constexpr double kBiasOfMap = 0.15;
+// Largest relative standard error of a class of little light that paths saw at all; how much brighter the
+// paths are taken to be that they did not see.
+constexpr double kSeen = 0.3, kRarer = 3;
 
 // Sums of a class over the pixels of both trials.
 struct ClassSums {
@@ -26,10 +29,20 @@ struct ClassSums {
     squared_error += path.error() * path.error();
     brightest = std::max(brightest, path.mean());
   }
+  double error() const { return std::sqrt(squared_error); }
+  // Light of the maps that the paths did not see, beyond noise and the bias of maps from few photons.
+  double missing() const { return std::max((1 - kBiasOfMap) * maps - paths - 3 * error(), 0.0); }
+
   bool known(double picture) const {
-    const double error = std::sqrt(squared_error);
-    const double unsure = std::max(error / kKnown, brightest / kMostOfPixel);
-    return unsure <= std::max(paths, kNegligible * picture) && maps - paths <= 3 * error + kBiasOfMap * maps;
+    const double unsure = std::max(error() / kKnown, brightest / kMostOfPixel);
+    if (unsure > std::max(paths, kNegligible * picture)) return false;
+    return missing() == 0 || (maps < kNegligible * picture && error() < kSeen * paths);
+  }
+  // Variance of a sample, relative to the square of the picture's mean, that the missing light adds if it
+  // comes in events kRarer times as bright as the brightest that was seen.
+  double variance_of_missing(double picture, double pixels) const {
+    const double event = kRarer * render::kTrialSamples * brightest * pixels / picture;
+    return missing() / picture * event;
   }
 };
 
@@ -96,6 +109,10 @@ TrialComparison compare_trials(const PathClasses& classes, const render::SampleT
   const double share = 1 / double(std::max<size_t>(blocks, 1));
   found.variance_of_maps *= share, found.variance_of_paths *= share;
   found.error_of_maps = std::max(found.error_of_maps * share, 0.0);
+  if (picture > 0) {
+    if (classes.caustics) found.variance_of_paths += caustic.variance_of_missing(picture, pixels);
+    if (classes.indirect) found.variance_of_paths += indirect.variance_of_missing(picture, pixels);
+  }
   found.paths_are_known =
       (!classes.caustics || caustic.known(picture)) && (!classes.indirect || indirect.known(picture));
   return found;

@@ -31,7 +31,8 @@ struct TrialComparison {
   double error_of_maps = 0;
   // Whether the trial met enough of the light that paths bring to be believed: the means of the classes are
   // known within a tenth, not less than those of the maps by more than 15 %, and no pixel brings much of
-  // them. Light that paths meet seldom is missing from most trials; then their noise looks small.
+  // them. Light that paths meet seldom is missing from most trials; then their noise looks small. Of a class
+  // of less than 3 % of the light, what is missing counts as noise instead.
   bool paths_are_known = false;
 };
 TrialComparison compare_trials(const PathClasses& classes, const render::SampleTrial& maps,

@@ -63,6 +63,18 @@ TEST(PathChoice, LightThatPathsMissedIsUnknown) {
   EXPECT_TRUE(compare_trials({.indirect = true}, maps, paths).paths_are_known);
 }
 
+// The noise of paths that a trial did not meet is estimated from those that it met.
+TEST(PathChoice, MissingLightOfASmallClassIsNoise) {
+  SampleTrial paths = trial(0.002, 1, 0.1, 2);
+  const double without = compare_trials(kBoth, trial(0.002, 1, 0.1, 1), paths).variance_of_paths;
+  const TrialComparison found = compare_trials(kBoth, trial(0.02, 1, 0.1, 1), paths);
+  EXPECT_TRUE(found.paths_are_known);
+  // Missing: 0.85 times 0.02 less 0.002. An event is three times a pixel's 0.002 in four samples; the
+  // picture's light is 2.002, and its noise in the mean of 6400 pixels is far below a thousandth.
+  const double added = (0.85 * 0.02 - 0.002) / 2.002 * (3 * 4 * 0.002 / 2.002);
+  EXPECT_NEAR(found.variance_of_paths - without, added, 0.01 * added + 0.02 * without);
+}
+
 TEST(PathChoice, LightOfOnePixelIsUnknown) {
   SampleTrial paths = trial(0, 0.001, 0.1, 2);
   PixelHalves& glint = paths.blocks[7][3];
