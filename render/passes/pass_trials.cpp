@@ -159,7 +159,7 @@ ErrorSources error_sources(const EstimatorPlan& plan, const std::vector<std::vec
   for (const auto& block : blocks)
     for (const PixelHalves& p : block) {
       constexpr double kMostOfPixel = 16;  // so that a bright pixel does not decide alone
-      const double unit = p.all.mean() * p.all.mean() + 0.01 * mean * mean;
+      const double unit = relative_unit(p.all.mean(), mean);
       if (!(unit > 0)) continue;
       // The mean of n samples has an nth of the variance of one.
       const double variance = p.all.error() * p.all.error() * kTrialSamples;

@@ -45,6 +45,11 @@ struct ErrorSources {
   double mapped = 0;   // square of the light that photon maps give
 };
 
+// The unit of relative squares, for light of this luminance in a picture of this mean.
+inline double relative_unit(double light, double mean) {
+  return light * light + 0.01 * mean * mean;
+}
+
 // Samples of each pixel in a trial that measures errors.
 inline constexpr int kTrialSamples = 4;
 

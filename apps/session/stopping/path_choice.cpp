@@ -66,7 +66,7 @@ void compare_blocks(const std::vector<PixelHalves>& maps, const std::vector<Pixe
              squared((b.caustic.error() + b.indirect.error()) / pixels);
   }
   // Of few samples a path may miss the light, and a map of few photons be too dark.
-  const double unit = squared(std::max(light_of_maps, light_of_paths)) + 0.01 * squared(mean);
+  const double unit = render::relative_unit(std::max(light_of_maps, light_of_paths), mean);
   if (!(unit > 0)) return;
   sum->variance_of_maps += noise_of_maps * render::kTrialSamples / unit;
   sum->variance_of_paths += noise_of_paths * render::kTrialSamples / unit;
