@@ -59,7 +59,7 @@ ProgressCallback serialised(const ProgressCallback& progress, uint64_t passes) {
 // Renders the passes of one render, one after the other, and holds the state that they share.
 class PassRenderer {
  public:
-  // task: its photons are those of a single pass, or null. radii: r0, if an earlier render settled it.
+  // radii: r0, if an earlier render settled it.
   PassRenderer(const RenderInput& input, uint64_t shares, const RenderTask& task,
                const std::optional<GatherRadii>& radii, ProgressCallback progress)
       : input_(input),
@@ -67,7 +67,7 @@ class PassRenderer {
         first_(task.photons),
         further_work_(task.further_work),
         progress_(std::move(progress)),
-        photons_(radii) {}
+        photons_(radii, task.explored ? task.explored : std::make_shared<ExploredScene>()) {}
 
   // Determines r0 if this render does not begin with the first pass: shoots that pass's photons only for r0,
   // and does not count them.

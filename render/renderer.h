@@ -12,7 +12,8 @@
 
 namespace kaustik::render {
 
-struct FirstPhotons;  // render/maps/pass_photons.h
+struct ExploredScene;  // render/maps/pass_photons.h
+struct FirstPhotons;
 
 // Which passes to render, and what to do with them.
 struct RenderTask {
@@ -30,6 +31,8 @@ struct RenderTask {
   // Photons of a single-pass render that were shot in advance, with the same settings except for the number
   // of samples; they are moved from here.
   std::shared_ptr<FirstPhotons> photons{};
+  // What earlier photons of the scene found out about it; null: nothing. Not read if there are photons.
+  std::shared_ptr<ExploredScene> explored{};
 };
 
 // What the film contains.

@@ -9,6 +9,7 @@
 #include "apps/machine/thread_limit.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/render_session.h"
+#include "apps/session/stopping/fixed_plan.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "apps/session/stopping/time_plan.h"
 #include "apps/settings/unread_settings.h"
@@ -89,11 +90,14 @@ int run_render(const RenderOptions& options, const Console& console) {
   with_thread_limit(load_threads, console,
                     [&] { job = load_job(options.scene, options.overrides, console); });
   warn_of_unread(options, job, console);
-  RenderSession session{options.outputs, options.checkpoint, options.passes, false, {}};
+  RenderSession session;
+  session.outputs = options.outputs, session.checkpoint = options.checkpoint, session.goal = options.passes;
   session.outputs.files = outputs_of(options, job);
   check_with_scene(options, session.outputs.files, job);
   session.fill_time = options.passes.empty() &&
                       time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
+  session.try_paths =
+      !session.fill_time && may_choose_paths(job.settings, options.overrides, job.scene.needs);
   check_stop_settings(job.settings.stop);
   if (!session.fill_time) settle_error_settings(console, &job.settings);
   check_passes(options, job);

@@ -9,6 +9,7 @@
 #include "apps/console/progress_bar.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/session/render_job.h"
+#include "apps/session/stopping/fixed_plan.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "apps/session/stopping/time_plan.h"
 
@@ -122,9 +123,10 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
     FilledTime filled;
     if (session.fill_time) filled = settle_time(job.scene, bvh, total, go_on, console, &job.settings);
+    TrialWork tried{filled.photons, filled.explored};
+    if (session.try_paths) tried = settle_paths(job.scene, bvh, go_on, console, &job.settings);
     const double filled_seconds = filled.single_pass ? *job.settings.stop.seconds : 0;
-    times.trials =
-        watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
+    times.trials = watch.seconds() - times.bvh - (tried.photons ? seconds_of(tried.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
@@ -142,7 +144,8 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session),
                             .further_work = std::move(filled.further_work),
-                            .photons = std::move(filled.photons)};
+                            .photons = std::move(tried.photons),
+                            .explored = std::move(tried.explored)};
     RenderOutcome outcome{render_with_bar(job, bvh, std::move(task), bar, interrupt), times};
     bar.clear();
     if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.further_work);

@@ -16,6 +16,7 @@ struct RenderSession {
       false;  // `goal` holds even with a stop rule, which otherwise renders an open-ended number of passes
   render::PassSums done;   // finished passes, from a partial result
   bool fill_time = false;  // choose photons and samples that fill --time, see settle_time()
+  bool try_paths = false;  // choose between photon maps and paths, see settle_paths(); not with fill_time
 };
 
 // Whether the session writes complete passes that can be resumed: checkpoints or partial results.

@@ -12,16 +12,20 @@
 namespace kaustik::photon {
 namespace {
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
+using Fan = LineFan<WallCut::kMostFeet>;
 
-const std::array<glm::dvec2, WallCut::kDirections>& directions() {
+struct Direction {
+  glm::dvec2 d;
+  int sector;
+};
+
+const std::array<Direction, WallCut::kDirections>& directions() {
   static const auto all = [] {
-    std::array<glm::dvec2, WallCut::kDirections> d;
+    std::array<Direction, WallCut::kDirections> d;
     for (size_t i = 0; i < d.size(); ++i) {
       const double theta = 2 * std::numbers::pi * (double(i) + 0.5) / double(d.size());
-      d[i] = {std::cos(theta), std::sin(theta)};
+      d[i].d = {std::cos(theta), std::sin(theta)};
+      d[i].sector = Fan::sector_of(d[i].d);
     }
     return d;
   }();
@@ -78,6 +82,7 @@ WallCut::WallCut(const Walls& walls, const SurfaceInteraction& si, const Vector3
     const float side = glm::dot(foot.n, n);
     if (std::abs(side) < kNormalCosine || (side < 0 && !foot.both_sides)) continue;
     feet_.push_back(line_of(foot));
+    fan_.add(feet_.size() - 1, feet_.back().a, feet_.back().b);
   }
 }
 
@@ -87,7 +92,8 @@ WallCut::Line WallCut::line_of(const BoundaryEdge& edge) const {
 
 bool WallCut::hides(const Point3& p, const Vector3& w) const {
   const glm::dvec2 y = flat(glm::dvec3(p) + step_ * glm::dvec3(w) - x_);
-  return std::any_of(feet_.begin(), feet_.end(), [&](const Line& foot) {
+  return fan_.any_in(Fan::sector_of(y), [&](size_t i) {
+    const Line& foot = feet_[i];
     // The foot's ends count as part of it, so that nothing passes between two feet that meet.
     if (cross(y, foot.a) * cross(y, foot.b) > 0) return false;
     const glm::dvec2 along = foot.b - foot.a;
@@ -103,20 +109,30 @@ double WallCut::share(const KernelSpec& kernel, const accel::EdgeIndex& ends) co
     double sign;
   };
   std::vector<End> outline;
+  LineFan<kMaxEdgesInReach> outline_fan;
   for (size_t i = 0; i < count && count <= found.size(); ++i)
-    if (const int sign = sign_of_edge(ends[found[i]], si_, float(radius_)))
-      outline.push_back({line_of(ends[found[i]]), double(sign)});
+    if (const int sign = sign_of_edge(ends[found[i]], si_, float(radius_))) {
+      const Line line = line_of(ends[found[i]]);
+      outline_fan.add(outline.size(), line.a, line.b);
+      outline.push_back({line, double(sign)});
+    }
   const MassWithin mass_within(kernel);
   const double per_radius = 1 / radius_;
   double sum = 0;
-  for (const glm::dvec2& direction : directions()) {
+  for (const Direction& direction : directions()) {
     double wall = radius_;
-    for (const Line& foot : feet_) wall = std::min(wall, distance_to(foot.a, foot.b, direction));
+    fan_.any_in(direction.sector, [&](size_t i) {
+      wall = std::min(wall, distance_to(feet_[i].a, feet_[i].b, direction.d));
+      return false;
+    });
     const double within = wall < radius_ ? mass_within(wall * per_radius) : 1;
     sum += within;
-    for (const End& end : outline)
-      if (const double t = distance_to(end.line.a, end.line.b, direction); t < wall)
+    outline_fan.any_in(direction.sector, [&](size_t i) {
+      const End& end = outline[i];
+      if (const double t = distance_to(end.line.a, end.line.b, direction.d); t < wall)
         sum -= end.sign * (within - mass_within(t * per_radius));
+      return false;
+    });
   }
   return std::clamp(sum / double(directions().size()), 0.0, 1.0);
 }

@@ -21,6 +21,7 @@
 #include "accel/edge_index.h"
 #include "core/geometry/interaction.h"
 #include "core/math/bounds.h"
+#include "photon/estimate/line_fan.h"
 #include "photon/gather/gather.h"
 
 namespace kaustik::photon {
@@ -91,6 +92,7 @@ class WallCut {
   double radius_, step_;
   glm::dvec3 x_;
   std::vector<Line> feet_;
+  LineFan<kMostFeet> fan_;  // of feet_
 };
 
 // gather_flux() without the photons that the walls hide.

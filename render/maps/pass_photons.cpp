@@ -186,6 +186,14 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
   return !progress || progress({"build", 1, 1, pass.pass, pass.shares});
 }
 
+void PassPhotons::forget_radii() {
+  free_maps();
+  for (GatherMap* gather : gather_maps(maps_)) gather->areas = nullptr;
+  radii_.reset();
+  walls_.reset();
+  walls_are_known_ = false;
+}
+
 void PassPhotons::predict_visibility(const RenderInput& input, RenderStatistics* statistics) {
   if (input.plan.direct != DirectEstimator::kPredicted || visibility_) return;
   const Stopwatch watch;

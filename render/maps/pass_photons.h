@@ -28,9 +28,9 @@ struct ExploredScene {
 class PassPhotons {
  public:
   PassPhotons() = default;
-  // radii: r0 of all passes, if known.
-  explicit PassPhotons(const std::optional<GatherRadii>& radii) : radii_(radii) {}
-  // For other photons of a scene of which much is known already.
+  // radii: r0 of all passes, if known. explored: what is known about the scene already.
+  PassPhotons(const std::optional<GatherRadii>& radii, std::shared_ptr<ExploredScene> explored)
+      : radii_(radii), explored_(std::move(explored)) {}
   explicit PassPhotons(std::shared_ptr<ExploredScene> explored) : explored_(std::move(explored)) {}
 
   // Shoots and builds the photons that the plan needs in one pass, replacing the maps of the previous pass.
@@ -48,6 +48,9 @@ class PassPhotons {
   // Learns where the sky is visible for method `auto`, unless that is known already. A function of scene and
   // settings; whatever it learns, the image is unbiased.
   void learn_sky(const RenderInput& input, RenderStatistics* statistics);
+  // Forgets r0 and what follows from it, so that the next make() determines it as if it were the first. What
+  // was learned about the scene stays.
+  void forget_radii();
   // The tree depends on the number of samples: call this before they change.
   void forget_visibility() { visibility_.reset(); }
 

@@ -21,16 +21,20 @@ namespace {
 
 // The first trial shoot learns the guides, too, and the second one tells what a photon takes without that.
 constexpr uint64_t kFewPhotons = 1u << 14, kMorePhotons = 1u << 16;
-// Side of a trial window in pixels: a few blocks of rays, which share gathers. This many windows sample the
-// parts of a picture well enough.
-constexpr int kWindow = 3 * kRayBlock;
+static_assert(kTrialWindow == 3 * kRayBlock);
+constexpr int kWindow = kTrialWindow;
+// This many windows sample the parts of a picture well enough.
 constexpr double kFewWindows = 36, kManyWindows = 120;
 constexpr double kShare = 1.0 / 16;  // of the picture's pixels, within these limits
+// What a gather and each photon that it tests take in rays: 0.2 to 0.7 microseconds, medians over ten rooms,
+// from the times of renders with maps and with paths.
+constexpr double kQueryRays = 2, kCandidateRays = 1.0 / 80;
 
-// Windows at hashed positions, one in each cell of a regular grid over the picture.
-std::vector<PixelRange> windows_of(const PixelRange& whole) {
-  const double wanted =
-      std::clamp(double(whole.pixels()) * kShare / (kWindow * kWindow), kFewWindows, kManyWindows);
+// Windows at hashed positions, one in each cell of a regular grid over the picture. wanted: about their
+// number, or 0.
+std::vector<PixelRange> windows_of(const PixelRange& whole, double wanted) {
+  if (!(wanted > 0))
+    wanted = std::clamp(double(whole.pixels()) * kShare / (kWindow * kWindow), kFewWindows, kManyWindows);
   const int places = std::max(1, int(std::sqrt(double(whole.pixels()) / wanted) / kWindow));
   std::vector<PixelRange> windows;
   whole.for_each_square(kWindow * places, [&](const PixelRange& square) {
@@ -48,11 +52,11 @@ std::vector<PixelRange> windows_of(const PixelRange& whole) {
 // Renders trial windows and extrapolates to the picture.
 class WindowTrials {
  public:
-  WindowTrials(const RenderInput& input, const PassPhotons& photons)
+  WindowTrials(const RenderInput& input, const PassPhotons& photons, double windows = 0)
       : input_(input),
         photons_(photons),
         whole_(rendered_range(input.settings.crop, input.scene.camera)),
-        windows_(windows_of(whole_)) {
+        windows_(windows_of(whole_, windows)) {
     // Neighbouring windows are alike, and a trial that is cut short should still see all of the picture.
     std::ranges::stable_sort(windows_, std::less<>(), [](const PixelRange& w) {
       return hash_combine(uint64_t(w.x0) << 32 | uint64_t(w.y0), kWindowOrder);
@@ -76,6 +80,9 @@ class WindowTrials {
     return seconds(tried, {first, first + kInHalf, 0}, most);
   }
   std::vector<FilmSums> take_films() { return std::move(films_); }
+  // Rays and gathers that the last trial would have taken for the whole picture.
+  double rays() const { return rays_; }
+  double gathers() const { return gathers_; }
 
  private:
   static constexpr uint64_t kWindowOrder = 0x717A15;
@@ -84,11 +91,13 @@ class WindowTrials {
     const RenderInput input{input_.scene, input_.bvh, tried, input_.plan};
     const size_t together = 2 * size_t(tbb::this_task_arena::max_concurrency());
     films_.assign(windows_.size(), {});
+    std::vector<RenderStatistics> statistics(windows_.size());
     const Stopwatch watch;
     size_t done = 0;
     while (done < windows_.size() && (done == 0 || watch.seconds() < most)) {
       const size_t end = std::min(windows_.size(), done + together);
-      tbb::parallel_for(done, end, [&](size_t i) { films_[i] = render(input, samples, windows_[i]); });
+      tbb::parallel_for(done, end,
+                        [&](size_t i) { films_[i] = render(input, samples, windows_[i], &statistics[i]); });
       done = end;
     }
     const double seconds = watch.seconds();
@@ -96,10 +105,17 @@ class WindowTrials {
     films_.resize(done);
     uint64_t pixels = 0;
     for (const PixelRange& w : windows_) pixels += w.pixels();
-    return seconds * double(whole_.pixels()) / double(pixels);
+    RenderStatistics sum;
+    for (const RenderStatistics& s : statistics) sum += s;
+    const double part = double(whole_.pixels()) / double(pixels);
+    rays_ = double(sum.rays.all()) * part;
+    gathers_ =
+        (kQueryRays * double(sum.gather_queries) + kCandidateRays * double(sum.gather_candidates)) * part;
+    return seconds * part;
   }
 
-  FilmSums render(const RenderInput& input, const PassSamples& samples, const PixelRange& w) const {
+  FilmSums render(const RenderInput& input, const PassSamples& samples, const PixelRange& w,
+                  RenderStatistics* statistics) const {
     const Camera& camera = input.scene.camera;
     const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
     const RenderContext ctx{input,
@@ -110,8 +126,7 @@ class WindowTrials {
                             samples,
                             camera_cone(camera, pass.end_sample)};
     FilmSums film(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height);
-    RenderStatistics ignored;
-    render_tiles(ctx, {}, &film, &ignored);
+    render_tiles(ctx, {}, &film, statistics);
     return film;
   }
 
@@ -120,6 +135,7 @@ class WindowTrials {
   PixelRange whole_;
   std::vector<PixelRange> windows_;
   std::vector<FilmSums> films_;  // of the last trial
+  double rays_ = 0, gathers_ = 0;
 };
 
 double luminance_of(const glm::dvec3& c) {
@@ -220,15 +236,19 @@ void learn_for_samples(const RenderInput& input, PassPhotons* photons) {
 
 }  // namespace
 
-SampleTrial try_one_sample(const RenderInput& input, double most, bool many, PassPhotons* photons) {
+SampleTrial try_one_sample(const RenderInput& input, const TrialLimits& limits, bool many,
+                           PassPhotons* photons) {
   constexpr double kHalf = WindowTrials::kInHalf;
   constexpr int kMany = 8;
   learn_for_samples(input, photons);
-  WindowTrials trials(input, *photons);
-  const double first_seconds = trials.seconds_of_half(0, most / (many ? 6 : 2));
+  WindowTrials trials(input, *photons, limits.windows);
+  const double first_seconds = trials.seconds_of_half(0, limits.seconds / (many ? 6 : 2));
+  const double rays = trials.rays(), gathers = trials.gathers();
   std::vector<FilmSums> first = trials.take_films();
   SampleTrial trial;
   trial.seconds = (first_seconds + trials.seconds_of_half(WindowTrials::kInHalf)) / (2 * kHalf);
+  trial.rays = (rays + trials.rays()) / (2 * kHalf);
+  trial.gathers = (gathers + trials.gathers()) / 2;
   const std::vector<FilmSums> second = trials.take_films();
   trial.each = trial.seconds;
   if (many) {
@@ -236,7 +256,6 @@ SampleTrial try_one_sample(const RenderInput& input, double most, bool many, Pas
     trial.each = std::max((seconds - kHalf * trial.seconds) / (kMany - kHalf), seconds / (4 * kMany));
     trial.fixed = std::max(seconds - kMany * trial.each, 0.0);
   }
-  photons->forget_visibility();
   for (size_t i = 0; i < first.size(); ++i) add_blocks(first[i], second[i], &trial.blocks);
   trial.errors = error_sources(input.plan, trial.blocks);
   return trial;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "render/plan/plan.h"
 
 namespace kaustik::app {
 
@@ -18,6 +21,10 @@ constexpr double kBiasOfMap = 0.15;
 // Largest relative standard error of a class of little light that paths saw at all; how much brighter the
 // paths are taken to be that they did not see.
 constexpr double kSeen = 0.3, kRarer = 3;
+// Paths take the place of maps where their error is at most this share of the maps': a short trial misses
+// rare bright paths. Where paths for one class have kHopeless times the maps' error, those for more classes
+// are not tried.
+constexpr double kWorthPaths = 0.7, kHopeless = 4;
 
 // Sums of a class over the pixels of both trials.
 struct ClassSums {
@@ -75,24 +82,29 @@ void compare_blocks(const std::vector<PixelHalves>& maps, const std::vector<Pixe
 
 }  // namespace
 
-std::vector<PathClasses> path_candidates(const Scene& scene, const render::RenderSettings& settings,
-                                         const render::EstimatorPlan& plan) {
+std::vector<TakenByPaths> path_candidates(const Scene& scene, const render::RenderSettings& settings,
+                                          const render::EstimatorPlan& plan) {
   const bool indirect = plan.indirect == render::IndirectEstimator::kFinalGather && !settings.indirect;
   if (settings.method != render::Method::kAuto || !indirect) return {};
-  std::vector<PathClasses> candidates{{.indirect = true}};
+  std::vector<TakenByPaths> candidates{TakenByPaths::kIndirect};
   const bool hit_all_lights = std::ranges::none_of(scene.lights, [](const Light& l) { return is_delta(l); });
   if (plan.caustics == render::CausticEstimator::kPhotons && !settings.caustics && hit_all_lights)
-    candidates.push_back({.caustics = true, .indirect = true});
+    candidates.push_back(TakenByPaths::kIndirectAndCaustics);
   return candidates;
 }
 
-render::RenderSettings with_paths(render::RenderSettings settings, const PathClasses& classes) {
-  if (classes.caustics) settings.caustics = render::CausticEstimator::kPaths;
-  if (classes.indirect) settings.indirect = render::IndirectEstimator::kPaths;
+render::RenderSettings with_paths(render::RenderSettings settings, TakenByPaths classes) {
+  settings.indirect = render::IndirectEstimator::kPaths;
+  if (classes == TakenByPaths::kIndirectAndCaustics) settings.caustics = render::CausticEstimator::kPaths;
   return settings;
 }
 
-TrialComparison compare_trials(const PathClasses& classes, const render::SampleTrial& maps,
+std::string options_of(TakenByPaths classes) {
+  return classes == TakenByPaths::kIndirectAndCaustics ? " --caustics paths --indirect paths"
+                                                       : " --indirect paths";
+}
+
+TrialComparison compare_trials(TakenByPaths classes, const render::SampleTrial& maps,
                                const render::SampleTrial& paths) {
   const size_t blocks = std::min(maps.blocks.size(), paths.blocks.size());
   double picture = 0, pixels = 0;
@@ -109,13 +121,34 @@ TrialComparison compare_trials(const PathClasses& classes, const render::SampleT
   const double share = 1 / double(std::max<size_t>(blocks, 1));
   found.variance_of_maps *= share, found.variance_of_paths *= share;
   found.error_of_maps = std::max(found.error_of_maps * share, 0.0);
-  if (picture > 0) {
-    if (classes.caustics) found.variance_of_paths += caustic.variance_of_missing(picture, pixels);
-    if (classes.indirect) found.variance_of_paths += indirect.variance_of_missing(picture, pixels);
-  }
-  found.paths_are_known =
-      (!classes.caustics || caustic.known(picture)) && (!classes.indirect || indirect.known(picture));
+  found.paths_are_known = indirect.known(picture);
+  if (picture > 0) found.variance_of_paths += indirect.variance_of_missing(picture, pixels);
+  if (classes != TakenByPaths::kIndirectAndCaustics) return found;
+  found.paths_are_known &= caustic.known(picture);
+  if (picture > 0) found.variance_of_paths += caustic.variance_of_missing(picture, pixels);
   return found;
+}
+
+double share_of_map_error(double photons_of_trial, double photons) {
+  return std::min(std::pow(photons_of_trial / photons, 2.0 / 3), 1.0);
+}
+
+std::optional<PathTrial> choose_paths(const render::RenderInput& input, const render::SampleTrial& maps,
+                                      const TryPaths& try_paths, const JudgePaths& judge) {
+  std::optional<PathTrial> best;
+  double least = HUGE_VAL;
+  for (const TakenByPaths classes : path_candidates(input.scene, input.settings, input.plan)) {
+    PathTrial tried{classes, with_paths(input.settings, classes), {}, {}};
+    tried.plan = render::make_plan(tried.settings, input.scene.needs);
+    tried.sample = try_paths({input.scene, input.bvh, tried.settings, tried.plan});
+    const TrialComparison found = compare_trials(classes, maps, tried.sample);
+    const ErrorsAtCost errors = judge(found, tried);
+    if (errors.of_paths > kHopeless * errors.of_maps) break;
+    if (errors.of_paths >= std::min(least, kWorthPaths * errors.of_maps) || !found.paths_are_known) continue;
+    least = errors.of_paths;
+    best = std::move(tried);
+  }
+  return best;
 }
 
 }  // namespace kaustik::app

@@ -23,10 +23,6 @@ constexpr double kErrorOfMillion = 0.01;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.02;
-// Paths take the place of maps where their error is at most this share of the maps': a short trial misses
-// rare bright paths. Where paths for one class have kHopeless times the maps' error, those for more classes
-// are not tried.
-constexpr double kWorthPaths = 0.7, kHopeless = 4;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples.
@@ -67,9 +63,6 @@ uint64_t photons_within(const render::PhotonCost& cost, double seconds, double f
   return uint64_t(std::floor(photons / unit) * unit);
 }
 
-constexpr const char* kPathsNote =
-    "trials found less error in the same time with paths in place of photon maps";
-
 // Runs the trials and makes the choice.
 class TimePlan {
  public:
@@ -89,24 +82,26 @@ class TimePlan {
     render::PhotonTrial trial;
     if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_);
     auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
-    if (cancelled(*first)) return {true, std::move(first), {}, {}};
+    if (cancelled(*first)) return {.single_pass = true, .photons = std::move(first)};
     render::SampleTrial sample =
-        render::try_one_sample(input(), kSampleTrial / 2 * seconds_, gathers_, &first->photons);
-    if (gathers_) choose_paths(trial.cost, &sample, &first->photons);
+        render::try_one_sample(input(), {.seconds = kSampleTrial / 2 * seconds_}, gathers_, &first->photons);
+    if (gathers_ && left() > 0) choose_paths(trial.cost, &sample, &first->photons);
     if (gathers_ && !paths_.empty()) {  // fewer kinds of photons cost less
       trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, first->photons.explored());
       *first = std::move(trial.first);
-      if (cancelled(*first)) return {true, std::move(first), {}, {}};
+      if (cancelled(*first)) return {.single_pass = true, .photons = std::move(first)};
     }
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
       set_passes(trial.cost, {.each = sample.seconds, .further = sample.seconds}, share);
-      return {false, nullptr, paths_, {}};
+      return {.explored = first->photons.explored(), .paths = paths_};
     }
     if (gathers_) *first = shoot(trial.cost, share * left(), first->photons.explored());
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
-    return {true, gathers_ ? std::move(first) : nullptr, {}, further_work(cost)};
+    return {.single_pass = true,
+            .photons = gathers_ ? std::move(first) : nullptr,
+            .further_work = further_work(cost)};
   }
 
  private:
@@ -174,29 +169,25 @@ class TimePlan {
   void choose_paths(const render::PhotonCost& cost, render::SampleTrial* sample,
                     render::PassPhotons* photons) {
     const render::SampleTrial maps = *sample;
-    const render::RenderSettings settings = render_;
     const double share = photon_share(cost, maps);
     const int passes = takes_passes(maps, share) ? kPasses : 1;
     const double of_pass = std::max(share * left() / std::max(cost.each, 1e-12) / passes, 1.0);
-    const double fewer = std::min(std::pow(cost.photons / of_pass, 2.0 / 3), 1.0);
-    double least = HUGE_VAL;
-    for (const PathClasses& classes : path_candidates(scene_, settings, plan_)) {
-      if (left() <= 0) return;
-      const render::RenderSettings tried = with_paths(settings, classes);
-      const render::EstimatorPlan plan = render::make_plan(tried, scene_.needs);
-      const render::SampleTrial paths =
-          render::try_one_sample({scene_, bvh_, tried, plan}, kSampleTrial / 2 * seconds_, false, photons);
-      const TrialComparison found = compare_trials(classes, maps, paths);
-      const bool gathers = render::kinds_needed(plan).any();
-      const double of_maps =
-          noise_of(found.variance_of_maps, maps, 1 - share, passes) + found.error_of_maps * fewer;
-      const double of_paths =
-          noise_of(found.variance_of_paths, paths, gathers ? 1 - photon_share(cost, paths) : 1, kPasses);
-      if (of_paths > kHopeless * of_maps) return;
-      if (of_paths >= std::min(least, kWorthPaths * of_maps) || !found.paths_are_known) continue;
-      least = of_paths, *sample = paths, render_ = tried, plan_ = plan, gathers_ = gathers;
-      paths_ = fmt::format("{} --indirect paths", classes.caustics ? " --caustics paths" : "");
-    }
+    const auto judge = [&](const TrialComparison& found, const PathTrial& paths) {
+      const bool gathers = render::kinds_needed(paths.plan).any();
+      const double photons_beside = gathers ? photon_share(cost, paths.sample) : 0;
+      return ErrorsAtCost{noise_of(found.variance_of_maps, maps, 1 - share, passes) +
+                              found.error_of_maps * share_of_map_error(cost.photons, of_pass),
+                          noise_of(found.variance_of_paths, paths.sample, 1 - photons_beside, kPasses)};
+    };
+    const auto try_paths = [&](const render::RenderInput& tried) {
+      return render::try_one_sample(tried, {.seconds = kSampleTrial / 2 * seconds_}, false, photons);
+    };
+    std::optional<PathTrial> paths = app::choose_paths(input(), maps, try_paths, judge);
+    if (!paths) return;
+    paths_ = options_of(paths->classes);
+    render_ = std::move(paths->settings), plan_ = std::move(paths->plan);
+    *sample = std::move(paths->sample);
+    gathers_ = render::kinds_needed(plan_).any();
   }
 
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
@@ -246,7 +237,7 @@ FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatc
       filled.single_pass ? ", and adaptive samples until the time is up"
                          : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
                                        render.passes, *render.alpha);
-  if (!filled.paths.empty()) console.note(kPathsNote);
+  if (!filled.paths.empty()) console.note(kPathsTaken);
   console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}{}", *settings->stop.seconds,
                            render.spp, render.photons, filled.paths, choice));
   return filled;

@@ -24,12 +24,13 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
 struct FilledTime {
   bool single_pass = false;  // adaptive samples are placed best in one
   // Of the single pass, if it gathers any; without radii if the progress callback cancelled.
-  std::shared_ptr<render::FirstPhotons> photons;
+  std::shared_ptr<render::FirstPhotons> photons{};
+  std::shared_ptr<render::ExploredScene> explored{};  // what the trials found out about the scene
   // The options by which paths replace photon maps, each after a space; empty where none does. Such a render
   // has passes.
-  std::string paths;
+  std::string paths{};
   // For render::RenderTask: chooses the adaptive samples of a single pass while it is rendered. May be empty.
-  std::function<double(double done, double seconds)> further_work;
+  std::function<double(double done, double seconds)> further_work{};
 };
 
 // Chooses photons, samples and passes by short trial renders, and logs them. If a single pass would be long,

@@ -34,7 +34,7 @@ SampleTrial trial(double caustic, double indirect, double noise, uint64_t seed) 
   return trial;
 }
 
-constexpr PathClasses kBoth{.caustics = true, .indirect = true};
+constexpr TakenByPaths kBoth = TakenByPaths::kIndirectAndCaustics;
 
 TEST(PathChoice, VarianceIsThatOfASample) {
   const TrialComparison found = compare_trials(kBoth, trial(0, 1, 0.1, 1), trial(0, 1, 0.5, 2));
@@ -60,7 +60,7 @@ TEST(PathChoice, LightThatPathsMissedIsUnknown) {
   const SampleTrial maps = trial(0.1, 1, 0.1, 1);
   SampleTrial paths = trial(0, 1, 0.1, 2);  // saw no caustic, and so no noise of it
   EXPECT_FALSE(compare_trials(kBoth, maps, paths).paths_are_known);
-  EXPECT_TRUE(compare_trials({.indirect = true}, maps, paths).paths_are_known);
+  EXPECT_TRUE(compare_trials(TakenByPaths::kIndirect, maps, paths).paths_are_known);
 }
 
 // The noise of paths that a trial did not meet is estimated from those that it met.
@@ -89,15 +89,15 @@ Scene scene_with(const std::vector<Light>& lights, bool specular) {
   return scene;
 }
 
-std::vector<PathClasses> candidates_of(const Scene& scene, const render::RenderSettings& settings = {}) {
+std::vector<TakenByPaths> candidates_of(const Scene& scene, const render::RenderSettings& settings = {}) {
   return path_candidates(scene, settings, render::make_plan(settings, scene.needs));
 }
 
 TEST(PathChoice, CausticsOfLightsThatNoPathHitsStayWithMaps) {
-  const std::vector<PathClasses> of_lamp = candidates_of(scene_with({DiffuseAreaLight{}}, true));
+  const std::vector<TakenByPaths> of_lamp = candidates_of(scene_with({DiffuseAreaLight{}}, true));
   ASSERT_EQ(of_lamp.size(), 2u);
-  EXPECT_FALSE(of_lamp[0].caustics);
-  EXPECT_TRUE(of_lamp[1].caustics);
+  EXPECT_EQ(of_lamp[0], TakenByPaths::kIndirect);
+  EXPECT_EQ(of_lamp[1], TakenByPaths::kIndirectAndCaustics);
   EXPECT_EQ(candidates_of(scene_with({DiffuseAreaLight{}, PointLight{}}, true)).size(), 1u);
   EXPECT_EQ(candidates_of(scene_with({DiffuseAreaLight{}}, false)).size(), 1u);  // no caustics at all
 }

@@ -54,13 +54,12 @@ TEST_F(PassTrials, KeepThePhotonsThatTheRenderUses) {
 // The halves are those of the trial's own samples: together they make the mean, apart they show its noise.
 TEST_F(PassTrials, TellMeansAndNoiseOfBlocks) {
   PhotonTrial photons = try_photons(input(), 1, {});
-  const SampleTrial maps = try_one_sample(input(), 100, true, &photons.first.photons);
+  const SampleTrial maps = try_one_sample(input(), {}, true, &photons.first.photons);
   ASSERT_FALSE(maps.blocks.empty());
   RenderSettings by_paths = settings_;
   by_paths.caustics = CausticEstimator::kPaths, by_paths.indirect = IndirectEstimator::kPaths;
   const EstimatorPlan plan = make_plan(by_paths, scene_.needs);
-  const SampleTrial paths =
-      try_one_sample({scene_, bvh_, by_paths, plan}, 100, false, &photons.first.photons);
+  const SampleTrial paths = try_one_sample({scene_, bvh_, by_paths, plan}, {}, false, &photons.first.photons);
   ASSERT_EQ(paths.blocks.size(), maps.blocks.size());
   double of_maps = 0, of_paths = 0, squared_error = 0, noise_of_maps = 0;
   for (size_t i = 0; i < maps.blocks.size(); ++i) {
@@ -142,7 +141,7 @@ TEST_F(PassTrials, AdaptiveSamplesDecidedOnTheWayGiveTheSamePicture) {
 // Glass, a mirror and white walls: rays bring noise, and most of the light comes from photons.
 TEST_F(PassTrials, TellWhereTheErrorComesFrom) {
   PhotonTrial trial = try_photons(input(), 1, {});
-  const SampleTrial sample = try_one_sample(input(), 1, false, &trial.first.photons);
+  const SampleTrial sample = try_one_sample(input(), {}, false, &trial.first.photons);
   EXPECT_GT(sample.seconds, 0);
   EXPECT_GT(sample.errors.samples, 0);
   EXPECT_GT(sample.errors.mapped, 0);
