@@ -99,6 +99,7 @@ void PassPhotons::free_maps() {
 void PassPhotons::explore(const RenderInput& input) {
   if (!kinds_needed(input.plan).any()) return;
   ExploredScene& known = *explored_;
+  const Stopwatch watch;
   if (!known.edges) {
     std::vector<BoundaryEdge> edges = find_boundary_edges(input.scene.shapes, &known.bends);
     known.edges = std::make_unique<accel::EdgeIndex>(accel::without_continued(std::move(edges), input.bvh));
@@ -106,6 +107,7 @@ void PassPhotons::explore(const RenderInput& input) {
   if (!known.feet) known.feet = accel::find_wall_feet(input.scene, *known.edges);
   if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather)
     known.surroundings = std::make_unique<const Surroundings>(input);
+  known.seconds += watch.seconds();
 }
 
 // Prepares the feet of walls for the radii of the first pass of this process; later passes have smaller

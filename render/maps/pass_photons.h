@@ -23,6 +23,7 @@ struct ExploredScene {
   std::optional<std::vector<BoundaryEdge>> feet;  // of walls
   std::unique_ptr<const Surroundings> surroundings;
   std::unique_ptr<const SkyGuide> sky;
+  double seconds = 0;  // that PassPhotons::explore() took
 };
 
 class PassPhotons {

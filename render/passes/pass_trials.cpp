@@ -190,8 +190,9 @@ ErrorSources error_sources(const EstimatorPlan& plan, const std::vector<std::vec
 }  // namespace
 
 FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
-                         std::shared_ptr<ExploredScene> explored) {
-  FirstPhotons first{PassPhotons(std::move(explored)), {}};
+                         const std::shared_ptr<ExploredScene>& explored) {
+  FirstPhotons first{PassPhotons(explored), {}};
+  first.statistics.photon_build_s = explored->seconds;
   first.photons.make(input, pass_share(0, 1, input.settings.photons, 1), progress, &first.statistics);
   return first;
 }

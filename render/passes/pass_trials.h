@@ -34,9 +34,9 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
                         std::shared_ptr<ExploredScene> explored = std::make_shared<ExploredScene>());
 
 // Shoots the photons of a render that has a single pass. They have no radii if the progress callback
-// cancelled.
+// cancelled. What exploring the scene took before counts in their seconds.
 FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
-                         std::shared_ptr<ExploredScene> explored = std::make_shared<ExploredScene>());
+                         const std::shared_ptr<ExploredScene>& explored = std::make_shared<ExploredScene>());
 
 // Where the error of a picture comes from, as means over its pixels relative to the square of their luminance
 // (to which the square of a tenth of the picture's mean is added).

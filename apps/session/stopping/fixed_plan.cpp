@@ -63,6 +63,7 @@ class FixedPlan {
     share.photons = all;
     first->photons.forget_radii();
     first->statistics = {};
+    first->statistics.photon_build_s = found.explored->seconds;
     first->photons.make(input(), share, progress, &first->statistics);
     return {first, found.explored};
   }

@@ -22,7 +22,7 @@ constexpr double kLeastPhotons = 0.03, kMostPhotons = 0.5, kMargin = 0.03;
 constexpr double kErrorOfMillion = 0.01;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
-constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.02;
+constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.015;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples.
@@ -115,10 +115,10 @@ class TimePlan {
   bool cancelled(const render::FirstPhotons& first) const { return gathers_ && !first.photons.radii(); }
 
   render::FirstPhotons shoot(const render::PhotonCost& cost, double seconds,
-                             std::shared_ptr<render::ExploredScene> explored) {
+                             const std::shared_ptr<render::ExploredScene>& explored) {
     render_.photons = photons_within(cost, seconds, fewest_);
     render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
-    return render::shoot_first(input(), progress_, std::move(explored));
+    return render::shoot_first(input(), progress_, explored);
   }
 
   // Whether the time is filled by passes. Paths have no adaptive samples, which fill the time of a single
