@@ -37,8 +37,12 @@ struct Face {
 
 using Faces = std::vector<const Face*>;
 
-Bounds3 grown(Bounds3 box) {
-  const float by = float(kTouch) * std::max(max_abs_component(box.min), max_abs_component(box.max));
+// Two boxes that are grown so meet where their contents touch. Those of triangles that are larger than twice
+// the gap also meet where they are no farther apart than the gap: among smaller ones there would be too many
+// pairs.
+Bounds3 grown(Bounds3 box, float gap) {
+  const float touch = float(kTouch) * std::max(max_abs_component(box.min), max_abs_component(box.max));
+  const float by = touch + (glm::length(box.diagonal()) > 2 * gap ? 0.5f * gap : 0);
   box.min -= by;
   box.max += by;
   return box;
@@ -49,7 +53,7 @@ bool overlap(const Bounds3& a, const Bounds3& b) {
          a.min.z <= b.max.z && b.min.z <= a.max.z;
 }
 
-std::vector<Face> faces_of(const Shape& shape) {
+std::vector<Face> faces_of(const Shape& shape, float gap) {
   const TriangleMesh& mesh = *shape.mesh();
   std::vector<Face> faces;
   faces.reserve(mesh.indices.size());
@@ -63,7 +67,7 @@ std::vector<Face> faces_of(const Shape& shape) {
     }
     face.n = triangle_normal(face.P[1] - face.P[0], face.P[2] - face.P[0]);
     if (face.n == Normal3(0)) continue;
-    face.box = grown(face.box);
+    face.box = grown(face.box, gap);
     face.group = shape.surface_group;
     faces.push_back(face);
   }
@@ -100,6 +104,11 @@ struct Heights {
   bool below() const {
     return std::any_of(h.begin(), h.end(), [](double x) { return x < 0; });
   }
+  // Whether the triangle is on one side of the plane and does not touch it.
+  bool apart() const {
+    return std::all_of(h.begin(), h.end(), [](double x) { return x > 0; }) ||
+           std::all_of(h.begin(), h.end(), [](double x) { return x < 0; });
+  }
 };
 
 // Where the triangle meets the plane; nothing if it does so in a point or not at all.
@@ -116,7 +125,18 @@ std::optional<Segment> section(const Face& wall, const Heights& heights) {
   return Segment{found[0], found[1]};
 }
 
-std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall) {
+// The edge of a triangle on one side of the plane whose ends are at most `gap` away from it while the third
+// corner is farther away, moved to the plane along its normal.
+std::optional<Segment> below(const Face& wall, const Heights& heights, const glm::dvec3& n, double gap) {
+  std::array<glm::dvec3, 3> found;
+  size_t count = 0;
+  for (size_t i = 0; i < 3; ++i)
+    if (std::abs(heights.h[i]) <= gap) found[count++] = glm::dvec3(wall.P[i]) - heights.h[i] * n;
+  if (count != 2) return std::nullopt;
+  return Segment{found[0], found[1]};
+}
+
+std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall, float gap) {
   const float limit = floor.group == wall.group ? kBendOfOwn : kBendOfOthers;
   if (std::abs(glm::dot(floor.n, wall.n)) > limit || !overlap(floor.box, wall.box)) return std::nullopt;
   float size = 0;
@@ -131,6 +151,7 @@ std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall) {
     heights.h[i] = std::abs(h) <= touch ? 0 : h;
   }
   auto foot = section(wall, heights);
+  if (heights.apart() && floor.group != wall.group) foot = below(wall, heights, n, double(gap));
   if (!foot) return std::nullopt;
   for (size_t i = 0; i < 3; ++i) {
     const glm::dvec3 corner(floor.P[i]), along = glm::dvec3(floor.P[(i + 1) % 3]) - corner;
@@ -151,6 +172,8 @@ std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall) {
 // Finds the feet of all walls on all floors.
 class Join {
  public:
+  explicit Join(float gap) : gap_(gap) {}
+
   std::vector<BoundaryEdge> run(Faces floors, Faces walls) {
     std::vector<BoundaryEdge> feet;
     if (floors.empty() || walls.empty()) return feet;
@@ -225,9 +248,10 @@ class Join {
     for (const Face* floor : floors)
       for (const Face* wall : walls)
         if (floor != wall)
-          if (const auto foot = foot_on(*floor, *wall)) feet->push_back(*foot);
+          if (const auto foot = foot_on(*floor, *wall, gap_)) feet->push_back(*foot);
   }
 
+  const float gap_;
   std::atomic<uint64_t> pairs_{0};
 };
 
@@ -277,7 +301,7 @@ struct ShapeFaces {
   bool floors = false, walls = false;
 };
 
-std::vector<ShapeFaces> faces_of(const Scene& scene) {
+std::vector<ShapeFaces> faces_of(const Scene& scene, float gap) {
   const std::vector<uint32_t> shapes = coarse_shapes(scene);
   std::vector<ShapeFaces> found(shapes.size());
   tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
@@ -285,15 +309,15 @@ std::vector<ShapeFaces> faces_of(const Scene& scene) {
     const Material& material = scene.materials[shape.material];
     found[i].floors = material.lobes().diffuse;
     found[i].walls = !shape.has_alpha() && !is_glass(material);
-    if (found[i].floors || found[i].walls) found[i].faces = faces_of(shape);
+    if (found[i].floors || found[i].walls) found[i].faces = faces_of(shape, gap);
   });
   return found;
 }
 
 }  // namespace
 
-std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends) {
-  std::vector<ShapeFaces> shapes = faces_of(scene);
+std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends, float gap) {
+  std::vector<ShapeFaces> shapes = faces_of(scene, gap);
   Faces floors, walls;
   uint32_t order = 0;
   for (ShapeFaces& shape : shapes)
@@ -302,7 +326,7 @@ std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& en
       if (shape.floors) floors.push_back(&face);
       if (shape.walls) walls.push_back(&face);
     }
-  Join join;
+  Join join(gap);
   std::vector<BoundaryEdge> feet = join.run(std::move(floors), std::move(walls));
   if (join.gave_up()) return {};
   drop_edges(&feet, [&](const BoundaryEdge& foot) { return lies_on_end(foot, ends); });

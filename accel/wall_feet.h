@@ -4,6 +4,9 @@
 // Light on one side of a wall of no thickness says nothing about the other side, although the floor under it
 // is one surface. A density estimate next to a wall must know where its foot is (photon/estimate/walls.h).
 //
+// A wall that ends just above the surface, like a door above its sill, separates the light on both sides as
+// well.
+//
 // Not handled: walls and floors that are not triangles; walls that share their bend of less than 60 degrees
 // with the surface they stand on.
 
@@ -24,7 +27,9 @@ inline constexpr uint64_t kMostWallPairs = uint64_t{1} << 30;
 // mean nothing. A triangle touches a surface if it comes within 2^-19 of the coordinates' size. Not walls
 // are: glass, masked surfaces, other shapes' triangles that bend away by less than 26 degrees, those of the
 // same surface that bend by less than 60, and what stands along `ends`, where the surface ends anyway.
-// Sorted; does not depend on the number of threads, and scales with the scene by powers of two.
-std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends);
+// gap: metres; triangles of other surfaces that end above this one, at most so high, are walls too. Their
+// feet are the lines below their lowest edges. Sorted; does not depend on the number of threads, and scales
+// with the scene by powers of two.
+std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends, float gap);
 
 }  // namespace kaustik::accel

@@ -11,6 +11,7 @@
 #include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
 #include "render/picture/compare.h"
+#include "render/picture/fireflies.h"
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -51,6 +52,7 @@ std::string blocks_text(const render::CompareResult& r) {
 // What one call finds.
 struct Comparison {
   render::CompareResult result;
+  render::Fireflies fireflies;
   int side = 0;                                   // of --blocks; 0 without it
   std::optional<render::BlockDeviations> blocks;  // of --blocks
 };
@@ -82,6 +84,12 @@ std::string as_json(const Comparison& found, const CompareOptions& options, bool
   out["mean"] = r.mean_image;
   out["reference_mean"] = r.mean_reference;
   out["mean_ratio"] = number_or_null(r.mean_image / r.mean_reference);
+  const render::Fireflies& f = found.fireflies;
+  out["fireflies"] = {{"count", f.count},
+                      {"x", f.x},
+                      {"y", f.y},
+                      {"luminance", f.image},
+                      {"reference_luminance", f.reference}};
   if (found.blocks) out["block_deviations"] = deviations_json(*found.blocks, found.side);
   out["pixels"] = {{"compared", r.compared},
                    {"masked", r.masked},
@@ -110,6 +118,10 @@ std::string as_text(const Comparison& found, const CompareOptions& options) {
       r.rmse, r.relmse, blocks_text(r), r.psnr, r.max_difference, r.max_x, r.max_y, "RGB"[r.max_channel % 3],
       r.mean_image, r.mean_reference);
   if (r.mean_reference != 0) text += fmt::format(", ratio {:.6g}", r.mean_image / r.mean_reference);
+  text += fmt::format("\nfireflies       {}", found.fireflies.count);
+  if (found.fireflies.count > 0)
+    text += fmt::format(", the brightest at x {} y {}: luminance {:.6g}, reference {:.6g}", found.fireflies.x,
+                        found.fireflies.y, found.fireflies.image, found.fireflies.reference);
   text += fmt::format("\npixels          {} compared, {} masked", r.compared, r.masked);
   if (r.nan_image + r.nan_reference > 0) {
     text += fmt::format("\nnot finite      {} pixels of the image, {} of the reference", r.nan_image,
@@ -135,7 +147,10 @@ Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
     render::CompareOptions compared{.mask_bright = options.mask_bright};
     if (!options.layer.empty() && options.mask_bright)
       compared.mask_from = &whole.emplace(render::read_image(options.reference));
-    Comparison found{render::compare(reference, image, compared), side, {}};
+    Comparison found{render::compare(reference, image, compared),
+                     render::find_fireflies(reference, image, compared),
+                     side,
+                     {}};
     if (side > 0) found.blocks = render::compare_blocks(reference, image, side, compared);
     if (!options.heatmap.empty())
       writer.write(options.heatmap,

@@ -48,6 +48,7 @@ def errors(args, reference, image, layers=True):
     mask = ["--mask-bright", args.mask_bright] if args.mask_bright > 0 else []
     found = compare(args, reference, image, *mask)
     out = {key: found[key] for key in ("relmse", "rmse", "relmse_of_blocks", "mean_ratio")}
+    out["fireflies"] = found["fireflies"]["count"]
     out["masked"] = found["pixels"]["masked"] / max(1, found["pixels"]["masked"] + found["pixels"]["compared"])
     if layers:
         out["classes"] = {name: compare(args, reference, image, "--layer", name)["mean_ratio"] for name in CLASSES}

@@ -63,7 +63,7 @@ class Walls {
 class WallCut {
  public:
   // If more feet than this are within the disc, it is not cut.
-  static constexpr size_t kMostFeet = 64;
+  static constexpr size_t kMostFeet = 128;
   static constexpr int kDirections = 128;
 
   // The disc of `radius` metres, at most walls.radius(), at si, which is seen from the direction wo. n: the

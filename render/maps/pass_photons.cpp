@@ -16,6 +16,13 @@ namespace kaustik::render {
 
 namespace {
 
+// The highest gap below a wall that does not join the discs on both sides: a quarter of their radius or less,
+// by a power of two, so that maps of a few more photons find the same feet.
+float gap_below_walls(float radius) {
+  constexpr float kShareOfRadius = 0.25f;
+  return std::ldexp(1.0f, std::ilogb(kShareOfRadius * radius));
+}
+
 using photon::PhotonKind;
 
 std::array<GatherMap*, 3> gather_maps(PhotonMaps& maps) {
@@ -104,19 +111,20 @@ void PassPhotons::explore(const RenderInput& input) {
     std::vector<BoundaryEdge> edges = find_boundary_edges(input.scene.shapes, &known.bends);
     known.edges = std::make_unique<accel::EdgeIndex>(accel::without_continued(std::move(edges), input.bvh));
   }
-  if (!known.feet) known.feet = accel::find_wall_feet(input.scene, *known.edges);
   if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather)
     known.surroundings = std::make_unique<const Surroundings>(input);
   known.seconds += watch.seconds();
 }
 
-// Prepares the feet of walls for the radii of the first pass of this process; later passes have smaller
-// discs.
+// Finds the feet of walls for the radii of the first pass of this process; later passes have smaller discs.
 void PassPhotons::find_walls(const Scene& scene) {
   if (std::exchange(walls_are_known_, true)) return;
   const float radius = std::max({radii_->direct, radii_->caustic, radii_->indirect});
-  if (!explored_->feet->empty() && radius > 0)
-    walls_ = std::make_unique<photon::Walls>(*explored_->feet, scene.bounds, radius);
+  if (!(radius > 0) || !std::isfinite(radius)) return;
+  const float gap = gap_below_walls(radius);
+  std::optional<WallFeet>& feet = explored_->feet;
+  if (!feet || feet->gap != gap) feet = WallFeet{gap, accel::find_wall_feet(scene, *explored_->edges, gap)};
+  if (!feet->edges.empty()) walls_ = std::make_unique<photon::Walls>(feet->edges, scene.bounds, radius);
 }
 
 // Sets the radii and k-nearest counts for this pass; both shrink from pass to pass.

@@ -15,12 +15,18 @@
 
 namespace kaustik::render {
 
+// The feet of walls (accel/wall_feet.h).
+struct WallFeet {
+  float gap = 0;  // metres; walls that end so high above a surface are among them
+  std::vector<BoundaryEdge> edges;
+};
+
 // What is found out about a scene once, whatever the photons; each member is null until it is needed. The
 // estimates of maps point to it.
 struct ExploredScene {
   std::unique_ptr<const accel::EdgeIndex> edges;  // edges of surfaces
   std::vector<SurfaceBend> bends;                 // bend of surfaces, by surface group; set with edges
-  std::optional<std::vector<BoundaryEdge>> feet;  // of walls
+  std::optional<WallFeet> feet;
   std::unique_ptr<const Surroundings> surroundings;
   std::unique_ptr<const SkyGuide> sky;
   double seconds = 0;  // that PassPhotons::explore() took

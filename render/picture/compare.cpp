@@ -67,14 +67,6 @@ void add_pixel(const Image& reference, const Image& image, int x, int y, Compare
   ++result->compared;
 }
 
-std::vector<bool> compared_pixels(const Image& reference, const Image& image, std::vector<bool> mask) {
-  std::vector<bool> compared = std::move(mask);
-  compared.flip();
-  for (size_t i = 0; i < compared.size(); ++i)
-    compared[i] = compared[i] && is_finite(image.pixels[i]) && is_finite(reference.pixels[i]);
-  return compared;
-}
-
 // Sums over the compared pixels of a block.
 struct BlockSums {
   glm::dvec3 image{0}, reference{0};
@@ -137,10 +129,18 @@ std::vector<bool> masked_pixels(const Image& reference, const CompareOptions& op
   return std::vector<bool>(reference.pixels.size(), false);
 }
 
-CompareResult compare(const Image& reference, const Image& image, const CompareOptions& options) {
+std::vector<bool> compared_pixels(const Image& reference, const Image& image, const CompareOptions& options) {
   require_same_size(reference, image);
+  std::vector<bool> compared = masked_pixels(reference, options);
+  compared.flip();
+  for (size_t i = 0; i < compared.size(); ++i)
+    compared[i] = compared[i] && is_finite(image.pixels[i]) && is_finite(reference.pixels[i]);
+  return compared;
+}
+
+CompareResult compare(const Image& reference, const Image& image, const CompareOptions& options) {
+  const std::vector<bool> compared = compared_pixels(reference, image, options);
   const std::vector<bool> mask = masked_pixels(reference, options);
-  const std::vector<bool> compared = compared_pixels(reference, image, mask);
   CompareResult result;
   Sums sums;
   for (int y = 0; y < reference.height; ++y)
@@ -166,8 +166,7 @@ CompareResult compare(const Image& reference, const Image& image, const CompareO
 
 BlockDeviations compare_blocks(const Image& reference, const Image& image, int side,
                                const CompareOptions& options) {
-  require_same_size(reference, image);
-  const std::vector<bool> compared = compared_pixels(reference, image, masked_pixels(reference, options));
+  const std::vector<bool> compared = compared_pixels(reference, image, options);
   std::vector<BlockDeviation> found;
   for_each_block(reference, image, compared, side, [&](int x, int y, const BlockSums& block) {
     const double channels = 3.0 * double(block.pixels);

@@ -63,6 +63,9 @@ BlockDeviations compare_blocks(const Image& reference, const Image& image, int s
 // True for each pixel of the reference that the options leave out.
 std::vector<bool> masked_pixels(const Image& reference, const CompareOptions& options);
 
+// True for each pixel that is not left out and is finite in both pictures. Throws as compare() does.
+std::vector<bool> compared_pixels(const Image& reference, const Image& image, const CompareOptions& options);
+
 // Returns (value - reference)^2 / (reference^2 + 0.01), for one channel.
 double relative_squared(double value, double reference);
 

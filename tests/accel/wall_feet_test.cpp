@@ -13,7 +13,8 @@ namespace {
 using test::parallelogram;
 
 // Each shape is a surface group of its own.
-std::vector<BoundaryEdge> feet_of(std::vector<Shape> shapes, std::vector<Material> materials = {}) {
+std::vector<BoundaryEdge> feet_of(std::vector<Shape> shapes, std::vector<Material> materials = {},
+                                  float gap = 0) {
   Scene scene;
   scene.shapes = std::move(shapes);
   scene.materials = std::move(materials);
@@ -21,7 +22,7 @@ std::vector<BoundaryEdge> feet_of(std::vector<Shape> shapes, std::vector<Materia
   for (uint32_t i = 0; i < scene.shapes.size(); ++i) scene.shapes[i].surface_group = i;
   finalize_scene(scene);
   const Bvh bvh(scene);
-  return find_wall_feet(scene, EdgeIndex(without_continued(find_boundary_edges(scene.shapes), bvh)));
+  return find_wall_feet(scene, EdgeIndex(without_continued(find_boundary_edges(scene.shapes), bvh)), gap);
 }
 
 std::vector<BoundaryEdge> in_group(const std::vector<BoundaryEdge>& feet, uint32_t group) {
@@ -131,6 +132,22 @@ TEST(WallFeet, ScaleWithTheScene) {
       EXPECT_EQ(other[i].b, s * one[i].b);
     }
   }
+}
+
+// A wall from (0.25, 0.5) to (0.75, 0.5) that ends 0.05 above the floor, and stands upright or is tilted by
+// 45 degrees: the foot is below its lower edge.
+TEST(WallFeet, AWallJustAboveAFloorHasOne) {
+  for (const Vector3& up : {Vector3(0, 0, 1), Vector3(0, 1, 1)}) {
+    const std::vector<Shape> shapes = {kFloor, parallelogram({0.25f, 0.5f, 0.05f}, {0.5f, 0, 0}, up)};
+    const auto near = in_group(feet_of(shapes, {}, 0.0625f), 0);
+    EXPECT_NEAR(covered(near, 0.25, 0.75), 0.5, 1e-3);
+    EXPECT_EQ(covered(near, 0, 0.249), 0);
+    for (const BoundaryEdge& foot : near) EXPECT_EQ(foot.n, Normal3(0, 0, 1));
+    EXPECT_TRUE(feet_of(shapes, {}, 0.03f).empty());
+  }
+  // What lies flat just above the floor is no wall.
+  EXPECT_TRUE(feet_of({kFloor, parallelogram({0.25f, 0.25f, 0.05f}, {0.5f, 0, 0}, {0, 0.5f, 0})}, {}, 0.0625f)
+                  .empty());
 }
 
 }  // namespace

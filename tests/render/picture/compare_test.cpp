@@ -1,6 +1,7 @@
 // Tests the metrics against values worked out by hand.
 
 #include "render/picture/compare.h"
+#include "render/picture/fireflies.h"
 
 #include <gtest/gtest.h>
 
@@ -93,6 +94,38 @@ TEST(CompareBlocks, WhiteNoiseFallsByThePixelsOfABlock) {
       EXPECT_NEAR(r.relmse_of_blocks[i], expected, 5 * std::sqrt(2 / (3 * blocks)) * expected) << k;
     }
   }
+}
+
+// Three bright pixels on a wall of 1 beside a window of 50: one that is new, one that the reference has, and
+// one that is not bright enough. The window is no firefly, though ten times its median where only a part of
+// it is seen, since the reference has it.
+TEST(CompareFireflies, AreBrightPixelsThatTheReferenceLacks) {
+  Image reference(32, 16, Rgb(1));
+  for (int y = 0; y < 16; ++y) reference.at(31, y) = Rgb(50);
+  reference.at(20, 8) = Rgb(30);
+  Image image = reference;
+  image.at(5, 3) = Rgb(10.5f);
+  image.at(10, 10) = Rgb(9.5f);
+  const Fireflies found = find_fireflies(reference, image);
+  EXPECT_EQ(found.count, 1u);
+  EXPECT_EQ(found.x, 5);
+  EXPECT_EQ(found.y, 3);
+  EXPECT_FLOAT_EQ(float(found.image), 10.5f);
+  EXPECT_FLOAT_EQ(float(found.reference), 1);
+}
+
+// The reference is half 2 and half 0, so its mean is 1 and a hundredth of it the least median: in the dark
+// half more than a tenth is a firefly, and what is not finite is none.
+TEST(CompareFireflies, InTheDarkAreMeasuredAgainstThePicturesMean) {
+  Image reference(32, 16, Rgb(0));
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) reference.at(x, y) = Rgb(2);
+  Image image = reference;
+  image.at(24, 4) = Rgb(0.11f);
+  image.at(24, 12) = Rgb(0.09f);
+  image.at(28, 8) = Rgb(kInfinity);
+  EXPECT_EQ(find_fireflies(reference, image).count, 1u);
+  EXPECT_EQ(find_fireflies(reference, image, {.mask_bright = -1.0f}).count, 0u);  // masks all
 }
 
 // R + d and R - d in squares of `side` pixels.

@@ -122,6 +122,19 @@ inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) 
       }
   return all;
 }
+// As above, but only so many that each two estimators of different classes meet: since every path has one
+// owner (docs/decisions/020-one-owner-per-path.md), a third one has no part in what two of them count.
+inline std::vector<RenderSettings> with_pairs_of_estimators(const RenderSettings& settings) {
+  std::vector<RenderSettings> pairs = with_all_estimators(settings);
+  std::erase_if(pairs, [](const RenderSettings& s) {
+    if (s.indirect == IndirectEstimator::kFinalGather) return false;
+    const int parity = int(*s.direct) + int(s.caustics == CausticEstimator::kPaths) +
+                       int(s.indirect == IndirectEstimator::kPaths);
+    return parity % 2 == 1;
+  });
+  return pairs;
+}
+
 inline std::string names_of_estimators(const RenderSettings& s) {
   return std::to_string(int(*s.direct)) + std::to_string(int(*s.caustics)) + std::to_string(int(*s.indirect));
 }
@@ -162,7 +175,8 @@ inline void expect_the_same_sum_by_all_estimators(const Scene& scene, float radi
   std::vector<ClassReference> references = {{{}, by_paths, wide, narrow}};
   for (const Layer layer : kClasses)
     if (block_estimate(by_paths, layer, -1).mean > 0) references.push_back({layer, by_paths, wide, narrow});
-  for (const RenderSettings& settings : with_all_estimators(settings_of(Method::kAuto, 16, radius, 10))) {
+  for (const RenderSettings& settings :
+       with_pairs_of_estimators(settings_of(Method::kAuto, 16, radius, 10))) {
     const auto found = films(scene, settings, 4);
     for (const ClassReference& reference : references)
       reference.expect_agreement(found, names_of_estimators(settings), references[0].paths.mean);

@@ -1,0 +1,20 @@
+#pragma once
+// Finds single bright pixels that a reference does not have.
+
+#include "render/picture/compare.h"
+
+namespace kaustik::render {
+
+// A firefly is brighter, in luminance, than ten times the median of the 5 x 5 pixels about it (cut at the
+// border), which counts as a hundredth of the reference's mean at least; and it is twice as bright as in the
+// reference. Noise of few bright paths shows so, and counts little in a mean over all pixels.
+struct Fireflies {
+  uint64_t count = 0;
+  int x = 0, y = 0;                 // the one of the largest luminance
+  double image = 0, reference = 0;  // its luminance
+};
+
+// Counts the fireflies among the compared pixels. Throws as compare() does.
+Fireflies find_fireflies(const Image& reference, const Image& image, const CompareOptions& options = {});
+
+}  // namespace kaustik::render
