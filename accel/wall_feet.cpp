@@ -37,9 +37,9 @@ struct Face {
 
 using Faces = std::vector<const Face*>;
 
-// Two boxes that are grown so meet where their contents touch. Those of triangles that are larger than twice
-// the gap also meet where they are no farther apart than the gap: among smaller ones there would be too many
-// pairs.
+// Boxes of triangles that are grown by this meet where the triangles touch. Those of triangles larger than
+// twice the gap also meet where they are no farther apart than the gap; among smaller ones there would be too
+// many pairs.
 Bounds3 grown(Bounds3 box, float gap) {
   const float touch = float(kTouch) * std::max(max_abs_component(box.min), max_abs_component(box.max));
   const float by = touch + (glm::length(box.diagonal()) > 2 * gap ? 0.5f * gap : 0);
@@ -104,11 +104,6 @@ struct Heights {
   bool below() const {
     return std::any_of(h.begin(), h.end(), [](double x) { return x < 0; });
   }
-  // Whether the triangle is on one side of the plane and does not touch it.
-  bool apart() const {
-    return std::all_of(h.begin(), h.end(), [](double x) { return x > 0; }) ||
-           std::all_of(h.begin(), h.end(), [](double x) { return x < 0; });
-  }
 };
 
 // Where the triangle meets the plane; nothing if it does so in a point or not at all.
@@ -141,7 +136,7 @@ std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall, float g
   if (std::abs(glm::dot(floor.n, wall.n)) > limit || !overlap(floor.box, wall.box)) return std::nullopt;
   float size = 0;
   for (const Face* face : {&floor, &wall})
-    size = std::max({size, max_abs_component(face->box.min), max_abs_component(face->box.max)});
+    for (const Point3& p : face->P) size = std::max(size, max_abs_component(p));
   const double touch = kTouch * double(size);
   const glm::dvec3 p0(floor.P[0]);
   const glm::dvec3 n = glm::normalize(glm::cross(glm::dvec3(floor.P[1]) - p0, glm::dvec3(floor.P[2]) - p0));
@@ -151,7 +146,7 @@ std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall, float g
     heights.h[i] = std::abs(h) <= touch ? 0 : h;
   }
   auto foot = section(wall, heights);
-  if (heights.apart() && floor.group != wall.group) foot = below(wall, heights, n, double(gap));
+  if (!foot && floor.group != wall.group) foot = below(wall, heights, n, double(gap));
   if (!foot) return std::nullopt;
   for (size_t i = 0; i < 3; ++i) {
     const glm::dvec3 corner(floor.P[i]), along = glm::dvec3(floor.P[(i + 1) % 3]) - corner;
@@ -328,7 +323,7 @@ std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& en
     }
   Join join(gap);
   std::vector<BoundaryEdge> feet = join.run(std::move(floors), std::move(walls));
-  if (join.gave_up()) return {};
+  if (join.gave_up()) return gap > 0 ? find_wall_feet(scene, ends, 0) : std::vector<BoundaryEdge>{};
   drop_edges(&feet, [&](const BoundaryEdge& foot) { return lies_on_end(foot, ends); });
   tbb::parallel_sort(feet.begin(), feet.end(),
                      [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });

@@ -19,7 +19,8 @@ namespace kaustik::accel {
 
 // Shapes with the fewest triangles are looked at, up to this number in all. Finer ones give no feet.
 inline constexpr uint64_t kMostWallTriangles = 1 << 20;
-// If more pairs of boxes than this have to be compared, the scene has no feet: its triangles are a thicket.
+// If more pairs of boxes than this have to be compared, walls above the surface are left out; and if there
+// are still more without a gap, the scene has no feet: its triangles are a thicket.
 inline constexpr uint64_t kMostWallPairs = uint64_t{1} << 30;
 
 // The feet of walls on surfaces with diffuse lobes. a, b and surface_group say where; n is the normal of the
@@ -27,9 +28,10 @@ inline constexpr uint64_t kMostWallPairs = uint64_t{1} << 30;
 // mean nothing. A triangle touches a surface if it comes within 2^-19 of the coordinates' size. Not walls
 // are: glass, masked surfaces, other shapes' triangles that bend away by less than 26 degrees, those of the
 // same surface that bend by less than 60, and what stands along `ends`, where the surface ends anyway.
-// gap: metres; triangles of other surfaces that end above this one, at most so high, are walls too. Their
-// feet are the lines below their lowest edges. Sorted; does not depend on the number of threads, and scales
-// with the scene by powers of two.
+// gap: metres; a triangle of another surface is a wall, too, if two of its corners are at most so high above
+// this one and the third is higher. Its foot is the line below those two. Triangles smaller than twice the
+// gap may be left out. Sorted; does not depend on the number of threads, and scales with the scene by powers
+// of two.
 std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends, float gap);
 
 }  // namespace kaustik::accel

@@ -96,10 +96,11 @@ int run_render(const RenderOptions& options, const Console& console) {
   check_with_scene(options, session.outputs.files, job);
   session.fill_time = options.passes.empty() &&
                       time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
-  session.try_paths =
-      !session.fill_time && may_choose_paths(job.settings, options.overrides, job.scene.needs);
   check_stop_settings(job.settings.stop);
-  if (!session.fill_time) settle_error_settings(console, &job.settings);
+  if (!session.fill_time) {
+    settle_error_settings(console, &job.settings);
+    session.try_paths = may_choose_paths(job.settings, options.overrides, job.scene.needs);
+  }
   check_passes(options, job);
   note_checkpoint(options, console);
   return run_session(std::move(job), std::move(session), interrupt, total, console);

@@ -10,6 +10,7 @@
 #include "apps/machine/thread_limit.h"
 #include "apps/session/render_job.h"
 #include "apps/session/stopping/fixed_plan.h"
+#include "apps/session/stopping/path_choice.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "apps/session/stopping/time_plan.h"
 
@@ -17,15 +18,26 @@ namespace kaustik::app {
 
 namespace {
 
-render::RenderResult render_with_bar(const Job& job, const accel::Bvh& bvh, render::RenderTask task,
-                                     ProgressBar& bar, const InterruptGuard& interrupt) {
-  return render::render(
-      job.scene, bvh, job.settings.render,
-      [&](const render::Progress& progress) {
-        bar.update(progress);
-        return !interrupt.requested();
-      },
-      std::move(task));
+render::ProgressCallback shown_by(ProgressBar& bar, const InterruptGuard& interrupt) {
+  return [&bar, &interrupt](const render::Progress& progress) {
+    bar.update(progress);
+    return !interrupt.requested();
+  };
+}
+
+// Lets trials choose what the session leaves open. Without any, the result has nothing but defaults.
+FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& bvh, ProgressBar& bar,
+                      const InterruptGuard& interrupt, const Stopwatch& total, const Console& console) {
+  const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
+  if (session.fill_time) return settle_time(job.scene, bvh, total, go_on, console, &job.settings);
+  FilledTime filled;
+  if (!session.try_paths) return filled;
+  TrialWork tried = settle_paths(job.scene, bvh, shown_by(bar, interrupt), &job.settings);
+  bar.clear();
+  if (!tried.paths.empty()) console.note(fmt::format("{}: rendered with{}", kPathsTaken, tried.paths));
+  filled.photons = std::move(tried.photons);
+  filled.explored = std::move(tried.explored);
+  return filled;
 }
 
 // The passes to render: open-ended if a rule decides when to stop, and only the finished ones if the rule is
@@ -120,19 +132,16 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     const Stopwatch watch;
     const accel::Bvh bvh(job.scene, job.settings.render.threads);
     times.bvh = watch.seconds();
-    const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
-    FilledTime filled;
-    if (session.fill_time) filled = settle_time(job.scene, bvh, total, go_on, console, &job.settings);
-    TrialWork tried{filled.photons, filled.explored};
-    if (session.try_paths) tried = settle_paths(job.scene, bvh, go_on, console, &job.settings);
+    ProgressBar bar(console);
+    FilledTime filled = run_trials(job, session, bvh, bar, interrupt, total, console);
     const double filled_seconds = filled.single_pass ? *job.settings.stop.seconds : 0;
-    times.trials = watch.seconds() - times.bvh - (tried.photons ? seconds_of(tried.photons->statistics) : 0);
+    times.trials =
+        watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
       console.note(note);
-    ProgressBar bar(console);
     const auto after_pass = [&](const render::PassSums& sums) {
       const bool enough = rule.enough(sums);
       bar.remark(rule.progress());
@@ -144,9 +153,11 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session),
                             .further_work = std::move(filled.further_work),
-                            .photons = std::move(tried.photons),
-                            .explored = std::move(tried.explored)};
-    RenderOutcome outcome{render_with_bar(job, bvh, std::move(task), bar, interrupt), times};
+                            .photons = std::move(filled.photons),
+                            .explored = std::move(filled.explored)};
+    RenderOutcome outcome{
+        render::render(job.scene, bvh, job.settings.render, shown_by(bar, interrupt), std::move(task)),
+        times};
     bar.clear();
     if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.further_work);
     if (filled_seconds > 0) report_filled(filled_seconds, job.settings.render, console);

@@ -18,6 +18,8 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
 // with too many in a sector rather than too few. kMost: of the lines, a multiple of 64.
 template <size_t kMost>
 class LineFan {
+  static_assert(kMost % 64 == 0);
+
  public:
   static constexpr int kSectors = 64;
 

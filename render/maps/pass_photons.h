@@ -21,8 +21,8 @@ struct WallFeet {
   std::vector<BoundaryEdge> edges;
 };
 
-// What is found out about a scene once, whatever the photons; each member is null until it is needed. The
-// estimates of maps point to it.
+// What is found out about a scene once, whatever the photons but for the feet of walls, which depend on the
+// radius; each member is null until it is needed. The estimates of maps point to it.
 struct ExploredScene {
   std::unique_ptr<const accel::EdgeIndex> edges;  // edges of surfaces
   std::vector<SurfaceBend> bends;                 // bend of surfaces, by surface group; set with edges
@@ -47,7 +47,7 @@ class PassPhotons {
   bool make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
             RenderStatistics* statistics);
 
-  // Finds out about the scene what make() needs, as far as it is not known yet.
+  // Finds out about the scene what make() needs, but for the feet of walls, as far as it is not known yet.
   void explore(const RenderInput& input);
   // Makes the visibility tree for `predicted`, unless it exists. It depends on scene and settings but not on
   // the pass; whatever it predicts, the image is unbiased. Its time is added to that of the photons.

@@ -67,6 +67,14 @@ void add_pixel(const Image& reference, const Image& image, int x, int y, Compare
   ++result->compared;
 }
 
+// The pixels that are not masked and are finite in both pictures.
+std::vector<bool> finite_pixels(const Image& reference, const Image& image, std::vector<bool> mask) {
+  mask.flip();
+  for (size_t i = 0; i < mask.size(); ++i)
+    mask[i] = mask[i] && is_finite(image.pixels[i]) && is_finite(reference.pixels[i]);
+  return mask;
+}
+
 // Sums over the compared pixels of a block.
 struct BlockSums {
   glm::dvec3 image{0}, reference{0};
@@ -131,16 +139,13 @@ std::vector<bool> masked_pixels(const Image& reference, const CompareOptions& op
 
 std::vector<bool> compared_pixels(const Image& reference, const Image& image, const CompareOptions& options) {
   require_same_size(reference, image);
-  std::vector<bool> compared = masked_pixels(reference, options);
-  compared.flip();
-  for (size_t i = 0; i < compared.size(); ++i)
-    compared[i] = compared[i] && is_finite(image.pixels[i]) && is_finite(reference.pixels[i]);
-  return compared;
+  return finite_pixels(reference, image, masked_pixels(reference, options));
 }
 
 CompareResult compare(const Image& reference, const Image& image, const CompareOptions& options) {
-  const std::vector<bool> compared = compared_pixels(reference, image, options);
+  require_same_size(reference, image);
   const std::vector<bool> mask = masked_pixels(reference, options);
+  const std::vector<bool> compared = finite_pixels(reference, image, mask);
   CompareResult result;
   Sums sums;
   for (int y = 0; y < reference.height; ++y)

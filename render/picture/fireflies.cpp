@@ -33,7 +33,7 @@ Fireflies find_fireflies(const Image& reference, const Image& image, const Compa
   double mean = 0, pixels = 0;
   for (size_t i = 0; i < compared.size(); ++i)
     if (compared[i]) mean += double(luminance(reference.pixels[i])), ++pixels;
-  const double least = kLeastMedian * mean / std::max(pixels, 1.0);
+  const double least = kLeastMedian * std::max(mean, 0.0) / std::max(pixels, 1.0);
   Fireflies out;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {

@@ -6,8 +6,8 @@
 namespace kaustik::render {
 
 // A firefly is brighter, in luminance, than ten times the median of the 5 x 5 pixels about it (cut at the
-// border), which counts as a hundredth of the reference's mean at least; and it is twice as bright as in the
-// reference. Noise of few bright paths shows so, and counts little in a mean over all pixels.
+// border), which counts as a hundredth of the reference's mean at least; and it is more than twice as bright
+// as in the reference. The eye sees these pixels first, though they change a mean over all pixels little.
 struct Fireflies {
   uint64_t count = 0;
   int x = 0, y = 0;                 // the one of the largest luminance

@@ -150,5 +150,11 @@ TEST(WallFeet, AWallJustAboveAFloorHasOne) {
                   .empty());
 }
 
+// Nothing changes where a tilted wall touches the floor with one corner.
+TEST(WallFeet, AWallThatTouchesWithOneCornerHasOneBelowItsEdge) {
+  const std::vector<Shape> shapes = {kFloor, parallelogram({0.25f, 0.5f, 0}, {0.5f, 0, 0.03f}, {0, 0, 1})};
+  EXPECT_NEAR(covered(in_group(feet_of(shapes, {}, 0.0625f), 0), 0.25, 0.75), 0.5, 1e-3);
+}
+
 }  // namespace
 }  // namespace kaustik::accel

@@ -1,7 +1,5 @@
 #include "apps/session/stopping/fixed_plan.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,8 +14,8 @@ namespace kaustik::app {
 
 namespace {
 
-// Share of the samples and photons of a render that its trials may take, and the fewest windows that show a
-// picture. Smaller renders are not tried.
+// Share of the samples and photons of a render that the samples of its trials are, and the fewest windows
+// that show a picture. Smaller renders are not tried. The photons of the trials come on top.
 constexpr double kTrialShare = 0.02, kFewestWindows = 12;
 constexpr double kMostWindows = 120;
 // Paths are not taken where they leave this many times the error with as many samples, however fast they are:
@@ -46,18 +44,17 @@ class FixedPlan {
     return windows < kFewestWindows ? 0 : windows;
   }
 
-  TrialWork settle(double windows, const render::ProgressCallback& progress, const Console& console) {
+  TrialWork settle(double windows, const render::ProgressCallback& progress) {
     render::EstimatorPlan plan = plan_;
     passes_ = render::choose_passes(scene_, bvh_, render_, &plan);
     const auto first = std::make_shared<render::FirstPhotons>();
-    const TrialWork found{nullptr, first->photons.explored()};
+    const TrialWork found{nullptr, first->photons.explored(), {}};
     render::PassShare share = render::pass_share(0, passes_, render_.photons, render_.spp);
     const uint64_t all = std::exchange(share.photons, std::min(share.photons, kTrialPhotons));
     if (!first->photons.make(input(), share, progress, &first->statistics)) return found;
     if (std::optional<PathTrial> paths = try_paths(windows, share, first.get())) {
-      console.note(fmt::format("{}: rendered with{}", kPathsTaken, options_of(paths->classes)));
       render_ = std::move(paths->settings);
-      return found;
+      return {nullptr, found.explored, options_of(paths->classes)};
     }
     if (passes_ > 1 || open_ended_) return found;
     share.photons = all;
@@ -65,13 +62,13 @@ class FixedPlan {
     first->statistics = {};
     first->statistics.photon_build_s = found.explored->seconds;
     first->photons.make(input(), share, progress, &first->statistics);
-    return {first, found.explored};
+    return {first, found.explored, {}};
   }
 
  private:
   render::RenderInput input() const { return {scene_, bvh_, render_, plan_}; }
 
-  // share: of the photons of the trial.
+  // share: the pass whose photons the trial has.
   std::optional<PathTrial> try_paths(double windows, const render::PassShare& share,
                                      render::FirstPhotons* first) const {
     const auto trial = [&](const render::RenderInput& tried) {
@@ -93,10 +90,11 @@ class FixedPlan {
     return choose_paths(input(), maps, trial, judge);
   }
 
-  // In rays. The samples of a pixel share gathers: of many samples each takes half as much of them as each of
-  // two.
-  static double work_of(const render::SampleTrial& sample, double samples) {
-    return sample.rays * samples + sample.gathers * std::max(1.0, samples / 4);
+  // In rays. The samples of a pixel share gathers within a pass, whose number grows about half as fast as
+  // that of the samples.
+  double work_of(const render::SampleTrial& sample, double samples) const {
+    const double passes = double(passes_);
+    return sample.rays * samples + sample.gathers * passes * std::max(1.0, samples / passes / 4);
   }
 
   static double rays_of(const render::RenderStatistics& s) {
@@ -124,10 +122,10 @@ bool may_choose_paths(const Settings& settings, const SettingOverrides& given, c
 }
 
 TrialWork settle_paths(const Scene& scene, const accel::Bvh& bvh, const render::ProgressCallback& progress,
-                       const Console& console, Settings* settings) {
+                       Settings* settings) {
   FixedPlan plan(scene, bvh, settings);
   const double windows = plan.windows();
-  return windows > 0 ? plan.settle(windows, progress, console) : TrialWork{};
+  return windows > 0 ? plan.settle(windows, progress) : TrialWork{};
 }
 
 }  // namespace kaustik::app

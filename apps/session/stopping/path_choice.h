@@ -42,7 +42,7 @@ struct TrialComparison {
 TrialComparison compare_trials(TakenByPaths classes, const render::SampleTrial& maps,
                                const render::SampleTrial& paths);
 
-// The maps' error falls about so when they get more photons than in their trial.
+// The error of maps of this many photons, as a share of that in the trial.
 double share_of_map_error(double photons_of_trial, double photons);
 
 // A render with paths in place of photon maps that was tried.
@@ -61,7 +61,7 @@ using JudgePaths = std::function<ErrorsAtCost(const TrialComparison& found, cons
 
 // What the log says where paths were chosen.
 inline constexpr const char* kPathsTaken =
-    "trials found less error in the same time with paths in place of photon maps";
+    "trials found less error for the same work with paths in place of photon maps";
 
 // Tries the candidates beside a trial with the maps of `input`. Returns the one of the least error if that is
 // at most 0.7 of the maps', since a short trial misses rare bright paths, and if the paths are known.

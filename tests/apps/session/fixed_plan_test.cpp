@@ -36,7 +36,7 @@ class FixedPlan : public test::ProgramTest {
                      "[-100 0 100  100 0 100  100 0 -100  -100 0 -100]\n" +
                      kBox);
   }
-  // A closed room with a small lamp, lit mostly by its walls.
+  // A closed room with a small light, lit mostly by its walls.
   std::string room() const {
     return write("room.pbrt",
                  std::string("LookAt 0 1 0.9  0 0.9 0  0 1 0\nCamera \"perspective\" \"float fov\" 70\n"
@@ -96,6 +96,12 @@ TEST_F(FixedPlan, PhotonsOfTheCommandLineStay) {
   EXPECT_THAT(render(open_sky(), "photons", {"--photons", "1M"}), Not(HasSubstr("rendered with")));
   EXPECT_EQ(indirect("photons"), "final-gather");
   EXPECT_THAT(render(open_sky(), "radius", {"--radius", "0.5"}), Not(HasSubstr("rendered with")));
+}
+
+// The error of a render includes the bias of its maps, which paths with kernels at their ends do not state.
+TEST_F(FixedPlan, StatedErrorsKeepTheMaps) {
+  EXPECT_THAT(render(open_sky(), "target", {"--target-error", "50%"}), Not(HasSubstr("rendered with")));
+  EXPECT_EQ(indirect("target"), "final-gather");
 }
 
 }  // namespace

@@ -122,8 +122,8 @@ inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) 
       }
   return all;
 }
-// As above, but only so many that each two estimators of different classes meet: since every path has one
-// owner (docs/decisions/020-one-owner-per-path.md), a third one has no part in what two of them count.
+// As above, but only so many that each two estimators of different classes meet (final gathers, as above,
+// only predicted direct light): half as many renders, and the full product is left to OneOwner's test.
 inline std::vector<RenderSettings> with_pairs_of_estimators(const RenderSettings& settings) {
   std::vector<RenderSettings> pairs = with_all_estimators(settings);
   std::erase_if(pairs, [](const RenderSettings& s) {
