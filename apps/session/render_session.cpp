@@ -32,11 +32,10 @@ FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& 
   if (session.fill_time) return settle_time(job.scene, bvh, total, go_on, console, &job.settings);
   FilledTime filled;
   if (!session.try_paths) return filled;
-  TrialWork tried = settle_paths(job.scene, bvh, shown_by(bar, interrupt), &job.settings);
+  filled.work = settle_paths(job.scene, bvh, shown_by(bar, interrupt), &job.settings);
   bar.clear();
-  if (!tried.paths.empty()) console.note(fmt::format("{}: rendered with{}", kPathsTaken, tried.paths));
-  filled.photons = std::move(tried.photons);
-  filled.explored = std::move(tried.explored);
+  const std::string& paths = filled.work.paths;
+  if (!paths.empty()) console.note(fmt::format("{}: rendered with{}", kPathsTaken, paths));
   return filled;
 }
 
@@ -136,7 +135,7 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     FilledTime filled = run_trials(job, session, bvh, bar, interrupt, total, console);
     const double filled_seconds = filled.single_pass ? *job.settings.stop.seconds : 0;
     times.trials =
-        watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
+        watch.seconds() - times.bvh - (filled.work.photons ? seconds_of(filled.work.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
@@ -153,8 +152,8 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session),
                             .further_work = std::move(filled.further_work),
-                            .photons = std::move(filled.photons),
-                            .explored = std::move(filled.explored)};
+                            .photons = std::move(filled.work.photons),
+                            .explored = std::move(filled.work.explored)};
     RenderOutcome outcome{
         render::render(job.scene, bvh, job.settings.render, shown_by(bar, interrupt), std::move(task)),
         times};

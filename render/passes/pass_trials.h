@@ -82,7 +82,7 @@ struct SampleTrial {
 };
 // Renders a few samples in windows with these photons. many: eight samples are timed, too, which tells
 // `fixed` from `each`. But for the times, the result has the same bits on any machine if `limits` has no
-// seconds.
+// seconds. The tree of predicted visibility, which depends on settings.spp, stays with the photons.
 SampleTrial try_one_sample(const RenderInput& input, const TrialLimits& limits, bool many,
                            PassPhotons* photons);
 

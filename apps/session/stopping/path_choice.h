@@ -2,6 +2,7 @@
 // Decides where paths take the place of photon maps.
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,6 +59,15 @@ struct ErrorsAtCost {
 };
 using TryPaths = std::function<render::SampleTrial(const render::RenderInput& input)>;
 using JudgePaths = std::function<ErrorsAtCost(const TrialComparison& found, const PathTrial& paths)>;
+
+// What trials leave to the render.
+struct TrialWork {
+  // For render::RenderTask; both may be null.
+  std::shared_ptr<render::FirstPhotons> photons{};
+  std::shared_ptr<render::ExploredScene> explored{};
+  // The options by which paths replace photon maps, each after a space; empty where none does.
+  std::string paths{};
+};
 
 // What the log says where paths were chosen.
 inline constexpr const char* kPathsTaken =

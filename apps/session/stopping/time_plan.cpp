@@ -82,25 +82,25 @@ class TimePlan {
     render::PhotonTrial trial;
     if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_);
     auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
-    if (cancelled(*first)) return {.single_pass = true, .photons = std::move(first)};
+    if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
     render::SampleTrial sample =
         render::try_one_sample(input(), {.seconds = kSampleTrial / 2 * seconds_}, gathers_, &first->photons);
     if (gathers_ && left() > 0) choose_paths(trial.cost, &sample, &first->photons);
     if (gathers_ && !paths_.empty()) {  // fewer kinds of photons cost less
       trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, first->photons.explored());
       *first = std::move(trial.first);
-      if (cancelled(*first)) return {.single_pass = true, .photons = std::move(first)};
+      if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
     }
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
       set_passes(trial.cost, {.each = sample.seconds, .further = sample.seconds}, share);
-      return {.explored = first->photons.explored(), .paths = paths_};
+      return {.work = {.explored = first->photons.explored(), .paths = paths_}};
     }
     if (gathers_) *first = shoot(trial.cost, share * left(), first->photons.explored());
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
     return {.single_pass = true,
-            .photons = gathers_ ? std::move(first) : nullptr,
+            .work = {.photons = gathers_ ? std::move(first) : nullptr},
             .further_work = further_work(cost)};
   }
 
@@ -230,16 +230,16 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
 FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
                        const render::ProgressCallback& progress, const Console& console, Settings* settings) {
   FilledTime filled = TimePlan(scene, bvh, total, progress, settings).settle();
-  if (filled.photons && !filled.photons->photons.radii()) return filled;
+  if (filled.work.photons && !filled.work.photons->photons.radii()) return filled;
   if (!filled.single_pass) settle_error_settings(console, settings);
   const render::RenderSettings& render = settings->render;
   const std::string choice =
       filled.single_pass ? ", and adaptive samples until the time is up"
                          : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
                                        render.passes, *render.alpha);
-  if (!filled.paths.empty()) console.note(kPathsTaken);
+  if (!filled.work.paths.empty()) console.note(kPathsTaken);
   console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}{}", *settings->stop.seconds,
-                           render.spp, render.photons, filled.paths, choice));
+                           render.spp, render.photons, filled.work.paths, choice));
   return filled;
 }
 

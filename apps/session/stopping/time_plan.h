@@ -23,12 +23,9 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
 // A render that was planned to fill a time.
 struct FilledTime {
   bool single_pass = false;  // adaptive samples are placed best in one
-  // Of the single pass, if it gathers any; without radii if the progress callback cancelled.
-  std::shared_ptr<render::FirstPhotons> photons{};
-  std::shared_ptr<render::ExploredScene> explored{};  // what the trials found out about the scene
-  // The options by which paths replace photon maps, each after a space; empty where none does. Such a render
-  // has passes.
-  std::string paths{};
+  // The photons are those of the single pass, if it gathers any, without radii if the progress callback
+  // cancelled. A render with paths in place of maps has passes.
+  TrialWork work{};
   // For render::RenderTask: chooses the adaptive samples of a single pass while it is rendered. May be empty.
   std::function<double(double done, double seconds)> further_work{};
 };

@@ -26,26 +26,18 @@ class FixedPlan : public test::ProgramTest {
  protected:
   // A box on wide ground under an even sky.
   std::string open_sky() const {
-    return write("sky.pbrt",
-                 std::string("LookAt 4 3 6  0 0.8 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\n"
-                             "Sampler \"halton\" \"integer pixelsamples\" 16\n") +
-                     film(64, 64) +
-                     "\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [1 1 1]\n"
-                     "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n"
-                     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
-                     "[-100 0 100  100 0 100  100 0 -100  -100 0 -100]\n" +
-                     kBox);
+    return scene("sky", "4 3 6  0 0.8 0", 40,
+                 "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+                 "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n"
+                 "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
+                 "[-100 0 100  100 0 100  100 0 -100  -100 0 -100]\n");
   }
   // A closed room with a small light, lit mostly by its walls.
   std::string room() const {
-    return write("room.pbrt",
-                 std::string("LookAt 0 1 0.9  0 0.9 0  0 1 0\nCamera \"perspective\" \"float fov\" 70\n"
-                             "Sampler \"halton\" \"integer pixelsamples\" 16\n") +
-                     film(64, 64) +
-                     "\nWorldBegin\nAttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [50 50 50]\n"
-                     "Translate 0 1.9 0\nShape \"sphere\" \"float radius\" 0.05\nAttributeEnd\n"
-                     "Material \"diffuse\" \"rgb reflectance\" [0.8 0.8 0.8]\n" +
-                     kBox);
+    return scene("room", "0 1 0.9  0 0.9 0", 70,
+                 "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [50 50 50]\n"
+                 "Translate 0 1.9 0\nShape \"sphere\" \"float radius\" 0.05\nAttributeEnd\n"
+                 "Material \"diffuse\" \"rgb reflectance\" [0.8 0.8 0.8]\n");
   }
   // Renders NAME.exr and returns the log.
   std::string render(const std::string& scene, const std::string& name, const Arguments& more) const {
@@ -57,6 +49,16 @@ class FixedPlan : public test::ProgramTest {
   }
   std::string indirect(const std::string& name) const {
     return nlohmann::json::parse(read(name + ".json"))["settings"]["indirect"];
+  }
+
+ private:
+  // Writes NAME.pbrt with this world and the box.
+  std::string scene(const std::string& name, const std::string& look, int fov,
+                    const std::string& world) const {
+    return write(name + ".pbrt", "LookAt " + look + "  0 1 0\nCamera \"perspective\" \"float fov\" " +
+                                     std::to_string(fov) +
+                                     "\nSampler \"halton\" \"integer pixelsamples\" 16\n" + film(64, 64) +
+                                     "\nWorldBegin\n" + world + kBox);
   }
 };
 
