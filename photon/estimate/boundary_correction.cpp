@@ -18,6 +18,9 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 // A point counts as lying in si's plane up to this height, as a fraction of the radius.
 constexpr double kInPlane = 1e-3;
 
+// Surfaces closer than this share of the radius are not told apart.
+constexpr double kSheets = 1.0 / 256;
+
 // A facet of the opposite orientation lies in si's plane if the normals differ by at most eight degrees: the
 // two faces of a sharp wedge do not.
 constexpr float kParallel = 0.99f;
@@ -70,6 +73,16 @@ struct EdgeView {
   bool leaves;
 };
 
+// Whether the surface that ends at q, relative to si, with the normal n there, passes above or below si: both
+// sides of a thin shell end at its rim, but no photon reaches the inner one. A surface that bends evenly from
+// si to q leaves both at the same angle to the chord between them; kSheets and an eighth of the bend allow
+// for others.
+bool is_other_sheet(const glm::dvec3& q, const Normal3& n, const SurfaceInteraction& si, double radius) {
+  const glm::dvec3 here(si.n), there(n), middle = here + there;
+  const double apart = std::abs(glm::dot(q, middle)) / glm::length(middle);
+  return apart > kSheets * radius + glm::length(q) * glm::length(here - there) / 8;
+}
+
 // Nothing if the edge is no end of si's surface.
 std::optional<EdgeView> view_of(const BoundaryEdge& edge, const SurfaceInteraction& si, double radius) {
   const bool behind = ends_here(edge, -si.n),
@@ -78,7 +91,8 @@ std::optional<EdgeView> view_of(const BoundaryEdge& edge, const SurfaceInteracti
   const glm::dvec3 n(si.n), a = glm::dvec3(edge.a) - glm::dvec3(si.p);
   const glm::dvec3 along = glm::dvec3(edge.b) - glm::dvec3(edge.a);
   const double nearest = std::clamp(-glm::dot(a, along) / glm::dot(along, along), 0.0, 1.0);
-  const double height = std::abs(glm::dot(a + nearest * along, n)) / radius;
+  const glm::dvec3 q = a + nearest * along;
+  const double height = std::abs(glm::dot(q, n)) / radius;
   if (height >= 1 || (!same_side && height > kInPlane)) return std::nullopt;
   const glm::dvec3 flat_along = along - glm::dot(along, n) * n;
   const double length = glm::length(flat_along);
@@ -86,7 +100,9 @@ std::optional<EdgeView> view_of(const BoundaryEdge& edge, const SurfaceInteracti
   const glm::dvec3 u = flat_along / length, foot = a - glm::dot(a, n) * n - glm::dot(a, u) * u;
   // si itself lies on the surface: if it is beyond an edge by no more than rounding, it counts as in front of
   // it.
-  return EdgeView{height, glm::dot(foot, glm::dvec3(edge.outward)) >= -2 * double(si.p_error)};
+  const bool leaves = glm::dot(foot, glm::dvec3(edge.outward)) >= -2 * double(si.p_error);
+  if (leaves && same_side && is_other_sheet(q, behind ? -edge.n : edge.n, si, radius)) return std::nullopt;
+  return EdgeView{height, leaves};
 }
 
 // The kernel's mass that this edge cuts off: positive where the surface ends, negative where it begins again.
@@ -136,8 +152,12 @@ double surface_share(const accel::EdgeIndex& edges, const SurfaceInteraction& si
                      float radius) {
   if (!(radius > 0) || !std::isfinite(radius)) return 1;
   std::array<uint32_t, kMaxEdgesInReach> found;
-  const size_t count = edges.find(si.p, radius, si.surface_group, found);
-  if (count > found.size()) return 1;
+  size_t count = edges.find(si.p, radius, si.surface_group, found);
+  for (int halved = 0; count > found.size(); ++halved) {
+    if (halved == kMostHalvings) return 1;
+    radius /= 2;
+    count = edges.find(si.p, radius, si.surface_group, found);
+  }
   double missing = 0;
   for (size_t i = 0; i < count; ++i) missing += missing_mass(edges[found[i]], si, kernel, double(radius));
   return std::clamp(1 - missing, kLeastShare, 1.0);

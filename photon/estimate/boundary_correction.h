@@ -56,9 +56,10 @@ int sign_of_edge(const BoundaryEdge& edge, const SurfaceInteraction& si, float r
 // Lower bound of the share, reached at a corner of about 23 degrees. Thinner slivers stay too dark.
 inline constexpr double kLeastShare = 1.0 / 16;
 
-// If more edges than this lie within a disc, the outline is finer than the disc resolves: no correction is
-// made.
+// If more edges than this lie within a disc, the outline is finer than the disc resolves. The share is then
+// that of a disc of half the radius, or of a quarter; if those meet as many, no correction is made.
 inline constexpr size_t kMaxEdgesInReach = 192;
+inline constexpr int kMostHalvings = 2;
 
 // Share of the kernel's mass on si's surface, in [kLeastShare, 1], by which the sum over photons in the disc
 // of `radius` metres at si must be divided. An edge counts if photons in front of it count at si and those

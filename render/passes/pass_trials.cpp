@@ -218,10 +218,8 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
                  &trial.first.statistics);
     return watch.seconds();
   };
-  const double first = shoot(kFewPhotons);
-  const uint64_t more = first < most ? kMorePhotons : kFewPhotons;
-  const double each = shoot(more) / double(more);
-  trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each, double(more)};
+  const uint64_t more = shoot(kFewPhotons) < most ? kMorePhotons : kFewPhotons;
+  trial.cost = {shoot(more) / double(more), double(more)};
   return trial;
 }
 

@@ -269,6 +269,60 @@ TEST(SurfaceShare, EachSideOfAThinSlabHasOneRim) {
   EXPECT_NEAR(surface_share(edges, at({0.5f, 0, 0}, {0, 0, -1}), {}, 0.2f), 0.5, 1e-6);
 }
 
+// A tube about the y axis from y = 0 up to 2, outside outwards, whose facets bend by 3.75 degrees.
+Shape tube(float radius) {
+  constexpr int kFacets = 96;
+  TriangleMesh mesh;
+  for (uint32_t i = 0; i < kFacets; ++i) {
+    const float phi = 2 * kPi * float(i) / kFacets;
+    const uint32_t a = 2 * i, b = 2 * ((i + 1) % kFacets);
+    for (const float y : {0.0f, 2.0f}) mesh.P.push_back({radius * std::cos(phi), y, radius * std::sin(phi)});
+    mesh.indices.insert(mesh.indices.end(), {{a, a + 1, b}, {b, a + 1, b + 1}});
+  }
+  return test::mesh_shape(std::move(mesh));
+}
+
+// Both sides of a wall that is thin beside the disc, modelled with their outsides alike, end at its rim. No
+// photon that counts on one of them lies on the other.
+TEST(SurfaceShare, EachSideOfAThinShellEndsOnce) {
+  const auto edges_with = [](const std::vector<float>& radii) {
+    Scene scene;
+    for (const float radius : radii) scene.shapes.push_back(tube(radius));
+    return edges_of(scene);
+  };
+  const accel::EdgeIndex both = edges_with({1, 0.98f}), outer = edges_with({1}), inner = edges_with({0.98f});
+  for (const float y : {0.001f, 0.05f, 0.2f}) {
+    const float middle = std::cos(kPi / 96), phi = kPi / 96;
+    const Normal3 n(std::cos(phi), 0, std::sin(phi));
+    const Point3 of_outer = middle * n + Vector3(0, y, 0), of_inner = 0.98f * middle * n + Vector3(0, y, 0);
+    EXPECT_LT(surface_share(outer, at(of_outer, n), {}, 0.3f), 0.95);
+    EXPECT_NEAR(surface_share(both, at(of_outer, n), {}, 0.3f),
+                surface_share(outer, at(of_outer, n), {}, 0.3f), 1e-12);
+    EXPECT_NEAR(surface_share(both, at(of_inner, n), {}, 0.3f),
+                surface_share(inner, at(of_inner, n), {}, 0.3f), 1e-12);
+  }
+}
+
+// Where a disc meets too many edges, those within a part of it decide. The border of a strip is cut into
+// 1,000 pieces. A disc of 0.2 at the border meets 400 of them, one of half the radius 200, one of a quarter
+// 100; at a distance of 0.06, half the radius meets 160.
+TEST(SurfaceShare, ManyEdgesCountNearThePoint) {
+  constexpr uint32_t kPieces = 1000;
+  TriangleMesh mesh;
+  for (uint32_t i = 0; i <= kPieces; ++i)
+    for (const float y : {0.0f, 1.0f}) mesh.P.push_back({float(i) / kPieces, y, 0});
+  for (uint32_t a = 0; a < 2 * kPieces; a += 2)
+    mesh.indices.insert(mesh.indices.end(), {{a, a + 2, a + 3}, {a, a + 3, a + 1}});
+  Scene scene;
+  scene.shapes.push_back(test::mesh_shape(std::move(mesh)));
+  const accel::EdgeIndex edges = edges_of(scene);
+  EXPECT_NEAR(surface_share(edges, at({0.5f, 0, 0}), {}, 0.2f), 0.5, 1e-6);
+  EXPECT_NEAR(surface_share(edges, at({0.5f, 0.02f, 0}), {}, 0.2f), 1 - mass_behind_edge({}, 0.4, -9, 9),
+              1e-4);
+  EXPECT_NEAR(surface_share(edges, at({0.5f, 0.06f, 0}), {}, 0.2f), 1 - mass_behind_edge({}, 0.6, -9, 9),
+              1e-4);
+}
+
 TEST(SurfaceShare, ScalesByPowersOfTwo) {
   for (const int exponent : {-20, -1, 20}) {
     const float s = std::ldexp(1.0f, exponent);
