@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/sampling/sampler.h"
 #include "core/stopwatch.h"
@@ -96,18 +97,24 @@ class WindowTrials {
 
   double seconds(const RenderSettings& tried, const PassSamples& samples, double most) {
     const RenderInput input{input_.scene, input_.bvh, tried, input_.plan};
-    const size_t together = 2 * size_t(tbb::this_task_arena::max_concurrency());
+    const auto threads = size_t(tbb::this_task_arena::max_concurrency());
+    const size_t together = 2 * threads;
     films_.assign(windows_.size(), {});
     std::vector<RenderStatistics> statistics(windows_.size());
+    std::vector<double> took(windows_.size());
     const Stopwatch watch;
     size_t done = 0;
     while (done < windows_.size() && (done == 0 || watch.seconds() < most)) {
       const size_t end = std::min(windows_.size(), done + together);
-      tbb::parallel_for(done, end,
-                        [&](size_t i) { films_[i] = render(input, samples, windows_[i], &statistics[i]); });
+      tbb::parallel_for(done, end, [&](size_t i) {
+        const Stopwatch of_window;
+        films_[i] = render(input, samples, windows_[i], &statistics[i]);
+        took[i] = of_window.seconds();
+      });
       done = end;
     }
-    const double seconds = watch.seconds();
+    // Threads that wait for the last of a few windows would not do so in a whole picture.
+    const double seconds = std::reduce(took.begin(), took.end()) / double(std::min(threads, done));
     windows_.resize(done);
     films_.resize(done);
     uint64_t pixels = 0;
@@ -218,8 +225,10 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
                  &trial.first.statistics);
     return watch.seconds();
   };
-  const uint64_t more = shoot(kFewPhotons) < most ? kMorePhotons : kFewPhotons;
-  trial.cost = {shoot(more) / double(more), double(more)};
+  const double first = shoot(kFewPhotons);
+  const uint64_t more = first < most ? kMorePhotons : kFewPhotons;
+  const double each = shoot(more) / double(more);
+  trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each, double(more)};
   return trial;
 }
 

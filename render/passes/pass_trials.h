@@ -6,10 +6,10 @@
 
 namespace kaustik::render {
 
-// What the larger trial of photons took, whose maps are left.
+// Wall-clock seconds of the photons of a pass.
 struct PhotonCost {
-  double each = 0;     // wall-clock seconds of a photon, > 0
-  double photons = 0;  // their number
+  double fixed = 0, each = 0;  // each > 0
+  double photons = 0;          // of the larger trial, whose maps are left
 };
 
 // Wall-clock seconds of the samples of every pixel: of(spp, adaptive) for spp samples and further ones that

@@ -57,10 +57,11 @@ int samples_within(const render::SampleCost& cost, double adaptive, double secon
 }
 
 // The photons that fit, rounded down to two digits, so that the log can state them exactly. What a shoot
-// takes whatever their number, for the guides and the radii, is no part of `seconds`: few photons would
-// hardly save any of it.
+// takes whatever their number, for the guides and the radii, takes at most half of the seconds from them:
+// fewer photons would save none of it.
 uint64_t photons_within(const render::PhotonCost& cost, double seconds, double fewest) {
-  const double photons = std::clamp(seconds / cost.each, std::max(fewest, 10.0), 1e12);
+  const double of_photons = std::max(seconds - cost.fixed, seconds / 2);
+  const double photons = std::clamp(of_photons / cost.each, std::max(fewest, 10.0), 1e12);
   const double unit = std::pow(10.0, std::floor(std::log10(photons)) - 1);
   return uint64_t(std::floor(photons / unit) * unit);
 }
@@ -197,9 +198,10 @@ class TimePlan {
   void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples, double share) {
     const double each = left() / kPasses;
     const int spp = samples_within(samples, 0, (1 - share) * each, kMostSamples);
-    if (gathers_)
-      render_.photons = kErrorPasses * photons_within(photons, share / (1 - share) * samples.of(spp, 0),
-                                                      fewest_ / kErrorPasses);
+    if (gathers_)  // only the first pass has the fixed cost
+      render_.photons =
+          kErrorPasses * photons_within({.each = photons.each}, share / (1 - share) * samples.of(spp, 0),
+                                        fewest_ / kErrorPasses);
     render_.spp = int(kErrorPasses) * spp;
     render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
   }
