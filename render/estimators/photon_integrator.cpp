@@ -92,8 +92,7 @@ float error_of_correction(const Rgb& factor) {
 bool disc_is_better(const RenderContext& ctx, const ShadingPoint& x, bool blurred, double share) {
   const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
   const Place place = ctx.maps.surroundings->at(x.si.p, n);
-  const float samples = float(ctx.settings.spp) * (1 + float(ctx.samples.further_work));
-  const float error_of_path = place.noise / std::sqrt(samples);
+  const float error_of_path = place.noise / std::sqrt(float(ctx.settings.spp));
   if (error_of_path >= kErrorOfGuess) return true;
   const float radius = ctx.maps.indirect.estimate.radius;
   if (error_of_correction(disc_factor(ctx, x)) > error_of_path) return false;

@@ -10,15 +10,14 @@ namespace {
 // Limits of the factor: a disc that hardly meets a photon says nothing.
 constexpr double kLeastFactor = 0.25, kMostFactor = 4;
 
-// How many times its variance the square of a difference must be to count. Few bright paths make the ratios
-// of cells skew: with 1 the picture of a room lit through a gap became brighter by 6 %. The ratio of all
-// points together is known well.
-constexpr double kDoubt = 4, kDoubtOfAll = 1;
+// How many times its variance the square of a difference must be to count. Few bright paths make ratios skew:
+// with 1 the picture of a room lit through a gap became brighter by 6 %.
+constexpr double kDoubt = 4;
 constexpr uint32_t kFewestPoints = 8;  // whose spread is worth something
 // The variance of a cell's estimates is the mean of its own, by its number of points, and that of an average
 // cell, by this number: a cell that met no bright path by chance has too little of its own, and a bright cell
 // of many points less than the average, which counts dim points as much.
-constexpr double kAverageWeight = 64;
+constexpr double kAverageWeight = 1024;
 
 // Mean of the squares of path - ratio disc in units of the disc's square, for each colour. Dim points count
 // as bright ones do: there, few bright paths bring much of the light.
@@ -42,15 +41,14 @@ glm::dvec3 variance_of_ratio(const PointSums& cell, const glm::dvec3& relative_v
 }
 
 // The ratios of a cell, each drawn towards `prior` by its noise.
-glm::dvec3 shrunk_ratio(const PointSums& cell, const glm::dvec3& prior, const glm::dvec3& relative_variance,
-                        double doubt) {
+glm::dvec3 shrunk_ratio(const PointSums& cell, const glm::dvec3& prior, const glm::dvec3& relative_variance) {
   if (cell.count < kFewestPoints) return prior;
   const glm::dvec3 variance = variance_of_ratio(cell, relative_variance);
   const glm::dvec3 difference = cell.ratio() - prior, squared = difference * difference;
   glm::dvec3 shrunk = prior;
   for (int k = 0; k < 3; ++k) {
-    if (!(cell.disc[k] > 0 && squared[k] > doubt * variance[k])) continue;
-    const double ratio = prior[k] + difference[k] * (1 - doubt * variance[k] / squared[k]);
+    if (!(cell.disc[k] > 0 && squared[k] > kDoubt * variance[k])) continue;
+    const double ratio = prior[k] + difference[k] * (1 - kDoubt * variance[k] / squared[k]);
     shrunk[k] = std::clamp(ratio, kLeastFactor, kMostFactor);
   }
   return shrunk;
@@ -64,7 +62,7 @@ DiscCorrection::DiscCorrection(const std::vector<VisiblePoint>& points,
   for (const TwoEstimates& e : found) all.add(e);
   if (all.disc == glm::dvec3(0)) return;
   const glm::dvec3 relative_variance = mean_relative_variance(found, all);
-  const glm::dvec3 everywhere = shrunk_ratio(all, glm::dvec3(1), relative_variance, kDoubtOfAll);
+  const glm::dvec3 everywhere = shrunk_ratio(all, glm::dvec3(1), relative_variance);
   for (size_t level = 0; level < kResolution.size(); ++level) {
     grids_[level] = {points, kResolution[level]};
     const auto key = [&](size_t of_level, size_t point) {
@@ -93,7 +91,7 @@ void DiscCorrection::refine(size_t level, const glm::dvec3& everywhere, const gl
   std::unordered_map<uint64_t, Light> of_parent;
   for (auto& [key, cell] : *cells) {
     const glm::dvec3 prior = factor_of_parent(cell);
-    cell.factor = shrunk_ratio(cell.sums, prior, relative_variance, kDoubt);
+    cell.factor = shrunk_ratio(cell.sums, prior, relative_variance);
     Light& light = of_parent[cell.parent];
     light.wanted += prior * cell.sums.disc, light.given += cell.factor * cell.sums.disc;
   }

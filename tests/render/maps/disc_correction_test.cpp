@@ -79,9 +79,9 @@ TEST(DiscCorrection, KeepsTheLightOfThePaths) {
 }
 
 // What all points together tell is not lost in the relative noise of dim ones. Every second disc is a
-// twentieth of the others, with paths as noisy. The ratio's variance is that of 9,216 paths over the square
-// of 4,838, the sum of the discs, so that the estimator keeps all but 0.0004 / 0.4 of the difference; of the
-// average cell's variance, 9,000 times as much for a dim point, 64 points count.
+// twentieth of the others, with paths as noisy. The variance of the ratio is 0.0004 by its own 9,216 points
+// and 0.036 by the average cell, which counts as 1,024: 0.0039. Four times that over the difference, 0.4, is
+// lost.
 TEST(DiscCorrection, DimPointsDoNotHideWhatIsWrongEverywhere) {
   auto found = estimates([](const Point3&) { return 0.0; }, 1);
   PointSums all;
@@ -95,7 +95,7 @@ TEST(DiscCorrection, DimPointsDoNotHideWhatIsWrongEverywhere) {
   double corrected = 0;
   for (size_t i = 0; i < found.size(); ++i)
     corrected += found[i].disc.x * double(correction.at(points[i].query.p, kUp).x);
-  EXPECT_NEAR(corrected / all.disc.x, all.ratio().x, 0.02);
+  EXPECT_NEAR(corrected / all.disc.x, all.ratio().x, 0.05);
 }
 
 // A disc that takes red light from elsewhere gets that colour's factor alone.
