@@ -21,6 +21,9 @@ constexpr double kInPlane = 1e-3;
 // Surfaces closer than this share of the radius are not told apart.
 constexpr double kSheets = 1.0 / 256;
 
+// How often the radius is halved where too many edges are in reach.
+constexpr int kMostHalvings = 2;
+
 // A facet of the opposite orientation lies in si's plane if the normals differ by at most eight degrees: the
 // two faces of a sharp wedge do not.
 constexpr float kParallel = 0.99f;
@@ -66,11 +69,12 @@ bool ends_here(const BoundaryEdge& edge, const Normal3& n) {
   return counts(edge.n, n) && !counts(edge.beyond, n);
 }
 
-// How an edge lies to a disc: height above the tangent plane in radii, and whether the surface leaves there
-// or begins again.
+// How an edge lies to a disc. Lengths in metres but for the height.
 struct EdgeView {
-  double height;
-  bool leaves;
+  double height;    // above the tangent plane, in radii
+  bool leaves;      // whether the surface leaves there or begins again
+  double distance;  // in the tangent plane, from the centre to the edge's line
+  double t1, t2;    // the edge's extent along the line, from the foot of the perpendicular
 };
 
 // Whether the surface that ends at q, relative to si, with the normal n there, passes above or below si: both
@@ -97,12 +101,14 @@ std::optional<EdgeView> view_of(const BoundaryEdge& edge, const SurfaceInteracti
   const glm::dvec3 flat_along = along - glm::dot(along, n) * n;
   const double length = glm::length(flat_along);
   if (!(length > 0)) return std::nullopt;
-  const glm::dvec3 u = flat_along / length, foot = a - glm::dot(a, n) * n - glm::dot(a, u) * u;
+  const glm::dvec3 u = flat_along / length;
+  const double t1 = glm::dot(a, u);
+  const glm::dvec3 foot = a - glm::dot(a, n) * n - t1 * u;
   // si itself lies on the surface: if it is beyond an edge by no more than rounding, it counts as in front of
   // it.
   const bool leaves = glm::dot(foot, glm::dvec3(edge.outward)) >= -2 * double(si.p_error);
   if (leaves && same_side && is_other_sheet(q, behind ? -edge.n : edge.n, si, radius)) return std::nullopt;
-  return EdgeView{height, leaves};
+  return EdgeView{height, leaves, glm::length(foot), t1, t1 + length};
 }
 
 // The kernel's mass that this edge cuts off: positive where the surface ends, negative where it begins again.
@@ -110,17 +116,9 @@ double missing_mass(const BoundaryEdge& edge, const SurfaceInteraction& si, cons
                     double radius) {
   const auto view = view_of(edge, si, radius);
   if (!view) return 0;
-  // Project the edge to the tangent plane.
-  const glm::dvec3 n(si.n), a = glm::dvec3(edge.a) - glm::dvec3(si.p);
-  const glm::dvec3 along = glm::dvec3(edge.b) - glm::dvec3(edge.a);
-  const glm::dvec3 flat_along = along - glm::dot(along, n) * n;
-  const double length = glm::length(flat_along);
-  const glm::dvec3 u = flat_along / length;
-  const double t1 = glm::dot(a, u);
-  const glm::dvec3 foot = a - glm::dot(a, n) * n - t1 * u;
   // Inverse radius of the disc at that height.
   const double unit = 1 / (radius * std::sqrt(1 - view->height * view->height));
-  const double mass = mass_behind_edge(kernel, glm::length(foot) * unit, t1 * unit, (t1 + length) * unit);
+  const double mass = mass_behind_edge(kernel, view->distance * unit, view->t1 * unit, view->t2 * unit);
   return (view->leaves ? 1 : -1) * mass_at_height(kernel, view->height) * mass;
 }
 

@@ -56,15 +56,15 @@ int sign_of_edge(const BoundaryEdge& edge, const SurfaceInteraction& si, float r
 // Lower bound of the share, reached at a corner of about 23 degrees. Thinner slivers stay too dark.
 inline constexpr double kLeastShare = 1.0 / 16;
 
-// If more edges than this lie within a disc, the outline is finer than the disc resolves. The share is then
-// that of a disc of half the radius, or of a quarter; if those meet as many, no correction is made.
+// If more edges than this lie within a disc, the outline is finer than the disc resolves.
 inline constexpr size_t kMaxEdgesInReach = 192;
-inline constexpr int kMostHalvings = 2;
 
 // Share of the kernel's mass on si's surface, in [kLeastShare, 1], by which the sum over photons in the disc
 // of `radius` metres at si must be divided. An edge counts if photons in front of it count at si and those
 // behind it do not (kNormalCosine). Facets of the opposite orientation count only if they lie in si's plane:
-// there the winding is arbitrary, while a closed body has its far side elsewhere. Thread-safe.
+// there the winding is arbitrary, while a closed body has its far side elsewhere. Where a surface that passes
+// above or below si ends, no edge counts. With more than kMaxEdgesInReach edges the share is that of a disc
+// of half the radius, or of a quarter; if those meet as many, it is 1. Thread-safe.
 double surface_share(const accel::EdgeIndex& edges, const SurfaceInteraction& si, const KernelSpec& kernel,
                      float radius);
 

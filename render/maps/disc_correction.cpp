@@ -14,9 +14,10 @@ constexpr double kLeastFactor = 0.25, kMostFactor = 4;
 // with 1 the picture of a room lit through a gap became brighter by 6 %.
 constexpr double kDoubt = 4;
 constexpr uint32_t kFewestPoints = 8;  // whose spread is worth something
-// The variance of a cell's estimates is the mean of its own, by its number of points, and that of an average
-// cell, by this number: a cell that met no bright path by chance has too little of its own, and a bright cell
-// of many points less than the average, which counts dim points as much.
+// The variance of a cell's estimates is a weighted mean of its own, whose weight is its number of points, and
+// that of an average cell, whose weight this is. A cell of few points that met no bright path by chance has
+// too small a variance of its own. The average cell's is too large for a bright cell of many points, since it
+// counts dim points as much as bright ones.
 constexpr double kAverageWeight = 1024;
 
 // Mean of the squares of path - ratio disc in units of the disc's square, for each colour. Dim points count

@@ -40,6 +40,24 @@ inline Shape sphere(const Point3& center, float radius, uint32_t material = 0, b
   return shape;
 }
 
+// The wall of a tube about z with open ends, its middle at the origin; its facets face outwards.
+inline Shape tube(float radius, float length, int sides, int rings) {
+  TriangleMesh mesh;
+  for (int i = 0; i <= rings; ++i)
+    for (int j = 0; j < sides; ++j) {
+      const float phi = 2 * kPi * float(j) / float(sides);
+      mesh.P.push_back(
+          {radius * std::cos(phi), radius * std::sin(phi), length * (float(i) / float(rings) - 0.5f)});
+    }
+  const auto corner = [&](int i, int j) { return static_cast<uint32_t>(i * sides + j % sides); };
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < sides; ++j) {
+      mesh.indices.push_back({corner(i, j), corner(i, j + 1), corner(i + 1, j + 1)});
+      mesh.indices.push_back({corner(i, j), corner(i + 1, j + 1), corner(i + 1, j)});
+    }
+  return mesh_shape(std::move(mesh));
+}
+
 // Makes `shape` emit radiance L. It must become a shape of the scene.
 inline void make_light(Scene& scene, Shape& shape, const Rgb& L, bool twosided = false) {
   auto light = DiffuseAreaLight::make(shape, L, twosided);

@@ -269,32 +269,20 @@ TEST(SurfaceShare, EachSideOfAThinSlabHasOneRim) {
   EXPECT_NEAR(surface_share(edges, at({0.5f, 0, 0}, {0, 0, -1}), {}, 0.2f), 0.5, 1e-6);
 }
 
-// A tube about the y axis from y = 0 up to 2, outside outwards, whose facets bend by 3.75 degrees.
-Shape tube(float radius) {
-  constexpr int kFacets = 96;
-  TriangleMesh mesh;
-  for (uint32_t i = 0; i < kFacets; ++i) {
-    const float phi = 2 * kPi * float(i) / kFacets;
-    const uint32_t a = 2 * i, b = 2 * ((i + 1) % kFacets);
-    for (const float y : {0.0f, 2.0f}) mesh.P.push_back({radius * std::cos(phi), y, radius * std::sin(phi)});
-    mesh.indices.insert(mesh.indices.end(), {{a, a + 1, b}, {b, a + 1, b + 1}});
-  }
-  return test::mesh_shape(std::move(mesh));
-}
-
 // Both sides of a wall that is thin beside the disc, modelled with their outsides alike, end at its rim. No
-// photon that counts on one of them lies on the other.
+// photon that counts on one of them lies on the other. The facets bend by 3.75 degrees.
 TEST(SurfaceShare, EachSideOfAThinShellEndsOnce) {
   const auto edges_with = [](const std::vector<float>& radii) {
     Scene scene;
-    for (const float radius : radii) scene.shapes.push_back(tube(radius));
+    for (const float radius : radii) scene.shapes.push_back(test::tube(radius, 2, 96, 1));
     return edges_of(scene);
   };
   const accel::EdgeIndex both = edges_with({1, 0.98f}), outer = edges_with({1}), inner = edges_with({0.98f});
-  for (const float y : {0.001f, 0.05f, 0.2f}) {
-    const float middle = std::cos(kPi / 96), phi = kPi / 96;
-    const Normal3 n(std::cos(phi), 0, std::sin(phi));
-    const Point3 of_outer = middle * n + Vector3(0, y, 0), of_inner = 0.98f * middle * n + Vector3(0, y, 0);
+  const float phi = kPi / 96, middle = std::cos(phi);
+  const Normal3 n(std::cos(phi), std::sin(phi), 0);
+  for (const float above_rim : {0.001f, 0.05f, 0.2f}) {
+    const Vector3 z(0, 0, above_rim - 1);
+    const Point3 of_outer = middle * n + z, of_inner = 0.98f * middle * n + z;
     EXPECT_LT(surface_share(outer, at(of_outer, n), {}, 0.3f), 0.95);
     EXPECT_NEAR(surface_share(both, at(of_outer, n), {}, 0.3f),
                 surface_share(outer, at(of_outer, n), {}, 0.3f), 1e-12);

@@ -9,6 +9,7 @@
 #include "photon/estimate/radiance_estimate.h"
 #include "tests/photon/support/photon_sets.h"
 #include "tests/photon/support/trace_scenes.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik::photon {
 namespace {
@@ -42,26 +43,6 @@ SurfaceInteraction at(const Point3& p, const Normal3& n, uint32_t group = 0) {
   si.n = si.ns = n;
   si.surface_group = group;
   return si;
-}
-
-// The wall of a tube about z with open ends; its facets face outwards.
-Shape tube(float radius, float length, int sides, int rings) {
-  TriangleMesh mesh;
-  for (int i = 0; i <= rings; ++i)
-    for (int j = 0; j < sides; ++j) {
-      const float phi = 2 * kPi * float(j) / float(sides);
-      mesh.P.push_back(
-          {radius * std::cos(phi), radius * std::sin(phi), length * (float(i) / float(rings) - 0.5f)});
-    }
-  const auto corner = [&](int i, int j) { return static_cast<uint32_t>(i * sides + j % sides); };
-  for (int i = 0; i < rings; ++i)
-    for (int j = 0; j < sides; ++j) {
-      mesh.indices.push_back({corner(i, j), corner(i, j + 1), corner(i + 1, j + 1)});
-      mesh.indices.push_back({corner(i, j), corner(i + 1, j + 1), corner(i + 1, j)});
-    }
-  Shape shape;
-  shape.geometry = mesh;
-  return shape;
 }
 
 Shape ball(float radius) {
@@ -107,7 +88,7 @@ TEST(SurfaceAreas, DiscOnATubeIsAStrip) {
   for (const KernelSpec& kernel :
        {KernelSpec{KernelType::kConstant, 1}, KernelSpec{KernelType::kEpanechnikov, 1}})
     for (const float radius : {0.2f, 0.5f, 1.0f, 2.0f}) {
-      const SurfaceAreas areas = areas_of({tube(kTube, 8, 128, 16)}, radius);
+      const SurfaceAreas areas = areas_of({test::tube(kTube, 8, 128, 16)}, radius);
       ASSERT_TRUE(areas.covers(0)) << radius;
       EXPECT_NEAR(areas.share(at({kTube, 0, 0.1f}, {1, 0, 0}), kernel, radius),
                   share_of_tube(double(kTube), kernel, double(radius)), tolerance)
@@ -122,7 +103,7 @@ TEST(SurfaceAreas, UseTheOutsideOfInstances) {
   for (const bool with_normals : {false, true})
     for (const bool flip : {false, true})
       for (const float mirror : {1.0f, -1.0f}) {
-        auto mesh = std::get<TriangleMesh>(tube(kTube, 8, 128, 16).geometry);
+        auto mesh = std::get<TriangleMesh>(test::tube(kTube, 8, 128, 16).geometry);
         // The builder turns the vertex normals of a reversed shape over.
         if (with_normals)
           for (const Point3& p : mesh.P)
@@ -157,7 +138,7 @@ TEST(SurfaceAreas, KeepTheBrightnessOfAWire) {
     photons.push_back({p, n, Rgb(flux), n, 0});
   }
   const PhotonMap map = PhotonMap::build(make_buffer(photons, 0x1p-17f));
-  const SurfaceAreas areas = areas_of({tube(kWire, kLength, 128, 64)}, kRadius);
+  const SurfaceAreas areas = areas_of({test::tube(kWire, kLength, 128, 64)}, kRadius);
   const accel::EdgeIndex edges{{}};
   EstimateSettings settings{kRadius, {}, 0, false, 64, &edges, &areas};
   const auto irradiance = [&](const Normal3& n) {
@@ -175,7 +156,7 @@ TEST(SurfaceAreas, KeepTheBrightnessOfAWire) {
 
 // A tube whose triangles are there twice, or once more the other way round, has the surface of one.
 TEST(SurfaceAreas, CoincidentTrianglesCountOnce) {
-  const Shape single = tube(0.25f, 8, 64, 16);
+  const Shape single = test::tube(0.25f, 8, 64, 16);
   const SurfaceInteraction outside = at({0.25f, 0, 0}, {1, 0, 0}), inside = at({0.25f, 0, 0}, {-1, 0, 0});
   constexpr float kRadius = 0.4f;  // less than the tube is wide, so that its far side is out of reach
   const double expected = areas_of({single}, kRadius).share(outside, {}, kRadius);
@@ -202,7 +183,7 @@ TEST(SurfaceAreas, LeaveFlatSurfacesToTheirEdges) {
 
 // Where windings differ from facet to facet it is unknown which normals belong together.
 TEST(SurfaceAreas, IgnoreMeshesWithMixedWindings) {
-  Shape mixed = tube(0.25f, 8, 128, 16);
+  Shape mixed = test::tube(0.25f, 8, 128, 16);
   auto& indices = std::get<TriangleMesh>(mixed.geometry).indices;
   for (size_t i = 0; i < indices.size(); i += 2) std::swap(indices[i][0], indices[i][1]);
   EXPECT_FALSE(areas_of({mixed}, 1).covers(0));
@@ -210,7 +191,7 @@ TEST(SurfaceAreas, IgnoreMeshesWithMixedWindings) {
 
 TEST(SurfaceAreas, ScaleWithTheScene) {
   const auto share = [](float scale) {
-    Shape shape = tube(0.25f * scale, 8 * scale, 32, 16);
+    Shape shape = test::tube(0.25f * scale, 8 * scale, 32, 16);
     return areas_of({shape}, scale).share(at({0.25f * scale, 0, 0}, {1, 0, 0}), {}, scale);
   };
   for (const int k : {-30, 30}) EXPECT_EQ(share(std::ldexp(1.0f, k)), share(1)) << k;
