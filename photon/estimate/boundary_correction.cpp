@@ -21,6 +21,9 @@ constexpr double kInPlane = 1e-3;
 // Surfaces closer than this share of the radius are not told apart.
 constexpr double kSheets = 1.0 / 256;
 
+// Cosine of the bend from which on a surface with an open edge is taken for a bevel: 20 degrees.
+constexpr float kBevel = 0.94f;
+
 // How often the radius is halved where too many edges are in reach.
 constexpr int kMostHalvings = 2;
 
@@ -77,14 +80,17 @@ struct EdgeView {
   double t1, t2;    // the edge's extent along the line, from the foot of the perpendicular
 };
 
-// Whether the surface that ends at q, relative to si, with the normal n there, passes above or below si: both
-// sides of a thin shell end at its rim, but no photon reaches the inner one. A surface that bends evenly from
-// si to q leaves both at the same angle to the chord between them; kSheets and an eighth of the bend allow
-// for others.
-bool is_other_sheet(const glm::dvec3& q, const Normal3& n, const SurfaceInteraction& si, double radius) {
+// Whether the surface that ends at an edge's point q, relative to si, with the normal n there, passes above
+// or below si: both sides of a thin shell end at its rim, but no photon reaches the inner one. A surface that
+// bends evenly between si and q leaves the chord between them by half of the bend at both ends, and one that
+// bends at one of them, as at a bevel, by up to all of it. The latter is allowed for where the edge is a
+// crease or the bend is large, since the rims of shells are open. kSheets allows for rounding.
+bool is_other_sheet(const BoundaryEdge& edge, const glm::dvec3& q, const Normal3& n,
+                    const SurfaceInteraction& si, double radius) {
   const glm::dvec3 here(si.n), there(n), middle = here + there;
+  const bool bevel = edge.beyond != Normal3(0) || glm::dot(si.n, n) < kBevel;
   const double apart = std::abs(glm::dot(q, middle)) / glm::length(middle);
-  return apart > kSheets * radius + glm::length(q) * glm::length(here - there) / 8;
+  return apart > kSheets * radius + glm::length(q) * glm::length(here - there) / (bevel ? 2 : 8);
 }
 
 // Nothing if the edge is no end of si's surface.
@@ -107,7 +113,8 @@ std::optional<EdgeView> view_of(const BoundaryEdge& edge, const SurfaceInteracti
   // si itself lies on the surface: if it is beyond an edge by no more than rounding, it counts as in front of
   // it.
   const bool leaves = glm::dot(foot, glm::dvec3(edge.outward)) >= -2 * double(si.p_error);
-  if (leaves && same_side && is_other_sheet(q, behind ? -edge.n : edge.n, si, radius)) return std::nullopt;
+  if (leaves && same_side && is_other_sheet(edge, q, behind ? -edge.n : edge.n, si, radius))
+    return std::nullopt;
   return EdgeView{height, leaves, glm::length(foot), t1, t1 + length};
 }
 

@@ -291,6 +291,28 @@ TEST(SurfaceShare, EachSideOfAThinShellEndsOnce) {
   }
 }
 
+// The edge of a box is bevelled by a strip that is narrow beside the disc. Photons on the strip count on the
+// top, those on the side do not, so the disc ends between the borders of the strip.
+TEST(SurfaceShare, EndsAtABevel) {
+  constexpr float kBevel = 0.004f, kRadius = 0.3f;
+  TriangleMesh mesh;
+  for (const float y : {-2.0f, 2.0f})
+    mesh.P.insert(mesh.P.end(), {{-2, y, 0}, {0, y, 0}, {kBevel, y, -kBevel}, {kBevel, y, -2}});
+  for (const uint32_t i : {0u, 1u, 2u})
+    mesh.indices.insert(mesh.indices.end(), {{i, i + 1, i + 5}, {i, i + 5, i + 4}});
+  Scene scene;
+  scene.shapes.push_back(test::mesh_shape(std::move(mesh)));
+  const accel::EdgeIndex edges = edges_of(scene);
+  for (const float from_edge : {0.01f, 0.1f, 0.2f}) {
+    const double share = surface_share(edges, at({-from_edge, 0, 0}), {}, kRadius);
+    const auto ending_at = [](float distance) {
+      return 1 - mass_behind_edge({}, double(distance / kRadius), -2 / kRadius, 2 / kRadius);
+    };
+    EXPECT_GE(share, ending_at(from_edge) - 1e-4) << from_edge;  // rounding of the strip's height
+    EXPECT_LE(share, ending_at(from_edge + kBevel) + 1e-4) << from_edge;
+  }
+}
+
 // Where a disc meets too many edges, those within a part of it decide. The border of a strip is cut into
 // 1,000 pieces. A disc of 0.2 at the border meets 400 of them, one of half the radius 200, one of a quarter
 // 100; at a distance of 0.06, half the radius meets 160.
