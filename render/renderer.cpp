@@ -65,7 +65,7 @@ class PassRenderer {
       : input_(input),
         shares_(shares),
         first_(task.photons),
-        further_work_(task.further_work),
+        adaptive_work_(task.adaptive_work),
         progress_(std::move(progress)),
         photons_(radii, task.explored ? task.explored : std::make_shared<ExploredScene>()) {}
 
@@ -93,7 +93,7 @@ class PassRenderer {
     const Stopwatch watch;
     const std::unique_ptr<const DiscCorrection> discs = measure_discs(ctx);
     ctx.discs = discs.get();
-    const bool finished = render_tiles(ctx, progress_, film, statistics, further_work_);
+    const bool finished = render_tiles(ctx, progress_, film, statistics, adaptive_work_);
     statistics->render_s += watch.seconds();
     statistics->passes += finished;
     return finished;
@@ -121,7 +121,7 @@ class PassRenderer {
   const RenderInput input_;
   uint64_t shares_;
   std::shared_ptr<FirstPhotons> first_;
-  FurtherWork further_work_;
+  AdaptiveWork adaptive_work_;
   ProgressCallback progress_;
   PassPhotons photons_;
 };
@@ -135,8 +135,8 @@ bool has_samples(const FilmSums& film) {
 
 ExactUnits units_of(const RenderInput& input, uint64_t shares) {
   const PassShare pass = pass_share(0, shares, input.settings.photons, input.settings.spp);
-  const bool further = pass_samples(pass, input.settings, input.plan).further_work > 0;
-  return choose_units(input.scene, pass.end_sample << (further ? kMostDoublings : 0));
+  const bool adaptive = pass_samples(pass, input.settings, input.plan).adaptive_work > 0;
+  return choose_units(input.scene, pass.end_sample << (adaptive ? kMostDoublings : 0));
 }
 
 PassSums nothing_yet(const RenderInput& input, uint64_t shares, bool with_totals) {

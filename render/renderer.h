@@ -26,8 +26,8 @@ struct RenderTask {
   // If false, a render of a single pass returns no totals in result.sums, which halves the memory for pixels.
   bool keep_sums = true;
   // Decides about the adaptive samples of a single-pass render in place of settings.adaptive, which must not
-  // be 0; render/tiles/tiles.h. Settings with the result's statistics.further_work give the same bits.
-  std::function<double(double done, double seconds)> further_work{};
+  // be 0; render/tiles/tiles.h. Settings with the result's statistics.adaptive_work give the same bits.
+  std::function<double(double done, double seconds)> adaptive_work{};
   // Photons of a single-pass render that were shot in advance, with the same settings except for the number
   // of samples; they are moved from here.
   std::shared_ptr<FirstPhotons> photons{};

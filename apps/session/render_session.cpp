@@ -151,14 +151,14 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
                             .done = std::move(session.done),
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session),
-                            .further_work = std::move(filled.further_work),
+                            .adaptive_work = std::move(filled.adaptive_work),
                             .photons = std::move(filled.work.photons),
                             .explored = std::move(filled.work.explored)};
     RenderOutcome outcome{
         render::render(job.scene, bvh, job.settings.render, shown_by(bar, interrupt), std::move(task)),
         times};
     bar.clear();
-    if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.further_work);
+    if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.adaptive_work);
     if (filled_seconds > 0) report_filled(filled_seconds, job.settings.render, console);
     outcome.times.total = total.seconds();
     code = finish(job, session, std::move(outcome), checkpoint, rule, console);

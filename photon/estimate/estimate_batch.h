@@ -11,9 +11,9 @@ namespace kaustik::photon {
 class EstimateBatch {
  public:
   // Points on one surface that are closer than this fraction of the disc's radius share one gather. Of the k
-  // photons in the disc, only a share of 4 kShared / pi, at most a sixth, would differ for the second point,
-  // so its own estimate would add little information. Neither estimate is closer to the true value than the
-  // other.
+  // photons in the disc, at most a share of 2 kShared / pi, a sixth, lies outside the second point's disc,
+  // and about as many others lie inside it, so its own estimate would add little information. Neither
+  // estimate is closer to the true value than the other.
   static constexpr float kShared = 1.0f / 4;
 
   static constexpr uint32_t kPixels = 16;

@@ -14,8 +14,8 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-// The directions about the origin are divided into sectors, each with a set of the lines that reach into it;
-// with too many in a sector rather than too few. kMost: of the lines, a multiple of 64.
+// The directions about the origin are divided into sectors. Each has the set of the lines that may reach into
+// it: all that do, and perhaps a few that do not. kMost: largest number of lines, a multiple of 64.
 template <size_t kMost>
 class LineFan {
   static_assert(kMost % 64 == 0);

@@ -240,7 +240,7 @@ double SurfaceAreas::share(const SurfaceInteraction& si, const KernelSpec& kerne
   const GatherQuery query{si.p, si.n, si.surface_group, radius, kAllPhotons};
   const Rgb share =
       cut ? gather_flux(pieces_, query, kernel, *cut, ignored) : gather_flux(pieces_, query, kernel, ignored);
-  return std::clamp(double(share.x), kLeastShare, 1.0);
+  return std::clamp(double(share.x), kLeastOfCurved, 1.0);
 }
 
 }  // namespace kaustik::photon

@@ -41,7 +41,7 @@ class SurfaceAreas {
     return surface_group < covered_.size() && covered_[surface_group];
   }
 
-  // Share of the kernel's mass on si's surface, in [kLeastShare, 1], as surface_share() computes it from
+  // Share of the kernel's mass on si's surface, in [kLeastOfCurved, 1], as surface_share() computes it from
   // edges. radius: at most that of the constructor; smaller discs hold fewer pieces, so they are less
   // accurate.
   // cut: walls that hide pieces from si; may be null.
@@ -51,7 +51,8 @@ class SurfaceAreas {
   float radius() const { return radius_; }  // metres; the largest disc that share() accepts
 
  private:
-  static constexpr double kLeastShare = 1.0 / 256;
+  // Less than kLeastShare, since the pieces of a thin wire are known as well as those of a wide tube.
+  static constexpr double kLeastOfCurved = 1.0 / 256;
 
   float radius_;
   std::vector<bool> covered_;

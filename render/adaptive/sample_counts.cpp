@@ -1,4 +1,4 @@
-// Finds the threshold of relative variance at which the further samples take the allowed work.
+// Finds the threshold of relative variance at which the adaptive samples take the allowed work.
 
 #include "render/adaptive/sample_counts.h"
 
@@ -31,19 +31,19 @@ int doublings(uint32_t step, uint32_t threshold) {
 // Work of the pixels in each bin, for as many samples as the first ones.
 using Histogram = std::array<double, kSteps>;
 
-double further_work_of(const Histogram& work, uint32_t threshold) {
+double adaptive_work_of(const Histogram& work, uint32_t threshold) {
   double sum = 0;
   for (uint32_t step = 0; step < kSteps; ++step)
     if (work[step] > 0) sum += work[step] * (std::ldexp(1.0, doublings(step, threshold)) - 1);
   return sum;
 }
 
-// Lowest threshold whose further samples take at most `most` work.
+// Lowest threshold whose adaptive samples take at most `most` work.
 uint32_t least_threshold(const Histogram& work, double most) {
   uint32_t low = 1, high = kSteps;
   while (low < high) {
     const uint32_t middle = low + (high - low) / 2;
-    if (further_work_of(work, middle) <= most)
+    if (adaptive_work_of(work, middle) <= most)
       high = middle;
     else
       low = middle + 1;
@@ -84,7 +84,7 @@ SampleSpread SampleCounts::neighbours(size_t i) const {
   return sum;
 }
 
-void SampleCounts::choose_counts(uint64_t first, double further_work) {
+void SampleCounts::choose_counts(uint64_t first, double adaptive_work) {
   SampleSpread all;
   double roots = 0;
   for (const SampleSpread& half : spreads_) {
@@ -107,7 +107,7 @@ void SampleCounts::choose_counts(uint64_t first, double further_work) {
     steps[i] = step_of(std::max(whole, traced) / (m * m + least * least));
     work[steps[i]] += spreads_[i].of(lights_[i]).work;
   }
-  const uint32_t threshold = least_threshold(work, all.of(SampleLight::kAll).work * further_work);
+  const uint32_t threshold = least_threshold(work, all.of(SampleLight::kAll).work * adaptive_work);
   for (size_t i = 0; i < counts_.size(); ++i) counts_[i] = first << doublings(steps[i], threshold);
 }
 

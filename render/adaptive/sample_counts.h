@@ -29,11 +29,11 @@ class SampleCounts {
   SampleSpread& spread(int x, int y, int half) { return spreads_[index(x, y, half)]; }
 
   // Chooses the counts, once all spreads are set. Counts are 2^k first; the samples beyond the first ones
-  // together take at most `further_work` times the work of the first. Counts follow the fourth root of
+  // together take at most `adaptive_work` times the work of the first. Counts follow the fourth root of
   // variance / (work (mean^2 + m^2)), where m^2 keeps dim pixels from taking all samples; the ratio is that
   // of all light or of traced light, whichever is larger. Where the limit of k is reached, less work is done.
   // Later calls must allow no less work; no count then falls.
-  void choose_counts(uint64_t first, double further_work);
+  void choose_counts(uint64_t first, double adaptive_work);
 
   uint64_t count(int x, int y, int half) const { return counts_[index(x, y, half)]; }
   // The count that the previous call of choose_counts() chose; `first` after the first call.

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace kaustik::render {
 
@@ -15,9 +16,12 @@ constexpr uint64_t kSamplesEach = 4;  // of the pass, for each path
 constexpr uint64_t kMostPoints = 1u << 16;
 constexpr uint64_t kFewestPoints = 64;
 
-TwoEstimates estimate_at(const RenderContext& ctx, const VisiblePoint& point, Sampler& sampler) {
+// Empty where the picture takes no disc, but for points that are seen through wide glossy lobes, and for
+// estimates that are not finite, which the picture would drop.
+std::optional<TwoEstimates> estimate_at(const RenderContext& ctx, const VisiblePoint& point,
+                                        Sampler& sampler) {
   const ShadingPoint x(ctx.scene, point.si, point.wo);
-  if (lobes(*x.bsdf).rough) return {};  // always takes a path
+  if (lobes(*x.bsdf).rough) return {};
   TileCounters ignored;
   TwoEstimates found;
   const GatherMap& indirect = ctx.maps.indirect;
@@ -26,19 +30,24 @@ TwoEstimates estimate_at(const RenderContext& ctx, const VisiblePoint& point, Sa
   const PathReach reach = final_gather_reach(ctx);
   for (int i = 0; i < kPathsEach; ++i)
     found.path += glm::dvec3(trace_path(ctx, x, reach, sampler, ignored).indirect) / double(kPathsEach);
+  if (!is_finite(Rgb(found.disc)) || !is_finite(Rgb(found.path))) return {};
   return found;
 }
 
-// Compares at `count` points; the far ends of paths read the map as ctx.discs corrects it.
+// Compares at up to `count` points. The gathers at the far ends of paths are corrected by ctx.discs.
 std::unique_ptr<const DiscCorrection> compare_at(const RenderContext& ctx, uint32_t count) {
-  const std::vector<VisiblePoint> points = visible_points(ctx, count);
-  std::vector<TwoEstimates> found(points.size());
+  std::vector<VisiblePoint> points = visible_points(ctx, count);
+  std::vector<std::optional<TwoEstimates>> found(points.size());
   const uint64_t stream = hash_combine(hash_combine(ctx.settings.seed, kPilotPaths), ctx.pass.pass);
   tbb::parallel_for(size_t{0}, points.size(), [&](size_t i) {
     Sampler sampler(hash_combine(stream, count), i);
     found[i] = estimate_at(ctx, points[i], sampler);
   });
-  return std::make_unique<const DiscCorrection>(points, found);
+  std::vector<TwoEstimates> kept;
+  for (size_t i = 0; i < points.size(); ++i)
+    if (found[i]) points[kept.size()] = points[i], kept.push_back(*found[i]);
+  points.resize(kept.size());
+  return std::make_unique<const DiscCorrection>(points, kept);
 }
 
 }  // namespace
@@ -49,7 +58,7 @@ std::unique_ptr<const DiscCorrection> measure_discs(const RenderContext& ctx) {
   const uint64_t pixels = uint64_t(camera.width) * uint64_t(camera.height);
   const uint64_t paths = pixels * (ctx.samples.end - ctx.samples.first) / kSamplesEach;
   const uint64_t points = std::clamp(paths / kPathsEach, kFewestPoints, kMostPoints);
-  // A first round corrects what the paths of the second read at their far ends.
+  // A first round corrects the gathers at the far ends of the paths of the second.
   RenderContext corrected = ctx;
   const auto first = compare_at(ctx, uint32_t(points / 4));
   corrected.discs = first.get();

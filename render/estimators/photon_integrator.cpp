@@ -71,10 +71,9 @@ struct PointPlan {
 constexpr double kLeastSupport = 0.2;
 constexpr float kErrorOfGuess = 0.5f;
 
-// Relative error of a disc of this radius at a place of this clearance: the irradiance varies over distances
-// of about twice the clearance, and the mean over a disc of the half of its second derivative times the
-// square of the distance is r^2 / 8 of that. Of a place without known clearance, that of the radius is
-// assumed.
+// Relative error of a disc of radius r at a place of clearance c. The second derivative of the irradiance is
+// about 1 / (2 c)^2 of it, and the second-order term of its mean over the disc is r^2 / 8 times that:
+// r^2 / (32 c^2). Where the clearance is unknown, c = r.
 float error_of_disc(float radius, float clearance) {
   const float ratio = clearance > 0 ? radius / clearance : 1;
   return std::min(ratio * ratio / 32, kErrorOfGuess);

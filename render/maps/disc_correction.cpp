@@ -7,11 +7,11 @@ namespace kaustik::render {
 
 namespace {
 
-// Limits of the factor: a disc that hardly meets a photon says nothing.
+// Limits of the factor. A disc with hardly any photons gives an arbitrary ratio.
 constexpr double kLeastFactor = 0.25, kMostFactor = 4;
 
-// How many times its variance the square of a difference must be to count. Few bright paths make ratios skew:
-// with 1 the picture of a room lit through a gap became brighter by 6 %.
+// A difference counts only if its square exceeds kDoubt times its variance. Ratios from few bright paths are
+// skewed: with 1, the picture of a room lit through a gap became brighter by 6 %.
 constexpr double kDoubt = 4;
 constexpr uint32_t kFewestPoints = 8;  // whose spread is worth something
 // The variance of a cell's estimates is a weighted mean of its own, whose weight is its number of points, and
@@ -79,8 +79,9 @@ DiscCorrection::DiscCorrection(const std::vector<VisiblePoint>& points,
   }
 }
 
-// Sets the factors of a level. Those of the cells within a coarser one give the light that its factor gives,
-// for that is known best: noise that passes for a difference is positive more often than negative.
+// Sets the factors of a level, then scales those within each coarser cell so that together they give the
+// light of its factor (up to the clamp), which rests on more points. Without that, noise would brighten the
+// picture: a noisy difference passes the test more often if it is positive.
 void DiscCorrection::refine(size_t level, const glm::dvec3& everywhere, const glm::dvec3& relative_variance,
                             std::unordered_map<uint64_t, Cell>* cells) {
   const auto factor_of_parent = [&](const Cell& cell) {

@@ -15,8 +15,4 @@ double RadiusShrink::squared(uint64_t pass, float alpha) {
   return squared_;
 }
 
-double radius_shrink_squared(uint64_t pass, float alpha) {
-  return RadiusShrink().squared(pass, alpha);
-}
-
 }  // namespace kaustik::render

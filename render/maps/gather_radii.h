@@ -14,13 +14,11 @@ struct GatherRadii {
   bool operator==(const GatherRadii&) const = default;
 };
 
-// r_i^2 / r_1^2 for pass i = pass + 1 under r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1) (Knaus and Zwicker 2011,
-// "Progressive Photon Mapping: A Probabilistic Approach"). For alpha in (0, 1), bias and variance of the mean
-// over passes both vanish, the bias like pass^(alpha - 1); alpha = 1 gives 1, a fixed radius. Uses basic
-// arithmetic only, so the result is the same on every machine. Takes `pass` steps.
-double radius_shrink_squared(uint64_t pass, float alpha);
-
-// Computes the same for successive passes, with one step each.
+// Computes r_i^2 / r_1^2 for pass i = pass + 1 under r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1) (Knaus and
+// Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach"). For alpha in (0, 1), bias and
+// variance of the mean over passes both vanish, the bias like pass^(alpha - 1); alpha = 1 gives 1, a fixed
+// radius. Uses basic arithmetic only, so the result is the same on every machine. Takes one step from a pass
+// to the next one.
 class RadiusShrink {
  public:
   double squared(uint64_t pass, float alpha);

@@ -185,19 +185,34 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
 
   const Stopwatch watch;
   build_maps(input, std::move(shot));
-  if (!radii_) radii_ = settle_radii(input, pass, maps_);
   explore(input);
-  find_walls(input.scene);
-  set_estimates(input, pass);
-  set_areas(input.scene);
+  prepare_gathers(input, pass);
   note_radii(*radii_, statistics);
   add_sizes(maps_, statistics);
   statistics->photon_build_s += watch.seconds();
   return !progress || progress({"build", 1, 1, pass.pass, pass.shares});
 }
 
+// Chooses r0 unless it is known, and sets how the maps are gathered.
+void PassPhotons::prepare_gathers(const RenderInput& input, const PassShare& pass) {
+  if (!radii_) radii_ = settle_radii(input, pass, maps_);
+  find_walls(input.scene);
+  set_estimates(input, pass);
+  set_areas(input.scene);
+}
+
+void PassPhotons::choose_radii_anew(const RenderInput& input, const PassShare& pass) {
+  if (!radii_) return;  // no photons, or cancelled
+  forget_areas_and_walls();
+  prepare_gathers(input, pass);
+}
+
 void PassPhotons::forget_radii() {
   free_maps();
+  forget_areas_and_walls();
+}
+
+void PassPhotons::forget_areas_and_walls() {
   for (GatherMap* gather : gather_maps(maps_)) gather->areas = nullptr;
   radii_.reset();
   walls_.reset();

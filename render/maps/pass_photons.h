@@ -21,15 +21,15 @@ struct WallFeet {
   std::vector<BoundaryEdge> edges;
 };
 
-// What is found out about a scene once, whatever the photons but for the feet of walls, which depend on the
-// radius; each member is null until it is needed. The estimates of maps point to it.
+// Facts about the scene that do not depend on the photons, found once. Only the feet of walls depend on the
+// radius of the first pass. Members are null until they are needed. The estimates of maps point to them.
 struct ExploredScene {
   std::unique_ptr<const accel::EdgeIndex> edges;  // edges of surfaces
   std::vector<SurfaceBend> bends;                 // bend of surfaces, by surface group; set with edges
   std::optional<WallFeet> feet;
   std::unique_ptr<const Surroundings> surroundings;
   std::unique_ptr<const SkyGuide> sky;
-  double seconds = 0;  // that PassPhotons::explore() took
+  double seconds = 0;  // spent in PassPhotons::explore()
 };
 
 class PassPhotons {
@@ -47,7 +47,7 @@ class PassPhotons {
   bool make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
             RenderStatistics* statistics);
 
-  // Finds out about the scene what make() needs, but for the feet of walls, as far as it is not known yet.
+  // Finds what make() needs to know about the scene and does not know yet, except the feet of walls.
   void explore(const RenderInput& input);
   // Makes the visibility tree for `predicted`, unless it exists. It depends on scene and settings but not on
   // the pass; whatever it predicts, the image is unbiased. Its time is added to that of the photons.
@@ -55,6 +55,8 @@ class PassPhotons {
   // Learns where the sky is visible for method `auto`, unless that is known already. A function of scene and
   // settings; whatever it learns, the image is unbiased.
   void learn_sky(const RenderInput& input, RenderStatistics* statistics);
+  // Determines r0 from the present maps, as if they were the first, and what follows from it.
+  void choose_radii_anew(const RenderInput& input, const PassShare& pass);
   // Forgets r0 and what follows from it, so that the next make() determines it as if it were the first. What
   // was learned about the scene stays.
   void forget_radii();
@@ -78,6 +80,8 @@ class PassPhotons {
  private:
   void build_maps(const RenderInput& input, photon::ShootResult&& shot);
   void free_maps();
+  void forget_areas_and_walls();
+  void prepare_gathers(const RenderInput& input, const PassShare& pass);
   void find_walls(const Scene& scene);
   void set_estimates(const RenderInput& input, const PassShare& pass);
   void set_areas(const Scene& scene);

@@ -23,8 +23,9 @@ photon::TraceSettings trace_settings(const RenderSettings& settings, const Estim
                                      const PassShare& pass);
 
 // Number of photons of a guided caustic shoot in a pass of `photons` photons, or 0 if nothing may be guided.
-// As many if the plan needs no other kind, otherwise half, in addition to the others: they cost a few rays
-// each, and reduce the picture's error about as much in the same time as more samples would.
+// All of them if the plan needs no other kind; otherwise half as many again, besides the photons of the other
+// kinds. Guided photons cost a few rays each, and reduce the picture's error about as much in the same time
+// as more samples would.
 uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons);
 
 // Learns the guides that the plan needs and that are not there yet. Adds to the photons' seconds, and sets

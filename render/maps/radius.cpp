@@ -54,8 +54,8 @@ std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
   return points;
 }
 
-// Distance to the k-th nearest photon; `reach` if there are fewer within it. The search starts with a small
-// radius and doubles it, so that it costs little for a map of any size.
+// Distance to the k-th nearest photon; `reach` if fewer than k lie within half of it. The search starts with
+// a small radius and doubles it, so that it costs little for a map of any size.
 float nearest_radius(const photon::PhotonMap& map, photon::GatherQuery query, float reach, uint32_t k) {
   photon::GatherCounters ignored;
   for (query.radius = reach / 4096; query.radius < reach; query.radius *= 2)

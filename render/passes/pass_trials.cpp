@@ -57,6 +57,11 @@ std::vector<PixelRange> windows_of(const PixelRange& whole, double wanted) {
   return windows;
 }
 
+double tiles_of(const PixelRange& range) {
+  const auto along = [](int pixels) { return std::ceil(double(pixels) / kTileSize); };
+  return along(range.x1 - range.x0) * along(range.y1 - range.y0);
+}
+
 // Renders trial windows and extrapolates to the picture.
 class WindowTrials {
  public:
@@ -108,13 +113,16 @@ class WindowTrials {
       const size_t end = std::min(windows_.size(), done + together);
       tbb::parallel_for(done, end, [&](size_t i) {
         const Stopwatch of_window;
-        films_[i] = render(input, samples, windows_[i], &statistics[i]);
+        // Isolated, since a thread that waits within a window could render another one meanwhile.
+        tbb::this_task_arena::isolate(
+            [&] { films_[i] = render(input, samples, windows_[i], &statistics[i]); });
         took[i] = of_window.seconds();
       });
       done = end;
     }
-    // Threads that wait for the last of a few windows would not do so in a whole picture.
-    const double seconds = std::reduce(took.begin(), took.end()) / double(std::min(threads, done));
+    // Threads that wait for the last of a few windows would not do so in a whole picture of enough tiles.
+    const double seconds =
+        std::reduce(took.begin(), took.end()) / std::min(double(threads), tiles_of(whole_));
     windows_.resize(done);
     films_.resize(done);
     uint64_t pixels = 0;
@@ -228,14 +236,16 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
   const double first = shoot(kFewPhotons);
   const uint64_t more = first < most ? kMorePhotons : kFewPhotons;
   const double each = shoot(more) / double(more);
+  // Without the time, which the first shoot has in its fixed cost.
+  if (more > kFewPhotons) photons.choose_radii_anew(input, pass_share(0, 1, more, 1));
   trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each, double(more)};
   return trial;
 }
 
-SampleCost sample_cost(double one, double four, double four_further, double adaptive) {
+SampleCost sample_cost(double one, double four, double four_adaptive, double adaptive) {
   SampleCost cost;
-  if (adaptive > 0) cost.further = std::max((four_further - four) / (4 * adaptive), 0.0);
-  const double alone = one - adaptive * cost.further;  // cost of one sample without further ones
+  if (adaptive > 0) cost.each_adaptive = std::max((four_adaptive - four) / (4 * adaptive), 0.0);
+  const double alone = one - adaptive * cost.each_adaptive;  // cost of one sample without adaptive ones
   cost.each = std::max((four - alone) / 3, four / 8);
   cost.fixed = std::max(alone - cost.each, 0.0);
   return cost;

@@ -12,16 +12,16 @@ struct PhotonCost {
   double photons = 0;          // of the larger trial, whose maps are left
 };
 
-// Wall-clock seconds of the samples of every pixel: of(spp, adaptive) for spp samples and further ones that
+// Wall-clock seconds of the samples of every pixel: of(spp, adaptive) for spp samples and adaptive ones that
 // take `adaptive` times their work (RenderSettings::adaptive).
 struct SampleCost {
-  double fixed = 0, each = 0, further = 0;
-  double of(double spp, double adaptive) const { return fixed + spp * (each + adaptive * further); }
+  double fixed = 0, each = 0, each_adaptive = 0;
+  double of(double spp, double adaptive) const { return fixed + spp * (each + adaptive * each_adaptive); }
 };
 
-// Fits a line to the measured seconds of one sample with further ones, of four samples without and of four
+// Fits a line to the measured seconds of one sample with adaptive ones, of four samples without and of four
 // with them. A slope below half of the larger trial's mean cost is attributed to noise and raised to it.
-SampleCost sample_cost(double one, double four, double four_further, double adaptive);
+SampleCost sample_cost(double one, double four, double four_adaptive, double adaptive);
 
 struct PhotonTrial {
   PhotonCost cost;
@@ -58,7 +58,7 @@ struct PixelHalves {
   struct Pair {
     double first = 0, second = 0;
     double mean() const { return (first + second) / 2; }
-    double error() const { return (first - second) / 2; }  // a sample of that of mean()
+    double error() const { return (first - second) / 2; }  // one observation of the error of mean()
   };
   Pair all, caustic, indirect;
 };
@@ -81,8 +81,9 @@ struct SampleTrial {
   std::vector<std::vector<PixelHalves>> blocks;  // pixels of the same blocks in each trial, perhaps of fewer
 };
 // Renders a few samples in windows with these photons. many: eight samples are timed, too, which tells
-// `fixed` from `each`. But for the times, the result has the same bits on any machine if `limits` has no
-// seconds. The tree of predicted visibility, which depends on settings.spp, stays with the photons.
+// `fixed` from `each`. Except for the times, the result has the same bits on any machine of the same
+// instruction set if `limits` has no seconds. The tree of predicted visibility, which depends on
+// settings.spp, stays with the photons.
 SampleTrial try_one_sample(const RenderInput& input, const TrialLimits& limits, bool many,
                            PassPhotons* photons);
 

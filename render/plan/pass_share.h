@@ -30,7 +30,7 @@ struct PassSamples {
   uint64_t first = 0, end = 0;
   // Adaptive samples follow from index `end` on; their work is at most this multiple of that of the first. 0:
   // none.
-  double further_work = 0;
+  double adaptive_work = 0;
 };
 
 // Adaptive samples are taken if settings.adaptive says so and one pass takes all samples, with which they are

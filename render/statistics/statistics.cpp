@@ -67,7 +67,7 @@ RenderStatistics& RenderStatistics::operator+=(const RenderStatistics& o) {
   photon_bytes = std::max(photon_bytes, o.photon_bytes);
   octree_nodes += o.octree_nodes;
   passes += o.passes;
-  further_work = std::max(further_work, o.further_work);
+  adaptive_work = std::max(adaptive_work, o.adaptive_work);
   return *this;
 }
 

@@ -67,7 +67,7 @@ struct RenderStatistics {
   uint64_t photon_bytes = 0;  // maps of a pass with their index; maximum over passes
   uint64_t octree_nodes = 0;  // in all maps
   uint64_t passes = 0;        // number of finished passes
-  double further_work = 0;    // that adaptive samples were allowed (PassSamples); maximum over passes
+  double adaptive_work = 0;   // that adaptive samples were allowed (PassSamples); maximum over passes
 
   bool any_photons() const { return photons.emitted + guided.emitted > 0; }
   // Adds the statistics of further passes of the same render.

@@ -80,23 +80,23 @@ class TilePass {
       : ctx_(ctx), progress_(progress), film_(*film) {
     const PixelRange window{film->x0(), film->x0() + film->width(), film->y0(), film->y0() + film->height()};
     window.for_each_square(kTileSize, [this](const PixelRange& tile) { tiles_.push_back(tile); });
-    if (ctx.samples.further_work > 0) counts_.emplace(*film);
-    to_do_ = tiles_.size() * (1 + rounds_of(ctx.samples.further_work));
+    if (ctx.samples.adaptive_work > 0) counts_.emplace(*film);
+    to_do_ = tiles_.size() * (1 + rounds_of(ctx.samples.adaptive_work));
   }
 
   // False when the progress callback cancelled.
-  bool render(const FurtherWork& further_work) {
+  bool render(const AdaptiveWork& adaptive_work) {
     if (!report()) return false;  // where there is one tile, its end is too late to cancel
     const Stopwatch watch;
     if (!each_tile(&TilePass::first_samples)) return false;
     if (!counts_) return true;
-    further_ = true;
-    return further_rounds(watch.seconds(), further_work);
+    adaptive_ = true;
+    return adaptive_rounds(watch.seconds(), adaptive_work);
   }
 
   void fill(RenderStatistics* statistics) const {
     merged_.fill(statistics);
-    statistics->further_work = work_;
+    statistics->adaptive_work = work_;
   }
 
  private:
@@ -112,7 +112,7 @@ class TilePass {
     return true;
   }
 
-  bool further_samples(const PixelRange& block, photon::EstimateBatch* batch, TileWork* work) {
+  bool adaptive_samples(const PixelRange& block, photon::EstimateBatch* batch, TileWork* work) {
     const uint64_t first = ctx_.samples.first;
     for (int half = 0; half < kHalves; ++half) {
       const SampleRange range{half == 0 ? BlockPart::kEven : BlockPart::kOdd,
@@ -126,16 +126,16 @@ class TilePass {
   }
 
   // Renders adaptive samples in rounds. seconds: what the first samples took.
-  bool further_rounds(double seconds, const FurtherWork& further_work) {
+  bool adaptive_rounds(double seconds, const AdaptiveWork& adaptive_work) {
     for (double end = kFirstRound;; end = next_round(end)) {
-      const double all = further_work ? further_work(work_, seconds) : ctx_.samples.further_work;
+      const double all = adaptive_work ? adaptive_work(work_, seconds) : ctx_.samples.adaptive_work;
       if (!(std::min(end, all) > work_)) return true;
       work_ = std::min(end, all);
       counts_->choose_counts(samples(), work_);
       sort_by_work();
       to_do_ = std::max(to_do_, done_ + tiles_.size());
       const Stopwatch watch;
-      if (!each_tile(&TilePass::further_samples)) return false;
+      if (!each_tile(&TilePass::adaptive_samples)) return false;
       if (work_ < end) return true;  // a further round would not begin where it should
       seconds = watch.seconds();
     }
@@ -173,7 +173,7 @@ class TilePass {
 
   // Nothing when cancelled; the film is then as it was before the tile.
   std::optional<TileResult> render_tile(const PixelRange& tile, BlockRenderer add_samples) {
-    const TileCopy before(film_, tile, further_);
+    const TileCopy before(film_, tile, adaptive_);
     Stopwatch since_asked;
     TileWork work{{}, [&] { return goes_on(&since_asked); }};
     photon::EstimateBatch batch;
@@ -214,17 +214,17 @@ class TilePass {
   MergedTiles merged_;
   std::mutex mutex_;  // guards merged_, the callback, and done_ while tiles are rendered
   uint64_t done_ = 0, to_do_ = 0;
-  bool further_ = false;  // adaptive samples are being added
-  double work_ = 0;       // that adaptive samples were allowed so far
+  bool adaptive_ = false;  // adaptive samples are being added
+  double work_ = 0;        // that adaptive samples were allowed so far
   std::atomic<bool> cancelled_{false};
 };
 
 }  // namespace
 
 bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
-                  RenderStatistics* statistics, const FurtherWork& further_work) {
+                  RenderStatistics* statistics, const AdaptiveWork& adaptive_work) {
   TilePass pass(ctx, progress, film);
-  const bool finished = pass.render(further_work);
+  const bool finished = pass.render(adaptive_work);
   pass.fill(statistics);
   return finished;
 }

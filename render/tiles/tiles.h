@@ -15,7 +15,7 @@ inline constexpr int kTileSize = 16;
 // Returns how much work adaptive samples may add in all, as a multiple of that of the first samples. Asked
 // before each round of them: `done` is what earlier rounds were allowed, `seconds` what the last round, or
 // the first samples, took.
-using FurtherWork = std::function<double(double done, double seconds)>;
+using AdaptiveWork = std::function<double(double done, double seconds)>;
 
 // Adaptive samples come in rounds, which end at fixed multiples of the first samples' work, so that the same
 // total gives the same bits: 0.75, 1.125, 1.5, 2.25, 3, ...
@@ -36,8 +36,8 @@ inline size_t rounds_of(double work) {
 // Adds the samples of ctx.pass to each pixel of the film's window, and their ray, gather, lecture and drop
 // counts to statistics. False when the progress callback cancelled; then tiles are missing. The callback is
 // called at the start, after each tile, and several times a second within long ones. If ctx allows adaptive
-// samples, further_work, if set, says how many; statistics says what it allowed.
+// samples, adaptive_work, if set, says how many; statistics says what it allowed.
 bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
-                  RenderStatistics* statistics, const FurtherWork& further_work = {});
+                  RenderStatistics* statistics, const AdaptiveWork& adaptive_work = {});
 
 }  // namespace kaustik::render

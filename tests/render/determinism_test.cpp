@@ -56,7 +56,7 @@ TEST_P(Determinism, CropEqualsThatPartOfTheImage) {
   const Scene scene = cornell(30);
   RenderSettings settings = settings_of(GetParam());
   settings.spp = 6;
-  settings.adaptive = 0;  // adaptive sampling would distribute further samples over the crop alone
+  settings.adaptive = 0;  // adaptive sampling would distribute adaptive samples over the crop alone
   const auto whole = render_with_threads(scene, settings);
   settings.crop = {7, 30, 11, 29};
   const auto part = render_with_threads(scene, settings);

@@ -99,9 +99,9 @@ TEST(Render, ReportsEveryTile) {
   RenderSettings settings;
   settings.method = Method::kRaytrace;
   settings.spp = 1;
-  for (const bool further : {false, true}) {
-    settings.adaptive = further ? 0.75f : 0;
-    const uint64_t tiles = further ? 18 : 9;  // 40 pixels are three tiles of 16, rendered once or twice
+  for (const bool adaptive : {false, true}) {
+    settings.adaptive = adaptive ? 0.75f : 0;
+    const uint64_t tiles = adaptive ? 18 : 9;  // 40 pixels are three tiles of 16, rendered once or twice
     uint64_t last = 0;
     render(scene, accel::Bvh(scene), settings, [&](const Progress& p) {
       EXPECT_EQ(p.phase, "render");
@@ -142,7 +142,7 @@ TEST(Render, CancelsBetweenPassesOfASingleTile) {
   EXPECT_EQ(cut.sums.passes, PassSet(0, 3));
 }
 
-// A tile that is cancelled among its further samples keeps the first ones alone.
+// A tile that is cancelled among its adaptive samples keeps the first ones alone.
 TEST(Render, CancelledTileKeepsItsFirstSamples) {
   const Scene scene = cornell(16);
   const accel::Bvh bvh(scene);
@@ -164,8 +164,8 @@ TEST(Render, CancelledTileKeepsItsFirstSamples) {
       EXPECT_EQ(cut.film.at(x, y).radiance(), first.film.at(x, y).radiance()) << x << " " << y;
 }
 
-// A render that is cancelled among further samples shows all finished work.
-TEST(Render, CancelledAmongFurtherSamplesKeepsTheFirst) {
+// A render that is cancelled among adaptive samples shows all finished work.
+TEST(Render, CancelledAmongAdaptiveSamplesKeepsTheFirst) {
   const Scene scene = cornell(40);
   RenderSettings settings;
   settings.method = Method::kRaytrace;

@@ -14,8 +14,8 @@ namespace kaustik::app {
 
 namespace {
 
-// Share of the samples and photons of a render that the samples of its trials are, and the fewest windows
-// that show a picture. Smaller renders are not tried. The photons of the trials come on top.
+// All trials together render at most kTrialShare as many samples as the render has samples and photons. With
+// fewer than kFewestWindows windows there is no trial. The photons of the trials come on top.
 constexpr double kTrialShare = 0.02, kFewestWindows = 12;
 constexpr double kMostWindows = 120;
 // Paths are not taken where they leave this many times the error with as many samples, however fast they are:
@@ -90,8 +90,8 @@ class FixedPlan {
     return choose_paths(input(), maps, trial, judge);
   }
 
-  // In rays. The samples of a pixel share gathers within a pass, whose number grows about half as fast as
-  // that of the samples.
+  // In rays. Samples of a pixel share gathers within a pass, so the number of gathers grows about half as
+  // fast as the number of samples.
   double work_of(const render::SampleTrial& sample, double samples) const {
     const double passes = double(passes_);
     return sample.rays * samples + sample.gathers * passes * std::max(1.0, samples / passes / 4);

@@ -14,9 +14,10 @@ bool may_choose_paths(const Settings& settings, const SettingOverrides& given, c
 
 // Tries paths beside maps of few photons, and names them in the settings where they leave less error for as
 // much work, counted in rays and gathers. The result depends on scene and settings alone, unless memory
-// requires passes: no clock decides, so that the parts of a render, and renders on other machines, choose
-// alike. The photons are those of a single pass that keeps its maps. The trial takes a few per cent of the
-// render, and nothing is left of it where it is not worth that. Call it within the render's task arena.
+// requires passes: no clock decides, so that the parts of a render choose alike on all machines of one
+// instruction set. The photons are those of a single pass that keeps its maps. The trial takes a few per cent
+// of the render, and nothing is left of it where it is not worth that. Call it within the render's task
+// arena.
 TrialWork settle_paths(const Scene& scene, const accel::Bvh& bvh, const render::ProgressCallback& progress,
                        Settings* settings);
 

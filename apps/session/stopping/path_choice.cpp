@@ -18,8 +18,8 @@ constexpr double kNegligible = 0.03;
 constexpr double kKnown = 0.1, kMostOfPixel = 0.05;
 // By how much the mean of a map from few photons may exceed that of paths, beyond what noise explains.
 constexpr double kBiasOfMap = 0.15;
-// Largest relative standard error of a class of little light that paths saw at all; how much brighter the
-// paths are taken to be that they did not see.
+// kSeen: largest relative standard error of a class of little light, of which paths found some. kRarer: paths
+// that no sample found are taken to be this many times as bright as the brightest that was found.
 constexpr double kSeen = 0.3, kRarer = 3;
 // Paths take the place of maps where their error is at most this share of the maps': a short trial misses
 // rare bright paths. Where paths for one class have kHopeless times the maps' error, those for more classes

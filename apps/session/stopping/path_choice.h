@@ -32,7 +32,8 @@ std::string options_of(TakenByPaths classes);
 // the square of the light of their block, to which the square of a tenth of the picture's mean is added.
 struct TrialComparison {
   double variance_of_maps = 0, variance_of_paths = 0;  // of one sample
-  // Of the caustic and indirect light that maps give, at the scale of a block: what differs beyond noise.
+  // Squared error of the maps' caustic and indirect light, averaged over a block, beyond the noise of both
+  // trials.
   double error_of_maps = 0;
   // Whether the trial met enough of the light that paths bring to be believed: the means of the classes are
   // known within a tenth, not less than those of the maps by more than 15 %, and no pixel brings much of

@@ -26,11 +26,11 @@ constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.015;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples.
-// There are more only where the trials took samples for slower than they were.
-constexpr double kMostFurther = 12;
-// Least adaptive samples, where the first samples have used the time up: none at all would be a render of
-// other units for its sums.
-constexpr double kLeastFurther = 0.01;
+// More are needed only where the trials overestimated the cost of a sample.
+constexpr double kMostAdaptive = 12;
+// Least work of adaptive samples, even where the first samples have used the time up: without any, the exact
+// sums would have another unit (units_of() in render/renderer.cpp).
+constexpr double kLeastAdaptive = 0.01;
 // A render is split into passes if it would take longer than this (seconds) and fit this many samples per
 // pixel: a single pass would show nothing for long, and more adaptive samples would hardly be placed better.
 constexpr double kLongPass = 4;
@@ -56,9 +56,9 @@ int samples_within(const render::SampleCost& cost, double adaptive, double secon
   return spp;
 }
 
-// The photons that fit, rounded down to two digits, so that the log can state them exactly. What a shoot
-// takes whatever their number, for the guides and the radii, takes at most half of the seconds from them:
-// fewer photons would save none of it.
+// The photons that fit, rounded down to two digits, so that the log can state them exactly. The fixed cost of
+// a shoot, of guides and radii, is subtracted from the seconds, but at most half of them: it does not fall
+// with fewer photons.
 uint64_t photons_within(const render::PhotonCost& cost, double seconds, double fewest) {
   const double of_photons = std::max(seconds - cost.fixed, seconds / 2);
   const double photons = std::clamp(of_photons / cost.each, std::max(fewest, 10.0), 1e12);
@@ -96,15 +96,16 @@ class TimePlan {
     }
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
-      set_passes(trial.cost, {.each = sample.seconds, .further = sample.seconds}, share);
+      set_passes(trial.cost, {.each = sample.seconds, .each_adaptive = sample.seconds}, share);
       return {.work = {.explored = first->photons.explored(), .paths = paths_}};
     }
     if (gathers_) *first = shoot(trial.cost, share * left(), first->photons.explored());
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
+    const auto explored = first->photons.explored();
     return {.single_pass = true,
-            .work = {.photons = gathers_ ? std::move(first) : nullptr},
-            .further_work = further_work(cost)};
+            .work = {.photons = gathers_ ? std::move(first) : nullptr, .explored = explored},
+            .adaptive_work = adaptive_work(cost)};
   }
 
  private:
@@ -134,16 +135,16 @@ class TimePlan {
 
   // The adaptive samples that fit by the time that samples took so far. Rounded down to hundredths, so that
   // the log can state them exactly. Until there are some, they are taken to cost as in the trial.
-  std::function<double(double, double)> further_work(const render::SampleCost& cost) const {
+  std::function<double(double, double)> adaptive_work(const render::SampleCost& cost) const {
     if (!(render_.adaptive > 0)) return {};
     const double spp = render_.spp;
-    const double trial = std::max(spp * cost.further / cost.of(spp, 0), 0.1);
+    const double trial = std::max(spp * cost.each_adaptive / cost.of(spp, 0), 0.1);
     return [plan = *this, trial, before = 0.0](double done, double seconds) mutable {
       const double each = done > 0 ? seconds / (done - before) : seconds * trial;
       before = done;
       const double fits = done + plan.left() / std::max(each, 1e-9);
       return double(
-          float(std::clamp(std::floor(100 * fits) / 100, std::max(done, kLeastFurther), kMostFurther)));
+          float(std::clamp(std::floor(100 * fits) / 100, std::max(done, kLeastAdaptive), kMostAdaptive)));
     };
   }
 

@@ -22,12 +22,12 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
 
 // A render that was planned to fill a time.
 struct FilledTime {
-  bool single_pass = false;  // adaptive samples are placed best in one
+  bool single_pass = false;  // one pass, in which adaptive samples are placed best
   // The photons are those of the single pass, if it gathers any, without radii if the progress callback
   // cancelled. A render with paths in place of maps has passes.
   TrialWork work{};
   // For render::RenderTask: chooses the adaptive samples of a single pass while it is rendered. May be empty.
-  std::function<double(double done, double seconds)> further_work{};
+  std::function<double(double done, double seconds)> adaptive_work{};
 };
 
 // Chooses photons, samples and passes by short trial renders, and logs them. If a single pass would be long,

@@ -69,7 +69,7 @@ TEST_F(BenchCommand, CountersAreWholeNumbersThatDoNotDependOnThreads) {
     for (const Json& p : r["points"]) EXPECT_EQ(p["counters"], counters) << method << " " << p["threads"];
     const Json again = measured({"--photons", "20k", "--threads", "2", "--repeat", "1", "--method", method});
     EXPECT_EQ(again["points"][0]["counters"], counters) << method;
-    // Only methods that trace paths from the camera take no further samples.
+    // Only methods that trace paths from the camera take no adaptive samples.
     EXPECT_GE(counters["rays"]["camera"], 16 * 12);
     if (method == std::string("mc") || method == std::string("hybrid")) {
       EXPECT_EQ(counters["rays"]["camera"], 16 * 12);

@@ -1,5 +1,5 @@
-// Tests adaptive sampling: the estimates from the first samples, the numbers of further samples, and that the
-// mean stays unbiased.
+// Tests adaptive sampling: the estimates from the first samples, the numbers of adaptive samples, and that
+// the mean stays unbiased.
 
 #include "render/adaptive/sample_counts.h"
 
@@ -86,13 +86,13 @@ SampleSpread spread_by(const LightSpread& all, const LightSpread& traced = {}) {
 
 // spread(x, y, half) is the spread of a half of block (x, y).
 template <class Fn>
-SampleCounts counts_of(const Fn& spread, uint64_t first, double further_work) {
+SampleCounts counts_of(const Fn& spread, uint64_t first, double adaptive_work) {
   SampleCounts counts{FilmSums(kPixels, kPixels)};
   for (int y = 0; y < kPixels; y += kRayBlock)
     for (int x = 0; x < kPixels; x += kRayBlock)
       for (int half = 0; half < kHalves; ++half)
         counts.spread(x, y, half) = spread(x / kRayBlock, y / kRayBlock, half);
-  counts.choose_counts(first, further_work);
+  counts.choose_counts(first, adaptive_work);
   return counts;
 }
 

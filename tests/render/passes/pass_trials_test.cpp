@@ -35,11 +35,11 @@ TEST(PassCosts, CostOfSamplesIsLinearInBothCounts) {
   const SampleCost cost = sample_cost(seconds(1, 0.75), seconds(4, 0), seconds(4, 0.75), 0.75);
   EXPECT_NEAR(cost.fixed, 0.25, 1e-12);
   EXPECT_NEAR(cost.each, 0.5, 1e-12);
-  EXPECT_NEAR(cost.further, 0.125, 1e-12);
+  EXPECT_NEAR(cost.each_adaptive, 0.125, 1e-12);
   EXPECT_NEAR(cost.of(16, 2), seconds(16, 2), 1e-12);
   const SampleCost without = sample_cost(seconds(1, 0), seconds(4, 0), seconds(4, 0), 0);
   EXPECT_NEAR(without.of(8, 0), seconds(8, 0), 1e-12);
-  EXPECT_EQ(without.further, 0);
+  EXPECT_EQ(without.each_adaptive, 0);
 }
 
 TEST_F(PassTrials, KeepThePhotonsThatTheRenderUses) {
@@ -49,6 +49,20 @@ TEST_F(PassTrials, KeepThePhotonsThatTheRenderUses) {
   try_samples(input(), 1, &trial.first.photons);
   EXPECT_GT(trial.first.photons.maps().indirect.map.size(), 0u);
   EXPECT_EQ(trial.first.photons.visibility(), nullptr);  // it depends on the number of samples
+}
+
+// The larger trial gathers with the radii of its own photons, not of the fewer ones that were timed before
+// it.
+TEST_F(PassTrials, GatherWithTheRadiiOfTheirPhotons) {
+  const PhotonTrial few = try_photons(input(), 0, {}), many = try_photons(input(), kInfinity, {});
+  ASSERT_GT(many.cost.photons, few.cost.photons);
+  settings_.photons = uint64_t(many.cost.photons);
+  PassPhotons shot;
+  RenderStatistics ignored;
+  shot.make(input(), pass_share(0, 1, settings_.photons, 1), {}, &ignored);
+  EXPECT_EQ(many.first.photons.radii(), shot.radii());
+  EXPECT_EQ(many.first.photons.maps().indirect.estimate.radius, shot.maps().indirect.estimate.radius);
+  EXPECT_LT(many.first.photons.radii()->indirect, few.first.photons.radii()->indirect);
 }
 
 // The halves are those of the trial's own samples: together they make the mean, apart they show its noise.
@@ -116,7 +130,7 @@ TEST_F(PassTrials, AdaptiveSamplesDecidedOnTheWayGiveTheSamePicture) {
   for (const double total : {0.4, 0.75, 2.6}) {
     settings_.adaptive = float(total);
     const RenderResult asked = render(scene_, bvh_, settings_);
-    EXPECT_EQ(asked.statistics.further_work, double(settings_.adaptive));
+    EXPECT_EQ(asked.statistics.adaptive_work, double(settings_.adaptive));
     settings_.adaptive = 0.1f;
     int rounds = 0;
     const auto decide = [&](double done, double seconds) {
@@ -125,10 +139,10 @@ TEST_F(PassTrials, AdaptiveSamplesDecidedOnTheWayGiveTheSamePicture) {
       if (done >= 2.6) return 5.0;  // not asked again after a round that was cut short
       return done < 1 ? 5.0 : double(float(total));
     };
-    RenderTask task{.further_work = total < 1 ? [&](double, double) { return double(float(total)); }
-                                              : std::function<double(double, double)>(decide)};
+    RenderTask task{.adaptive_work = total < 1 ? [&](double, double) { return double(float(total)); }
+                                               : std::function<double(double, double)>(decide)};
     const RenderResult found = render(scene_, bvh_, settings_, {}, std::move(task));
-    EXPECT_EQ(found.statistics.further_work, asked.statistics.further_work);
+    EXPECT_EQ(found.statistics.adaptive_work, asked.statistics.adaptive_work);
     EXPECT_EQ(found.statistics.rays.camera, asked.statistics.rays.camera);
     const size_t bytes = sizeof(PixelResult) * size_t(found.film.width()) * size_t(found.film.height());
     EXPECT_EQ(std::memcmp(&found.film.at(0, 0), &asked.film.at(0, 0), bytes), 0) << total;

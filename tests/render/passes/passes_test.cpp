@@ -42,16 +42,16 @@ TEST(Passes, AreEqualAndCoverTheRequest) {
 // value.
 TEST(Passes, RadiiFollowTheClosedForm) {
   for (const float alpha : {0.1f, 0.5f, 2.0f / 3, 0.9f}) {
-    EXPECT_EQ(radius_shrink_squared(0, alpha), 1.0);
+    EXPECT_EQ(RadiusShrink().squared(0, alpha), 1.0);
     for (const uint64_t p : {uint64_t{1}, uint64_t{2}, uint64_t{10}, uint64_t{1000}, uint64_t{100'000}}) {
       const double a = double(alpha), n = double(p);
       const double log_form = std::lgamma(n + 1 + a) - std::lgamma(1 + a) - std::lgamma(n + 2);
       const double bound = 3 * n * 0x1p-53 + 4 * std::lgamma(n + 2) * 0x1p-53;
-      EXPECT_NEAR(std::log(radius_shrink_squared(p, alpha)), log_form, bound + 1e-15) << alpha << " " << p;
+      EXPECT_NEAR(std::log(RadiusShrink().squared(p, alpha)), log_form, bound + 1e-15) << alpha << " " << p;
     }
   }
   for (const uint64_t p : {uint64_t{0}, uint64_t{1}, uint64_t{12345}})
-    EXPECT_EQ(radius_shrink_squared(p, 1), 1.0);
+    EXPECT_EQ(RadiusShrink().squared(p, 1), 1.0);
 }
 
 // With a given radius the estimate is linear in the photons, so passes have the same expectation in every
@@ -78,7 +78,7 @@ TEST(Passes, GiveTheSameLight) {
 TEST(Passes, FollowTheMemoryLimit) {
   const Scene scene = cornell(kSize);
   RenderSettings settings = settings_of(Method::kPhoton, 8, 0.15f, 1);
-  settings.adaptive = 0;  // a single pass would take further samples
+  settings.adaptive = 0;  // a single pass would take adaptive samples
   const auto one = render_with_threads(scene, settings);
   EXPECT_EQ(one.statistics.passes, 1u);
   settings.photon_memory = one.statistics.photon_bytes / 2;

@@ -167,7 +167,7 @@ struct ShrinkingDisc {
   double bias(float alpha, uint64_t passes) const {
     double sum = 0;
     for (uint64_t p = 0; p < passes; ++p) {
-      const double r2 = kRadius * kRadius * radius_shrink_squared(p, alpha);
+      const double r2 = kRadius * kRadius * RadiusShrink().squared(p, alpha);
       sum += 2 / r2 * (1 - 1 / std::sqrt(1 + r2));
     }
     return sum / double(passes) - 1;  // relative to E = I / h^2
@@ -176,7 +176,7 @@ struct ShrinkingDisc {
   double standard_error(float alpha, uint64_t passes) const {
     double sum = 0;
     for (uint64_t p = 0; p < passes; ++p)
-      sum += 4 / (double(kPhotons) * kRadius * kRadius * radius_shrink_squared(p, alpha));
+      sum += 4 / (double(kPhotons) * kRadius * kRadius * RadiusShrink().squared(p, alpha));
     return std::sqrt(sum) / double(passes);
   }
   double measured(float alpha, uint64_t passes) const {
@@ -216,7 +216,7 @@ TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
       RenderStatistics ignored;
       photons.make({scene, bvh, settings, plan}, pass_share(pass, 1, settings.photons, 1), {}, &ignored);
       const PhotonMaps& maps = photons.maps();
-      const double squared = radius_shrink_squared(pass, 0.5f);
+      const double squared = RadiusShrink().squared(pass, 0.5f);
       const auto k = [&](uint32_t first) { return uint32_t(std::max(8.0, std::round(first * squared))); };
       EXPECT_EQ(maps.caustic.estimate.nearest, k(nearest > 0 ? nearest : photons.radii()->caustic_nearest))
           << pass;
