@@ -14,10 +14,10 @@ constexpr double kLeastFactor = 0.25, kMostFactor = 4;
 // skewed: with 1, the picture of a room lit through a gap became brighter by 6 %.
 constexpr double kDoubt = 4;
 constexpr uint32_t kFewestPoints = 8;  // whose spread is worth something
-// The variance of a cell's estimates is a weighted mean of its own, whose weight is its number of points, and
-// that of an average cell, whose weight this is. A cell of few points that met no bright path by chance has
-// too small a variance of its own. The average cell's is too large for a bright cell of many points, since it
-// counts dim points as much as bright ones.
+// The variance of a cell's estimates is that of its own points, or, if that is more, a weighted mean of it,
+// whose weight is the cell's number of points, and of that of an average cell, whose weight this is. A cell
+// of few points that met no bright path by chance has too small a variance of its own. The average cell's is
+// too large for a bright cell of many points, since it counts dim points as much as bright ones.
 constexpr double kAverageWeight = 1024;
 
 // Mean of the squares of path - ratio disc in units of the disc's square, for each colour. Dim points count
@@ -38,7 +38,8 @@ glm::dvec3 variance_of_ratio(const PointSums& cell, const glm::dvec3& relative_v
   const double count = cell.count;
   const glm::dvec3 own = cell.residual() * count / (count - 1),
                    average = relative_variance * cell.disc_squared;
-  return (count * own + kAverageWeight * average) / ((count + kAverageWeight) * cell.disc * cell.disc);
+  const glm::dvec3 mean = (count * own + kAverageWeight * average) / (count + kAverageWeight);
+  return glm::max(own, mean) / (cell.disc * cell.disc);
 }
 
 // The ratios of a cell, each drawn towards `prior` by its noise.

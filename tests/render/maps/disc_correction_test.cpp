@@ -98,6 +98,20 @@ TEST(DiscCorrection, DimPointsDoNotHideWhatIsWrongEverywhere) {
   EXPECT_NEAR(corrected / all.disc.x, all.ratio().x, 0.05);
 }
 
+// A bright path in a cell of few points makes the spread of the cell as large as the difference, however
+// small the spread of all other cells is: the ratio is not believed, and no square shows.
+TEST(DiscCorrection, OneBrightPathMakesNoSquare) {
+  auto found = estimates([](const Point3&) { return 1.0; }, 0.1);
+  const size_t bright = kSide * (kSide / 2) + kSide / 3;
+  const std::vector<VisiblePoint> points = points_of_square();
+  for (const double path : {4.0, 20.0, 100.0}) {
+    found[bright].path = glm::dvec3(path);
+    const DiscCorrection correction(points, found);
+    for (const VisiblePoint& point : points)
+      ASSERT_NEAR(correction.at(point.query.p, kUp).x, 1, 4 * 0.1) << path;  // as far as noise may change it
+  }
+}
+
 // A disc that takes red light from elsewhere gets that colour's factor alone.
 TEST(DiscCorrection, CorrectsEachColourByItself) {
   std::vector<TwoEstimates> found(points_of_square().size());
