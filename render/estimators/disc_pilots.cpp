@@ -16,7 +16,7 @@ constexpr uint64_t kSamplesEach = 4;  // of the pass, for each path
 constexpr uint64_t kMostPoints = 1u << 16;
 constexpr uint64_t kFewestPoints = 64;
 
-// Empty where the picture takes no disc, but for points that are seen through wide glossy lobes, and for
+// Empty on rough lobes, where the picture takes a disc only if a wide glossy lobe sees the point, and for
 // estimates that are not finite, which the picture would drop.
 std::optional<TwoEstimates> estimate_at(const RenderContext& ctx, const VisiblePoint& point,
                                         Sampler& sampler) {

@@ -202,18 +202,18 @@ void PassPhotons::prepare_gathers(const RenderInput& input, const PassShare& pas
 }
 
 void PassPhotons::choose_radii_anew(const RenderInput& input, const PassShare& pass) {
-  if (!radii_) return;  // no photons, or cancelled
-  forget_areas_and_walls();
+  if (!radii_) return;       // no photons, or cancelled
+  forget_radii_and_walls();  // areas for the same radius serve on
   prepare_gathers(input, pass);
 }
 
 void PassPhotons::forget_radii() {
   free_maps();
-  forget_areas_and_walls();
+  for (GatherMap* gather : gather_maps(maps_)) gather->areas = nullptr;
+  forget_radii_and_walls();
 }
 
-void PassPhotons::forget_areas_and_walls() {
-  for (GatherMap* gather : gather_maps(maps_)) gather->areas = nullptr;
+void PassPhotons::forget_radii_and_walls() {
   radii_.reset();
   walls_.reset();
   walls_are_known_ = false;

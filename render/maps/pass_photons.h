@@ -80,7 +80,7 @@ class PassPhotons {
  private:
   void build_maps(const RenderInput& input, photon::ShootResult&& shot);
   void free_maps();
-  void forget_areas_and_walls();
+  void forget_radii_and_walls();
   void prepare_gathers(const RenderInput& input, const PassShare& pass);
   void find_walls(const Scene& scene);
   void set_estimates(const RenderInput& input, const PassShare& pass);

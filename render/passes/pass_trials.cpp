@@ -57,9 +57,10 @@ std::vector<PixelRange> windows_of(const PixelRange& whole, double wanted) {
   return windows;
 }
 
-double tiles_of(const PixelRange& range) {
-  const auto along = [](int pixels) { return std::ceil(double(pixels) / kTileSize); };
-  return along(range.x1 - range.x0) * along(range.y1 - range.y0);
+size_t tiles_of(const PixelRange& range) {
+  size_t tiles = 0;
+  range.for_each_square(kTileSize, [&](const PixelRange&) { ++tiles; });
+  return tiles;
 }
 
 // Renders trial windows and extrapolates to the picture.
@@ -122,7 +123,7 @@ class WindowTrials {
     }
     // Threads that wait for the last of a few windows would not do so in a whole picture of enough tiles.
     const double seconds =
-        std::reduce(took.begin(), took.end()) / std::min(double(threads), tiles_of(whole_));
+        std::reduce(took.begin(), took.end()) / double(std::min(threads, tiles_of(whole_)));
     windows_.resize(done);
     films_.resize(done);
     uint64_t pixels = 0;
@@ -236,7 +237,7 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
   const double first = shoot(kFewPhotons);
   const uint64_t more = first < most ? kMorePhotons : kFewPhotons;
   const double each = shoot(more) / double(more);
-  // Without the time, which the first shoot has in its fixed cost.
+  // Not timed: the fixed cost, from the first shoot, already includes the choice of radii.
   if (more > kFewPhotons) photons.choose_radii_anew(input, pass_share(0, 1, more, 1));
   trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each, double(more)};
   return trial;

@@ -100,9 +100,9 @@ SampleCounts counts_of(const Fn& spread, uint64_t first, double adaptive_work) {
 // which 2^6 are allowed.
 TEST(SampleCounts, StayWithinTheWorkAndFollowTheRootOfTheVariance) {
   constexpr uint64_t kFirst = 2;
-  constexpr double kFurther = 7;
+  constexpr double kAdaptive = 7;
   const auto spread = [](int x, int, int) { return spread_by({std::ldexp(1.0, 4 * x), 1.0}); };
-  const auto counts = counts_of(spread, kFirst, kFurther);
+  const auto counts = counts_of(spread, kFirst, kAdaptive);
   uint64_t sum = 0;
   for (int y = 0; y < kPixels; y += kRayBlock) {
     uint64_t last = kFirst;
@@ -115,7 +115,7 @@ TEST(SampleCounts, StayWithinTheWorkAndFollowTheRootOfTheVariance) {
       }
     EXPECT_GT(last, kFirst * 16);
   }
-  const double all = kFirst * (1 + kFurther) * kBlocks * kBlocks * kHalves;
+  const double all = kFirst * (1 + kAdaptive) * kBlocks * kBlocks * kHalves;
   EXPECT_LE(double(sum), all);
   EXPECT_GT(double(sum), all / 2);  // doubling every count would exceed the work
 }
