@@ -95,7 +95,8 @@ bool disc_is_better(const RenderContext& ctx, const ShadingPoint& x, bool blurre
   if (error_of_path >= kErrorOfGuess) return true;
   const float radius = ctx.maps.indirect.estimate.radius;
   if (error_of_correction(disc_factor(ctx, x)) > error_of_path) return false;
-  if (!blurred && error_of_disc(radius, place.clearance) > error_of_path) return false;
+  const float clearance = std::min(place.clearance, place.lit_clearance);
+  if (!blurred && error_of_disc(radius, clearance) > error_of_path) return false;
   return share >= kLeastSupport;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
@@ -71,9 +72,18 @@ Met follow(const RenderInput& input, Ray ray, Sampler& sampler) {
 
 void Surroundings::Cell::add(const Cell& other) {
   inverse += other.inverse;
+  light_by_distance += other.light_by_distance;
   light += other.light;
   squared += other.squared;
   rays += other.rays;
+}
+
+float Surroundings::Cell::clearance() const {
+  return inverse > 0 ? float(rays / inverse) : kInfinity;
+}
+
+float Surroundings::Cell::lit_clearance() const {
+  return light_by_distance > 0 ? float(light / light_by_distance) : kInfinity;
 }
 
 float Surroundings::Cell::noise() const {
@@ -93,7 +103,10 @@ Surroundings::Cell Surroundings::explore(const RenderInput& input, const Surface
     ++sum.rays;
     if (!(glm::dot(wi, n) > 0)) continue;
     const Met met = follow(input, si.spawn(wi), sampler);
-    if (met.distance > 0) sum.inverse += 1 / double(met.distance);
+    if (met.distance > 0) {
+      sum.inverse += 1 / double(met.distance);
+      sum.light_by_distance += double(met.light) / double(met.distance);
+    }
     sum.light += double(met.light);
     sum.squared += double(met.light) * double(met.light);
   }
@@ -125,16 +138,18 @@ void Surroundings::add(const Point3& p, const Normal3& n, const Cell& found) {
 }
 
 Place Surroundings::at(const Point3& p, const Normal3& n) const {
-  const auto coarse = cells_.back().find(grids_.back().key(p, n));
-  if (coarse == cells_.back().end()) return {0, all_.noise()};
-  const float noise = (coarse->second.rays >= kEnoughForNoise ? coarse->second : all_).noise();
+  Place place{.noise = all_.noise()};
+  bool knows_light = false;
   for (size_t grid = 0; grid < grids_.size(); ++grid) {
     const auto found = cells_[grid].find(grids_[grid].key(p, n));
-    if (found == cells_[grid].end() || found->second.rays < kEnough[grid]) continue;
+    if (found == cells_[grid].end()) continue;
     const Cell& cell = found->second;
-    return {cell.inverse > 0 ? float(cell.rays / cell.inverse) : kInfinity, noise};
+    if (place.clearance == 0 && cell.rays >= kEnough[grid]) place.clearance = cell.clearance();
+    if (cell.rays < kEnoughForLight) continue;
+    if (!std::exchange(knows_light, true))
+      place.lit_clearance = cell.lit_clearance(), place.noise = cell.noise();
   }
-  return {0, noise};
+  return place;
 }
 
 }  // namespace kaustik::render

@@ -16,6 +16,9 @@ struct Place {
   // about its clearance (Ward, Rubinstein and Clear 1988, "A Ray Tracing Solution for Diffuse
   // Interreflection").
   float clearance = 0;
+  // The same, weighted by the light as well: where a near surface shines brightly, that is how fast the
+  // irradiance varies. Infinite where no light is known.
+  float lit_clearance = kInfinity;
   // Relative standard deviation of the light that one random ray from the place brings.
   float noise = 0;
 };
@@ -35,20 +38,23 @@ class Surroundings {
   // Sums over the rays of a cell.
   struct Cell {
     double inverse = 0;             // of 1 / distance
+    double light_by_distance = 0;   // of the radiance that a ray brings over the distance
     double light = 0, squared = 0;  // of the radiance that a ray brings, and of its square
     uint32_t rays = 0;
 
     void add(const Cell& other);
+    float clearance() const;
+    float lit_clearance() const;
     // The least value is that of a place whose surroundings shine evenly.
     float noise() const;
   };
   using Cells = std::unordered_map<uint64_t, Cell>;
   static constexpr int kRaysEach = 16;  // rays from a visible point
-  // Grids from fine to coarse. A place is looked up in the finest grid that has enough rays there; its noise
-  // in the coarsest, since a few bright rays decide about it.
+  // Grids from fine to coarse. A place is looked up in the finest grid that has enough rays there; more are
+  // needed for what depends on the light, since a few bright rays decide about it.
   static constexpr std::array<float, 3> kResolution = {64, 32, 16};
   static constexpr std::array<uint32_t, 3> kEnough = {4 * kRaysEach, 2 * kRaysEach, kRaysEach};
-  static constexpr uint32_t kEnoughForNoise = 16 * kRaysEach;
+  static constexpr uint32_t kEnoughForLight = 16 * kRaysEach;
 
   static Cell explore(const RenderInput& input, const SurfaceInteraction& si, const Normal3& n,
                       Sampler& sampler);

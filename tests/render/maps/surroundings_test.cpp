@@ -1,4 +1,4 @@
-// Tests clearances between two planes, where they have a closed form.
+// Tests clearances between two planes, where they have a closed form, and below a bright patch.
 
 #include "render/maps/surroundings.h"
 
@@ -39,6 +39,25 @@ TEST(Surroundings, ClearanceUnderACeilingIsOneAndAHalfTimesItsHeight) {
   const double deviation = std::sqrt((1 / 2.0 - 4 / 9.0) / 64);
   for (const float x : {-0.05f, 0.0f, 0.04f})
     EXPECT_NEAR(1 / double(found.at({x, 0, 0}, {0, 1, 0}).clearance), 2 / 3.0, 4 * deviation);
+}
+
+// A low black ceiling with a slit, above which a white patch is lit: all light comes from the patch, however
+// rarely a ray meets it.
+TEST(Surroundings, LitClearanceIsTheDistanceOfTheOnlyBrightSurface) {
+  Scene scene;
+  const uint32_t white = add_material(scene, Lambertian{Rgb(0.5f)});
+  const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
+  add_shape(scene, horizontal({0, 0, 0}, 100, 100, true, white));
+  for (const float side : {-1.0f, 1.0f})
+    add_shape(scene, horizontal({50.05f * side, 0.3f, 0}, 50, 100, false, black));
+  add_shape(scene, horizontal({0, 1, 0}, 0.4f, 0.4f, false, white));
+  scene.lights.push_back(PointLight{{0, 0.75f, 0}, Rgb(1)});
+  look_at(scene, {-0.1f, 0.2f, 0}, {0, 0, 0}, {0, 1, 0}, 60, 32, 32);
+  finalize_scene(scene);
+  const Place place = surroundings_of(scene).at({0, 0, 0}, {0, 1, 0});
+  EXPECT_GE(place.lit_clearance, 1);
+  EXPECT_LE(place.lit_clearance, std::sqrt(2.0f));  // to a point of the patch, seen from one near the middle
+  EXPECT_LT(place.clearance, 1);
 }
 
 TEST(Surroundings, IsInfiniteInTheOpenAndUnknownElsewhere) {
