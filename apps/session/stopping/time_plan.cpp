@@ -23,6 +23,13 @@ constexpr double kErrorOfMillion = 0.01;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.015;
+// Where exploring the scene took more than this share of the time that was left, no trials follow.
+constexpr double kHurry = 0.2;
+// The least time for photons, as a multiple of that of exploring.
+constexpr double kShootPerExplored = 3;
+// Share of the time that is left which the base samples may take by the trial. The rest is for what a trial
+// does not see, such as the pilot paths of discs, and for adaptive samples.
+constexpr double kSure = 0.75;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples.
@@ -66,6 +73,8 @@ uint64_t photons_within(const render::PhotonCost& cost, double seconds, double f
   return uint64_t(std::floor(photons / unit) * unit);
 }
 
+constexpr const char* kNoTimeForMaps = "there is no time to make photon maps: paths take their place";
+
 // Runs the trials and makes the choice.
 class TimePlan {
  public:
@@ -82,30 +91,13 @@ class TimePlan {
         fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)) {}
 
   FilledTime settle() {
-    render::PhotonTrial trial;
-    if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_);
-    auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
-    if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
-    render::SampleTrial sample =
-        render::try_one_sample(input(), {.seconds = kSampleTrial / 2 * seconds_}, gathers_, &first->photons);
-    if (gathers_ && left() > 0) choose_paths(trial.cost, &sample, &first->photons);
-    if (gathers_ && !paths_.empty()) {  // fewer kinds of photons cost less
-      trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, first->photons.explored());
-      *first = std::move(trial.first);
-      if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
-    }
-    const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
-    if (takes_passes(sample, share)) {
-      set_passes(trial.cost, {.each = sample.seconds, .each_adaptive = sample.seconds}, share);
-      return {.work = {.explored = first->photons.explored(), .paths = paths_}};
-    }
-    if (gathers_) *first = shoot(trial.cost, share * left(), first->photons.explored());
-    const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
-    render_.spp = samples_within(cost, render_.adaptive, left(), kMostOfOne);
-    const auto explored = first->photons.explored();
-    return {.single_pass = true,
-            .work = {.photons = gathers_ ? std::move(first) : nullptr, .explored = explored},
-            .adaptive_work = adaptive_work(cost)};
+    const auto explored = std::make_shared<render::ExploredScene>();
+    if (!gathers_) return settle_by_trials(explored);
+    const double before = left();
+    // Exploring takes at most about as long as loading did.
+    if (before < total_.seconds() && may_take_paths()) return take_paths(explored);
+    render::PassPhotons(explored).explore(input());
+    return explored->seconds > kHurry * before ? hurry(explored) : settle_by_trials(explored);
   }
 
  private:
@@ -114,6 +106,70 @@ class TimePlan {
   double left() const {
     const uint64_t pixels = render::rendered_range(render_.crop, scene_.camera).pixels();
     return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels);
+  }
+
+  FilledTime settle_by_trials(const std::shared_ptr<render::ExploredScene>& explored) {
+    render::PhotonTrial trial;
+    if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored);
+    auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
+    if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
+    render::SampleTrial sample =
+        render::try_one_sample(input(), {.seconds = kSampleTrial / 2 * seconds_}, gathers_, &first->photons);
+    if (gathers_ && left() > 0) choose_paths(trial.cost, &sample, &first->photons);
+    if (has_no_time_for(sample, trial.cost.fixed + trial.cost.each * fewest_)) return take_paths(explored);
+    if (gathers_ && !paths_.empty()) {  // fewer kinds of photons cost less
+      trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored);
+      *first = std::move(trial.first);
+      if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
+    }
+    const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
+    if (takes_passes(sample, share)) {
+      set_passes(trial.cost, {.each = sample.seconds, .each_adaptive = sample.seconds}, share);
+      return {.work = {.explored = explored, .paths = paths_}};
+    }
+    if (gathers_) *first = shoot(trial.cost, share * left(), explored);
+    const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
+    return one_pass(cost, gathers_ ? std::move(first) : nullptr, explored);
+  }
+
+  // A single pass of as many samples as fit.
+  FilledTime one_pass(const render::SampleCost& cost, std::shared_ptr<render::FirstPhotons> photons,
+                      const std::shared_ptr<render::ExploredScene>& explored) {
+    const double sure = render_.adaptive > 0 ? kSure : 1;
+    render_.spp = samples_within(cost, render_.adaptive, sure * left(), kMostOfOne);
+    return {.single_pass = true,
+            .work = {.photons = std::move(photons), .explored = explored},
+            .adaptive_work = adaptive_work(cost)};
+  }
+
+  // Whether paths should take the place of maps because half a sample no longer fits beside the photons.
+  bool has_no_time_for(const render::SampleTrial& sample, double seconds_of_photons) const {
+    return gathers_ && may_take_paths() && left() - seconds_of_photons < sample.seconds / 2;
+  }
+
+  // Where there is no time for trials: the fewest photons, or paths where there is no time for those either.
+  FilledTime hurry(const std::shared_ptr<render::ExploredScene>& explored) {
+    if (may_take_paths() && left() < kShootPerExplored * explored->seconds) return take_paths(explored);
+    const auto first = std::make_shared<render::FirstPhotons>(shoot({.each = 1}, 0, explored));
+    if (cancelled(*first)) return {.single_pass = true, .work = {.photons = first}};
+    const render::SampleTrial sample =
+        render::try_one_sample(input(), {.seconds = kSampleTrial * seconds_}, false, &first->photons);
+    if (has_no_time_for(sample, 0)) return take_paths(explored);
+    first->photons.forget_visibility();  // it depends on the number of samples
+    return one_pass({.each = sample.seconds, .each_adaptive = sample.seconds}, first, explored);
+  }
+
+  bool may_take_paths() const { return !path_candidates(scene_, render_, plan_).empty(); }
+
+  // Passes of one sample by paths, untried.
+  FilledTime take_paths(const std::shared_ptr<render::ExploredScene>& explored) {
+    const TakenByPaths classes = path_candidates(scene_, render_, plan_).back();
+    render_ = with_paths(render_, classes);
+    plan_ = render::make_plan(render_, scene_.needs);
+    render_.photons = kErrorPasses * photons_within({.each = 1}, 0, fewest_);
+    render_.spp = int(kErrorPasses);
+    render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
+    return {.work = {.explored = explored, .paths = options_of(classes)}, .paths_because = kNoTimeForMaps};
   }
 
   bool cancelled(const render::FirstPhotons& first) const { return gathers_ && !first.photons.radii(); }
@@ -241,7 +297,7 @@ FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatc
       filled.single_pass ? ", and adaptive samples until the time is up"
                          : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
                                        render.passes, *render.alpha);
-  if (!filled.work.paths.empty()) console.note(kPathsTaken);
+  if (!filled.work.paths.empty()) console.note(filled.paths_because);
   console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}{}", *settings->stop.seconds,
                            render.spp, render.photons, filled.work.paths, choice));
   return filled;

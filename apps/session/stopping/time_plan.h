@@ -7,6 +7,7 @@
 
 #include "accel/bvh.h"
 #include "apps/console/console.h"
+#include "apps/session/stopping/path_choice.h"
 #include "apps/settings/setting_options.h"
 #include "core/scene/scene.h"
 #include "core/stopwatch.h"
@@ -26,6 +27,7 @@ struct FilledTime {
   // The photons are those of the single pass, if it gathers any, without radii if the progress callback
   // cancelled. A render with paths in place of maps has passes.
   TrialWork work{};
+  const char* paths_because = kPathsTaken;  // for the log
   // For render::RenderTask: chooses the adaptive samples of a single pass while it is rendered. May be empty.
   std::function<double(double done, double seconds)> adaptive_work{};
 };
