@@ -98,7 +98,7 @@ int run_render(const RenderOptions& options, const Console& console) {
                       time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
   check_stop_settings(job.settings.stop);
   if (!session.fill_time) {
-    settle_error_settings(console, &job.settings);
+    settle_error_settings(console, job.scene.needs, &job.settings);
     session.try_paths = may_choose_paths(job.settings, options.overrides, job.scene.needs);
   }
   check_passes(options, job);

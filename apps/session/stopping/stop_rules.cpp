@@ -8,6 +8,7 @@
 #include "apps/console/exit_error.h"
 #include "render/film/error_estimate.h"
 #include "render/plan/pass_share.h"
+#include "render/plan/plan.h"
 
 namespace kaustik::app {
 
@@ -18,6 +19,12 @@ constexpr float kConsistentAlpha = 2.0f / 3;
 
 bool has(const std::vector<std::string>& aov, std::string_view layer) {
   return std::find(aov.begin(), aov.end(), layer) != aov.end();
+}
+
+uint64_t passes_for(const Settings& settings, const SceneNeeds& needs) {
+  const bool gathers = render::kinds_needed(render::make_plan(settings.render, needs)).any();
+  if (gathers || !settings.stop.seconds) return kErrorPasses;
+  return std::clamp(uint64_t(settings.render.spp), kErrorPasses, kPathPasses);
 }
 
 }  // namespace
@@ -32,13 +39,13 @@ void check_stop_settings(const StopSettings& stop) {
     throw ExitError(kBadCommandLine, "--target-quantile needs --target-error");
 }
 
-void settle_error_settings(const Console& console, Settings* settings) {
+void settle_error_settings(const Console& console, const SceneNeeds& needs, Settings* settings) {
   render::RenderSettings& render = settings->render;
   const bool named = names_error_layer(render.aov);
   if (named && render.passes == 1 && !settings->stop.any())
     throw ExitError(kBadCommandLine, "the layers error and bias need --passes 2 or more");
   if (render.passes == 0 && (named || settings->stop.any())) {
-    render.passes = std::min(kErrorPasses, render.photons);
+    render.passes = std::min(passes_for(*settings, needs), render.photons);
     const render::PassShare each = render::pass_share(0, render.passes, render.photons, render.spp);
     console.note(fmt::format("each pass takes {} of the {} samples and the same share of the photons",
                              each.end_sample, render.spp));

@@ -7,6 +7,7 @@
 
 #include "apps/console/console.h"
 #include "apps/settings/table/settings.h"
+#include "core/scene/scene.h"
 #include "core/stopwatch.h"
 #include "render/passes/pass_sums.h"
 
@@ -15,6 +16,9 @@ namespace kaustik::app {
 // Number of passes when an error estimate is needed and --passes is not given. Photons and samples are
 // divided among the passes: eight are enough for a standard error and leave each photon map a useful size.
 inline constexpr uint64_t kErrorPasses = 8;
+// The same for a time that paths without photons fill: short passes keep to it, and lose nothing but a few
+// per cent of the time.
+inline constexpr uint64_t kPathPasses = 32;
 
 // Whether `aov` names the layer error or bias.
 bool names_error_layer(const std::vector<std::string>& aov);
@@ -25,7 +29,7 @@ void check_stop_settings(const StopSettings& stop);
 // Chooses settings that a new render needs for its error estimate: several passes, a bias estimate, and, with
 // a stop rule, a radius that shrinks from pass to pass. Changes only settings that the user left open, and
 // logs the passes. Throws ExitError (bad command line) when the user's settings allow no error estimate.
-void settle_error_settings(const Console& console, Settings* settings);
+void settle_error_settings(const Console& console, const SceneNeeds& needs, Settings* settings);
 
 // Decides after each pass whether to stop.
 class StopRule {

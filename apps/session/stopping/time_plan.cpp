@@ -291,7 +291,7 @@ FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatc
                        const render::ProgressCallback& progress, const Console& console, Settings* settings) {
   FilledTime filled = TimePlan(scene, bvh, total, progress, settings).settle();
   if (filled.work.photons && !filled.work.photons->photons.radii()) return filled;
-  if (!filled.single_pass) settle_error_settings(console, settings);
+  if (!filled.single_pass) settle_error_settings(console, scene.needs, settings);
   const render::RenderSettings& render = settings->render;
   const std::string choice =
       filled.single_pass ? ", and adaptive samples until the time is up"
