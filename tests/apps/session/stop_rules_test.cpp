@@ -210,6 +210,7 @@ TEST_F(FilledTime, KeepsExplicitSettings) {
   EXPECT_EQ(stats("part")["passes_of_settings"], 8);
   render("1ms", "mc", {"--method", "mc"});
   EXPECT_EQ(stats("mc")["settings"]["spp"], 16);
+  EXPECT_EQ(stats("mc")["passes_of_settings"], 16);  // no photons: passes of one sample
   render("1ms", "off", {"--adaptive", "off", "--indirect", "final-gather"});  // or else paths would be taken
   EXPECT_EQ(stats("off")["settings"]["adaptive"], 0);
   EXPECT_EQ(stats("off")["passes_of_settings"], 1);
