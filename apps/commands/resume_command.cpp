@@ -62,7 +62,7 @@ void check_rules(const ResumeOptions& options, const Job& job, const render::Pas
         fmt::format("{} is only a part of a render, passes {}: --target-error and --time cannot be used",
                     options.partial, goal.text()));
   const render::RenderSettings& settings = job.settings.render;
-  const bool photons = render::kinds_needed(render::make_plan(settings, job.scene.needs)).any();
+  const bool photons = render::needs_photons(settings, job.scene.needs);
   if (stop.target_error && photons && !settings.estimate_bias.value_or(false))
     console.warning(
         fmt::format("the passes of {} did not measure their bias: --target-error limits the noise "

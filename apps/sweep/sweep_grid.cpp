@@ -97,7 +97,7 @@ std::vector<SweepPoint> points_of(const SweepGrid& grid, const Settings& base,
     for (const int spp : samples) {
       const SweepPoint bare{.method = method, .spp = spp, .radius = {}};
       const Settings settings = settings_at(bare, grid, base, overrides);
-      if (!render::kinds_needed(render::make_plan(settings.render, needs)).any()) {
+      if (!render::needs_photons(settings.render, needs)) {
         points.push_back(bare);
         continue;
       }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
@@ -139,15 +138,14 @@ void Surroundings::add(const Point3& p, const Normal3& n, const Cell& found) {
 
 Place Surroundings::at(const Point3& p, const Normal3& n) const {
   Place place{.noise = all_.noise()};
-  bool knows_light = false;
   for (size_t grid = 0; grid < grids_.size(); ++grid) {
     const auto found = cells_[grid].find(grids_[grid].key(p, n));
-    if (found == cells_[grid].end()) continue;
+    if (found == cells_[grid].end() || found->second.rays < kEnough[grid]) continue;
     const Cell& cell = found->second;
-    if (place.clearance == 0 && cell.rays >= kEnough[grid]) place.clearance = cell.clearance();
+    if (place.clearance == 0) place.clearance = cell.clearance();
     if (cell.rays < kEnoughForLight) continue;
-    if (!std::exchange(knows_light, true))
-      place.lit_clearance = cell.lit_clearance(), place.noise = cell.noise();
+    place.lit_clearance = cell.lit_clearance(), place.noise = cell.noise();
+    break;
   }
   return place;
 }

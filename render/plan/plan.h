@@ -28,6 +28,10 @@ EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs)
 
 // Photon kinds that the plan's estimators use; only these are traced and stored.
 photon::KindMask kinds_needed(const EstimatorPlan& plan);
+// Whether there are any, for the plan of these settings.
+inline bool needs_photons(const RenderSettings& settings, const SceneNeeds& needs) {
+  return kinds_needed(make_plan(settings, needs)).any();
+}
 
 // Whether the estimator samples the lights; then it shares direct light with paths that leave the point
 // anyway.

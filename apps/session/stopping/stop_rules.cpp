@@ -21,9 +21,9 @@ bool has(const std::vector<std::string>& aov, std::string_view layer) {
   return std::find(aov.begin(), aov.end(), layer) != aov.end();
 }
 
+// Number of passes that are planned where none is given.
 uint64_t passes_for(const Settings& settings, const SceneNeeds& needs) {
-  const bool gathers = render::kinds_needed(render::make_plan(settings.render, needs)).any();
-  if (gathers || !settings.stop.seconds) return kErrorPasses;
+  if (!settings.stop.seconds || render::needs_photons(settings.render, needs)) return kErrorPasses;
   return std::clamp(uint64_t(settings.render.spp), kErrorPasses, kPathPasses);
 }
 

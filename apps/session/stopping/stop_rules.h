@@ -16,8 +16,8 @@ namespace kaustik::app {
 // Number of passes when an error estimate is needed and --passes is not given. Photons and samples are
 // divided among the passes: eight are enough for a standard error and leave each photon map a useful size.
 inline constexpr uint64_t kErrorPasses = 8;
-// The same for a time that paths without photons fill: short passes keep to it, and lose nothing but a few
-// per cent of the time.
+// Most passes that are planned where paths without photons fill a time, if there are as many samples. The
+// shorter the passes are, the better the render keeps to its time; this many cost it a few per cent.
 inline constexpr uint64_t kPathPasses = 32;
 
 // Whether `aov` names the layer error or bias.

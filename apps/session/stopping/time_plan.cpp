@@ -73,6 +73,11 @@ uint64_t photons_within(const render::PhotonCost& cost, double seconds, double f
   return uint64_t(std::floor(photons / unit) * unit);
 }
 
+// The cost of samples where only the time of one is known.
+render::SampleCost cost_of(const render::SampleTrial& sample) {
+  return {.each = sample.seconds, .each_adaptive = sample.seconds};
+}
+
 constexpr const char* kNoTimeForMaps = "there is no time to make photon maps: paths take their place";
 
 // Runs the trials and makes the choice.
@@ -124,10 +129,10 @@ class TimePlan {
     }
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
-      set_passes(trial.cost, {.each = sample.seconds, .each_adaptive = sample.seconds}, share);
+      fill_passes(trial.cost, cost_of(sample), share);
       return {.work = {.explored = explored, .paths = paths_}};
     }
-    if (gathers_) *first = shoot(trial.cost, share * left(), explored);
+    if (gathers_) *first = shoot(photons_within(trial.cost, share * left(), fewest_), explored);
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     return one_pass(cost, gathers_ ? std::move(first) : nullptr, explored);
   }
@@ -144,39 +149,45 @@ class TimePlan {
 
   // Whether paths should take the place of maps because half a sample no longer fits beside the photons.
   bool has_no_time_for(const render::SampleTrial& sample, double seconds_of_photons) const {
-    return gathers_ && may_take_paths() && left() - seconds_of_photons < sample.seconds / 2;
+    return may_take_paths() && left() - seconds_of_photons < sample.seconds / 2;
   }
 
   // Where there is no time for trials: the fewest photons, or paths where there is no time for those either.
   FilledTime hurry(const std::shared_ptr<render::ExploredScene>& explored) {
     if (may_take_paths() && left() < kShootPerExplored * explored->seconds) return take_paths(explored);
-    const auto first = std::make_shared<render::FirstPhotons>(shoot({.each = 1}, 0, explored));
+    const auto first = std::make_shared<render::FirstPhotons>(shoot(fewest_photons(), explored));
     if (cancelled(*first)) return {.single_pass = true, .work = {.photons = first}};
     const render::SampleTrial sample =
         render::try_one_sample(input(), {.seconds = kSampleTrial * seconds_}, false, &first->photons);
     if (has_no_time_for(sample, 0)) return take_paths(explored);
     first->photons.forget_visibility();  // it depends on the number of samples
-    return one_pass({.each = sample.seconds, .each_adaptive = sample.seconds}, first, explored);
+    return one_pass(cost_of(sample), first, explored);
   }
 
   bool may_take_paths() const { return !path_candidates(scene_, render_, plan_).empty(); }
 
   // Passes of one sample by paths, untried.
   FilledTime take_paths(const std::shared_ptr<render::ExploredScene>& explored) {
-    const TakenByPaths classes = path_candidates(scene_, render_, plan_).back();
+    adopt(path_candidates(scene_, render_, plan_).back());
+    render_.photons = kErrorPasses * fewest_photons();
+    set_passes(1);
+    return {.work = {.explored = explored, .paths = paths_}, .paths_because = kNoTimeForMaps};
+  }
+
+  // Replaces the maps of these classes by paths.
+  void adopt(TakenByPaths classes) {
+    paths_ = options_of(classes);
     render_ = with_paths(render_, classes);
     plan_ = render::make_plan(render_, scene_.needs);
-    render_.photons = kErrorPasses * photons_within({.each = 1}, 0, fewest_);
-    render_.spp = int(kErrorPasses);
-    render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
-    return {.work = {.explored = explored, .paths = options_of(classes)}, .paths_because = kNoTimeForMaps};
+    gathers_ = render::kinds_needed(plan_).any();
   }
+
+  uint64_t fewest_photons() const { return photons_within({.each = 1}, 0, fewest_); }
 
   bool cancelled(const render::FirstPhotons& first) const { return gathers_ && !first.photons.radii(); }
 
-  render::FirstPhotons shoot(const render::PhotonCost& cost, double seconds,
-                             const std::shared_ptr<render::ExploredScene>& explored) {
-    render_.photons = photons_within(cost, seconds, fewest_);
+  render::FirstPhotons shoot(uint64_t photons, const std::shared_ptr<render::ExploredScene>& explored) {
+    render_.photons = photons;
     render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
     return render::shoot_first(input(), progress_, explored);
   }
@@ -244,21 +255,24 @@ class TimePlan {
     };
     std::optional<PathTrial> paths = app::choose_paths(input(), maps, try_paths, judge);
     if (!paths) return;
-    paths_ = options_of(paths->classes);
-    render_ = std::move(paths->settings), plan_ = std::move(paths->plan);
+    adopt(paths->classes);
     *sample = std::move(paths->sample);
-    gathers_ = render::kinds_needed(plan_).any();
   }
 
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
   // them.
-  void set_passes(const render::PhotonCost& photons, const render::SampleCost& samples, double share) {
+  void fill_passes(const render::PhotonCost& photons, const render::SampleCost& samples, double share) {
     const double each = left() / kPasses;
     const int spp = samples_within(samples, 0, (1 - share) * each, kMostSamples);
     if (gathers_)  // only the first pass has the fixed cost
       render_.photons =
           kErrorPasses * photons_within({.each = photons.each}, share / (1 - share) * samples.of(spp, 0),
                                         fewest_ / kErrorPasses);
+    set_passes(spp);
+  }
+
+  // spp: samples of each pass. Call it when the photons are set.
+  void set_passes(int spp) {
     render_.spp = int(kErrorPasses) * spp;
     render_.passes = std::max(kErrorPasses, render::choose_passes(scene_, bvh_, render_, &plan_));
   }

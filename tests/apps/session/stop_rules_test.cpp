@@ -216,6 +216,20 @@ TEST_F(FilledTime, KeepsExplicitSettings) {
   EXPECT_EQ(stats("off")["passes_of_settings"], 1);
 }
 
+// Loading alone takes a millisecond.
+TEST_F(FilledTime, TakesPathsAtOnceWhereThereIsNoTimeForMaps) {
+  const std::string log = render("1ms", "a").err;
+  EXPECT_THAT(log, HasSubstr("there is no time to make photon maps"));
+  EXPECT_THAT(log, HasSubstr("after 1 pass"));
+  EXPECT_EQ(stats("a")["settings"]["indirect"], "paths");
+}
+
+TEST_F(FilledTime, KeepsAnEstimatorThatIsNamed) {
+  EXPECT_THAT(render("1ms", "a", {"--indirect", "final-gather"}).err,
+              Not(HasSubstr("there is no time to make photon maps")));
+  EXPECT_EQ(stats("a")["settings"]["indirect"], "final-gather");
+}
+
 TEST_F(StopRules, LayersContainTheError) {
   expect_done(render({"--aov", "error,bias", "-o", path("a.exr"), "--stats", path("a.json")}));
   EXPECT_EQ(stats("a.json")["photons"]["passes"], 8);
