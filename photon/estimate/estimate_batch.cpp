@@ -1,7 +1,5 @@
 #include "photon/estimate/estimate_batch.h"
 
-#include <optional>
-
 #include "photon/gather/gather.h"
 
 namespace kaustik::photon {
@@ -26,22 +24,26 @@ bool EstimateBatch::add(const PhotonMap& map, const SurfaceInteraction& si, cons
   return true;
 }
 
-EstimateBatch::Disc& EstimateBatch::disc(const PhotonMap& map, const SurfaceInteraction& si,
-                                         const Vector3& wo, const Bsdf& bsdf,
-                                         const EstimateSettings& settings) {
+EstimateBatch::Disc EstimateBatch::disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
+                                        const Bsdf& bsdf, const EstimateSettings& settings) {
   const std::optional<SeparatedF> f = separated(bsdf, si.shading_frame().to_local(wo));
   const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
-  return gathers_[find_or_prepare(map, settings, {si, wo, n, f ? f->coat : Coat{}})].disc;
+  return find_or_prepare(map, settings, {si, wo, n, f ? f->coat : Coat{}});
+}
+
+double EstimateBatch::share(Disc disc, const EstimateSettings& settings) {
+  Gather& g = gathers_[disc];
+  if (!g.share) g.share = settings.edges ? share_of_disc(settings, g.si, g.query.radius, g.cut.get()) : 1;
+  return *g.share;
 }
 
 uint32_t EstimateBatch::find_or_prepare(const PhotonMap& map, const EstimateSettings& settings,
                                         const Point& x) {
-  const uint32_t near = gather_near(map, settings, x);
+  const uint32_t near = gather_near(map, x);
   return near == kNone ? prepare(map, settings, x) : near;
 }
 
-uint32_t EstimateBatch::gather_near(const PhotonMap& map, const EstimateSettings& settings,
-                                    const Point& x) const {
+uint32_t EstimateBatch::gather_near(const PhotonMap& map, const Point& x) const {
   constexpr float kSameSide = 0.99f;  // cosine between normals
   uint32_t i = latest_[pixel_];
   for (int looked_at = 0; i != kNone && looked_at < kLookedAt; ++looked_at, i = gathers_[i].previous) {
@@ -49,7 +51,7 @@ uint32_t EstimateBatch::gather_near(const PhotonMap& map, const EstimateSettings
     const float shared = kShared * g.query.radius;
     if (g.map == &map && g.coat == x.coat && g.query.surface_group == x.si.surface_group &&
         length_squared(g.query.p - x.si.p) <= shared * shared && glm::dot(g.query.n, x.n) > kSameSide) {
-      if (!g.cut || !WallCut(*settings.walls, x.si, x.wo, x.n, shared).hides(g.query.p, g.wo)) return i;
+      if (!g.cut || !g.cut->hides(x.si.p, x.wo)) return i;
     }
   }
   return kNone;
@@ -58,35 +60,28 @@ uint32_t EstimateBatch::gather_near(const PhotonMap& map, const EstimateSettings
 uint32_t EstimateBatch::prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x) {
   GatherQuery query{x.si.p, x.n, x.si.surface_group, settings.radius, kAllPhotons};
   if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters_);
-  std::optional<WallCut> cut;
+  std::unique_ptr<const WallCut> cut;
   if (settings.walls && settings.walls->near(x.si.p))
-    cut.emplace(*settings.walls, x.si, x.wo, x.n, query.radius);
+    cut = std::make_unique<const WallCut>(*settings.walls, x.si, x.wo, x.n, query.radius);
   if (cut && !cut->cuts()) cut.reset();
-  const double share =
-      settings.edges ? photon::share_of_disc(settings, x.si, query.radius, cut ? &*cut : nullptr) : 1;
-  gathers_.push_back({&map, query, x.coat, latest_[pixel_], {share}, x.wo, bool(cut)});
+  gathers_.push_back({&map, query, x.coat, latest_[pixel_], x.si, std::move(cut)});
   return latest_[pixel_] = static_cast<uint32_t>(gathers_.size() - 1);
 }
 
 void EstimateBatch::complete(const EstimateSettings& settings, const Point& x, Gather* gather) {
   const PhotonMap& map = *gather->map;
-  // The point from which the gather was prepared may differ from x by less than the gathers that are shared.
-  std::optional<WallCut> cut;
-  if (gather->cut) cut.emplace(*settings.walls, x.si, x.wo, x.n, gather->query.radius);
-  const WallCut* const cuts = cut ? &*cut : nullptr;
   const uint64_t accepted = counters_.accepted;
   const KernelSpec& kernel = settings.kernel;
-  gather->flux = x.coat != Coat{} ? gather_through_coat(*gather, kernel, x, cuts)
-                 : cuts           ? gather_flux(map, gather->query, kernel, *cuts, counters_)
+  gather->flux = x.coat != Coat{} ? gather_through_coat(*gather, kernel, x)
+                 : gather->cut    ? gather_flux(map, gather->query, kernel, *gather->cut, counters_)
                                   : gather_flux(map, gather->query, kernel, counters_);
-  gather->flux /= float(gather->disc.share);
+  gather->flux /= float(share(Disc(gather - gathers_.data()), settings));
   gather->accepted = float(counters_.accepted - accepted);
   gather->done = true;
   ++completed_;
 }
 
-Rgb EstimateBatch::gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x,
-                                       const WallCut* cut) {
+Rgb EstimateBatch::gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x) {
   const CoatTransmittance through(x.coat);
   const KernelTerms terms = kernel_terms(kernel, gather.query.radius);
   const Normal3 ns = glm::dot(x.wo, x.si.ns) < 0 ? -x.si.ns : x.si.ns;
@@ -94,7 +89,7 @@ Rgb EstimateBatch::gather_through_coat(const Gather& gather, const KernelSpec& k
   for_each_photon(
       *gather.map, gather.query,
       [&](const Photon& photon, float distance_squared) {
-        if (cut && cut->hides(photon.p, photon.wi)) return void(--counters_.accepted);
+        if (gather.cut && gather.cut->hides(photon.p, photon.wi)) return void(--counters_.accepted);
         if (const float z = glm::dot(photon.wi, ns); z > 0)
           flux += through(z) * photon.flux * kernel_value(kernel.type, terms, distance_squared);
       },

@@ -2,9 +2,12 @@
 // Radiance estimates at neighbouring points of one pixel share one gather.
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "photon/estimate/radiance_estimate.h"
+#include "photon/estimate/walls.h"
 
 namespace kaustik::photon {
 
@@ -31,15 +34,17 @@ class EstimateBatch {
   bool add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
            const EstimateSettings& settings, const Rgb& weight, Rgb* radiance, float* photons);
 
-  // What is known of a disc before its photons are gathered.
-  struct Disc {
-    double share;      // of the disc on the surface
-    uint8_t note = 0;  // of the caller, 0 at first; forgotten with the gather
-  };
+  // A disc before its photons are gathered: the number of its gather, until begin_block().
+  using Disc = uint32_t;
   // Returns the disc of this point or of one nearby in the same pixel, whose gather a following add() then
-  // completes. The reference is valid until the next call of another member.
-  Disc& disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
-             const EstimateSettings& settings);
+  // completes.
+  Disc disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
+            const EstimateSettings& settings);
+  // The share of the disc on the surface, found out when it is first asked for.
+  double share(Disc disc, const EstimateSettings& settings);
+  // What the caller notes of the disc, 0 at first. The reference is valid until the next call of disc() or
+  // add().
+  uint8_t& note(Disc disc) { return gathers_[disc].note; }
 
   // Adds the estimates that were taken, in the order of the add() calls, and the counts of the gathers to
   // `counters`. They are added after everything that was added to the sums directly.
@@ -56,12 +61,13 @@ class EstimateBatch {
     const PhotonMap* map;
     GatherQuery query;
     Coat coat;
-    uint32_t previous;  // previous gather of the same pixel
-    Disc disc;
-    Vector3 wo{0};      // from which the point was seen
-    bool cut = false;   // whether walls cut the disc
-    bool done = false;  // whether the photons have been gathered
-    Rgb flux{0};        // W/m^2 through the coat, corrected for the share
+    uint32_t previous;                   // previous gather of the same pixel
+    SurfaceInteraction si;               // the disc's centre
+    std::unique_ptr<const WallCut> cut;  // null where no wall cuts the disc
+    std::optional<double> share{};       // of the disc on the surface
+    uint8_t note = 0;                    // of the caller
+    bool done = false;                   // whether the photons have been gathered
+    Rgb flux{0};                         // W/m^2 through the coat, corrected for the share
     float accepted = 0;
   };
   struct Waiting {
@@ -78,10 +84,10 @@ class EstimateBatch {
     Coat coat;
   };
   uint32_t find_or_prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
-  uint32_t gather_near(const PhotonMap& map, const EstimateSettings& settings, const Point& x) const;
+  uint32_t gather_near(const PhotonMap& map, const Point& x) const;
   uint32_t prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
   void complete(const EstimateSettings& settings, const Point& x, Gather* gather);
-  Rgb gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x, const WallCut* cut);
+  Rgb gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x);
 
   uint32_t pixel_ = 0;
   size_t completed_ = 0;

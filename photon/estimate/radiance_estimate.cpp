@@ -136,7 +136,7 @@ double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction&
                      const WallCut* cut) {
   if (settings.areas && settings.areas->covers(si.surface_group))
     return settings.areas->share(si, settings.kernel, radius, cut);
-  if (cut) return std::max(cut->share(settings.kernel, *settings.edges), kLeastShare);
+  if (cut) return std::max(cut->share(si, settings.kernel, *settings.edges), kLeastShare);
   return surface_share(*settings.edges, si, settings.kernel, radius);
 }
 

@@ -72,7 +72,7 @@ void Walls::mark(const BoundaryEdge& foot) {
 
 WallCut::WallCut(const Walls& walls, const SurfaceInteraction& si, const Vector3& wo, const Normal3& n,
                  float radius)
-    : si_(si), frame_(Frame::from_z(si.n)), radius_(double(radius)), step_(4 * double(si.p_error)) {
+    : frame_(Frame::from_z(si.n)), radius_(double(radius)), step_(4 * double(si.p_error)) {
   x_ = glm::dvec3(si.p) + step_ * glm::dvec3(wo);
   std::array<uint32_t, kMostFeet> found;
   const size_t count = walls.feet().find(si.p, radius, si.surface_group, found);
@@ -101,9 +101,10 @@ bool WallCut::hides(const Point3& p, const Vector3& w) const {
   });
 }
 
-double WallCut::share(const KernelSpec& kernel, const accel::EdgeIndex& ends) const {
+double WallCut::share(const SurfaceInteraction& si, const KernelSpec& kernel,
+                      const accel::EdgeIndex& ends) const {
   std::array<uint32_t, kMaxEdgesInReach> found;
-  const size_t count = ends.find(si_.p, float(radius_), si_.surface_group, found);
+  const size_t count = ends.find(si.p, float(radius_), si.surface_group, found);
   struct End {
     Line line;
     double sign;
@@ -111,7 +112,7 @@ double WallCut::share(const KernelSpec& kernel, const accel::EdgeIndex& ends) co
   std::vector<End> outline;
   LineFan<kMaxEdgesInReach> outline_fan;
   for (size_t i = 0; i < count && count <= found.size(); ++i)
-    if (const int sign = sign_of_edge(ends[found[i]], si_, float(radius_))) {
+    if (const int sign = sign_of_edge(ends[found[i]], si, float(radius_))) {
       const Line line = line_of(ends[found[i]]);
       outline_fan.add(outline.size(), line.a, line.b);
       outline.push_back({line, double(sign)});

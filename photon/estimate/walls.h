@@ -75,8 +75,9 @@ class WallCut {
   bool cuts() const { return !feet_.empty(); }
   // Whether a point of the surface that is lit or seen from the direction w is behind a wall.
   bool hides(const Point3& p, const Vector3& w) const;
-  // The kernel's mass in front of the walls and on the surface, in [0, 1]. ends: where the surface ends.
-  double share(const KernelSpec& kernel, const accel::EdgeIndex& ends) const;
+  // The kernel's mass in front of the walls and on the surface, in [0, 1]. si: as constructed with. ends:
+  // where the surface ends.
+  double share(const SurfaceInteraction& si, const KernelSpec& kernel, const accel::EdgeIndex& ends) const;
 
  private:
   struct Line {
@@ -87,7 +88,6 @@ class WallCut {
   }
   Line line_of(const BoundaryEdge& edge) const;
 
-  const SurfaceInteraction& si_;
   Frame frame_;
   double radius_, step_;
   glm::dvec3 x_;
