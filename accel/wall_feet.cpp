@@ -1,10 +1,9 @@
-// Pairs of triangles are found by halving the two sets by turns, each half with what its box meets of the
-// other set; each pair is then cut exactly.
+// Pairs of triangles are found by a tree of boxes (accel/face_tree.h); each pair is then cut exactly.
 
 #include "accel/wall_feet.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -15,32 +14,21 @@
 #include <utility>
 
 #include "accel/drop_edges.h"
+#include "accel/face_tree.h"
 #include "core/geometry/triangle_bounds.h"
 #include "core/math/error_bounds.h"
 
 namespace kaustik::accel {
 namespace {
 
-constexpr double kTouch = 0x1p-19;      // of the largest coordinate
-constexpr float kBendOfOthers = 0.9f;   // cosine; as that at which surfaces count as bent
-constexpr float kBendOfOwn = 0.5f;      // cosine; photons beyond a smaller bend count (kNormalCosine)
-constexpr size_t kFewPairs = 2048;      // up to this many are compared one by one
-constexpr size_t kWorthThreads = 4096;  // triangles
-
-struct Face {
-  std::array<Point3, 3> P;
-  Normal3 n;
-  Bounds3 box;
-  uint32_t group = 0;
-  uint32_t order = 0;  // among all faces
-};
-
-using Faces = std::vector<const Face*>;
+constexpr double kTouch = 0x1p-19;  // of the largest coordinate
 
 // Boxes of triangles that are grown by this meet where the triangles touch. Those of triangles larger than
 // twice the gap also meet where they are no farther apart than the gap; among smaller ones there would be too
 // many pairs.
-Bounds3 grown(Bounds3 box, float gap) {
+Bounds3 box_of(const Face& face, float gap) {
+  Bounds3 box;
+  for (const Point3& p : face.P) box.add(p);
   const float touch = float(kTouch) * std::max(max_abs_component(box.min), max_abs_component(box.max));
   const float by = touch + (glm::length(box.diagonal()) > 2 * gap ? 0.5f * gap : 0);
   box.min -= by;
@@ -48,12 +36,7 @@ Bounds3 grown(Bounds3 box, float gap) {
   return box;
 }
 
-bool overlap(const Bounds3& a, const Bounds3& b) {
-  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-         a.min.z <= b.max.z && b.min.z <= a.max.z;
-}
-
-std::vector<Face> faces_of(const Shape& shape, float gap) {
+std::vector<Face> faces_of(const Shape& shape) {
   const TriangleMesh& mesh = *shape.mesh();
   std::vector<Face> faces;
   faces.reserve(mesh.indices.size());
@@ -63,11 +46,9 @@ std::vector<Face> faces_of(const Shape& shape, float gap) {
     for (size_t i = 0; i < 3; ++i) {
       const Point3& p = mesh.P[triangle[i]];
       face.P[i] = instance ? instance->to_world.point(p) : p;
-      face.box.add(face.P[i]);
     }
     face.n = triangle_normal(face.P[1] - face.P[0], face.P[2] - face.P[0]);
     if (face.n == Normal3(0)) continue;
-    face.box = grown(face.box, gap);
     face.group = shape.surface_group;
     faces.push_back(face);
   }
@@ -131,13 +112,28 @@ std::optional<Segment> below(const Face& wall, const Heights& heights, const glm
   return Segment{found[0], found[1]};
 }
 
-std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall, float gap) {
-  const float limit = floor.group == wall.group ? kBendOfOwn : kBendOfOthers;
-  if (std::abs(glm::dot(floor.n, wall.n)) > limit || !overlap(floor.box, wall.box)) return std::nullopt;
+// The largest coordinate of both.
+float size_of(const Face& floor, const Face& wall) {
   float size = 0;
   for (const Face* face : {&floor, &wall})
     for (const Point3& p : face->P) size = std::max(size, max_abs_component(p));
-  const double touch = kTouch * double(size);
+  return size;
+}
+
+// Whether all of the wall is on one side of the floor's plane and farther away than `distance`, with room for
+// rounding.
+bool is_clear_of(const Face& floor, const Face& wall, float distance) {
+  float low = kInfinity, high = -kInfinity;
+  for (const Point3& p : wall.P) {
+    const float h = glm::dot(p - floor.P[0], floor.n);
+    low = std::min(low, h), high = std::max(high, h);
+  }
+  return low > 2 * distance || high < -2 * distance;
+}
+
+std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall, float gap) {
+  const double touch = kTouch * double(size_of(floor, wall));
+  if (is_clear_of(floor, wall, float(touch) + (floor.group == wall.group ? 0 : gap))) return std::nullopt;
   const glm::dvec3 p0(floor.P[0]);
   const glm::dvec3 n = glm::normalize(glm::cross(glm::dvec3(floor.P[1]) - p0, glm::dvec3(floor.P[2]) - p0));
   Heights heights;
@@ -164,91 +160,23 @@ std::optional<BoundaryEdge> foot_on(const Face& floor, const Face& wall, float g
   return edge;
 }
 
-// Finds the feet of all walls on all floors.
-class Join {
- public:
-  explicit Join(float gap) : gap_(gap) {}
-
-  std::vector<BoundaryEdge> run(Faces floors, Faces walls) {
-    std::vector<BoundaryEdge> feet;
-    if (floors.empty() || walls.empty()) return feet;
-    if (floors.size() * walls.size() <= kFewPairs) {
-      compare(floors, walls, &feet);
-      return feet;
-    }
-    if (gave_up() || bend_too_little(floors, walls)) return feet;
-    const bool halve_floors = floors.size() >= walls.size();
-    Faces& all = halve_floors ? floors : walls;
-    const Faces& others = halve_floors ? walls : floors;
-    const bool threads = all.size() > kWorthThreads;
-    const auto middle = split(&all);
-    std::vector<BoundaryEdge> more;
-    const auto part = [&](Faces::iterator from, Faces::iterator to, std::vector<BoundaryEdge>* out) {
-      Faces half(from, to), met = meeting(half, others);
-      *out = halve_floors ? run(std::move(half), std::move(met)) : run(std::move(met), std::move(half));
-    };
-    const auto low = [&] { part(all.begin(), middle, &feet); };
-    const auto high = [&] { part(middle, all.end(), &more); };
-    if (threads) {
-      tbb::parallel_invoke(low, high);
-    } else {
-      low();
-      high();
-    }
-    feet.insert(feet.end(), more.begin(), more.end());
-    return feet;
-  }
-  bool gave_up() const { return pairs_ > kMostWallPairs; }
-
- private:
-  // Whether all normals are so near one axis that no face is a wall on another: dense smooth meshes are
-  // mostly patches of which that holds. Twice the angle from the axis is below that of the limit.
-  static bool bend_too_little(const Faces& floors, const Faces& walls) {
-    constexpr float kHalfBendOfOthers = 0.9749f, kHalfBendOfOwn = 0.8661f;
-    const Face& first = *floors.front();
-    bool one_group = true;
-    float least = 1;
-    const auto holds = [&](const Face* face) {
-      one_group = one_group && face->group == first.group;
-      least = std::min(least, std::abs(glm::dot(face->n, first.n)));
-      return least > (one_group ? kHalfBendOfOwn : kHalfBendOfOthers);
-    };
-    return std::all_of(floors.begin(), floors.end(), holds) && std::all_of(walls.begin(), walls.end(), holds);
-  }
-  static Point3 twice_center(const Face& face) { return face.box.min + face.box.max; }
-
-  // Splits at the median along the axis in which the centers are spread farthest.
-  static Faces::iterator split(Faces* faces) {
-    Bounds3 centers;
-    for (const Face* face : *faces) centers.add(twice_center(*face));
-    const Vector3 extent = centers.max - centers.min;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    const auto middle = faces->begin() + std::ptrdiff_t(faces->size() / 2);
-    std::nth_element(faces->begin(), middle, faces->end(), [axis](const Face* a, const Face* b) {
-      const float ca = twice_center(*a)[axis], cb = twice_center(*b)[axis];
-      return ca != cb ? ca < cb : a->order < b->order;
-    });
-    return middle;
-  }
-  static Faces meeting(const Faces& half, const Faces& others) {
-    Bounds3 box;
-    for (const Face* face : half) box.add(face->box);
-    Faces met;
-    for (const Face* face : others)
-      if (overlap(face->box, box)) met.push_back(face);
-    return met;
-  }
-  void compare(const Faces& floors, const Faces& walls, std::vector<BoundaryEdge>* feet) {
-    pairs_.fetch_add(floors.size() * walls.size(), std::memory_order_relaxed);
-    for (const Face* floor : floors)
-      for (const Face* wall : walls)
-        if (floor != wall)
-          if (const auto foot = foot_on(*floor, *wall, gap_)) feet->push_back(*foot);
-  }
-
-  const float gap_;
-  std::atomic<uint64_t> pairs_{0};
-};
+// The feet of all walls on all floors, in any order; nothing if there are too many pairs of boxes.
+std::optional<std::vector<BoundaryEdge>> feet_of(const std::vector<BoxedFace>& floors, const FaceTree& walls,
+                                                 float gap) {
+  tbb::enumerable_thread_specific<std::vector<BoundaryEdge>> found;
+  std::atomic<uint64_t> pairs{0};
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, floors.size()), [&](const auto& range) {
+    std::vector<BoundaryEdge>& feet = found.local();
+    for (size_t i = range.begin(); i < range.end() && pairs <= kMostWallPairs; ++i)
+      pairs += walls.for_each_bent(floors[i], [&](const Face& wall) {
+        if (const auto foot = foot_on(*floors[i].face, wall, gap)) feet.push_back(*foot);
+      });
+  });
+  if (pairs > kMostWallPairs) return std::nullopt;
+  std::vector<BoundaryEdge> all;
+  for (const auto& feet : found) all.insert(all.end(), feet.begin(), feet.end());
+  return all;
+}
 
 // Whether the foot lies along edges at which the surface ends. The wall may belong to the same group and end
 // there itself, so normals are compared.
@@ -296,7 +224,7 @@ struct ShapeFaces {
   bool floors = false, walls = false;
 };
 
-std::vector<ShapeFaces> faces_of(const Scene& scene, float gap) {
+std::vector<ShapeFaces> faces_of(const Scene& scene) {
   const std::vector<uint32_t> shapes = coarse_shapes(scene);
   std::vector<ShapeFaces> found(shapes.size());
   tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
@@ -304,7 +232,7 @@ std::vector<ShapeFaces> faces_of(const Scene& scene, float gap) {
     const Material& material = scene.materials[shape.material];
     found[i].floors = material.lobes().diffuse;
     found[i].walls = !shape.has_alpha() && !is_glass(material);
-    if (found[i].floors || found[i].walls) found[i].faces = faces_of(shape, gap);
+    if (found[i].floors || found[i].walls) found[i].faces = faces_of(shape);
   });
   return found;
 }
@@ -312,18 +240,17 @@ std::vector<ShapeFaces> faces_of(const Scene& scene, float gap) {
 }  // namespace
 
 std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends, float gap) {
-  std::vector<ShapeFaces> shapes = faces_of(scene, gap);
-  Faces floors, walls;
-  uint32_t order = 0;
-  for (ShapeFaces& shape : shapes)
-    for (Face& face : shape.faces) {
-      face.order = order++;
-      if (shape.floors) floors.push_back(&face);
-      if (shape.walls) walls.push_back(&face);
+  const std::vector<ShapeFaces> shapes = faces_of(scene);
+  std::vector<BoxedFace> floors, walls;
+  for (const ShapeFaces& shape : shapes)
+    for (const Face& face : shape.faces) {
+      const BoxedFace boxed{box_of(face, gap), &face};
+      if (shape.floors) floors.push_back(boxed);
+      if (shape.walls) walls.push_back(boxed);
     }
-  Join join(gap);
-  std::vector<BoundaryEdge> feet = join.run(std::move(floors), std::move(walls));
-  if (join.gave_up()) return gap > 0 ? find_wall_feet(scene, ends, 0) : std::vector<BoundaryEdge>{};
+  auto found = feet_of(floors, FaceTree(std::move(walls)), gap);
+  if (!found) return gap > 0 ? find_wall_feet(scene, ends, 0) : std::vector<BoundaryEdge>{};
+  std::vector<BoundaryEdge>& feet = *found;
   drop_edges(&feet, [&](const BoundaryEdge& foot) { return lies_on_end(foot, ends); });
   tbb::parallel_sort(feet.begin(), feet.end(),
                      [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });

@@ -149,8 +149,6 @@ void PassPhotons::set_estimates(const RenderInput& input, const PassShare& pass)
   maps_.direct.estimate.radius = shrunk(radii_->direct);
   maps_.caustic.estimate.radius = shrunk(radii_->caustic);
   maps_.indirect.estimate.radius = shrunk(radii_->indirect);
-  const bool chooses = input.plan.indirect == IndirectEstimator::kFinalGather;
-  maps_.surroundings = chooses ? explored_->surroundings.get() : nullptr;
   // M0 is a limit, so it is rounded down.
   maps_.lecture = {shrunk(radii_->direct), share(settings.node_photons, pass),
                    static_cast<uint32_t>(settings.min_photons / pass.shares)};
@@ -195,6 +193,8 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
 
 // Chooses r0 unless it is known, and sets how the maps are gathered.
 void PassPhotons::prepare_gathers(const RenderInput& input, const PassShare& pass) {
+  const bool chooses = input.plan.indirect == IndirectEstimator::kFinalGather;
+  maps_.surroundings = chooses ? explored_->surroundings.get() : nullptr;
   if (!radii_) radii_ = settle_radii(input, pass, maps_);
   find_walls(input.scene);
   set_estimates(input, pass);

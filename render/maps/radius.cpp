@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "photon/gather/nearest.h"
+#include "render/maps/surroundings.h"
 #include "render/maps/visible_points.h"
 
 namespace kaustik::render {
@@ -29,6 +30,11 @@ struct RadiusRule {
 constexpr RadiusRule kDirectRule{160, 64};
 constexpr RadiusRule kIndirectRule{500, 200};
 constexpr RadiusRule kCausticRule{232, kFewestInReach};
+// Where surfaces are near each other, indirect light is not smooth. A disc's bias is in proportion to (r/c)^2
+// at a place of clearance c, so that k ~ (c/r)^(4/3) balances it with the noise: k is smaller by that where r
+// exceeds kShareOfClearance of the clearance that a quarter of the points do not have, and at least kLeastOfK
+// of the rule's, since shares of the bias are known and corrected (render/maps/disc_correction.h).
+constexpr double kShareOfClearance = 0.2, kLeastOfK = 0.5;
 // Factor for the median distance: where caustics are dense the k-th nearest photon sets the radius, this one
 // where they are sparse.
 constexpr float kCausticReach = 2;
@@ -103,6 +109,33 @@ float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>&
   return reach / 64;
 }
 
+// The clearance that a quarter of the points do not have; infinite where nothing is known.
+float lower_quartile_of_clearance(const Surroundings& surroundings, const std::vector<VisiblePoint>& points) {
+  std::vector<float> clearances;
+  for (const VisiblePoint& point : points) {
+    const Place place = surroundings.at(point.query.p, point.query.n);
+    if (place.clearance > 0) clearances.push_back(std::min(place.clearance, place.lit_clearance));
+  }
+  if (clearances.empty()) return kInfinity;
+  const auto quartile = clearances.begin() + std::ptrdiff_t(clearances.size() / 4);
+  std::nth_element(clearances.begin(), quartile, clearances.end());
+  return *quartile;
+}
+
+// The radius of the indirect map: the rule's, or a smaller one among near surfaces.
+float indirect_radius(const PhotonMaps& maps, const std::vector<VisiblePoint>& points, float reach,
+                      const PassShare& pass) {
+  const photon::PhotonMap& map = maps.indirect.map;
+  const uint32_t photons = photons_to_reach(kIndirectRule, map, pass);
+  const float radius = auto_radius(map, points, reach, photons, pass);
+  if (!maps.surroundings || map.empty()) return radius;
+  const float clearance = lower_quartile_of_clearance(*maps.surroundings, points);
+  const double share = std::pow(kShareOfClearance * double(clearance / radius), 4.0 / 3);
+  if (!(share < 1)) return radius;
+  const auto fewer = uint32_t(std::lround(double(photons) * std::max(share, kLeastOfK)));
+  return std::min(radius, auto_radius(map, points, reach, fewer, pass));
+}
+
 }  // namespace
 
 GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {
@@ -122,8 +155,7 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   return {choose(direct, signed_light ? photon_points(direct) : visible,
                  photons_to_reach(kDirectRule, direct, pass)),
           kCausticReach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
-          choose(maps.indirect.map, visible, photons_to_reach(kIndirectRule, maps.indirect.map, pass)),
-          static_cast<uint32_t>(std::lround(scaled))};
+          f * indirect_radius(maps, visible, reach, pass), static_cast<uint32_t>(std::lround(scaled))};
 }
 
 }  // namespace kaustik::render
