@@ -91,7 +91,8 @@ class PassRenderer {
                       pass_samples(part, input_.settings, input_.plan),
                       camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
     const Stopwatch watch;
-    const std::unique_ptr<const DiscCorrection> discs = measure_discs(ctx);
+    const uint64_t samples = ctx.samples.end - ctx.samples.first;
+    const auto discs = measure_discs(ctx, disc_pilot_points(ctx, samples));
     ctx.discs = discs.get();
     const bool finished = render_tiles(ctx, progress_, film, statistics, adaptive_work_);
     statistics->render_s += watch.seconds();

@@ -12,7 +12,7 @@ namespace {
 // Separates the random numbers of these paths from all others.
 constexpr uint64_t kPilotPaths = 0xD15C;
 constexpr int kPathsEach = 4;
-constexpr uint64_t kSamplesEach = 4;  // of the pass, for each path
+constexpr uint64_t kSamplesEach = 8;  // of the pass, for each path
 constexpr uint64_t kMostPoints = 1u << 16;
 constexpr uint64_t kFewestPoints = 64;
 
@@ -52,12 +52,16 @@ std::unique_ptr<const DiscCorrection> compare_at(const RenderContext& ctx, uint3
 
 }  // namespace
 
-std::unique_ptr<const DiscCorrection> measure_discs(const RenderContext& ctx) {
-  if (ctx.plan.indirect != IndirectEstimator::kFinalGather || !ctx.maps.surroundings) return nullptr;
+uint64_t disc_pilot_points(const RenderContext& ctx, uint64_t samples) {
+  if (ctx.plan.indirect != IndirectEstimator::kFinalGather || !ctx.maps.surroundings) return 0;
   const Camera& camera = ctx.scene.camera;
   const uint64_t pixels = uint64_t(camera.width) * uint64_t(camera.height);
-  const uint64_t paths = pixels * (ctx.samples.end - ctx.samples.first) / kSamplesEach;
-  const uint64_t points = std::clamp(paths / kPathsEach, kFewestPoints, kMostPoints);
+  const uint64_t paths = pixels * samples / kSamplesEach;
+  return std::clamp(paths / kPathsEach, kFewestPoints, kMostPoints);
+}
+
+std::unique_ptr<const DiscCorrection> measure_discs(const RenderContext& ctx, uint64_t points) {
+  if (points == 0) return nullptr;
   // A first round corrects the gathers at the far ends of the paths of the second.
   RenderContext corrected = ctx;
   const auto first = compare_at(ctx, uint32_t(points / 4));

@@ -16,11 +16,12 @@ namespace kaustik::render {
 
 namespace {
 
-// The highest gap below a wall that does not join the discs on both sides: a quarter of their radius or less,
-// by a power of two, so that maps of a few more photons find the same feet.
-float gap_below_walls(float radius) {
-  constexpr float kShareOfRadius = 0.25f;
-  return std::ldexp(1.0f, std::ilogb(kShareOfRadius * radius));
+// The highest gap below a wall that does not join the discs on both sides: a quarter of `size`, of their
+// radius or of the clearance where that is less, rounded down to a power of two, so that maps of a few more
+// photons find the same feet.
+float gap_below_walls(float size) {
+  constexpr float kShareOfSize = 0.25f;
+  return std::ldexp(1.0f, std::ilogb(kShareOfSize * size));
 }
 
 using photon::PhotonKind;
@@ -121,7 +122,8 @@ void PassPhotons::find_walls(const Scene& scene) {
   if (std::exchange(walls_are_known_, true)) return;
   const float radius = std::max({radii_->direct, radii_->caustic, radii_->indirect});
   if (!(radius > 0) || !std::isfinite(radius)) return;
-  const float gap = gap_below_walls(radius);
+  const float clearance = maps_.surroundings ? maps_.surroundings->lower_quartile() : kInfinity;
+  const float gap = gap_below_walls(std::min(radius, clearance));
   std::optional<WallFeet>& feet = explored_->feet;
   if (!feet || feet->gap != gap) feet = WallFeet{gap, accel::find_wall_feet(scene, *explored_->edges, gap)};
   if (!feet->edges.empty()) walls_ = std::make_unique<photon::Walls>(feet->edges, scene.bounds, radius);

@@ -109,19 +109,6 @@ float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>&
   return reach / 64;
 }
 
-// The clearance that a quarter of the points do not have; infinite where nothing is known.
-float lower_quartile_of_clearance(const Surroundings& surroundings, const std::vector<VisiblePoint>& points) {
-  std::vector<float> clearances;
-  for (const VisiblePoint& point : points) {
-    const Place place = surroundings.at(point.query.p, point.query.n);
-    if (place.clearance > 0) clearances.push_back(std::min(place.clearance, place.lit_clearance));
-  }
-  if (clearances.empty()) return kInfinity;
-  const auto quartile = clearances.begin() + std::ptrdiff_t(clearances.size() / 4);
-  std::nth_element(clearances.begin(), quartile, clearances.end());
-  return *quartile;
-}
-
 // The radius of the indirect map: the rule's, or a smaller one among near surfaces.
 float indirect_radius(const PhotonMaps& maps, const std::vector<VisiblePoint>& points, float reach,
                       const PassShare& pass) {
@@ -129,7 +116,7 @@ float indirect_radius(const PhotonMaps& maps, const std::vector<VisiblePoint>& p
   const uint32_t photons = photons_to_reach(kIndirectRule, map, pass);
   const float radius = auto_radius(map, points, reach, photons, pass);
   if (!maps.surroundings || map.empty()) return radius;
-  const float clearance = lower_quartile_of_clearance(*maps.surroundings, points);
+  const float clearance = maps.surroundings->lower_quartile();
   const double share = std::pow(kShareOfClearance * double(clearance / radius), 4.0 / 3);
   if (!(share < 1)) return radius;
   const auto fewer = uint32_t(std::lround(double(photons) * std::max(share, kLeastOfK)));

@@ -129,6 +129,19 @@ Surroundings::Surroundings(const RenderInput& input) {
     add(points[i].query.p, points[i].query.n, found[i].front);
     if (points[i].both_sides) add(points[i].query.p, -points[i].query.n, found[i].back);
   }
+  lower_quartile_ = quartile_of(points);
+}
+
+float Surroundings::quartile_of(const std::vector<VisiblePoint>& points) const {
+  std::vector<float> clearances;
+  for (const VisiblePoint& point : points) {
+    const Place place = at(point.query.p, point.query.n);
+    if (place.clearance > 0) clearances.push_back(std::min(place.clearance, place.lit_clearance));
+  }
+  if (clearances.empty()) return kInfinity;
+  const auto quartile = clearances.begin() + std::ptrdiff_t(clearances.size() / 4);
+  std::nth_element(clearances.begin(), quartile, clearances.end());
+  return *quartile;
 }
 
 void Surroundings::add(const Point3& p, const Normal3& n, const Cell& found) {

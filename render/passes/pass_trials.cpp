@@ -14,6 +14,7 @@
 #include "render/camera/camera_rays.h"
 #include "render/camera/pixel_range.h"
 #include "render/camera/ray_cone.h"
+#include "render/estimators/disc_pilots.h"
 #include "render/tiles/tiles.h"
 
 namespace kaustik::render {
@@ -93,6 +94,17 @@ class WindowTrials {
     tried.spp = 2 * kInHalf;
     return seconds(tried, {first, first + kInHalf, 0}, most);
   }
+  // The time of the pilot paths that measure discs, from a few of them.
+  void time_pilots(SampleCost* cost) const {
+    constexpr uint64_t kPoints = 256, kMost = 1 << 20;
+    const RenderContext ctx = context(input_, {0, 1, 0});
+    const uint64_t each = disc_pilot_points(ctx, 1);
+    if (each == 0) return;
+    const Stopwatch watch;
+    measure_discs(ctx, kPoints);
+    cost->each_pilots = watch.seconds() * double(each) / double(kPoints);
+    cost->most_pilots = double(disc_pilot_points(ctx, kMost)) / double(each);
+  }
   std::vector<FilmSums> take_films() { return std::move(films_); }
   // Rays and gathers that the last trial would have taken for the whole picture.
   double rays() const { return rays_; }
@@ -137,17 +149,21 @@ class WindowTrials {
     return seconds * part;
   }
 
+  RenderContext context(const RenderInput& input, const PassSamples& samples) const {
+    const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
+    return {input,
+            photons_.maps(),
+            photons_.visibility(),
+            photons_.sky(),
+            pass,
+            samples,
+            camera_cone(input.scene.camera, pass.end_sample)};
+  }
+
   FilmSums render(const RenderInput& input, const PassSamples& samples, const PixelRange& w,
                   RenderStatistics* statistics) const {
     const Camera& camera = input.scene.camera;
-    const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
-    const RenderContext ctx{input,
-                            photons_.maps(),
-                            photons_.visibility(),
-                            photons_.sky(),
-                            pass,
-                            samples,
-                            camera_cone(camera, pass.end_sample)};
+    const RenderContext ctx = context(input, samples);
     FilmSums film(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height);
     render_tiles(ctx, {}, &film, statistics);
     return film;
@@ -296,7 +312,8 @@ SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photo
   WindowTrials trials(input, *photons);
   const double one = trials.seconds(1, w, most / all);
   const double four = trials.seconds(4, 0);
-  const SampleCost cost = sample_cost(one, four, w > 0 ? trials.seconds(4, w) : four, double(w));
+  SampleCost cost = sample_cost(one, four, w > 0 ? trials.seconds(4, w) : four, double(w));
+  trials.time_pilots(&cost);
   photons->forget_visibility();  // it depends on settings.spp
   return cost;
 }

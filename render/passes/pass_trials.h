@@ -2,6 +2,8 @@
 // Measures the cost of a pass on this machine by trials: with few photons, and with few samples in windows
 // spread over the picture. All functions run within the render's task arena.
 
+#include <algorithm>
+
 #include "render/maps/pass_photons.h"
 
 namespace kaustik::render {
@@ -16,7 +18,12 @@ struct PhotonCost {
 // take `adaptive` times their work (RenderSettings::adaptive).
 struct SampleCost {
   double fixed = 0, each = 0, each_adaptive = 0;
-  double of(double spp, double adaptive) const { return fixed + spp * (each + adaptive * each_adaptive); }
+  // Of the pilot paths that measure discs (render/estimators/disc_pilots.h), for the first most_pilots
+  // samples.
+  double each_pilots = 0, most_pilots = 0;
+  double of(double spp, double adaptive) const {
+    return fixed + spp * (each + adaptive * each_adaptive) + std::min(spp, most_pilots) * each_pilots;
+  }
 };
 
 // Fits a line to the measured seconds of one sample with adaptive ones, of four samples without and of four

@@ -27,9 +27,9 @@ constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.015;
 constexpr double kHurry = 0.2;
 // The least time for photons, as a multiple of that of exploring.
 constexpr double kShootPerExplored = 3;
-// Share of the time that is left which the base samples may take by the trial. The rest is for what a trial
-// does not see, such as the pilot paths of discs, and for adaptive samples.
-constexpr double kSure = 0.6;
+// Share of the time that is left which the base samples may take by the trial. The rest is for adaptive
+// samples: a picture without any has more noise than one of half the samples and some.
+constexpr double kSure = 0.8;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples.

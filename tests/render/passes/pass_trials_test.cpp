@@ -42,6 +42,24 @@ TEST(PassCosts, CostOfSamplesIsLinearInBothCounts) {
   EXPECT_EQ(without.each_adaptive, 0);
 }
 
+TEST(PassCosts, PilotPathsAreAsManyAsThereMayBe) {
+  const SampleCost cost{.fixed = 0.25, .each = 0.5, .each_pilots = 0.125, .most_pilots = 3.5};
+  EXPECT_NEAR(cost.of(2, 0), 0.25 + 2 * (0.5 + 0.125), 1e-12);
+  EXPECT_NEAR(cost.of(8, 0), 0.25 + 8 * 0.5 + 3.5 * 0.125, 1e-12);
+}
+
+// A sample of the 1,600 pixels has an eighth as many pilot paths, four from a point; there are at most 65,536
+// points.
+TEST_F(PassTrials, TimeThePilotPathsOfDiscs) {
+  PhotonTrial trial = try_photons(input(), 1, {});
+  const SampleCost cost = try_samples(input(), 1, &trial.first.photons);
+  EXPECT_GT(cost.each_pilots, 0);
+  EXPECT_EQ(cost.most_pilots, 65536 / 64.0);  // at least 64 points
+  settings_.indirect = IndirectEstimator::kPhotons;
+  plan_ = make_plan(settings_, scene_.needs);
+  EXPECT_EQ(try_samples(input(), 1, &trial.first.photons).each_pilots, 0);
+}
+
 TEST_F(PassTrials, KeepThePhotonsThatTheRenderUses) {
   PhotonTrial trial = try_photons(input(), 1, {});
   ASSERT_TRUE(trial.first.photons.radii());
