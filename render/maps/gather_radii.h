@@ -8,9 +8,9 @@ namespace kaustik::render {
 // Gather radii r0 of the first pass, in metres; 0 for maps that are not used.
 struct GatherRadii {
   float direct = 0, caustic = 0, indirect = 0;
-  // If > 0, the caustic map's radius shrinks to the k-th nearest photon, with k counted over all passes. Set
-  // where the user gave neither a radius nor --nearest.
-  uint32_t caustic_nearest = 0;
+  // If > 0, the map's radius shrinks to the k-th nearest photon, with k counted over all passes. Set where
+  // the user gave neither a radius nor --nearest.
+  uint32_t caustic_nearest = 0, direct_nearest = 0;
   bool operator==(const GatherRadii&) const = default;
 };
 

@@ -49,7 +49,8 @@ GatherRadii settle_radii(const RenderInput& input, const PassShare& pass, const 
   const photon::KindMask kinds = kinds_needed(input.plan);
   const GatherRadii radii = choose_radii(input, pass, maps);
   return {kinds.direct || kinds.shadow ? radii.direct : 0, kinds.caustic ? radii.caustic : 0,
-          kinds.indirect ? radii.indirect : 0, kinds.caustic ? radii.caustic_nearest : 0};
+          kinds.indirect ? radii.indirect : 0, kinds.caustic ? radii.caustic_nearest : 0,
+          radii.direct_nearest};
 }
 
 // The smallest 2^(k/2) metres that is at least the radius. So passes whose radii differ little share the
@@ -139,8 +140,12 @@ void PassPhotons::set_estimates(const RenderInput& input, const PassShare& pass)
     if (settings.lookup != Lookup::kLeaf) gather->estimate.edges = explored_->edges.get();
     gather->estimate.walls = walls_.get();
   }
-  if (radii_->caustic_nearest > 0 && settings.nearest == 0)
-    maps_.caustic.estimate.nearest = photons_in_reach(radii_->caustic_nearest, pass.shares);
+  const auto set_nearest = [&](uint32_t nearest, GatherMap* gather) {
+    if (nearest > 0 && settings.nearest == 0)
+      gather->estimate.nearest = photons_in_reach(nearest, pass.shares);
+  };
+  set_nearest(radii_->caustic_nearest, &maps_.caustic);
+  set_nearest(radii_->direct_nearest, &maps_.direct);
   for (GatherMap* gather : gather_maps(maps_)) {
     uint32_t& nearest = gather->estimate.nearest;
     // Below kFewestInReach only r0 shrinks on: the K-th photon itself does not count, so K = 1 would see
@@ -163,12 +168,14 @@ std::shared_ptr<const photon::SurfaceAreas> PassPhotons::areas_for(float radius,
   return std::make_shared<const photon::SurfaceAreas>(scene, explored_->bends, radius);
 }
 
-// Sets the areas of curved surfaces for each map. Maps with k-nearest estimates go without: where photons are
-// dense their discs are small, and elsewhere surfaces are treated as flat.
+// Sets the areas of curved surfaces for each map. Caustics go without, and so do maps of --nearest: where
+// photons are dense their discs are small, and elsewhere surfaces are treated as flat. Most discs of direct
+// photons have the full radius.
 void PassPhotons::set_areas(const Scene& scene) {
   for (GatherMap* gather : gather_maps(maps_)) {
     const photon::EstimateSettings& estimate = gather->estimate;
-    if (!estimate.edges || estimate.nearest > 0 || !(estimate.radius > 0)) continue;
+    const bool full = estimate.nearest == 0 || (gather == &maps_.direct && radii_->direct_nearest > 0);
+    if (!estimate.edges || !full || !(estimate.radius > 0)) continue;
     const float radius = at_least(estimate.radius);
     gather->areas = areas_for(radius, scene);
     gather->estimate.areas = gather->areas.get();

@@ -35,6 +35,9 @@ constexpr RadiusRule kCausticRule{232, kFewestInReach};
 // exceeds kShareOfClearance of the clearance that a quarter of the points do not have, and at least kLeastOfK
 // of the rule's, since shares of the bias are known and corrected (render/maps/disc_correction.h).
 constexpr double kShareOfClearance = 0.2, kLeastOfK = 0.5;
+// Where direct photons are denser than at the median point by more than this, the radius shrinks: near a lamp
+// their light is bright enough to show where a wider disc spreads it.
+constexpr double kDirectDensity = 2;
 // Factor for the median distance: where caustics are dense the k-th nearest photon sets the radius, this one
 // where they are sparse.
 constexpr float kCausticReach = 2;
@@ -138,11 +141,15 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   const bool signed_light = maps.direct.map.empty() && !maps.shadow.empty();
   const photon::PhotonMap& direct = signed_light ? maps.shadow : maps.direct.map;
   const uint32_t caustic = photons_to_reach(kCausticRule, maps.caustic.map, pass);
-  const double scaled = std::clamp(caustic * double(f) * double(f), double(kFewestInReach), 1e9);
-  return {choose(direct, signed_light ? photon_points(direct) : visible,
-                 photons_to_reach(kDirectRule, direct, pass)),
+  const uint32_t of_direct = photons_to_reach(kDirectRule, direct, pass);
+  const auto scaled = [&](double k) {
+    return uint32_t(std::lround(std::clamp(k * double(f) * double(f), double(kFewestInReach), 1e9)));
+  };
+  const bool by_photons = input.plan.direct == DirectEstimator::kPhotons;
+  return {choose(direct, signed_light ? photon_points(direct) : visible, of_direct),
           kCausticReach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
-          f * indirect_radius(maps, visible, reach, pass), static_cast<uint32_t>(std::lround(scaled))};
+          f * indirect_radius(maps, visible, reach, pass), scaled(caustic),
+          by_photons ? scaled(kDirectDensity * of_direct) : 0};
 }
 
 }  // namespace kaustik::render

@@ -158,7 +158,8 @@ Json manifest_json(const PartialManifest& m, const PassSums& sums) {
     out["radii"] = {{"direct", hex(r->direct)},
                     {"caustic", hex(r->caustic)},
                     {"indirect", hex(r->indirect)},
-                    {"caustic_nearest", r->caustic_nearest}};
+                    {"caustic_nearest", r->caustic_nearest},
+                    {"direct_nearest", r->direct_nearest}};
   out["window"] = window_json(sums.totals.pixels());
   const ExactUnits& units = sums.totals.units();
   out["unit_exponents"] = {{"radiance", units.radiance}, {"square", units.square}, {"depth", units.depth}};
@@ -197,7 +198,7 @@ ReadManifest manifest_from_text(std::string_view text) {
     throw std::runtime_error("the number of passes is out of range");
   if (const Json& r = json.at("radii"); !r.is_null())
     sums.radii = {from_hex(r.at("direct")), from_hex(r.at("caustic")), from_hex(r.at("indirect")),
-                  r.at("caustic_nearest").get<uint32_t>()};
+                  r.at("caustic_nearest").get<uint32_t>(), r.at("direct_nearest").get<uint32_t>()};
   take_window(json.at("window"), &out);
   const Json& units = json.at("unit_exponents");
   out.units = {.radiance = exponent_from(units.at("radiance")),

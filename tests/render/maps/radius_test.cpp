@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "render/maps/pass_photons.h"
 #include "render/maps/surroundings.h"
 #include "tests/photon/support/photon_sets.h"
 #include "tests/photon/support/trace_scenes.h"
@@ -88,6 +89,44 @@ TEST(IndirectRadius, IsSmallerAmongNearSurfaces) {
   EXPECT_NEAR(radius_on_floor(kRule, 0.5f), kRule * std::sqrt(0.5), kTolerance * kRule);
   const double between = std::pow(0.3 / kRule, 2 / 3.0);
   EXPECT_NEAR(radius_on_floor(kRule, 1), kRule * between, kTolerance * kRule);
+}
+
+// A point lamp of intensity 1 W/sr at height h over a plane gives the irradiance h / (h^2 + d^2)^(3/2) at the
+// distance d from its foot. Most of what the camera sees is far from the lamp, where 160 photons take a disc
+// of some 6 cm; at 6 cm from the foot such a disc would take in the bright spot under the lamp.
+TEST(DirectRadius, ShrinksNearALamp) {
+  constexpr float kHeight = 0.02f, kDistance = 0.06f;
+  Scene scene;
+  const uint32_t white = test::add_material(scene, Lambertian{Rgb(1)});
+  test::add_shape(scene, test::horizontal({0, 0, 0}, 100, 100, true, white));
+  scene.lights.push_back(PointLight{{0, kHeight, 0}, Rgb(1)});
+  test::look_at(scene, {0, 2, 0}, {0, 0, 0}, {1, 0, 0}, 30, 64, 64);
+  finalize_scene(scene);
+  const accel::Bvh bvh(scene);
+  RenderSettings settings;
+  settings.method = Method::kPhoton, settings.photons = 1'000'000;
+  const EstimatorPlan plan = make_plan(settings, scene.needs);
+  PassPhotons photons;
+  RenderStatistics ignored;
+  photons.make({scene, bvh, settings, plan}, pass_share(0, 1, settings.photons, 1), {}, &ignored);
+  const GatherMap& direct = photons.maps().direct;
+  EXPECT_GT(direct.estimate.radius, kDistance / 2) << "the test could not fail";
+  constexpr int kPoints = 8;
+  double E = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const float turn = 2 * kPi * float(i) / kPoints;
+    SurfaceInteraction si;
+    si.p = {kDistance * std::cos(turn), 0, kDistance * std::sin(turn)};
+    si.n = si.ns = {0, 1, 0};
+    si.surface_group = scene.shapes[0].surface_group;
+    photon::GatherCounters counters;
+    const Bsdf bsdf = Lambertian{Rgb(1)};
+    E += double(kPi / kPoints *
+                photon::estimate_radiance(direct.map, si, {0, 1, 0}, bsdf, direct.estimate, counters).x);
+  }
+  const double expected = kHeight / std::pow(kHeight * kHeight + kDistance * kDistance, 1.5);
+  // At least 160 photons count at each point.
+  EXPECT_NEAR(E, expected, 4 * expected / std::sqrt(160.0 * kPoints));
 }
 
 }  // namespace

@@ -220,7 +220,8 @@ TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
       const auto k = [&](uint32_t first) { return uint32_t(std::max(8.0, std::round(first * squared))); };
       EXPECT_EQ(maps.caustic.estimate.nearest, k(nearest > 0 ? nearest : photons.radii()->caustic_nearest))
           << pass;
-      EXPECT_EQ(maps.direct.estimate.nearest, nearest > 0 ? k(nearest) : 0) << pass;
+      EXPECT_EQ(maps.direct.estimate.nearest, k(nearest > 0 ? nearest : photons.radii()->direct_nearest))
+          << pass;
       EXPECT_EQ(maps.indirect.estimate.radius, float(double(photons.radii()->indirect) * std::sqrt(squared)))
           << pass;
       EXPECT_EQ(maps.lecture.radius, maps.direct.estimate.radius);
