@@ -1,7 +1,9 @@
 #pragma once
 // A tree of boxes over triangles that finds what may stand on a triangle.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 

@@ -14,7 +14,7 @@ constexpr uint64_t kPilotPaths = 0xD15C;
 constexpr int kPathsEach = 4;
 constexpr uint64_t kSamplesEach = 8;  // of the pass, for each path
 constexpr uint64_t kMostPoints = 1u << 16;
-constexpr uint64_t kFewestPoints = 64;
+constexpr uint64_t kFewestPoints = 1024;
 
 // Empty on rough lobes, where the picture takes a disc only if a wide glossy lobe sees the point, and for
 // estimates that are not finite, which the picture would drop.

@@ -7,8 +7,8 @@
 
 namespace kaustik::render {
 
-// Visible points from which the discs are measured: 64 to 65,536, four paths from each and one path for every
-// eight of `samples` a pixel. 0 where the plan takes no discs that paths could replace.
+// Visible points from which the discs are measured: 1,024 to 65,536, four paths from each and one path for
+// every eight of `samples` a pixel. 0 where the plan takes no discs that paths could replace.
 uint64_t disc_pilot_points(const RenderContext& ctx, uint64_t samples);
 
 // Traces paths from so many visible points and compares their mean with the disc there. Null for no points. A

@@ -54,7 +54,7 @@ TEST_F(PassTrials, TimeThePilotPathsOfDiscs) {
   PhotonTrial trial = try_photons(input(), 1, {});
   const SampleCost cost = try_samples(input(), 1, &trial.first.photons);
   EXPECT_GT(cost.each_pilots, 0);
-  EXPECT_EQ(cost.most_pilots, 65536 / 64.0);  // at least 64 points
+  EXPECT_EQ(cost.most_pilots, 65536 / 1024.0);  // at least 1024 points
   settings_.indirect = IndirectEstimator::kPhotons;
   plan_ = make_plan(settings_, scene_.needs);
   EXPECT_EQ(try_samples(input(), 1, &trial.first.photons).each_pilots, 0);
