@@ -48,13 +48,12 @@ TEST(PassCosts, PilotPathsAreAsManyAsThereMayBe) {
   EXPECT_NEAR(cost.of(8, 0), 0.25 + 8 * 0.5 + 3.5 * 0.125, 1e-12);
 }
 
-// A sample of the 1,600 pixels has an eighth as many pilot paths, four from a point; there are at most 65,536
-// points.
+// For one sample of the 1,600 pixels as for twenty there are 1,024 points, the least; 65,536 are the most.
 TEST_F(PassTrials, TimeThePilotPathsOfDiscs) {
   PhotonTrial trial = try_photons(input(), 1, {});
   const SampleCost cost = try_samples(input(), 1, &trial.first.photons);
   EXPECT_GT(cost.each_pilots, 0);
-  EXPECT_EQ(cost.most_pilots, 65536 / 1024.0);  // at least 1024 points
+  EXPECT_EQ(cost.most_pilots, 65536 / 1024.0);
   settings_.indirect = IndirectEstimator::kPhotons;
   plan_ = make_plan(settings_, scene_.needs);
   EXPECT_EQ(try_samples(input(), 1, &trial.first.photons).each_pilots, 0);
