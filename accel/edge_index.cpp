@@ -110,8 +110,7 @@ void EdgeIndex::Tree::build(const std::vector<BoundaryEdge>& edges, std::span<ui
   const size_t at = nodes.size();
   nodes.push_back(node);
   if (order.size() <= kEdgesOfLeaf) return;
-  const glm::dvec3 size = high - low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = largest_axis(high - low);
   const size_t half = middle(0, static_cast<uint32_t>(order.size()));
   std::nth_element(order.begin(), order.begin() + std::ptrdiff_t(half), order.end(),
                    [&](uint32_t a, uint32_t b) {

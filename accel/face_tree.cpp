@@ -19,8 +19,7 @@ Point3 twice_center(const BoxedFace& face) {
 int widest_axis(const BoxedFace* begin, const BoxedFace* end) {
   Bounds3 centers;
   for (const BoxedFace* face = begin; face != end; ++face) centers.add(twice_center(*face));
-  const Vector3 extent = centers.max - centers.min;
-  return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  return largest_axis(centers.max - centers.min);
 }
 
 }  // namespace

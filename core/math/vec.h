@@ -26,6 +26,11 @@ inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 inline float max_component(const glm::vec3& v) {
   return std::max(v.x, std::max(v.y, v.z));
 }
+// 0, 1 or 2: the first of the largest components.
+template <class T, glm::qualifier Q>
+int largest_axis(const glm::vec<3, T, Q>& v) {
+  return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2;
+}
 inline float abs_dot(const glm::vec3& a, const glm::vec3& b) {
   return std::abs(glm::dot(a, b));
 }

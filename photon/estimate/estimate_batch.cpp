@@ -19,7 +19,7 @@ bool EstimateBatch::add(const PhotonMap& map, const SurfaceInteraction& si, cons
   const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
   const Point x{si, wo, n, f->coat};
   const uint32_t gather = find_or_prepare(map, settings, x);
-  if (!gathers_[gather].done) complete(settings, x, &gathers_[gather]);
+  if (!gathers_[gather].done) complete(settings, x, gather);
   waiting_.push_back({gather, weight * f->of_wo * kInvPi, radiance, photons});
   return true;
 }
@@ -68,16 +68,17 @@ uint32_t EstimateBatch::prepare(const PhotonMap& map, const EstimateSettings& se
   return latest_[pixel_] = static_cast<uint32_t>(gathers_.size() - 1);
 }
 
-void EstimateBatch::complete(const EstimateSettings& settings, const Point& x, Gather* gather) {
-  const PhotonMap& map = *gather->map;
+void EstimateBatch::complete(const EstimateSettings& settings, const Point& x, uint32_t number) {
+  Gather& gather = gathers_[number];
+  const PhotonMap& map = *gather.map;
   const uint64_t accepted = counters_.accepted;
   const KernelSpec& kernel = settings.kernel;
-  gather->flux = x.coat != Coat{} ? gather_through_coat(*gather, kernel, x)
-                 : gather->cut    ? gather_flux(map, gather->query, kernel, *gather->cut, counters_)
-                                  : gather_flux(map, gather->query, kernel, counters_);
-  gather->flux /= float(share(Disc(gather - gathers_.data()), settings));
-  gather->accepted = float(counters_.accepted - accepted);
-  gather->done = true;
+  gather.flux = x.coat != Coat{} ? gather_through_coat(gather, kernel, x)
+                : gather.cut     ? gather_flux(map, gather.query, kernel, *gather.cut, counters_)
+                                 : gather_flux(map, gather.query, kernel, counters_);
+  gather.flux /= float(share(number, settings));
+  gather.accepted = float(counters_.accepted - accepted);
+  gather.done = true;
   ++completed_;
 }
 

@@ -86,7 +86,7 @@ class EstimateBatch {
   uint32_t find_or_prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
   uint32_t gather_near(const PhotonMap& map, const Point& x) const;
   uint32_t prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
-  void complete(const EstimateSettings& settings, const Point& x, Gather* gather);
+  void complete(const EstimateSettings& settings, const Point& x, uint32_t number);
   Rgb gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x);
 
   uint32_t pixel_ = 0;

@@ -132,13 +132,9 @@ Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& 
 
 }  // namespace
 
-// Discs smaller than this share of the radius for which areas were made are too small for their pieces.
-constexpr float kLeastOfAreas = 0.5f;
-
 double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction& si, float radius,
                      const WallCut* cut) {
-  if (settings.areas && settings.areas->covers(si.surface_group) &&
-      radius >= kLeastOfAreas * settings.areas->radius())
+  if (settings.areas && settings.areas->covers(si.surface_group, radius))
     return settings.areas->share(si, settings.kernel, radius, cut);
   if (cut) return std::max(cut->share(si, settings.kernel, *settings.edges), kLeastShare);
   return surface_share(*settings.edges, si, settings.kernel, radius);

@@ -40,6 +40,11 @@ class SurfaceAreas {
   bool covers(uint32_t surface_group) const {
     return surface_group < covered_.size() && covered_[surface_group];
   }
+  // Whether it is so for discs of `radius` metres, too: smaller ones than half the radius of the constructor
+  // hold too few pieces.
+  bool covers(uint32_t surface_group, float radius) const {
+    return radius >= 0.5f * radius_ && covers(surface_group);
+  }
 
   // Share of the kernel's mass on si's surface, in [kLeastOfCurved, 1], as surface_share() computes it from
   // edges. radius: at most that of the constructor; smaller discs hold fewer pieces, so they are less

@@ -86,35 +86,33 @@ float error_of_correction(const Rgb& factor) {
   return std::abs(f - 1) / std::max(f, 1.0f);
 }
 
-// Whether a disc at x is a better estimate than a final gather, if enough of it lies on the surface. blurred:
-// the point is seen through a glossy lobe that is wider than the disc, so that only the disc's support
-// matters.
-enum class DiscVerdict { kWorse, kIfSupported, kBetter };
-DiscVerdict judge_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred) {
+// Whether a disc at x is a better estimate than a final gather. blurred: the point is seen through a glossy
+// lobe that is wider than the disc, so that only the disc's support matters. share() gives the share of the
+// disc on the surface; it takes long, and often does not matter.
+template <class Share>
+bool disc_is_better(const RenderContext& ctx, const ShadingPoint& x, bool blurred, const Share& share) {
   const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
   const Place place = ctx.maps.surroundings->at(x.si.p, n);
   const float error_of_path = place.noise / std::sqrt(float(ctx.settings.spp));
-  if (error_of_path >= kErrorOfGuess) return DiscVerdict::kBetter;
+  if (error_of_path >= kErrorOfGuess) return true;
   const float radius = ctx.maps.indirect.estimate.radius;
-  if (error_of_correction(disc_factor(ctx, x)) > error_of_path) return DiscVerdict::kWorse;
+  if (error_of_correction(disc_factor(ctx, x)) > error_of_path) return false;
   const float clearance = std::min(place.clearance, place.lit_clearance);
-  if (!blurred && error_of_disc(radius, clearance) > error_of_path) return DiscVerdict::kWorse;
-  return DiscVerdict::kIfSupported;
+  if (!blurred && error_of_disc(radius, clearance) > error_of_path) return false;
+  return share() >= kLeastSupport;
 }
 
 // Whether the indirect map's disc is taken at x. The points that share a disc share the answer.
 bool takes_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred, photon::EstimateBatch* batch) {
   const photon::EstimateSettings& estimate = ctx.maps.indirect.estimate;
   if (!ctx.maps.surroundings) return true;  // without photons, nothing is gathered
-  if (estimate.leaf) return judge_disc(ctx, x, blurred) != DiscVerdict::kWorse;
+  if (estimate.leaf) return disc_is_better(ctx, x, blurred, [] { return 1.0; });
   const auto disc = batch->disc(ctx.maps.indirect.map, x.si, x.wo, *x.bsdf, estimate);
   const uint8_t taken = blurred ? 1 : 2, refused = blurred ? 4 : 8;
   uint8_t& note = batch->note(disc);
   if (!(note & (taken | refused))) {
-    const DiscVerdict verdict = judge_disc(ctx, x, blurred);
-    const bool better = verdict == DiscVerdict::kBetter || (verdict == DiscVerdict::kIfSupported &&
-                                                            batch->share(disc, estimate) >= kLeastSupport);
-    note |= better ? taken : refused;
+    const auto share = [&] { return batch->share(disc, estimate); };
+    note |= disc_is_better(ctx, x, blurred, share) ? taken : refused;
   }
   return note & taken;
 }

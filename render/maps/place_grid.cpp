@@ -11,8 +11,7 @@ namespace {
 
 // Index, 0 to 5, of the cube's side through which the normal points.
 uint64_t cube_side(const Normal3& n) {
-  const glm::vec3 size = glm::abs(n);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = largest_axis(glm::abs(n));
   return uint64_t(2 * axis + (n[axis] < 0));
 }
 

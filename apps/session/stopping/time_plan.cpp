@@ -96,13 +96,12 @@ class TimePlan {
         fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)) {}
 
   FilledTime settle() {
-    const auto explored = std::make_shared<render::ExploredScene>();
-    if (!gathers_) return settle_by_trials(explored);
+    if (!gathers_) return settle_by_trials();
     const double before = left();
     // Exploring takes at most about as long as loading did.
-    if (before < total_.seconds() && may_take_paths()) return take_paths(explored);
-    render::PassPhotons(explored).explore(input());
-    return explored->seconds > kHurry * before ? hurry(explored) : settle_by_trials(explored);
+    if (before < total_.seconds() && may_take_paths()) return take_paths();
+    render::PassPhotons(explored_).explore(input());
+    return explored_->seconds > kHurry * before ? hurry() : settle_by_trials();
   }
 
  private:
@@ -113,37 +112,36 @@ class TimePlan {
     return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels);
   }
 
-  FilledTime settle_by_trials(const std::shared_ptr<render::ExploredScene>& explored) {
+  FilledTime settle_by_trials() {
     render::PhotonTrial trial;
-    if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored);
+    if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored_);
     auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
     if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
     render::SampleTrial sample =
         render::try_one_sample(input(), {.seconds = kSampleTrial / 2 * seconds_}, gathers_, &first->photons);
     if (gathers_ && left() > 0) choose_paths(trial.cost, &sample, &first->photons);
-    if (has_no_time_for(sample, trial.cost.fixed + trial.cost.each * fewest_)) return take_paths(explored);
+    if (has_no_time_for(sample, trial.cost.fixed + trial.cost.each * fewest_)) return take_paths();
     if (gathers_ && !paths_.empty()) {  // fewer kinds of photons cost less
-      trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored);
+      trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored_);
       *first = std::move(trial.first);
       if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
     }
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
       fill_passes(trial.cost, cost_of(sample), share);
-      return {.work = {.explored = explored, .paths = paths_}};
+      return {.work = {.explored = explored_, .paths = paths_}};
     }
-    if (gathers_) *first = shoot(photons_within(trial.cost, share * left(), fewest_), explored);
+    if (gathers_) *first = shoot(photons_within(trial.cost, share * left(), fewest_));
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
-    return one_pass(cost, gathers_ ? std::move(first) : nullptr, explored);
+    return one_pass(cost, gathers_ ? std::move(first) : nullptr);
   }
 
   // A single pass of as many samples as fit.
-  FilledTime one_pass(const render::SampleCost& cost, std::shared_ptr<render::FirstPhotons> photons,
-                      const std::shared_ptr<render::ExploredScene>& explored) {
+  FilledTime one_pass(const render::SampleCost& cost, std::shared_ptr<render::FirstPhotons> photons) {
     const double sure = render_.adaptive > 0 ? kSure : 1;
     render_.spp = samples_within(cost, render_.adaptive, sure * left(), kMostOfOne);
     return {.single_pass = true,
-            .work = {.photons = std::move(photons), .explored = explored},
+            .work = {.photons = std::move(photons), .explored = explored_},
             .adaptive_work = adaptive_work(cost)};
   }
 
@@ -153,25 +151,25 @@ class TimePlan {
   }
 
   // Where there is no time for trials: the fewest photons, or paths where there is no time for those either.
-  FilledTime hurry(const std::shared_ptr<render::ExploredScene>& explored) {
-    if (may_take_paths() && left() < kShootPerExplored * explored->seconds) return take_paths(explored);
-    const auto first = std::make_shared<render::FirstPhotons>(shoot(fewest_photons(), explored));
+  FilledTime hurry() {
+    if (may_take_paths() && left() < kShootPerExplored * explored_->seconds) return take_paths();
+    const auto first = std::make_shared<render::FirstPhotons>(shoot(fewest_photons()));
     if (cancelled(*first)) return {.single_pass = true, .work = {.photons = first}};
     const render::SampleTrial sample =
         render::try_one_sample(input(), {.seconds = kSampleTrial * seconds_}, false, &first->photons);
-    if (has_no_time_for(sample, 0)) return take_paths(explored);
+    if (has_no_time_for(sample, 0)) return take_paths();
     first->photons.forget_visibility();  // it depends on the number of samples
-    return one_pass(cost_of(sample), first, explored);
+    return one_pass(cost_of(sample), first);
   }
 
   bool may_take_paths() const { return !path_candidates(scene_, render_, plan_).empty(); }
 
   // Passes of one sample by paths, untried.
-  FilledTime take_paths(const std::shared_ptr<render::ExploredScene>& explored) {
+  FilledTime take_paths() {
     adopt(path_candidates(scene_, render_, plan_).back());
     render_.photons = kErrorPasses * fewest_photons();
     set_passes(1);
-    return {.work = {.explored = explored, .paths = paths_}, .paths_because = kNoTimeForMaps};
+    return {.work = {.explored = explored_, .paths = paths_}, .paths_because = kNoTimeForMaps};
   }
 
   // Replaces the maps of these classes by paths.
@@ -186,10 +184,10 @@ class TimePlan {
 
   bool cancelled(const render::FirstPhotons& first) const { return gathers_ && !first.photons.radii(); }
 
-  render::FirstPhotons shoot(uint64_t photons, const std::shared_ptr<render::ExploredScene>& explored) {
+  render::FirstPhotons shoot(uint64_t photons) {
     render_.photons = photons;
     render_.photons /= render::choose_passes(scene_, bvh_, render_, &plan_);
-    return render::shoot_first(input(), progress_, explored);
+    return render::shoot_first(input(), progress_, explored_);
   }
 
   // Whether the time is filled by passes. Paths have no adaptive samples, which fill the time of a single
@@ -287,6 +285,7 @@ class TimePlan {
   bool gathers_;       // whether there are photons at all
   double fewest_;      // photons
   std::string paths_;  // the options by which paths replace maps
+  std::shared_ptr<render::ExploredScene> explored_ = std::make_shared<render::ExploredScene>();
 };
 
 }  // namespace
