@@ -158,9 +158,10 @@ void report(const render::RenderResult& result, const render::OuterTimes& times,
   const render::RenderStatistics& s = result.statistics;
   report_photons(result, console);
   console.note(fmt::format(
-      "seconds: load {:.2f}, bvh {:.2f}, photon trace {:.2f}, photon build {:.2f}, render {:.2f}, "
-      "write {:.2f}, total {:.2f}",
-      times.load, times.bvh, s.photon_trace_s, s.photon_build_s, s.render_s, times.write, times.total));
+      "seconds: load {:.2f}, bvh {:.2f}, trials {:.2f}, photon trace {:.2f}, photon build {:.2f}, render "
+      "{:.2f}, write {:.2f}, total {:.2f}",
+      times.load, times.bvh, times.trials, s.photon_trace_s, s.photon_build_s, s.render_s, times.write,
+      times.total));
   if (s.dropped_samples > 0) {
     console.warning(
         fmt::format("{} samples were negative or not finite and were dropped", s.dropped_samples));

@@ -24,6 +24,9 @@ float gap_below_walls(float size) {
   return std::ldexp(1.0f, std::ilogb(kShareOfSize * size));
 }
 
+// The radius of a render as a share of that of a trial, whose photons are a quarter or less of the render's.
+constexpr float kTrialShrink = 0.5f;
+
 using photon::PhotonKind;
 
 std::array<GatherMap*, 3> gather_maps(PhotonMaps& maps) {
@@ -119,12 +122,14 @@ void PassPhotons::explore(const RenderInput& input) {
 }
 
 // Finds the feet of walls for the radii of the first pass of this process; later passes have smaller discs.
+// The feet that a trial finds serve the render if its photons turn out to ask for the same gap, so a trial
+// looks for those of a smaller radius than its own.
 void PassPhotons::find_walls(const Scene& scene) {
   if (std::exchange(walls_are_known_, true)) return;
   const float radius = std::max({radii_->direct, radii_->caustic, radii_->indirect});
   if (!(radius > 0) || !std::isfinite(radius)) return;
   const float clearance = maps_.surroundings ? maps_.surroundings->lower_quartile() : kInfinity;
-  const float gap = gap_below_walls(std::min(radius, clearance));
+  const float gap = gap_below_walls(std::min(is_trial_ ? kTrialShrink * radius : radius, clearance));
   std::optional<WallFeet>& feet = explored_->feet;
   if (!feet || feet->gap != gap) feet = WallFeet{gap, accel::find_wall_feet(scene, *explored_->edges, gap)};
   if (!feet->edges.empty()) walls_ = std::make_unique<photon::Walls>(feet->edges, scene.bounds, radius);

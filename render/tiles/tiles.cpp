@@ -73,6 +73,8 @@ struct TileWork {
   std::function<bool()> go_on;
 };
 
+constexpr double kMostAfterShort = double(0.74f);  // adaptive samples, in units of the first samples' work
+
 // Renders one pass's samples of all pixels in the film's window.
 class TilePass {
  public:
@@ -126,9 +128,12 @@ class TilePass {
   }
 
   // Renders adaptive samples in rounds. seconds: what the first samples took.
+  // After a short round the total stays below the first long one, with which a greater total would begin.
   bool adaptive_rounds(double seconds, const AdaptiveWork& adaptive_work) {
-    for (double end = kFirstRound;; end = next_round(end)) {
-      const double all = adaptive_work ? adaptive_work(work_, seconds) : ctx_.samples.adaptive_work;
+    for (double end = 0;;) {
+      double all = adaptive_work ? adaptive_work(work_, seconds) : ctx_.samples.adaptive_work;
+      end = end > 0 ? next_round(end) : first_round(all);
+      if (work_ > 0 && work_ < kFirstRound) all = std::min(all, kMostAfterShort);
       if (!(std::min(end, all) > work_)) return true;
       work_ = std::min(end, all);
       counts_->choose_counts(samples(), work_);

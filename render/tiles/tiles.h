@@ -18,9 +18,15 @@ inline constexpr int kTileSize = 16;
 using AdaptiveWork = std::function<double(double done, double seconds)>;
 
 // Adaptive samples come in rounds, which end at fixed multiples of the first samples' work, so that the same
-// total gives the same bits: 0.75, 1.125, 1.5, 2.25, 3, ...
-inline constexpr double kFirstRound = 0.75;
+// total gives the same bits: 0.75, 1.125, 1.5, 2.25, 3, ... A total below 0.75 comes in two rounds: the short
+// one tells how long the rest takes, which a trial hardly knows.
+inline constexpr double kFirstRound = 0.75, kShortRound = 0.1875;
+inline double first_round(double total) {
+  return total < kFirstRound ? kShortRound : kFirstRound;
+}
+// The end of the round after one that ends at `end`.
 inline double next_round(double end) {
+  if (end < kFirstRound) return kFirstRound;
   double doubled = kFirstRound;
   while (2 * doubled <= end) doubled *= 2;
   return end == doubled ? 1.5 * doubled : 2 * doubled;
@@ -28,6 +34,7 @@ inline double next_round(double end) {
 // The number of rounds for this much work.
 inline size_t rounds_of(double work) {
   if (!(work > 0)) return 0;
+  if (work < kFirstRound) return work <= kShortRound ? 1 : 2;
   size_t rounds = 1;
   for (double end = kFirstRound; end < work; end = next_round(end)) ++rounds;
   return rounds;

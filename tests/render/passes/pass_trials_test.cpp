@@ -144,28 +144,35 @@ TEST_F(PassTrials, PhotonsShotBeforeGiveTheSamePicture) {
 
 // Rounds of adaptive samples end at the same places however their number is decided.
 TEST_F(PassTrials, AdaptiveSamplesDecidedOnTheWayGiveTheSamePicture) {
-  for (const double total : {0.4, 0.75, 2.6}) {
-    settings_.adaptive = float(total);
+  struct Case {
+    float total;
+    std::vector<double> answers;  // of the function that decides, one for each round
+  };
+  const Case cases[] = {
+      {0.1f, {double(0.1f)}},
+      {0.4f, {double(0.5f), double(0.4f)}},  // a short round, then the rest
+      {0.74f, {0.3, 5.0}},                   // more time than it seemed at first, but no longer round follows
+      {0.75f, {5.0, 0.75}},
+      {2.6f, {5.0, 5.0, double(2.6f), double(2.6f), double(2.6f)}},  // 0.75, 1.125, 1.5, 2.25, 2.6
+  };
+  for (const Case& c : cases) {
+    settings_.adaptive = c.total;
     const RenderResult asked = render(scene_, bvh_, settings_);
-    EXPECT_EQ(asked.statistics.adaptive_work, double(settings_.adaptive));
-    settings_.adaptive = 0.1f;
-    int rounds = 0;
-    const auto decide = [&](double done, double seconds) {
+    EXPECT_EQ(asked.statistics.adaptive_work, double(c.total));
+    size_t rounds = 0;
+    const auto decide = [&](double, double seconds) {
       EXPECT_GE(seconds, 0);
-      ++rounds;
-      if (done >= 2.6) return 5.0;  // not asked again after a round that was cut short
-      return done < 1 ? 5.0 : double(float(total));
+      if (rounds < c.answers.size()) return c.answers[rounds++];
+      ADD_FAILURE() << c.total << ": asked once more";
+      return 0.0;
     };
-    RenderTask task{.adaptive_work = total < 1 ? [&](double, double) { return double(float(total)); }
-                                               : std::function<double(double, double)>(decide)};
-    const RenderResult found = render(scene_, bvh_, settings_, {}, std::move(task));
+    settings_.adaptive = 0.1f;
+    const RenderResult found = render(scene_, bvh_, settings_, {}, {.adaptive_work = decide});
     EXPECT_EQ(found.statistics.adaptive_work, asked.statistics.adaptive_work);
     EXPECT_EQ(found.statistics.rays.camera, asked.statistics.rays.camera);
     const size_t bytes = sizeof(PixelResult) * size_t(found.film.width()) * size_t(found.film.height());
-    EXPECT_EQ(std::memcmp(&found.film.at(0, 0), &asked.film.at(0, 0), bytes), 0) << total;
-    if (total > 1) {
-      EXPECT_EQ(rounds, 5);  // 0.75, 1.125, 1.5, 2.25, 2.6
-    }
+    EXPECT_EQ(std::memcmp(&found.film.at(0, 0), &asked.film.at(0, 0), bytes), 0) << c.total;
+    EXPECT_EQ(rounds, c.answers.size()) << c.total;
   }
 }
 
