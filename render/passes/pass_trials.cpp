@@ -218,10 +218,11 @@ ErrorSources error_sources(const EstimatorPlan& plan, const std::vector<std::vec
       if (!(unit > 0)) continue;
       // The mean of n samples has an nth of the variance of one.
       const double variance = p.all.error() * p.all.error() * kTrialSamples;
-      const double mapped = (plan.caustics == CausticEstimator::kPhotons ? p.caustic.mean() : 0) +
-                            (reads_indirect_photons(plan) ? p.indirect.mean() : 0);
+      const double caustic = plan.caustics == CausticEstimator::kPhotons ? p.caustic.mean() : 0;
+      const double indirect = reads_indirect_photons(plan) ? p.indirect.mean() : 0;
       sum.samples += std::min(variance / unit, kMostOfPixel) / count;
-      sum.mapped += mapped * mapped / unit / count;
+      sum.caustic += caustic * caustic / unit / count;
+      sum.indirect += indirect * indirect / unit / count;
     }
   return sum;
 }
@@ -256,7 +257,9 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
   const double each = shoot(more) / double(more);
   // Not timed: the fixed cost, from the first shoot, already includes the choice of radii.
   if (more > kFewPhotons) photons.choose_radii_anew(input, pass_share(0, 1, more, 1));
-  trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each, double(more)};
+  const auto stored = [&](const GatherMap& of) { return double(of.map.size() + 1) / double(more); };
+  trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each, double(more),
+                stored(photons.maps().caustic), stored(photons.maps().indirect)};
   return trial;
 }
 

@@ -12,6 +12,8 @@ namespace kaustik::render {
 struct PhotonCost {
   double fixed = 0, each = 0;  // each > 0
   double photons = 0;          // of the larger trial, whose maps are left
+  // Stored for each emitted photon, but never 0; guided emission may store several.
+  double caustic = 0, indirect = 0;
 };
 
 // Wall-clock seconds of the samples of every pixel: of(spp, adaptive) for spp samples and adaptive ones that
@@ -48,8 +50,8 @@ FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progr
 // Where the error of a picture comes from, as means over its pixels relative to the square of their luminance
 // (to which the square of a tenth of the picture's mean is added).
 struct ErrorSources {
-  double samples = 0;  // variance of one sample, given the photons
-  double mapped = 0;   // square of the light that photon maps give
+  double samples = 0;                // variance of one sample, given the photons
+  double caustic = 0, indirect = 0;  // square of the light that these photon maps give
 };
 
 // The unit of relative squares, for light of this luminance in a picture of this mean.

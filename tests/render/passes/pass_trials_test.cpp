@@ -182,8 +182,13 @@ TEST_F(PassTrials, TellWhereTheErrorComesFrom) {
   const SampleTrial sample = try_one_sample(input(), {}, false, &trial.first.photons);
   EXPECT_GT(sample.seconds, 0);
   EXPECT_GT(sample.errors.samples, 0);
-  EXPECT_GT(sample.errors.mapped, 0);
-  EXPECT_LE(sample.errors.mapped, 1);  // a share of the picture's light, squared
+  for (const double mapped : {sample.errors.caustic, sample.errors.indirect}) {
+    EXPECT_GT(mapped, 0);
+    EXPECT_LE(mapped, 1);  // a share of the picture's light, squared
+  }
+  const PhotonMaps& maps = trial.first.photons.maps();
+  EXPECT_NEAR(trial.cost.indirect * trial.cost.photons, double(maps.indirect.map.size()), 1 + 1e-6);
+  EXPECT_NEAR(trial.cost.caustic * trial.cost.photons, double(maps.caustic.map.size()), 1 + 1e-6);
 }
 
 TEST_F(PassTrials, PhotonsShotBeforeAreForASinglePass) {
