@@ -57,9 +57,9 @@ class PassPhotons {
   void learn_sky(const RenderInput& input, RenderStatistics* statistics);
   // Determines r0 from the present maps, as if they were the first, and what follows from it.
   void choose_radii_anew(const RenderInput& input, const PassShare& pass);
-  // Tells that a render of more photons follows, which is to find as much as possible of what it needs known.
-  // Only the feet of walls depend on it.
-  void prepare_render_of_more() { is_trial_ = true; }
+  // Tells that these photons are a trial, and that a render of more photons, with smaller discs, follows: it
+  // shall find the feet of walls known.
+  void mark_as_trial() { is_trial_ = true; }
   // Forgets r0 and what follows from it, so that the next make() determines it as if it were the first. What
   // was learned about the scene stays.
   void forget_radii();

@@ -242,7 +242,7 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
   PhotonTrial trial;
   trial.first.photons = PassPhotons(std::move(explored));
   PassPhotons& photons = trial.first.photons;
-  photons.prepare_render_of_more();
+  photons.mark_as_trial();
   photons.explore(input);
   const auto shoot = [&](uint64_t count) {
     const Stopwatch watch;

@@ -13,7 +13,7 @@ struct PhotonCost {
   double fixed = 0, each = 0;  // each > 0
   double photons = 0;          // of the larger trial, whose maps are left
   // Stored for each emitted photon, but never 0; guided emission may store several.
-  double caustic = 0, indirect = 0;
+  double stored_caustic = 0, stored_indirect = 0;
 };
 
 // Wall-clock seconds of the samples of every pixel: of(spp, adaptive) for spp samples and adaptive ones that

@@ -73,7 +73,9 @@ struct TileWork {
   std::function<bool()> go_on;
 };
 
-constexpr double kMostAfterShort = double(0.74f);  // adaptive samples, in units of the first samples' work
+// The largest total, in units of the first samples' work, that AdaptiveWork may reach after a short round:
+// below kFirstRound, since a greater total, given as a number, begins with a long round.
+constexpr double kMostAfterShort = double(0.74f);
 
 // Renders one pass's samples of all pixels in the film's window.
 class TilePass {
@@ -128,12 +130,11 @@ class TilePass {
   }
 
   // Renders adaptive samples in rounds. seconds: what the first samples took.
-  // After a short round the total stays below the first long one, with which a greater total would begin.
   bool adaptive_rounds(double seconds, const AdaptiveWork& adaptive_work) {
     for (double end = 0;;) {
       double all = adaptive_work ? adaptive_work(work_, seconds) : ctx_.samples.adaptive_work;
       end = end > 0 ? next_round(end) : first_round(all);
-      if (work_ > 0 && work_ < kFirstRound) all = std::min(all, kMostAfterShort);
+      if (adaptive_work && work_ > 0 && work_ < kFirstRound) all = std::min(all, kMostAfterShort);
       if (!(std::min(end, all) > work_)) return true;
       work_ = std::min(end, all);
       counts_->choose_counts(samples(), work_);

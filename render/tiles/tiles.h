@@ -34,9 +34,8 @@ inline double next_round(double end) {
 // The number of rounds for this much work.
 inline size_t rounds_of(double work) {
   if (!(work > 0)) return 0;
-  if (work < kFirstRound) return work <= kShortRound ? 1 : 2;
   size_t rounds = 1;
-  for (double end = kFirstRound; end < work; end = next_round(end)) ++rounds;
+  for (double end = first_round(work); end < work; end = next_round(end)) ++rounds;
   return rounds;
 }
 

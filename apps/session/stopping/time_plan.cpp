@@ -226,8 +226,8 @@ class TimePlan {
       const double samples = (1 - share) * time / sample.seconds;
       const double photons = std::max(share * time / each, 1.0);
       const double error = sample.errors.samples / std::max(samples, 1e-9) +
-                           sample.errors.caustic * error_of_map(photons * cost.caustic) +
-                           sample.errors.indirect * error_of_map(photons * cost.indirect);
+                           sample.errors.caustic * error_of_map(photons * cost.stored_caustic) +
+                           sample.errors.indirect * error_of_map(photons * cost.stored_indirect);
       if (error < least) least = error, best = share;
     }
     return best;
