@@ -297,6 +297,10 @@ void Bvh::Impl::load_packet(const RayLanes& rays, size_t first, RTCRayHit16* que
     for (size_t i = 0; i < kPacket; ++i)
       valid[i] &= -int{std::abs(o[c][i]) <= kFarthest} & -int{std::abs(d[c][i]) <= kFarthest};
   }
+  // Embree asserts that rays are finite, also in lanes that it is told to leave out.
+  for (size_t i = 0; i < kPacket; ++i)
+    if (!valid[i])
+      for (int c = 0; c < 3; ++c) o[c][i] = 0, d[c][i] = 1;
   std::fill_n(query->ray.tfar, kPacket, far_end(kInfinity));
   std::fill_n(query->hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(query->hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
