@@ -38,6 +38,7 @@ FaceTree::Node FaceTree::node_of(uint32_t begin, uint32_t end) const {
   node.axis = faces_[begin].face->n, node.group = faces_[begin].face->group;
   for (uint32_t i = begin; i < end; ++i) {
     node.box.add(faces_[i].box);
+    node.margin = std::max(node.margin, faces_[i].margin);
     node.one_group = node.one_group && faces_[i].face->group == node.group;
     node.cos_angle = std::min(node.cos_angle, std::abs(glm::dot(faces_[i].face->n, node.axis)));
   }

@@ -25,12 +25,14 @@ struct Face {
 // A face with the box that stands for it. The face must outlive the tree.
 struct BoxedFace {
   Bounds3 box;
+  float margin = 0;  // by which the box grows where it is compared with faces of other groups
   const Face* face = nullptr;
 };
 
-inline bool overlap(const Bounds3& a, const Bounds3& b) {
-  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-         a.min.z <= b.max.z && b.min.z <= a.max.z;
+// Whether the boxes come within `gap` of each other along every axis.
+inline bool meet(const Bounds3& a, const Bounds3& b, float gap) {
+  return a.min.x - b.max.x <= gap && b.min.x - a.max.x <= gap && a.min.y - b.max.y <= gap &&
+         b.min.y - a.max.y <= gap && a.min.z - b.max.z <= gap && b.min.z - a.max.z <= gap;
 }
 
 // Immutable after construction; const members may be called from any thread.
@@ -38,9 +40,9 @@ class FaceTree {
  public:
   explicit FaceTree(std::vector<BoxedFace> faces);
 
-  // Calls visit(const Face&) for the faces other than `of` whose boxes meet its own and whose normals bend
-  // away by more than kBendOfOthers or, in its group, kBendOfOwn. Returns how many boxes of faces were
-  // compared.
+  // Calls visit(const Face&) for the faces other than `of` whose boxes meet its own, grown by both margins in
+  // another group, and whose normals bend away by more than kBendOfOthers or, in its group, kBendOfOwn.
+  // Returns how many boxes of faces were compared.
   template <class Visit>
   uint64_t for_each_bent(const BoxedFace& of, const Visit& visit) const {
     if (faces_.empty()) return 0;
@@ -50,7 +52,9 @@ class FaceTree {
     for (size_t count = 1; count > 0;) {
       const uint32_t at = waiting[--count];
       const Node& node = nodes_[at];
-      if (!overlap(node.box, of.box) || node.bends_too_little(*of.face)) continue;
+      const bool own = node.one_group && node.group == of.face->group;
+      if (!meet(node.box, of.box, own ? 0 : node.margin + of.margin)) continue;
+      if (node.bends_too_little(*of.face, own)) continue;
       if (node.begin == node.end) {
         waiting[count++] = 2 * at + 2;
         waiting[count++] = 2 * at + 1;
@@ -58,9 +62,7 @@ class FaceTree {
       }
       compared += node.end - node.begin;
       for (uint32_t i = node.begin; i < node.end; ++i)
-        if (const BoxedFace& other = faces_[i]; other.face != of.face && overlap(other.box, of.box))
-          if (std::abs(glm::dot(other.face->n, of.face->n)) <= limit_of(other.face->group == of.face->group))
-            visit(*other.face);
+        if (faces_[i].face != of.face && is_bent(faces_[i], of)) visit(*faces_[i].face);
     }
     return compared;
   }
@@ -70,10 +72,16 @@ class FaceTree {
   static constexpr size_t kDeepest = 64;
 
   static float limit_of(bool same_group) { return same_group ? kBendOfOwn : kBendOfOthers; }
+  static bool is_bent(const BoxedFace& a, const BoxedFace& b) {
+    const bool own = a.face->group == b.face->group;
+    return meet(a.box, b.box, own ? 0 : a.margin + b.margin) &&
+           std::abs(glm::dot(a.face->n, b.face->n)) <= limit_of(own);
+  }
 
   // Nodes lie as in a binary heap: the children of i are 2 i + 1 and 2 i + 2.
   struct Node {
     Bounds3 box;
+    float margin = 0;             // the largest of its faces
     uint32_t begin = 0, end = 0;  // faces of a leaf; the same for others
     // All normals, up to their signs, lie within this angle of the axis.
     Normal3 axis{0, 0, 1};
@@ -82,12 +90,12 @@ class FaceTree {
     bool one_group = true;
 
     // Whether no face here bends away from this one by enough: dense smooth meshes are mostly patches of
-    // which that holds.
-    bool bends_too_little(const Face& face) const {
+    // which that holds. own: all faces here are of its group.
+    bool bends_too_little(const Face& face, bool own) const {
       const float c = std::abs(glm::dot(face.n, axis));
       const float sum = c * cos_angle - std::sqrt(std::max(1 - c * c, 0.0f)) * sin_angle;
       constexpr float kRounding = 1e-5f;
-      return sum > limit_of(one_group && face.group == group) + kRounding;
+      return sum > limit_of(own) + kRounding;
     }
   };
 

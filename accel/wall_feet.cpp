@@ -23,17 +23,18 @@ namespace {
 
 constexpr double kTouch = 0x1p-19;  // of the largest coordinate
 
-// Boxes of triangles that are grown by this meet where the triangles touch. Those of triangles larger than
-// twice the gap also meet where they are no farther apart than the gap; among smaller ones there would be too
-// many pairs.
-Bounds3 box_of(const Face& face, float gap) {
-  Bounds3 box;
-  for (const Point3& p : face.P) box.add(p);
-  const float touch = float(kTouch) * std::max(max_abs_component(box.min), max_abs_component(box.max));
-  const float by = touch + (glm::length(box.diagonal()) > 2 * gap ? 0.5f * gap : 0);
-  box.min -= by;
-  box.max += by;
-  return box;
+// The box meets those of triangles that touch this one. Boxes of triangles larger than twice the gap also
+// meet where the triangles are of different groups and no farther apart than the gap; among smaller ones
+// there would be too many pairs.
+BoxedFace boxed(const Face& face, float gap) {
+  BoxedFace boxed{{}, 0, &face};
+  for (const Point3& p : face.P) boxed.box.add(p);
+  const float touch =
+      float(kTouch) * std::max(max_abs_component(boxed.box.min), max_abs_component(boxed.box.max));
+  boxed.box.min -= touch;
+  boxed.box.max += touch;
+  if (glm::length(boxed.box.diagonal()) > 2 * gap) boxed.margin = 0.5f * gap;
+  return boxed;
 }
 
 std::vector<Face> faces_of(const Shape& shape) {
@@ -244,9 +245,9 @@ std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& en
   std::vector<BoxedFace> floors, walls;
   for (const ShapeFaces& shape : shapes)
     for (const Face& face : shape.faces) {
-      const BoxedFace boxed{box_of(face, gap), &face};
-      if (shape.floors) floors.push_back(boxed);
-      if (shape.walls) walls.push_back(boxed);
+      const BoxedFace box = boxed(face, gap);
+      if (shape.floors) floors.push_back(box);
+      if (shape.walls) walls.push_back(box);
     }
   auto found = feet_of(floors, FaceTree(std::move(walls)), gap);
   if (!found) return gap > 0 ? find_wall_feet(scene, ends, 0) : std::vector<BoundaryEdge>{};

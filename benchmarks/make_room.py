@@ -3,9 +3,9 @@
 
   make_room.py [--triangles 3000000] [--pieces 300] FOLDER
 
-FOLDER/room.pbrt is a box with a window, a lamp and as many pieces of furniture, each a mesh and a surface group of its own:
-cushions, mouldings (rings with grooves), and cabinets with thin bars. FOLDER/box.pbrt is the same room without them. All pieces
-are made by this script from the same seed.
+FOLDER/room.pbrt is a box with a lamp and as many pieces of furniture, each a mesh and a surface group of its own: cushions,
+mouldings (rings with grooves), and cabinets with thin bars. Pieces do not touch; the more there are, the smaller they are.
+FOLDER/box.pbrt is the same room without them. All pieces are made by this script from the same seed.
 """
 import argparse
 import array
@@ -40,11 +40,11 @@ MATERIALS = (
 
 
 def cushion(u, v, size):
-    """A rounded box: a superellipsoid of exponents 4, with a weave of a few millimetres."""
+    """A rounded box: a superellipsoid of exponents 4, with a quilt of a few millimetres."""
     def power(x):
         return math.copysign(abs(x) ** 0.5, x)
     theta, phi = math.pi * (v - 0.5), 2 * math.pi * u
-    bump = 1 + 0.01 * math.sin(120 * u) * math.sin(60 * v)
+    bump = 1 + 0.01 * math.sin(8 * math.pi * u) * math.sin(6 * math.pi * v)
     return [bump * s * w for s, w in zip(size, (power(math.cos(theta)) * power(math.cos(phi)), power(math.sin(theta)),
                                                 power(math.cos(theta)) * power(math.sin(phi))))]
 
@@ -101,12 +101,24 @@ def write_ply(path, vertices, faces):
     path.write_bytes(head.encode() + vertices.tobytes() + faces)
 
 
-def piece(rng, triangles):
-    """A mesh of about so many triangles somewhere in the room, not before the camera."""
+def free_place(rng, largest, taken):
+    """Half the size of a box, and its place in the room where it meets none of those taken; not before the camera."""
+    while True:
+        size = [rng.uniform(0.3, 1) * largest for _ in range(3)]
+        # A moulding is 1.15 times as wide as its size.
+        reach = [1.2 * s for s in size]
+        place = [rng.uniform(-2.9 + reach[0], 2.9 - reach[0]), rng.choice((size[1], rng.uniform(0.3, 2.8 - reach[1]))),
+                 rng.uniform(-3.9 + reach[2], 1.5)]
+        if all(any(abs(p - q) > r + s for p, q, r, s in zip(place, other, reach, other_reach)) for other, other_reach in taken):
+            taken.append((place, reach))
+            return size, place
+
+
+def piece(rng, triangles, largest, taken):
+    """A mesh of about so many triangles."""
     columns = max(8, round(math.sqrt(triangles)))
     rows = max(4, triangles // (2 * columns))
-    size = [rng.uniform(0.1, 0.35) for _ in range(3)]
-    place = [rng.uniform(-2.6, 2.6), rng.choice((size[1], rng.uniform(0.3, 2.5))), rng.uniform(-3.6, 1.5)]
+    size, place = free_place(rng, largest, taken)
     form = rng.choice((cushion, moulding, None))
     return bars(columns, rows, size, place) if form is None else mesh_of(form, columns, rows, size, place)
 
@@ -119,10 +131,11 @@ def main():
     args = parser.parse_args()
     args.folder.mkdir(parents=True, exist_ok=True)
     rng = random.Random(1)
-    lines = [SCENE]
+    lines, taken = [SCENE], []
+    largest = 0.25 * min(1, (300 / args.pieces) ** (1 / 3))
     for i in range(args.pieces):
         name = f"piece{i}.ply"
-        write_ply(args.folder / name, *piece(rng, args.triangles // args.pieces))
+        write_ply(args.folder / name, *piece(rng, args.triangles // args.pieces, largest, taken))
         r, g, b = (rng.uniform(0.2, 0.8) for _ in range(3))
         lines.append(rng.choice(MATERIALS).format(r=r, g=g, b=b))
         lines.append(f'Shape "plymesh" "string filename" "{name}"')

@@ -14,19 +14,12 @@
 #include <span>
 #include <tuple>
 
+#include "core/geometry/point_bits.h"
 #include "core/geometry/rims.h"
 #include "core/geometry/triangle_bounds.h"
 
 namespace kaustik {
 namespace {
-
-using PointBits = std::array<uint32_t, 3>;
-
-PointBits bits_of(const Point3& p) {
-  // Adding zero maps -0 and 0 to the same bits.
-  return {std::bit_cast<uint32_t>(p.x + 0.0f), std::bit_cast<uint32_t>(p.y + 0.0f),
-          std::bit_cast<uint32_t>(p.z + 0.0f)};
-}
 
 Point3 point_of(const PointBits& bits) {
   return {std::bit_cast<float>(bits[0]), std::bit_cast<float>(bits[1]), std::bit_cast<float>(bits[2])};

@@ -44,7 +44,7 @@ double distance_to(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& d
 }  // namespace
 
 Walls::Walls(std::vector<BoundaryEdge> feet, const Bounds3& bounds, float radius)
-    : feet_(std::move(feet)), radius_(radius), origin_(bounds.min), marks_(kCells * kCells * kCells / 64) {
+    : feet_(std::move(feet)), radius_(radius), origin_(bounds.min), marks_(kCells * kCells) {
   const Vector3 extent = bounds.diagonal();
   for (int k = 0; k < 3; ++k) {
     const float cell = std::max(extent[k] / float(kCells), radius / 2);
@@ -61,12 +61,11 @@ void Walls::mark(const BoundaryEdge& foot) {
   const float reach = 1.0001f * (radius_ + length / float(2 * steps));
   for (int i = 0; i <= steps; ++i) {
     const Point3 p = glm::mix(foot.a, foot.b, float(i) / float(steps)), low = p - reach, high = p + reach;
-    for (uint32_t x = cell_of(low, 0); x <= cell_of(high, 0); ++x)
-      for (uint32_t y = cell_of(low, 1); y <= cell_of(high, 1); ++y)
-        for (uint32_t z = cell_of(low, 2); z <= cell_of(high, 2); ++z) {
-          const uint32_t cell = (x * kCells + y) * kCells + z;
-          marks_[cell / 64] |= uint64_t{1} << (cell % 64);
-        }
+    // The cells along z are the bits of one word.
+    const uint64_t row = ~uint64_t{0} >> (63 - cell_of(high, 2)) & ~uint64_t{0} << cell_of(low, 2);
+    const uint32_t x_end = cell_of(high, 0), y_end = cell_of(high, 1);
+    for (uint32_t x = cell_of(low, 0); x <= x_end; ++x)
+      for (uint32_t y = cell_of(low, 1); y <= y_end; ++y) marks_[x * kCells + y] |= row;
   }
 }
 

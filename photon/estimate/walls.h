@@ -35,15 +35,13 @@ class Walls {
 
   // Whether a foot may be within radius() of p; true too often, never too rarely.
   bool near(const Point3& p) const {
-    uint32_t cell = 0;
-    for (int k = 0; k < 3; ++k) cell = cell * kCells + cell_of(p, k);
-    return marks_[cell / 64] >> (cell % 64) & 1;
+    return marks_[cell_of(p, 0) * kCells + cell_of(p, 1)] >> cell_of(p, 2) & 1;
   }
   float radius() const { return radius_; }
   const accel::EdgeIndex& feet() const { return feet_; }
 
  private:
-  static constexpr uint32_t kCells = 64;  // along each axis; the marks take 32 KiB
+  static constexpr uint32_t kCells = 64;  // along each axis, so that a row along z is one word of marks_
 
   uint32_t cell_of(const Point3& p, int k) const {
     // NaN, and what is outside, goes to the border.

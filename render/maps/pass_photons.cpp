@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "accel/wall_feet.h"
+#include "core/geometry/merge_edges.h"
 #include "core/stopwatch.h"
 #include "photon/visibility/visibility_shoot.h"
 #include "render/maps/radius.h"
@@ -114,7 +115,10 @@ void PassPhotons::explore(const RenderInput& input) {
   const Stopwatch watch;
   if (!known.edges) {
     std::vector<BoundaryEdge> edges = find_boundary_edges(input.scene.shapes, &known.bends);
-    known.edges = std::make_unique<accel::EdgeIndex>(accel::without_continued(std::move(edges), input.bvh));
+    fprintf(stderr, "all %zu\n", edges.size());
+    edges = merge_edges(accel::without_continued(std::move(edges), input.bvh));
+    fprintf(stderr, "edges %zu\n", edges.size());
+    known.edges = std::make_unique<accel::EdgeIndex>(std::move(edges));
   }
   if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather)
     known.surroundings = std::make_unique<const Surroundings>(input);

@@ -307,7 +307,8 @@ TEST(Bvh, RaysOutOfReachMeetNothing) {
     HitLanes hits{};
     bvh.intersect(lanes, 7, &hits, order);
     for (size_t i = 0; i < 6; ++i) EXPECT_FALSE(hits.valid(i)) << i;
-    EXPECT_EQ(hits.t[6], 2);
+    EXPECT_EQ(hits.t[6], bvh.intersect(met).t);
+    EXPECT_FLOAT_EQ(hits.t[6], 2);  // processors differ in how Embree rounds it
   }
 }
 

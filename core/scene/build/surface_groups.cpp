@@ -6,9 +6,10 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <bit>
 #include <map>
 #include <numeric>
+
+#include "core/geometry/point_bits.h"
 
 namespace kaustik {
 namespace {
@@ -33,18 +34,11 @@ class DisjointSets {
   std::vector<uint32_t> parent_;
 };
 
-using PointBits = std::array<uint32_t, 3>;
 struct BoundaryEdge {
   std::array<PointBits, 2> ends;  // sorted
   Normal3 n;                      // unit, of the triangle that ends there
   uint32_t shape;
 };
-
-PointBits bits_of(const Point3& p) {
-  // Adding zero maps -0 and 0 to the same bits.
-  return {std::bit_cast<uint32_t>(p.x + 0.0f), std::bit_cast<uint32_t>(p.y + 0.0f),
-          std::bit_cast<uint32_t>(p.z + 0.0f)};
-}
 
 Normal3 normal_of(const TriangleMesh& mesh, const std::array<uint32_t, 3>& triangle) {
   const glm::dvec3 p0(mesh.P[triangle[0]]);

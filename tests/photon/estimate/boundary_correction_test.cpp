@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "accel/bvh.h"
+#include "core/geometry/merge_edges.h"
 #include "photon/estimate/radiance_estimate.h"
 #include "tests/photon/support/photon_sets.h"
 #include "tests/photon/support/trace_scenes.h"
@@ -72,7 +73,7 @@ accel::EdgeIndex edges_of(Scene& scene) {
   if (scene.materials.empty()) scene.materials = {Lambertian{Rgb(1)}};
   finalize_scene(scene);
   const accel::Bvh bvh(scene);
-  return accel::EdgeIndex(accel::without_continued(find_boundary_edges(scene.shapes), bvh));
+  return accel::EdgeIndex(merge_edges(accel::without_continued(find_boundary_edges(scene.shapes), bvh)));
 }
 
 SurfaceInteraction at(const Point3& p, const Normal3& n = {0, 0, 1}) {
@@ -313,9 +314,9 @@ TEST(SurfaceShare, EndsAtABevel) {
   }
 }
 
-// Where a disc meets too many edges, those within a part of it decide. The border of a strip is cut into
-// 1,000 pieces. A disc of 0.2 at the border meets 400 of them, one of half the radius 200, one of a quarter
-// 100; at a distance of 0.06, half the radius meets 160.
+// The border of a strip is cut into 1,000 pieces, which become one edge. Where they do not, the disc meets
+// too many edges, and those within a part of it decide. A disc of 0.2 at the border meets 400 of them, one of
+// half the radius 200, one of a quarter 100; at a distance of 0.06, half the radius meets 160.
 TEST(SurfaceShare, ManyEdgesCountNearThePoint) {
   constexpr uint32_t kPieces = 1000;
   TriangleMesh mesh;
@@ -325,12 +326,15 @@ TEST(SurfaceShare, ManyEdgesCountNearThePoint) {
     mesh.indices.insert(mesh.indices.end(), {{a, a + 2, a + 3}, {a, a + 3, a + 1}});
   Scene scene;
   scene.shapes.push_back(test::mesh_shape(std::move(mesh)));
-  const accel::EdgeIndex edges = edges_of(scene);
-  EXPECT_NEAR(surface_share(edges, at({0.5f, 0, 0}), {}, 0.2f), 0.5, 1e-6);
-  EXPECT_NEAR(surface_share(edges, at({0.5f, 0.02f, 0}), {}, 0.2f), 1 - mass_behind_edge({}, 0.4, -9, 9),
-              1e-4);
-  EXPECT_NEAR(surface_share(edges, at({0.5f, 0.06f, 0}), {}, 0.2f), 1 - mass_behind_edge({}, 0.6, -9, 9),
-              1e-4);
+  const accel::EdgeIndex whole = edges_of(scene), pieces(find_boundary_edges(scene.shapes));
+  const auto expect_share = [](const accel::EdgeIndex& edges, float y, double d) {
+    EXPECT_NEAR(surface_share(edges, at({0.5f, y, 0}), {}, 0.2f), 1 - mass_behind_edge({}, d, -9, 9), 1e-4)
+        << edges.size() << " edges, at " << y;
+  };
+  for (const float y : {0.0f, 0.02f, 0.06f}) expect_share(whole, y, double(y) / 0.2);
+  expect_share(pieces, 0, 0);
+  expect_share(pieces, 0.02f, 0.4);
+  expect_share(pieces, 0.06f, 0.6);
 }
 
 TEST(SurfaceShare, ScalesByPowersOfTwo) {
