@@ -225,14 +225,22 @@ bool survives_coats(Rgb* beta, Sampler& sampler) {
   return true;
 }
 
-// Russian roulette for the gather at the end of a dim branch, which costs as much as that of a bright one.
-// Returns the weight of the point, 0 where it is skipped. Draws a dimension only for dim branches.
-float gather_weight(float share, Sampler& sampler) {
-  constexpr float kBright = 0.25f;
-  if (share >= kBright) return 1;
-  const float q = share / kBright;
+// Russian roulette: returns the weight 1 / q with probability q, otherwise 0. Draws a dimension only for q
+// < 1.
+float roulette_weight(float q, Sampler& sampler) {
+  if (q >= 1) return 1;
   return sampler.next_1d() < q ? 1 / q : 0;
 }
+
+// Probability of the gather at the end of a branch: that of a dim one costs as much as that of a bright one.
+float gather_probability(float share) {
+  constexpr float kBright = 0.25f;
+  return std::min(share / kBright, 1.0f);
+}
+
+// Share of the samples that gather in the tails of glossy lobes. A gather takes as long as the rest of the
+// sample, and the samples of a pixel differ little in it.
+constexpr float kTailGathers = 0.25f;
 
 // Whether the chain's glossy lobes blur what lies `distance` ahead by more than the indirect map's disc. A
 // lobe of density pdf is taken for a cone of solid angle 1 / pdf.
@@ -280,7 +288,7 @@ class CameraPath {
     if (branch.events == 0) set_features(x, branch.ray.o, result_);
     const Lobes parts = lobes(*x.bsdf);
     if (parts.diffuse)
-      if (const float weight = gather_weight(branch.share, sampler_); weight > 0)
+      if (const float weight = roulette_weight(gather_probability(branch.share), sampler_); weight > 0)
         add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_, maps_);
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy && branch.tail == Tail::kNone) add_glossy(branch, x);
@@ -295,7 +303,8 @@ class CameraPath {
     result_->emitted +=
         branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
     if (!gathers_tail(ctx_, x)) return;
-    if (const float weight = gather_weight(branch.share, sampler_); weight > 0)
+    const float q = kTailGathers * gather_probability(branch.share);
+    if (const float weight = roulette_weight(q, sampler_); weight > 0)
       result_->emitted +=
           weight * branch.beta *
           photon::estimate_glossy_tail(ctx_.maps.caustic.map, x.si, x.wo, *x.bsdf, ctx_.maps.caustic.estimate,
