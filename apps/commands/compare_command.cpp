@@ -12,6 +12,7 @@
 #include "apps/session/files/output_files.h"
 #include "render/picture/compare.h"
 #include "render/picture/fireflies.h"
+#include "render/picture/flip.h"
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -19,14 +20,17 @@ namespace kaustik::app {
 namespace {
 
 struct CompareOptions {
-  std::string reference, image, heatmap;
+  std::string reference, image, heatmap, flip_map;
   std::string layer;   // empty: the whole picture
   std::string blocks;  // the text of --blocks; empty: no deviations of blocks
-  bool json = false;
-  std::optional<float> max_relmse, mask_bright;
+  bool json = false, flip = false;
+  std::optional<float> max_relmse, mask_bright, pixels_per_degree;
+
+  bool asks_flip() const { return flip || !flip_map.empty() || pixels_per_degree; }
 };
 
-constexpr int kLargestBlock = 65536;  // pixels a side, that of the largest picture
+constexpr int kMostPixelsPerDegree = 1000;  // of a phone at arm's length there are some 100
+constexpr int kLargestBlock = 65536;        // pixels a side, that of the largest picture
 
 // JSON cannot represent infinity, such as the PSNR of equal pictures.
 nlohmann::ordered_json number_or_null(double value) {
@@ -55,6 +59,7 @@ struct Comparison {
   render::Fireflies fireflies;
   int side = 0;                                   // of --blocks; 0 without it
   std::optional<render::BlockDeviations> blocks;  // of --blocks
+  std::optional<render::Flip> flip;
 };
 
 nlohmann::ordered_json deviations_json(const render::BlockDeviations& b, int side) {
@@ -69,6 +74,22 @@ nlohmann::ordered_json deviations_json(const render::BlockDeviations& b, int sid
             {"y", b.y},
             {"mean", b.image},
             {"reference_mean", b.reference}}}};
+}
+
+nlohmann::ordered_json flip_json(const render::Flip& flip) {
+  nlohmann::ordered_json exposures;
+  if (const auto& e = flip.exposures)
+    exposures = {{"start", e->start}, {"stop", e->stop}, {"count", e->count}};
+  return {{"mean", flip.mean}, {"exposures", exposures}};
+}
+
+std::string flip_text(const render::Flip& flip) {
+  std::string text = fmt::format("\nFLIP            {:.6g}", flip.mean);
+  if (const auto& e = flip.exposures)
+    text += e->count == 1 ? fmt::format(" at {:.3g} stops", e->start)
+                          : fmt::format(", the largest of {} exposures from {:.3g} to {:.3g} stops", e->count,
+                                        e->start, e->stop);
+  return text;
 }
 
 std::string as_json(const Comparison& found, const CompareOptions& options, bool within_limit) {
@@ -90,6 +111,7 @@ std::string as_json(const Comparison& found, const CompareOptions& options, bool
                       {"y", f.y},
                       {"luminance", f.image},
                       {"reference_luminance", f.reference}};
+  if (found.flip) out["flip"] = flip_json(*found.flip);
   if (found.blocks) out["block_deviations"] = deviations_json(*found.blocks, found.side);
   out["pixels"] = {{"compared", r.compared},
                    {"masked", r.masked},
@@ -127,6 +149,7 @@ std::string as_text(const Comparison& found, const CompareOptions& options) {
     text += fmt::format("\nnot finite      {} pixels of the image, {} of the reference", r.nan_image,
                         r.nan_reference);
   }
+  if (found.flip) text += flip_text(*found.flip);
   if (found.blocks) text += deviations_text(*found.blocks, found.side);
   return text;
 }
@@ -136,7 +159,23 @@ render::Image picture_of(const std::string& path, const CompareOptions& options)
   return options.layer.empty() ? render::read_image(path) : render::read_layer(path, options.layer);
 }
 
-// Compares the files, and writes the heat map. Throws ExitError (bad command line) for pictures that cannot
+// Pictures that were both read from files of integers are compared as a screen shows them, others as
+// radiance.
+render::Flip flip_of(const render::Image& reference, const render::Image& image,
+                     const render::CompareOptions& compared, const CompareOptions& options) {
+  render::FlipSettings settings;
+  if (options.pixels_per_degree) settings.pixels_per_degree = double(*options.pixels_per_degree);
+  if (!(settings.pixels_per_degree >= 1 && settings.pixels_per_degree <= kMostPixelsPerDegree))
+    throw ExitError(kBadCommandLine,
+                    fmt::format("--pixels-per-degree: expected a number from 1 to {}, got {}",
+                                kMostPixelsPerDegree, settings.pixels_per_degree));
+  const auto compares = render::compared_pixels(reference, image, compared);
+  return reference.for_display && image.for_display
+             ? render::flip_of_display(reference, image, compares, settings)
+             : render::flip_of_radiance(reference, image, compares, settings);
+}
+
+// Compares the files, and writes the heat maps. Throws ExitError (bad command line) for pictures that cannot
 // be read, lack the layer or differ in size.
 Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
   const int side = options.blocks.empty() ? 0 : int(whole_number("--blocks", options.blocks, kLargestBlock));
@@ -150,8 +189,15 @@ Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
     Comparison found{render::compare(reference, image, compared),
                      render::find_fireflies(reference, image, compared),
                      side,
+                     {},
                      {}};
     if (side > 0) found.blocks = render::compare_blocks(reference, image, side, compared);
+    if (options.asks_flip()) found.flip = flip_of(reference, image, compared, options);
+    if (!options.flip_map.empty())
+      writer.write(options.flip_map, [&] {
+        render::write_image(options.flip_map,
+                            render::flip_colours(*found.flip, reference.width, reference.height));
+      });
     if (!options.heatmap.empty())
       writer.write(options.heatmap,
                    [&] { render::write_image(options.heatmap, render::heatmap(reference, image)); });
@@ -164,8 +210,9 @@ Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
 }
 
 int run_compare(const CompareOptions& options, const Console& console) {
-  if (!options.heatmap.empty()) check_image_output(options.heatmap);
-  check_collisions({{"--heatmap", options.heatmap}},
+  for (const std::string& output : {options.heatmap, options.flip_map})
+    if (!output.empty()) check_image_output(output);
+  check_collisions({{"--heatmap", options.heatmap}, {"--flip-map", options.flip_map}},
                    {{"the reference", options.reference}, {"the picture", options.image}});
   Console quiet = console;
   quiet.quiet = true;  // compare has no log
@@ -203,6 +250,16 @@ Command make_compare_command() {
       "95 % quantile and largest of |I / R - 1|");
   command.add_text("--heatmap", "FILE", options->heatmap,
                    "Write the relative squared error per pixel as a picture in false colours");
+  command.add_flag("--flip", options->flip,
+                   "Also print FLIP, from 0 to 1: the mean of the differences that a person notices when the "
+                   "pictures replace each other on a screen (Andersson and others 2020). For radiance, as "
+                   "EXR files hold it, over all exposures that show something");
+  command.add_text("--flip-map", "FILE", options->flip_map,
+                   "Write FLIP per pixel as a picture in false colours");
+  command.add_number("--pixels-per-degree", "X", options->pixels_per_degree,
+                     "Pixels of the screen in a degree of view, for FLIP: 1 to 1000. Default: 67.02, of a "
+                     "screen 0.7 m wide of "
+                     "3840 pixels, seen from 0.7 m");
   command.add_number(
       "--max-relmse", "X", options->max_relmse,
       "Exit with code 1 if relMSE, the mean of (I - R)^2 / (R^2 + 0.01), is above X. Default: no limit");

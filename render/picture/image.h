@@ -10,6 +10,7 @@ namespace kaustik::render {
 struct Image {
   int width = 0, height = 0;
   std::vector<Rgb> pixels;
+  bool for_display = false;  // read from a file of integers, which hold what a screen shows
 
   Image() = default;
   Image(int w, int h, const Rgb& value = Rgb(0))

@@ -93,6 +93,7 @@ void write_srgb8(const std::string& path, const Image& image, const ToneSettings
 Image image_from(const ImageNumbers& numbers) {
   const size_t channels = size_t(numbers.channels);
   Image image(numbers.width, numbers.height);
+  image.for_display = numbers.integers;
   for (size_t i = 0; i < image.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c) {
       const float v = numbers.values[i * channels + size_t(channels == 3 ? c : 0)];

@@ -89,6 +89,42 @@ TEST_F(CompareCommand, WritesAHeatmap) {
   EXPECT_GT(luminance(heat.at(3, 2)), luminance(heat.at(0, 0)));
 }
 
+// Even pictures have no edges: of the grey 0.2 and 0.3, FLIP is as tests/render/picture/flip_test.cpp works
+// out.
+TEST_F(CompareCommand, FlipOfDisplayValuesAndOfRadiance) {
+  const auto flip_of = [&](const std::string& reference, const std::string& image) {
+    const Outcome outcome = run_kaustik({"compare", reference, image, "--flip", "--json"});
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return nlohmann::json::parse(outcome.out)["flip"];
+  };
+  const nlohmann::json display = flip_of(picture("r.png", 0.2f, 0.2f), picture("i.png", 0.3f, 0.3f));
+  EXPECT_NEAR(display["mean"].get<double>(), 0.95 / 0.4 / 41.27 * std::pow(9.817, 0.7), 5e-3);  // 8 bits
+  EXPECT_TRUE(display["exposures"].is_null());
+  const std::string reference = picture("r.exr", 0.5f, 8.0f), image = picture("i.exr", 0.5f, 1.5f);
+  const nlohmann::json radiance = flip_of(reference, image);
+  EXPECT_GT(radiance["mean"].get<double>(), 0);
+  EXPECT_EQ(radiance["exposures"]["count"], 4);  // 8 is four stops above 0.5
+  EXPECT_EQ(flip_of(reference, reference)["mean"], 0);
+  EXPECT_THAT(run_kaustik({"compare", reference, image}).out, Not(HasSubstr("FLIP")));
+  // The fewer pixels a degree has, the more the eye blurs a single bright pixel.
+  const auto text_at = [&](const char* pixels) {
+    return run_kaustik({"compare", reference, image, "--flip", "--pixels-per-degree", pixels}).out;
+  };
+  EXPECT_NE(text_at("10"), text_at("100"));
+  for (const char* pixels : {"0", "1001", "many"})
+    EXPECT_EQ(run_kaustik({"compare", reference, image, "--pixels-per-degree", pixels}).code,
+              kBadCommandLine);
+}
+
+TEST_F(CompareCommand, WritesAMapOfFlip) {
+  const std::string reference = picture("r.exr", 0.5f, 0.5f), image = picture("i.exr", 0.5f, 1.5f);
+  const Outcome outcome = run_kaustik({"compare", reference, image, "--flip-map", path("f.png")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\nFLIP "));
+  const render::Image map = render::read_image(path("f.png"));
+  EXPECT_GT(luminance(map.at(3, 2)), luminance(map.at(7, 5)));
+}
+
 // A film with light in two classes; direct light is `direct` everywhere.
 std::string film_with_layers(const std::string& path, float direct, const std::vector<std::string>& layers) {
   render::Film film(8, 6);
