@@ -115,9 +115,7 @@ void PassPhotons::explore(const RenderInput& input) {
   const Stopwatch watch;
   if (!known.edges) {
     std::vector<BoundaryEdge> edges = find_boundary_edges(input.scene.shapes, &known.bends);
-    fprintf(stderr, "all %zu\n", edges.size());
     edges = merge_edges(accel::without_continued(std::move(edges), input.bvh));
-    fprintf(stderr, "edges %zu\n", edges.size());
     known.edges = std::make_unique<accel::EdgeIndex>(std::move(edges));
   }
   if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather)
