@@ -158,11 +158,7 @@ void EdgeIndex::Tree::find(const std::vector<BoundaryEdge>& edges, uint32_t begi
 
 EdgeIndex::EdgeIndex(std::vector<BoundaryEdge> edges) : edges_(std::move(edges)) {
   if (edges_.empty()) return;
-  const auto in_order = [](const BoundaryEdge& a, const BoundaryEdge& b) {
-    return a.surface_group < b.surface_group;
-  };
-  if (!std::is_sorted(edges_.begin(), edges_.end(), in_order))
-    std::stable_sort(edges_.begin(), edges_.end(), in_order);
+  sort_by_group(&edges_);
   group_begin_.assign(size_t(edges_.back().surface_group) + 2, 0);
   for (const BoundaryEdge& edge : edges_) ++group_begin_[size_t(edge.surface_group) + 1];
   for (size_t g = 1; g < group_begin_.size(); ++g) group_begin_[g] += group_begin_[g - 1];

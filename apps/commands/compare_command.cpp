@@ -169,10 +169,9 @@ render::Flip flip_of(const render::Image& reference, const render::Image& image,
     throw ExitError(kBadCommandLine,
                     fmt::format("--pixels-per-degree: expected a number from 1 to {}, got {}",
                                 kMostPixelsPerDegree, settings.pixels_per_degree));
-  const auto compares = render::compared_pixels(reference, image, compared);
   return reference.for_display && image.for_display
-             ? render::flip_of_display(reference, image, compares, settings)
-             : render::flip_of_radiance(reference, image, compares, settings);
+             ? render::flip_of_display(reference, image, settings, compared)
+             : render::flip_of_radiance(reference, image, settings, compared);
 }
 
 // Compares the files, and writes the heat maps. Throws ExitError (bad command line) for pictures that cannot

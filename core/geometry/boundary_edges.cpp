@@ -308,6 +308,14 @@ double bend_of_analytic(const Shape& shape) {
 
 }  // namespace
 
+void sort_by_group(std::vector<BoundaryEdge>* edges) {
+  const auto in_order = [](const BoundaryEdge& a, const BoundaryEdge& b) {
+    return a.surface_group < b.surface_group;
+  };
+  if (!std::is_sorted(edges->begin(), edges->end(), in_order))
+    std::stable_sort(edges->begin(), edges->end(), in_order);
+}
+
 std::vector<BoundaryEdge> find_boundary_edges(const std::vector<Shape>& shapes,
                                               std::vector<SurfaceBend>* bends) {
   std::vector<BoundaryEdge> edges;

@@ -33,6 +33,9 @@ struct SurfaceBend {
   bool oriented = true;  // normals agree across smooth joints
 };
 
+// Sorts the edges by surface group; within one they keep their order.
+void sort_by_group(std::vector<BoundaryEdge>* edges);
+
 // Limit on the total number of edges of all instances of one mesh. Beyond it they are left out, and estimates
 // next to them are too dark.
 inline constexpr uint64_t kMostInstanceEdges = 1 << 20;

@@ -162,11 +162,7 @@ std::vector<size_t> begins_of_groups(std::span<const BoundaryEdge> edges) {
 }  // namespace
 
 std::vector<BoundaryEdge> merge_edges(std::vector<BoundaryEdge> edges) {
-  const auto in_order = [](const BoundaryEdge& a, const BoundaryEdge& b) {
-    return a.surface_group < b.surface_group;
-  };
-  if (!std::is_sorted(edges.begin(), edges.end(), in_order))
-    std::stable_sort(edges.begin(), edges.end(), in_order);
+  sort_by_group(&edges);
   const std::vector<size_t> begins = begins_of_groups(edges);
   std::vector<std::vector<BoundaryEdge>> merged(begins.size() - 1);
   tbb::parallel_for(size_t{0}, merged.size(), [&](size_t g) {
@@ -174,9 +170,10 @@ std::vector<BoundaryEdge> merge_edges(std::vector<BoundaryEdge> edges) {
   });
   size_t count = 0;
   for (const auto& some : merged) count += some.size();
-  edges.clear();
-  for (const auto& some : merged) edges.insert(edges.end(), some.begin(), some.end());
-  return edges;
+  std::vector<BoundaryEdge> all;
+  all.reserve(count);
+  for (const auto& some : merged) all.insert(all.end(), some.begin(), some.end());
+  return all;
 }
 
 }  // namespace kaustik

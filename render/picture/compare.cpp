@@ -8,6 +8,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "render/picture/colour_ramp.h"
+
 namespace kaustik::render {
 
 namespace {
@@ -116,12 +118,7 @@ double relmse_of_blocks(const Image& reference, const Image& image, const std::v
 Rgb heat(float t) {
   constexpr std::array<std::array<float, 3>, 5> kStops = {
       {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}};
-  const float s = std::clamp(t, 0.0f, 1.0f) * (kStops.size() - 1);
-  const size_t i = std::min(size_t(s), kStops.size() - 2);
-  const float f = s - float(i);
-  Rgb out;
-  for (int c = 0; c < 3; ++c) out[c] = (1 - f) * kStops[i][size_t(c)] + f * kStops[i + 1][size_t(c)];
-  return out;
+  return colour_on_ramp(kStops, t);
 }
 
 }  // namespace

@@ -9,11 +9,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "core/spectrum/colour_space.h"
 #include "core/spectrum/srgb.h"
+#include "render/picture/colour_ramp.h"
 #include "render/picture/gaussian_filter.h"
+#include "render/picture/tonemap.h"
 
 namespace kaustik::render {
 
@@ -142,12 +143,6 @@ Pixels opponent_pixels(const Image& image, const std::vector<bool>& compares) {
   return pixels;
 }
 
-void require_same_size(const Image& reference, const Image& image, const std::vector<bool>& compares) {
-  if (reference.width != image.width || reference.height != image.height ||
-      compares.size() != reference.pixels.size())
-    throw std::invalid_argument("FLIP compares pictures of one size");
-}
-
 std::vector<float> errors(const Image& reference, const Image& image, const std::vector<bool>& compares,
                           const FlipSettings& settings) {
   const int width = reference.width, height = reference.height;
@@ -172,16 +167,8 @@ double mean_of(const std::vector<float>& error, const std::vector<bool>& compare
   return count > 0 ? sum / count : 0;
 }
 
-// The tone curve of ACES after Narkowicz, with the exposure of 0.6 that it undoes: the terms of x^2, x and 1
-// of its numerator and denominator.
-constexpr std::array<double, 3> kAbove = {0.6 * 0.6 * 2.51, 0.6 * 0.03, 0},
-                                kBelow = {0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
-
-// The radiance that the curve maps to t.
-double radiance_shown_as(double t) {
-  const double a = kAbove[0] - t * kBelow[0], b = kAbove[1] - t * kBelow[1], c = kAbove[2] - t * kBelow[2];
-  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
-}
+// FLIP shows radiance by the filmic curve, with the exposure of 0.6 that the curve undoes.
+constexpr double kFilmicExposure = 0.6;
 
 Exposures exposures_of(const Image& reference, const std::vector<bool>& compares) {
   std::vector<double> luminances;
@@ -193,37 +180,33 @@ Exposures exposures_of(const Image& reference, const std::vector<bool>& compares
   const double median =
       luminances.size() % 2 ? luminances[half] : (luminances[half - 1] + luminances[half]) / 2;
   constexpr double kMostStops = 31;
-  const double shown = radiance_shown_as(0.85), start = std::log2(shown / luminances.back());
+  const double shown = before_filmic(0.85) / kFilmicExposure, start = std::log2(shown / luminances.back());
   const double stop = std::min(start + kMostStops, std::log2(shown / median));  // a black median: infinite
   return {start, stop, std::max(2, int(std::ceil(stop - start)))};
 }
 
 Image displayed(const Image& radiance, double exposure) {
+  const ToneSettings tone{float(exposure + std::log2(kFilmicExposure)), Tonemap::kFilmic};
   Image out(radiance.width, radiance.height);
-  const double scale = std::exp2(exposure);
-  for (size_t i = 0; i < out.pixels.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      const double x = std::max(0.0, double(radiance.pixels[i][c]) * scale);
-      const double y = ((kAbove[0] * x + kAbove[1]) * x) / ((kBelow[0] * x + kBelow[1]) * x + kBelow[2]);
-      out.pixels[i][c] = std::isfinite(y) ? float(y) : 1;
-    }
+  std::transform(radiance.pixels.begin(), radiance.pixels.end(), out.pixels.begin(),
+                 [&](const Rgb& p) { return tonemap(p, tone); });
   return out;
 }
 
 }  // namespace
 
-Flip flip_of_display(const Image& reference, const Image& image, const std::vector<bool>& compares,
-                     const FlipSettings& settings) {
-  require_same_size(reference, image, compares);
+Flip flip_of_display(const Image& reference, const Image& image, const FlipSettings& settings,
+                     const CompareOptions& options) {
+  const std::vector<bool> compares = compared_pixels(reference, image, options);
   Flip flip;
   flip.error = errors(reference, image, compares, settings);
   flip.mean = mean_of(flip.error, compares);
   return flip;
 }
 
-Flip flip_of_radiance(const Image& reference, const Image& image, const std::vector<bool>& compares,
-                      const FlipSettings& settings) {
-  require_same_size(reference, image, compares);
+Flip flip_of_radiance(const Image& reference, const Image& image, const FlipSettings& settings,
+                      const CompareOptions& options) {
+  const std::vector<bool> compares = compared_pixels(reference, image, options);
   Flip flip;
   flip.exposures = exposures_of(reference, compares);
   flip.error.assign(reference.pixels.size(), 0);
@@ -240,23 +223,19 @@ Flip flip_of_radiance(const Image& reference, const Image& image, const std::vec
 
 Image flip_colours(const Flip& flip, int width, int height) {
   // Every 32nd of the 256 colours of matplotlib's magma, and the last, as 8-bit sRGB.
-  constexpr std::array<std::array<int, 3>, 9> kMagma = {{{0, 0, 4},
-                                                         {28, 16, 68},
-                                                         {79, 18, 123},
-                                                         {129, 37, 129},
-                                                         {181, 54, 122},
-                                                         {229, 80, 100},
-                                                         {251, 135, 97},
-                                                         {254, 194, 135},
-                                                         {252, 253, 191}}};
+  constexpr std::array<std::array<float, 3>, 9> kMagma = {{{0, 0, 4},
+                                                           {28, 16, 68},
+                                                           {79, 18, 123},
+                                                           {129, 37, 129},
+                                                           {181, 54, 122},
+                                                           {229, 80, 100},
+                                                           {251, 135, 97},
+                                                           {254, 194, 135},
+                                                           {252, 253, 191}}};
   Image out(width, height);
   for (size_t i = 0; i < out.pixels.size(); ++i) {
-    const float at = std::clamp(flip.error[i], 0.0f, 1.0f) * (kMagma.size() - 1);
-    const size_t k = std::min(size_t(at), kMagma.size() - 2);
-    for (size_t c = 0; c < 3; ++c) {
-      const float encoded = std::lerp(float(kMagma[k][c]), float(kMagma[k + 1][c]), at - float(k)) / 255;
-      out.pixels[i][int(c)] = linear_from_srgb(encoded);
-    }
+    const Rgb encoded = colour_on_ramp(kMagma, flip.error[i]) / 255.0f;
+    for (int c = 0; c < 3; ++c) out.pixels[i][c] = linear_from_srgb(encoded[c]);
   }
   return out;
 }

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "render/picture/image.h"
+#include "render/picture/compare.h"
 
 namespace kaustik::render {
 
@@ -33,17 +33,16 @@ struct Flip {
   std::optional<Exposures> exposures;  // nothing for display values
 };
 
-// Compares display values: linear Rec. 709, clamped to [0, 1]. compares: the pixels that enter the mean; a
-// pixel that does not is taken as black in both pictures. Throws std::invalid_argument where the sizes
-// differ.
-Flip flip_of_display(const Image& reference, const Image& image, const std::vector<bool>& compares,
-                     const FlipSettings& settings = {});
+// Compares display values: linear Rec. 709, clamped to [0, 1]. The mean is over the pixels that
+// compared_pixels() tells; the others are taken as black in both pictures. Throws as compare() does.
+Flip flip_of_display(const Image& reference, const Image& image, const FlipSettings& settings = {},
+                     const CompareOptions& options = {});
 
 // Compares radiance: the largest error over the exposures between which the reference's brightest pixel and
 // its median reach 0.85 of the screen's white, with the tone curve of ACES. At most 32 exposures, and at
-// least two unless the reference is black.
-Flip flip_of_radiance(const Image& reference, const Image& image, const std::vector<bool>& compares,
-                      const FlipSettings& settings = {});
+// least two unless the reference is black. Otherwise as flip_of_display().
+Flip flip_of_radiance(const Image& reference, const Image& image, const FlipSettings& settings = {},
+                      const CompareOptions& options = {});
 
 // The errors as a picture in the false colours of the paper's heat maps, magma: black, violet, orange, pale
 // yellow at 1. Linear values for write_image() with the default tone settings.

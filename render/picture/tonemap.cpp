@@ -12,11 +12,14 @@ float clip(float v) {
   return v > 0 ? std::min(v, 1.0f) : 0.0f;
 }
 
-// Narkowicz 2015, "ACES Filmic Tone Mapping Curve", written as a ratio that stays finite for large x.
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve": (a x^2 + b x) / (c x^2 + d x + e), written as a ratio
+// that stays finite for large x.
+constexpr float kA = 2.51f, kB = 0.03f, kC = 2.43f, kD = 0.59f, kE = 0.14f;
+
 float filmic(float x) {
   if (!(x > 0)) return 0;
   if (x > 1e6f) return 1;
-  return clip(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f));
+  return clip(x * (kA * x + kB) / (x * (kC * x + kD) + kE));
 }
 
 }  // namespace
@@ -42,6 +45,12 @@ Rgb tonemap(const Rgb& radiance, const ToneSettings& settings) {
       break;
   }
   return {clip(c.x), clip(c.y), clip(c.z)};
+}
+
+// The positive root of (a - c t) x^2 + (b - d t) x - e t.
+double before_filmic(double t) {
+  const double a = double(kA) - t * double(kC), b = double(kB) - t * double(kD), c = -t * double(kE);
+  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
 }
 
 std::array<uint8_t, 3> to_srgb8(const Rgb& radiance, const ToneSettings& settings) {

@@ -26,6 +26,9 @@ std::optional<Tonemap> tonemap_from_name(std::string_view name);
 // 2015 fit of the ACES curve, per channel. NaN and negative values give 0, +infinity gives 1.
 Rgb tonemap(const Rgb& radiance, const ToneSettings& settings);
 
+// The value that `filmic` maps to t, 0 <= t < 1.
+double before_filmic(double t);
+
 // Returns tonemap(), encoded and rounded to the nearest of 256 levels.
 std::array<uint8_t, 3> to_srgb8(const Rgb& radiance, const ToneSettings& settings);
 
