@@ -31,6 +31,7 @@ void add_commands(Program& program) {
   program.commands.push_back(make_merge_command());
   program.commands.push_back(make_photons_command());
   program.commands.push_back(make_compare_command());
+  program.commands.push_back(make_denoise_command());
   program.commands.push_back(make_info_command());
   program.commands.push_back(make_convert_command());
   program.commands.push_back(make_bench_command());

@@ -19,7 +19,7 @@ REFERENCE_SEED = "77"  # not the seed of the measured runs: errors must not corr
 def render(args, name, options):
     image, stats = args.out / (name + ".exr"), args.out / (name + ".json")
     outputs = ["-o", str(image), "-o", str(image.with_suffix(".png")), "--stats", str(stats)]
-    command = [args.kaustik, "render", args.scene, *outputs, *DIRECT_ONLY, *options]
+    command = [args.kaustik, "render", args.scene, *outputs, *DIRECT_ONLY, "--denoise", "off", *options]
     subprocess.run(command, check=True)
     return image, json.loads(stats.read_text())
 

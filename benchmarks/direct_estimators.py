@@ -20,7 +20,7 @@ REFERENCE_SEED = "77"  # not a seed of the measured runs: errors must not correl
 def render(args, name, options):
     image, stats = args.out / (name + ".exr"), args.out / (name + ".json")
     command = [args.kaustik, "render", args.scene, "-o", str(image), "--stats", str(stats), "--quiet",
-               "--method", "raytrace", *options]
+               "--method", "raytrace", "--denoise", "off", *options]
     child = subprocess.Popen(command)
     _, status, usage = os.wait4(child.pid, 0)
     if status != 0:

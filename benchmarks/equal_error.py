@@ -33,7 +33,7 @@ def size_options(args):
 def kaustik_row(args, name, options):
     def command(image, seed):
         return [args.kaustik, "render", args.scene, "-o", image, "--quiet", "--threads", args.threads, *size_options(args),
-                *options, "--seed", str(seed)]
+                "--denoise", "off", *options, "--seed", str(seed)]
     return name, command
 
 
@@ -122,7 +122,7 @@ def make_reference(args, spp):
                "--radius", "auto", "--seed", REFERENCE_SEED]
 
     def render(image, more):
-        timed([args.kaustik, "render", args.scene, "-o", image, "--quiet", "--threads", args.threads, *more])
+        timed([args.kaustik, "render", args.scene, "-o", image, "--quiet", "--threads", args.threads, "--denoise", "off", *more])
 
     render(args.reference, [*size_options(args), *options, "--spp", str(spp), "--photons", str(125000 * spp)])
     small = ["--width", str((args.width or 512) // 8)]  # an eighth of the size: 64 times the samples per pixel

@@ -80,7 +80,7 @@ class PassRenderer {
   const std::optional<GatherRadii>& radii() const { return photons_.radii(); }
 
   // Renders one pass into a film of zeros. False when the progress callback cancelled.
-  bool render(uint64_t pass, FilmSums* film, RenderStatistics* statistics) {
+  bool render(uint64_t pass, PassFilm* film, RenderStatistics* statistics) {
     const PassShare part = share(pass);
     if (!make_maps(part, statistics)) return false;
     RenderContext ctx{input_,
@@ -146,13 +146,20 @@ PassSums nothing_yet(const RenderInput& input, uint64_t shares, bool with_totals
   PixelWindow<PixelTotals> zero;
   if (with_totals) zero = make_window<PixelTotals>(input.settings.crop, input.scene.camera);
   sums.totals = FilmTotals(std::move(zero), units_of(input, shares));
+  if (keeps_halves(input.settings)) sums.totals.keep_halves();
   return sums;
+}
+
+// Adds a pass to the totals; returns how many sums were clamped.
+uint64_t add_pass(uint64_t pass, const PassFilm& film, PassSums* sums) {
+  if (film.halved()) return sums->totals.add(film.sums, &film.half);
+  return pass % 2 == 1 ? sums->totals.add_as_half(film.sums) : sums->totals.add(film.sums);
 }
 
 // Renders the passes of `missing` one after the other and adds them to result->sums. False when the progress
 // callback cancelled; then tiles and result->statistics are those of the unfinished pass. tiles must be zero
 // at first.
-bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderTask& task, FilmSums* tiles,
+bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderTask& task, PassFilm* tiles,
                    RenderResult* result) {
   PassSums& sums = result->sums;
   const bool settled = missing.first() == 0 || renderer.settle_radii();
@@ -165,7 +172,7 @@ bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderT
       const bool finished = renderer.render(pass, tiles, &result->statistics);
       sums.radii = renderer.radii();
       if (!finished) return false;
-      if (task.keep_sums) result->statistics.clamped_sums = sums.totals.add(*tiles);
+      if (task.keep_sums) result->statistics.clamped_sums = add_pass(pass, *tiles, &sums);
       sums.passes.add(PassSet(pass, pass + 1));
       sums.statistics += result->statistics;
       if (task.after_pass && !task.after_pass(sums)) return true;
@@ -176,13 +183,14 @@ bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderT
 
 // Fills the result with the mean of all complete passes, or with the finished tiles of the current pass if
 // there are none.
-void show(const FilmSums& tiles, bool has_totals, RenderResult* result) {
+void show(const PassFilm& tiles, bool has_totals, RenderResult* result) {
   PassSums& sums = result->sums;
   const bool complete = !sums.passes.empty();
   if (complete && has_totals) return show_passes(result);
   if (complete) result->statistics = sums.statistics;
-  result->film = mean_of(tiles, sums.totals.units(), &result->statistics.clamped_sums);
-  result->shown = complete ? Shown::kPasses : has_samples(tiles) ? Shown::kTiles : Shown::kNothing;
+  result->film = mean_of(tiles.sums, sums.totals.units(), &result->statistics.clamped_sums);
+  if (complete && tiles.halved()) result->halves = halves_of(tiles.sums, tiles.half, sums.totals.units());
+  result->shown = complete ? Shown::kPasses : has_samples(tiles.sums) ? Shown::kTiles : Shown::kNothing;
 }
 
 }  // namespace
@@ -192,6 +200,7 @@ void show_passes(RenderResult* result) {
   const ErrorMap errors = estimate_errors(totals);
   result->statistics = result->sums.statistics;
   result->film = totals.mean();
+  if (totals.has_halves()) result->halves = totals.halves();
   show_errors(errors, &result->film);
   result->error = relative_error(errors, result->sums.passes.count());
   result->shown = Shown::kPasses;
@@ -217,7 +226,9 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
           "photons shot in advance can be used only for a single pass");
   PassRenderer renderer(input, shares, task, result.sums.radii,
                         serialised(callback, goal.end() < kMostPasses ? std::max(shares, goal.end()) : 0));
-  auto tiles = make_window<PixelSum>(settings.crop, scene.camera);
+  PassFilm tiles{make_window<PixelSum>(settings.crop, scene.camera), {}};
+  // Several passes are halved by passes, which the totals do.
+  if (keeps_halves(settings) && shares == 1) tiles.half = make_window<HalfSum>(settings.crop, scene.camera);
   result.cancelled = !render_passes(renderer, missing, task, &tiles, &result);
   show(tiles, task.keep_sums, &result);
   return result;

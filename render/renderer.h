@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "accel/bvh.h"
-#include "render/film/film.h"
+#include "render/film/halves.h"
 #include "render/passes/pass_sums.h"
 #include "render/plan/plan.h"
 #include "render/plan/progress.h"
@@ -48,11 +48,12 @@ struct RenderResult {
   EstimatorPlan plan;
   bool cancelled = false;
   Shown shown = Shown::kNothing;
+  HalfFilm halves;           // of the film, if keeps_halves(settings); empty otherwise
   PassSums sums;             // the complete passes; has totals as RenderTask::keep_sums says
   double error = kInfinity;  // of what the film shows, see relative_error(); infinite if unknown
 };
 
-// Sets film, error and statistics from result->sums, which must have totals.
+// Sets film, halves, error and statistics from result->sums, which must have totals.
 void show_passes(RenderResult* result);
 
 // Renders within the calling task arena. The caller has already applied settings.width and height to

@@ -76,6 +76,7 @@ Json seconds_json(const RenderStatistics& s, const OuterTimes& t) {
           {"photon_trace", s.photon_trace_s},
           {"photon_build", s.photon_build_s},
           {"render", s.render_s},
+          {"denoise", t.denoise},
           {"write", t.write},
           {"total", t.total}};
 }
@@ -103,7 +104,9 @@ uint64_t peak_memory_bytes() {
 // The estimated error, or null where it is unknown.
 Json error_json(const RenderResult& result, const RenderSettings& settings) {
   if (!std::isfinite(result.error)) return nullptr;
-  return {{"relative", result.error}, {"holds_bias", settings.estimate_bias.value_or(false)}};
+  return {{"relative", result.error},
+          {"holds_bias", settings.estimate_bias.value_or(false)},
+          {"before_denoising", settings.denoise.value_or(false)}};
 }
 
 Json counters_json(const RenderStatistics& s) {
@@ -163,6 +166,8 @@ Metadata metadata_of(const RenderResult& result, const RenderSettings& settings,
     out.emplace_back("kaustik:error", fmt::format("{:.6g}", result.error));
     out.emplace_back("kaustik:error_holds",
                      settings.estimate_bias.value_or(false) ? "noise and kernel bias" : "noise");
+    if (settings.denoise.value_or(false))
+      out.emplace_back("kaustik:error_of", "the picture before denoising");
   }
   out.emplace_back("kaustik:dropped_samples", fmt::format("{}", s.dropped_samples));
   return out;

@@ -12,7 +12,7 @@ namespace kaustik::render {
 // Seconds of the phases outside the renderer.
 struct OuterTimes {
   // trials: the search for the size of render that fills a given time.
-  double load = 0, bvh = 0, trials = 0, write = 0, total = 0;
+  double load = 0, bvh = 0, trials = 0, denoise = 0, write = 0, total = 0;
 };
 
 // Peak resident memory of this process in bytes (VmHWM of /proc/self/status); 0 if it cannot be read.

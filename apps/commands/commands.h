@@ -10,6 +10,7 @@ Command make_resume_command();
 Command make_merge_command();
 Command make_photons_command();
 Command make_compare_command();
+Command make_denoise_command();
 Command make_info_command();
 Command make_convert_command();
 Command make_bench_command();

@@ -7,6 +7,7 @@
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
+#include "apps/session/denoising.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/render_session.h"
 #include "apps/session/stopping/fixed_plan.h"
@@ -93,6 +94,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   session.outputs = options.outputs, session.checkpoint = options.checkpoint, session.goal = options.passes;
   session.outputs.files = outputs_of(options, job);
   check_with_scene(options, session.outputs.files, job);
+  settle_denoising(writes_sums(session), &job.settings);
   session.fill_time = options.passes.empty() &&
                       time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
   check_stop_settings(job.settings.stop);

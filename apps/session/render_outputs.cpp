@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/session/denoising.h"
 #include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/scene_loading.h"
@@ -82,17 +83,22 @@ std::vector<render::Layer> layers_of(const Outcome& outcome, const Console& cons
 void report_error(const render::RenderResult& result, const render::RenderSettings& settings,
                   const Console& console) {
   if (!std::isfinite(result.error)) return;
-  console.note(fmt::format("error: {} of the radiance at 90 % confidence, mean over pixels; {}",
+  console.note(fmt::format("error: {} of the radiance at 90 % confidence, mean over pixels; {}{}",
                            percent(result.error),
-                           settings.estimate_bias.value_or(false) ? "noise and kernel bias" : "noise alone"));
+                           settings.estimate_bias.value_or(false) ? "noise and kernel bias" : "noise alone",
+                           settings.denoise.value_or(false) ? ", before denoising" : ""));
 }
 
 // Writes the files of -o: pictures and partial results.
 void write_pictures(const std::vector<std::string>& files, const Outcome& outcome,
-                    const nlohmann::ordered_json& settings, FileWriter& writer, const Console& console) {
+                    const std::optional<render::Image>& picture, const nlohmann::ordered_json& settings,
+                    FileWriter& writer, const Console& console) {
   const render::RenderResult& result = outcome.result;
   render::WriteOptions options;
   options.layers = layers_of(outcome, console);
+  if (picture) options.picture = &*picture;
+  if (render::names_denoising(outcome.settings.render.aov) && result.halves.width() > 0)
+    options.halves = &result.halves;
   options.metadata = render::metadata_of(result, outcome.settings.render, settings);
   if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
     options.metadata.emplace_back("kaustik:stopped_by", rule);
@@ -137,11 +143,13 @@ std::vector<NamedFile> named_files(const OutputOptions& options) {
 
 bool write_outputs(const OutputOptions& options, const Outcome& outcome, render::OuterTimes times,
                    const Console& console) {
-  const Stopwatch watch;
   const render::RenderResult& result = outcome.result;
+  const auto picture = denoised(result, outcome.settings.render, console, &times.denoise);
+  times.total += times.denoise;
+  const Stopwatch watch;
   const nlohmann::ordered_json settings = statistics_settings(outcome.settings, result.plan);
   FileWriter writer(console);
-  write_pictures(options.files, outcome, settings, writer, console);
+  write_pictures(options.files, outcome, picture, settings, writer, console);
   times.write = watch.seconds();
   times.total += times.write;
   if (!options.statistics.empty())
@@ -159,9 +167,9 @@ void report(const render::RenderResult& result, const render::OuterTimes& times,
   report_photons(result, console);
   console.note(fmt::format(
       "seconds: load {:.2f}, bvh {:.2f}, trials {:.2f}, photon trace {:.2f}, photon build {:.2f}, render "
-      "{:.2f}, write {:.2f}, total {:.2f}",
-      times.load, times.bvh, times.trials, s.photon_trace_s, s.photon_build_s, s.render_s, times.write,
-      times.total));
+      "{:.2f}, denoise {:.2f}, write {:.2f}, total {:.2f}",
+      times.load, times.bvh, times.trials, s.photon_trace_s, s.photon_build_s, s.render_s, times.denoise,
+      times.write, times.total));
   if (s.dropped_samples > 0) {
     console.warning(
         fmt::format("{} samples were negative or not finite and were dropped", s.dropped_samples));

@@ -9,6 +9,7 @@
 #include "apps/console/progress_bar.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/session/render_job.h"
+#include "apps/session/stopping/denoising_time.h"
 #include "apps/session/stopping/fixed_plan.h"
 #include "apps/session/stopping/path_choice.h"
 #include "apps/session/stopping/stop_rules.h"
@@ -76,8 +77,9 @@ void report_stop(const StopRule& rule, const render::RenderResult& result, const
 
 // Logs the options that give the bits of a single pass again.
 void report_filled(double seconds, const render::RenderSettings& settings, const Console& console) {
-  console.note(fmt::format("--time {}s gave --spp {} --photons {} --adaptive {}", seconds, settings.spp,
-                           settings.photons, settings.adaptive));
+  console.note(fmt::format("--time {}s gave --spp {} --photons {} --adaptive {}{}", seconds, settings.spp,
+                           settings.photons, settings.adaptive,
+                           settings.denoise.value_or(false) ? " --denoise on" : ""));
 }
 
 // Only partial results need a full manifest. It names library versions, for which OpenImageIO must be loaded,
@@ -138,7 +140,9 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
         watch.seconds() - times.bvh - (filled.work.photons ? seconds_of(filled.work.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
-    StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total);
+    const double seconds_after =
+        job.settings.stop.seconds ? denoising_seconds(job.settings.render, job.scene.camera) : 0;
+    StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total, seconds_after);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
       console.note(note);
     const auto after_pass = [&](const render::PassSums& sums) {

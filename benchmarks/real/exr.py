@@ -1,5 +1,5 @@
 """Reads the EXR files that kaustik writes, and writes smaller ones: half floats in ZIP compression. Needs only Python 3.
-Handled: scan lines, 16- and 32-bit floats, no compression or ZIP. Not handled: tiles, several parts, other formats."""
+Handled: scan lines, 16- and 32-bit floats, no compression, run lengths or ZIP. Not handled: tiles, several parts, other formats."""
 import array
 import dataclasses
 import itertools
@@ -8,7 +8,8 @@ import zlib
 
 MAGIC = 20000630
 HALF, FLOAT = 1, 2
-LINES_OF_A_BLOCK = {0: 1, 2: 1, 3: 16}  # by compression: none, ZIP of one line, ZIP of 16
+RUN_LENGTHS = 1
+LINES_OF_A_BLOCK = {0: 1, RUN_LENGTHS: 1, 2: 1, 3: 16}  # by compression: none, run lengths, ZIP of one line, ZIP of 16
 LARGEST_HALF = 65504.0
 
 
@@ -48,7 +49,7 @@ def read(path):
         y, size = struct.unpack_from("<ii", data, offset)
         rows = min(lines, y1 + 1 - y)
         raw = rows * width * sum(2 * kind for _, kind in formats)
-        append_rows(columns, formats, unpacked(data[offset + 8:offset + 8 + size], raw), rows, width)
+        append_rows(columns, formats, unpacked(data[offset + 8:offset + 8 + size], raw, compression), rows, width)
     return Picture(width, height, columns)
 
 
@@ -88,11 +89,26 @@ def append_rows(columns, formats, block, rows, width):
             at += size * width
 
 
-def unpacked(block, raw):
-    """ZIP in EXR: deflate, then sums, then both halves interleaved. A block that would not shrink is stored as it is."""
+def runs(block):
+    """Run lengths in EXR: a count below 0 precedes that many bytes, another one a byte that is repeated one time more."""
+    out, at = bytearray(), 0
+    while at < len(block):
+        count = struct.unpack_from("b", block, at)[0]
+        if count < 0:
+            out += block[at + 1:at + 1 - count]
+            at += 1 - count
+        else:
+            out += block[at + 1:at + 2] * (count + 1)
+            at += 2
+    return out
+
+
+def unpacked(block, raw, compression):
+    """In EXR: deflate or run lengths, then sums, then both halves interleaved. A block that would not shrink is stored as it is."""
     if len(block) == raw:
         return block
-    summed = bytes(itertools.accumulate(zlib.decompress(block), lambda a, b: (a + b - 128) & 255))
+    differences = runs(block) if compression == RUN_LENGTHS else zlib.decompress(block)
+    summed = bytes(itertools.accumulate(differences, lambda a, b: (a + b - 128) & 255))
     out = bytearray(raw)
     out[0::2], out[1::2] = summed[:(raw + 1) // 2], summed[(raw + 1) // 2:]
     return bytes(out)

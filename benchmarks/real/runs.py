@@ -28,11 +28,12 @@ def size_options(args):
 
 
 def render(args, scene, image, options, program=None):
-    """Renders with kaustik into an EXR file; returns seconds, processor seconds and the program's own statistics."""
+    """Renders with kaustik into an EXR file; returns seconds, processor seconds and the program's own statistics. Estimators are
+    compared, so nothing is denoised unless the options say so."""
     stats = pathlib.Path(image).with_suffix(".json")
     threads = ["--threads", args.threads] if args.threads else []
     _, seconds, cpu = run([program or args.program, "render", scene, "-o", image, "--stats", stats, "--quiet", *threads,
-                           *size_options(args), *args.options.split(), *options])
+                           *size_options(args), "--denoise", "off", *args.options.split(), *options])
     found = json.loads(stats.read_text())
     os.remove(stats)
     rendered = sum(found["seconds"][phase] for phase in ("photon_trace", "photon_build", "render"))

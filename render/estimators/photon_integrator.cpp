@@ -183,6 +183,18 @@ void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* resul
   result->depth = glm::distance(hit.si.p, eye);
 }
 
+// Chains of more delta lobes than this are cut for features: what is seen after so many is small.
+constexpr int kMostFollowed = 8;
+
+// Adds the features of what a chain of delta lobes shows, weighted by its throughput. length: of the chain.
+void add_denoising_features(const ShadingPoint& end, const Rgb& beta, float share, float length,
+                            PixelResult* result) {
+  // Radiance is larger in a denser medium, albedos are not.
+  result->denoising_albedo += glm::min(beta, Rgb(share)) * albedo(*end.bsdf);
+  result->denoising_normal += share * end.si.ns;
+  result->denoising_depth += share * length;
+}
+
 // How the camera ray left its previous point: by a delta lobe, or by a glossy lobe with density pdf.
 struct LastScatter {
   bool glossy = false;
@@ -190,7 +202,7 @@ struct LastScatter {
   float pdf = 0;
 };
 
-// One branch of the tree of specular chains that a camera sample traces.
+// One branch of the tree of specular chains that a camera sample traces, at the start of its ray.
 struct Branch {
   Ray ray;
   RayCone cone;
@@ -200,6 +212,8 @@ struct Branch {
   LastScatter last{};
   Tail tail = Tail::kNone;
   bool blurred = false;  // an earlier lobe of the chain blurs more than the indirect map's disc
+  float length = 0;      // of the chain
+  bool shown = false;    // the chain had a point with lobes that are no delta lobes
 };
 
 // Emission that the ray meets. After a glossy lobe it has the MIS weight of BSDF sampling, since lights are
@@ -275,65 +289,76 @@ class CameraPath {
   void visit(const Branch& branch, const Hit& hit) {
     const bool sees_lights = branch.tail != Tail::kBehind;
     if (!hit.valid()) {
-      if (sees_lights) result_->emitted += branch.beta * escape_seen(ctx_, branch.last, branch.ray);
+      if (sees_lights) add_emission(branch, escape_seen(ctx_, branch.last, branch.ray));
       return;
     }
     const Vector3 wo = -branch.ray.d;
     const SurfaceInteraction si = make_interaction(ctx_.scene.shapes, branch.ray, hit);
-    if (sees_lights)
-      result_->emitted += branch.beta * emission_seen(ctx_.scene, branch.last, si, branch.ray.d);
+    if (sees_lights) add_emission(branch, emission_seen(ctx_.scene, branch.last, si, branch.ray.d));
     const RayCone cone = branch.cone.after(hit.t);
     const bool constant = ctx_.scene.materials[si.material].constant();
     const ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
     if (branch.events == 0) set_features(x, branch.ray.o, result_);
     const Lobes parts = lobes(*x.bsdf);
+    const float length = branch.length + hit.t;
+    const bool end = parts.diffuse || parts.glossy || !parts.specular || branch.events == kMostFollowed;
+    if (end && !branch.shown) add_denoising_features(x, branch.beta, branch.share, length, result_);
     if (parts.diffuse)
       if (const float weight = roulette_weight(gather_probability(branch.share), sampler_); weight > 0)
         add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_, maps_);
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy && branch.tail == Tail::kNone) add_glossy(branch, x);
     if (branch.tail != Tail::kNone && !ctx_.scene.needs.diffuse) return;  // nothing else can be met
-    if (parts.glossy || parts.diffuse || !split(branch, cone, x))
-      continue_specular(branch, cone, x, is_blurred(ctx_, branch, hit.t));
+    Branch here = branch;
+    here.cone = cone, here.length = length, here.shown = branch.shown || end;
+    if (parts.glossy || parts.diffuse || !split(here, x))
+      continue_specular(here, x, is_blurred(ctx_, branch, hit.t));
+  }
+
+  void add_emission(const Branch& branch, const Rgb& Le) {
+    result_->emitted += branch.beta * Le;
+    if (branch.events > 0) result_->denoising_emitted += branch.beta * Le;
   }
 
   // Adds the light that the glossy lobes of x scatter straight from lights, and in their tails from the
   // caustic map.
   void add_glossy(const Branch& branch, const ShadingPoint& x) {
-    result_->emitted +=
-        branch.beta * sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
-    if (!gathers_tail(ctx_, x)) return;
-    const float q = kTailGathers * gather_probability(branch.share);
-    if (const float weight = roulette_weight(q, sampler_); weight > 0)
-      result_->emitted +=
-          weight * branch.beta *
-          photon::estimate_glossy_tail(ctx_.maps.caustic.map, x.si, x.wo, *x.bsdf, ctx_.maps.caustic.estimate,
-                                       kTailPdf, counters_.gather);
+    Rgb light = sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy);
+    if (gathers_tail(ctx_, x)) {
+      const float q = kTailGathers * gather_probability(branch.share);
+      if (const float weight = roulette_weight(q, sampler_); weight > 0)
+        light +=
+            weight * photon::estimate_glossy_tail(ctx_.maps.caustic.map, x.si, x.wo, *x.bsdf,
+                                                  ctx_.maps.caustic.estimate, kTailPdf, counters_.gather);
+    }
+    result_->emitted += branch.beta * light;
+    result_->denoising_emitted += branch.beta * light;
   }
 
-  void continue_specular(const Branch& from, const RayCone& cone, const ShadingPoint& x, bool blurred) {
+  void continue_specular(const Branch& from, const ShadingPoint& x, bool blurred) {
     const auto s = scatter(x, sampler_, Scatter::kSpecular);
     if (!s) return;
     Rgb beta = from.beta * s->weight;
     if (lobes(*x.bsdf).diffuse && !survives_coats(&beta, sampler_)) return;
     Tail tail = behind_event(from.tail);
     if (tail == Tail::kNone && s->glossy && gathers_tail(ctx_, x) && in_tail(x, s->wi)) tail = Tail::kLeft;
-    push({x.si.spawn(s->wi), cone, beta, from.share, from.events + 1,
-          LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred});
+    push({x.si.spawn(s->wi), from.cone, beta, from.share, from.events + 1,
+          LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred, from.length, from.shown});
   }
 
   // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
   // random instead makes the faint reflection of a light in glass noisy. Returns false and does nothing where
   // there are not two such rays or the dimmer of them is below kDim.
-  bool split(const Branch& from, const RayCone& cone, const ShadingPoint& x) {
+  bool split(const Branch& from, const ShadingPoint& x) {
     constexpr float kDim = 1.0f / 256;
     if (waiting_ + 2 > kMostWaiting) return false;
     const auto reflected = scatter_delta(x, 0), refracted = scatter_delta(x, kOneMinusEpsilon);
     if (!reflected || !refracted || reflected->transmission == refracted->transmission) return false;
     if (from.share * std::min(reflected->pdf, refracted->pdf) < kDim) return false;
     for (const BsdfSample* s : {&*reflected, &*refracted})
-      push({x.si.spawn(s->wi), cone, from.beta * s->weight * s->pdf, from.share * s->pdf, from.events + 1,
-            LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.blurred});
+      push({x.si.spawn(s->wi), from.cone, from.beta * s->weight * s->pdf, from.share * s->pdf,
+            from.events + 1, LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.blurred,
+            from.length, from.shown});
     return true;
   }
 

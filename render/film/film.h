@@ -22,6 +22,14 @@ struct PixelResult {
   Vector3 normal{0};  // shading normal of the first hit, world
   float depth = 0;    // distance to the first hit in metres; 0 where the ray escapes
   float photons = 0;  // caustic + indirect + direct photons within reach, per query
+  // For denoisers. The part of `emitted` that the first hit does not emit, L S+ E: light seen directly has no
+  // noise but that of edges. And albedo, normal and depth of what smooth glass and mirrors show, where a
+  // chain of delta lobes ends, weighted by the Fresnel factors where it was split; 0 where it escapes. The
+  // depth is the length of the chain.
+  Rgb denoising_emitted{0};
+  Rgb denoising_albedo{0};
+  Vector3 denoising_normal{0};
+  float denoising_depth = 0;
   // Errors of radiance(), in W/(m^2 sr): the standard error of its noise (infinite if unknown), and the
   // kernels' bias, positive where they make it too bright (render/film/error_estimate.h). A single sample has
   // only the bias.
@@ -40,6 +48,8 @@ inline constexpr size_t kSampleLights = 2;
 struct PixelSum {
   glm::dvec3 emitted{0}, direct{0}, caustic{0}, indirect{0}, albedo{0}, normal{0};
   double depth = 0, photons = 0;
+  glm::dvec3 denoising_emitted{0}, denoising_albedo{0}, denoising_normal{0};
+  double denoising_depth = 0;
   glm::dvec3 bias{0};  // of the pass's first sample only
   uint64_t count = 0;
   uint64_t negative = 0;  // number of samples that weigh -1
@@ -64,6 +74,10 @@ enum class Layer {
   kNormal,
   kDepth,
   kPhotons,
+  kDenoisingEmitted,
+  kDenoisingAlbedo,
+  kDenoisingNormal,
+  kDenoisingDepth,
   kError
 };
 
@@ -120,6 +134,14 @@ inline constexpr auto kLayerTable = [] {
       {Layer::kNormal, "normal", "XYZ", LayerUnit::kFeature, kSamples, false, &R::normal, &S::normal},
       {Layer::kDepth, "depth", "Z", LayerUnit::kDepth, kSamples, false, &R::depth, &S::depth},
       {Layer::kPhotons, "photons", "Y", LayerUnit::kCount, kSamples, true, &R::photons, &S::photons},
+      {Layer::kDenoisingEmitted, "denoising_emitted", "RGB", LayerUnit::kRadiance, kSamples, false,
+       &R::denoising_emitted, &S::denoising_emitted},
+      {Layer::kDenoisingAlbedo, "denoising_albedo", "RGB", LayerUnit::kFeature, kSamples, false,
+       &R::denoising_albedo, &S::denoising_albedo},
+      {Layer::kDenoisingNormal, "denoising_normal", "XYZ", LayerUnit::kFeature, kSamples, false,
+       &R::denoising_normal, &S::denoising_normal},
+      {Layer::kDenoisingDepth, "denoising_depth", "Z", LayerUnit::kDepth, kSamples, false,
+       &R::denoising_depth, &S::denoising_depth},
       {Layer::kError, "error", "RGB", LayerUnit::kRadiance, kNone, false, &R::error,
        static_cast<glm::dvec3 S::*>(nullptr)},
   });

@@ -77,6 +77,30 @@ uint64_t add_pixel(const PixelSum& samples, const PerUnit& per_unit, PixelTotals
   return clamped;
 }
 
+// Adds the half of a pass's samples that is summed apart. pass: all its samples.
+void add_half(const HalfSum& half, const PixelSum& pass, const PerUnit& per_unit, HalfTotals* totals) {
+  for_each_half_channel([&](const LayerRow& row, size_t i, size_t c) {
+    totals->sums[i].add(half.sums[i], per_unit.sums[sum_of(row.layer) + c]);
+  });
+  totals->weight += half.weight;
+  totals->maps_weight += half.maps_weight;
+  totals->all_maps_weight += pass.weight() - int64_t(pass.traced);
+}
+
+HalfSum as_half(const PixelSum& pass) {
+  const PixelSum sum = pass.completed();
+  HalfSum half{.weight = pass.weight(), .maps_weight = pass.weight()};
+  for_each_half_channel([&](const LayerRow& row, size_t i, size_t c) { half.sums[i] = row.in(sum)[c]; });
+  return half;
+}
+
+void add_half(const HalfTotals& part, HalfTotals* totals) {
+  for (size_t i = 0; i < kHalfChannels; ++i) totals->sums[i] += part.sums[i];
+  totals->weight += part.weight;
+  totals->maps_weight += part.maps_weight;
+  totals->all_maps_weight += part.all_maps_weight;
+}
+
 void add_pixel(const PixelTotals& part, PixelTotals* totals) {
   for (size_t i = 0; i < kSumChannels; ++i) totals->sums[i] += part.sums[i];
   for (size_t c = 0; c < 3; ++c) {
@@ -95,6 +119,26 @@ PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
   for_each_sum([&](const LayerRow& row, size_t i, size_t c) {
     if (row.mean == LayerMean::kSamples)
       row.in(out)[c] = static_cast<float>(totals.sums[i].value(units.sums[i]) / weight);
+  });
+  return out;
+}
+
+// The other half's sums are those of all samples less those of this one. The totals of what maps contribute
+// were extrapolated to all samples (PixelSum::completed), which is undone for that.
+HalfMeans halves_of(const HalfTotals& half, const PixelTotals& all, const PixelUnits& units) {
+  HalfMeans out;
+  const double weight = double(all.weight), maps = double(half.all_maps_weight);
+  const std::array<double, 2> weights = {weight - double(half.weight), double(half.weight)};
+  const std::array<double, 2> maps_weights = {maps - double(half.maps_weight), double(half.maps_weight)};
+  if (!(std::min(weights[0], weights[1]) > 0 && std::min(maps_weights[0], maps_weights[1]) > 0)) return out;
+  for (size_t h = 0; h < 2; ++h) out.share[h] = float(weights[h] / weight);
+  for_each_half_channel([&](const LayerRow& row, size_t i, size_t c) {
+    const size_t in_all = sum_of(row.layer) + c;
+    const double part = half.sums[i].value(units.sums[in_all]);
+    const double whole = all.sums[in_all].value(units.sums[in_all]) * (row.from_maps ? maps / weight : 1);
+    const std::array<double, 2>& w = row.from_maps ? maps_weights : weights;
+    out.mean[0][i] = float((whole - part) / w[0]);
+    out.mean[1][i] = float(part / w[1]);
   });
   return out;
 }
@@ -138,15 +182,31 @@ ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   const int light = std::clamp(exponent_above(brightest), -400, 400);
   return {.radiance = light + samples + 20 - ExactSum::kTermBits,
           .square = 2 * (light + 10) - ExactSum::kTermBits,
-          .depth = exponent_above(farthest) + samples - ExactSum::kTermBits};
+          // A chain of delta lobes may be several times as long as the scene is large.
+          .depth = exponent_above(farthest) + 4 + samples - ExactSum::kTermBits};
 }
 
-uint64_t FilmTotals::add(const FilmSums& pass) {
+void FilmTotals::keep_halves() {
+  halves_ = window_of<HalfTotals>(pixels_);
+}
+
+uint64_t FilmTotals::add(const FilmSums& pass, const HalfSums* half) {
+  return add(pass, [half](int x, int y, const PixelSum&) { return half ? half->at(x, y) : HalfSum{}; });
+}
+
+uint64_t FilmTotals::add_as_half(const FilmSums& pass) {
+  return add(pass, [](int, int, const PixelSum& all) { return as_half(all); });
+}
+
+template <class HalfOf>
+uint64_t FilmTotals::add(const FilmSums& pass, const HalfOf& half_of) {
   if (!same_window(pixels_, pass)) throw std::invalid_argument("the films show different windows");
   const PerUnit per_unit(units_);
   std::atomic<uint64_t> clamped{0};
   for_each_pixel(pixels_.width(), pixels_.height(), [&](int x, int y) {
-    if (const uint64_t n = add_pixel(pass.at(x, y), per_unit, &pixels_.at(x, y))) clamped += n;
+    const PixelSum& samples = pass.at(x, y);
+    if (const uint64_t n = add_pixel(samples, per_unit, &pixels_.at(x, y))) clamped += n;
+    if (has_halves()) add_half(half_of(x, y, samples), samples, per_unit, &halves_.at(x, y));
   });
   return clamped;
 }
@@ -154,8 +214,12 @@ uint64_t FilmTotals::add(const FilmSums& pass) {
 void FilmTotals::add(const FilmTotals& other) {
   if (!same_window(pixels_, other.pixels_)) throw std::invalid_argument("the films show different windows");
   if (units_ != other.units_) throw std::invalid_argument("the films' sums have different units");
-  for_each_pixel(pixels_.width(), pixels_.height(),
-                 [&](int x, int y) { add_pixel(other.pixels_.at(x, y), &pixels_.at(x, y)); });
+  if (has_halves() != other.has_halves())
+    throw std::invalid_argument("only one of the films has its samples in halves");
+  for_each_pixel(pixels_.width(), pixels_.height(), [&](int x, int y) {
+    add_pixel(other.pixels_.at(x, y), &pixels_.at(x, y));
+    if (has_halves()) add_half(other.halves_.at(x, y), &halves_.at(x, y));
+  });
 }
 
 Film FilmTotals::mean() const {
@@ -163,6 +227,14 @@ Film FilmTotals::mean() const {
   const PixelUnits units(units_);
   for_each_pixel(film.width(), film.height(),
                  [&](int x, int y) { film.at(x, y) = mean_of(pixels_.at(x, y), units); });
+  return film;
+}
+
+HalfFilm FilmTotals::halves() const {
+  HalfFilm film = window_of<HalfMeans>(pixels_);
+  const PixelUnits units(units_);
+  for_each_pixel(film.width(), film.height(),
+                 [&](int x, int y) { film.at(x, y) = halves_of(halves_.at(x, y), pixels_.at(x, y), units); });
   return film;
 }
 
@@ -177,6 +249,20 @@ Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped) {
     film.at(x, y) = mean_of(totals, values);
   });
   *clamped += out_of_range;
+  return film;
+}
+
+HalfFilm halves_of(const FilmSums& pass, const HalfSums& half, const ExactUnits& units) {
+  HalfFilm film = window_of<HalfMeans>(pass);
+  const PerUnit per_unit(units);
+  const PixelUnits values(units);
+  for_each_pixel(film.width(), film.height(), [&](int x, int y) {
+    PixelTotals all;
+    HalfTotals part;
+    add_pixel(pass.at(x, y), per_unit, &all);
+    add_half(half.at(x, y), pass.at(x, y), per_unit, &part);
+    film.at(x, y) = halves_of(part, all, values);
+  });
   return film;
 }
 

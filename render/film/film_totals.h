@@ -7,6 +7,7 @@
 #include "core/scene/scene.h"
 #include "render/film/exact_sum.h"
 #include "render/film/film.h"
+#include "render/film/halves.h"
 
 namespace kaustik::render {
 
@@ -61,24 +62,43 @@ class FilmTotals {
   FilmTotals(PixelWindow<PixelTotals> zero, const ExactUnits& units)
       : units_(units), pixels_(std::move(zero)) {}
 
-  // Adds one pass. Returns how many sums were clamped or NaN.
-  uint64_t add(const FilmSums& pass);
-  // Adds other passes. Throws std::invalid_argument if the window or the units differ.
+  // Keeps the sums of one half from now on; before the first pass.
+  void keep_halves();
+  bool has_halves() const { return halves_.width() > 0; }
+
+  // Adds one pass. half: the sums of the half of its samples that is summed apart, or null if that is none;
+  // not read without halves. Returns how many sums were clamped or NaN.
+  uint64_t add(const FilmSums& pass, const HalfSums* half = nullptr);
+  // Adds a pass whose samples all belong to that half.
+  uint64_t add_as_half(const FilmSums& pass);
+  // Adds other passes. Throws std::invalid_argument if the window or the units differ, or if one has halves
+  // and the other has none.
   void add(const FilmTotals& other);
   // Weighted means over samples; black where there are no samples or their weights cancel.
   Film mean() const;
+  // Means of both halves. Requires has_halves().
+  HalfFilm halves() const;
 
   const ExactUnits& units() const { return units_; }
   const PixelWindow<PixelTotals>& pixels() const { return pixels_; }
   PixelWindow<PixelTotals>& pixels() { return pixels_; }
+  const PixelWindow<HalfTotals>& half_pixels() const { return halves_; }
+  PixelWindow<HalfTotals>& half_pixels() { return halves_; }
 
  private:
+  // half_of(x, y, all samples): the HalfSum of the pass in a pixel.
+  template <class HalfOf>
+  uint64_t add(const FilmSums& pass, const HalfOf& half_of);
+
   ExactUnits units_;
   PixelWindow<PixelTotals> pixels_;
+  PixelWindow<HalfTotals> halves_;  // empty if they are not kept
 };
 
 // The mean of a single pass, equal to that of totals which hold only this pass. Adds the number of clamped
 // sums to *clamped.
 Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped);
+// The halves of a single pass, likewise.
+HalfFilm halves_of(const FilmSums& pass, const HalfSums& half, const ExactUnits& units);
 
 }  // namespace kaustik::render

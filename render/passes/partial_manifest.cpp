@@ -161,6 +161,7 @@ Json manifest_json(const PartialManifest& m, const PassSums& sums) {
                     {"caustic_nearest", r->caustic_nearest},
                     {"direct_nearest", r->direct_nearest}};
   out["window"] = window_json(sums.totals.pixels());
+  out["halves"] = sums.totals.has_halves();
   const ExactUnits& units = sums.totals.units();
   out["unit_exponents"] = {{"radiance", units.radiance}, {"square", units.square}, {"depth", units.depth}};
   for_each_need(m.needs, [&](const std::string& name, const bool& need) { out["needs"][name] = need; });
@@ -200,6 +201,7 @@ ReadManifest manifest_from_text(std::string_view text) {
     sums.radii = {from_hex(r.at("direct")), from_hex(r.at("caustic")), from_hex(r.at("indirect")),
                   r.at("caustic_nearest").get<uint32_t>(), r.at("direct_nearest").get<uint32_t>()};
   take_window(json.at("window"), &out);
+  json.at("halves").get_to(out.halves);
   const Json& units = json.at("unit_exponents");
   out.units = {.radiance = exponent_from(units.at("radiance")),
                .square = exponent_from(units.at("square")),

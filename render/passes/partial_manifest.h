@@ -15,6 +15,7 @@ std::string manifest_text(const PartialManifest& manifest, const PassSums& sums)
 struct ReadManifest {
   PartialResult result;  // without pixels
   ExactUnits units;
+  bool halves = false;
   int width = 0, height = 0, x0 = 0, y0 = 0, full_width = 0, full_height = 0;
 };
 // Throws std::runtime_error, or the JSON library's exceptions, if a value is missing or invalid.

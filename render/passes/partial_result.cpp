@@ -25,13 +25,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic{"KPART\r\n\x1a", 8};
-constexpr uint64_t kVersion = 2;
+constexpr uint64_t kVersion = 3;
 constexpr uint64_t kHeadBytes = 24, kHashBytes = 16;
 // Pixels are written as they are laid out in memory.
 // Without padding: the sums of the layers, two times three sums of squares, weight and passes.
 static_assert(sizeof(PixelTotals) == 16 * (kSumChannels + 6) + 16);
 static_assert(std::endian::native == std::endian::little);
-static_assert(std::is_trivially_copyable_v<PixelTotals>);
+static_assert(std::is_trivially_copyable_v<PixelTotals> && std::is_trivially_copyable_v<HalfTotals>);
+static_assert(sizeof(HalfTotals) == 16 * kHalfChannels + 32);
 
 struct Closer {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -105,6 +106,17 @@ class Reader {
   File file_;
   uint64_t size_ = 0;
 };
+
+template <class Pixel>
+void put(const PixelWindow<Pixel>& pixels, Writer* out) {
+  for (int y = 0; y < pixels.height(); ++y)
+    out->put(&pixels.at(0, y), sizeof(Pixel) * size_t(pixels.width()));
+}
+template <class Pixel>
+void get(PixelWindow<Pixel>* pixels, Reader* in) {
+  for (int y = 0; y < pixels->height(); ++y)
+    in->get(&pixels->at(0, y), sizeof(Pixel) * size_t(pixels->width()));
+}
 
 // Reads the header and returns the size of the manifest.
 uint64_t read_head(Reader& in) {
@@ -182,9 +194,8 @@ void write_partial(const std::string& path, const PartialManifest& manifest, con
   out.put(kVersion);
   out.put(json.size());
   out.put(json.data(), json.size());
-  const PixelWindow<PixelTotals>& pixels = sums.totals.pixels();
-  for (int y = 0; y < pixels.height(); ++y)
-    out.put(&pixels.at(0, y), sizeof(PixelTotals) * size_t(pixels.width()));
+  put(sums.totals.pixels(), &out);
+  put(sums.totals.half_pixels(), &out);
   out.finish();
   if (const std::string error = pending.commit(); !error.empty()) throw PartialError(path, error);
 }
@@ -195,15 +206,17 @@ PartialResult read_partial(const std::string& path) {
   check_hash(in);
   in.rewind();
   ReadManifest read = read_manifest(in);
-  const uint64_t pixel_bytes = uint64_t(read.width) * uint64_t(read.height) * sizeof(PixelTotals);
+  const uint64_t pixel_bytes = uint64_t(read.width) * uint64_t(read.height) *
+                               (sizeof(PixelTotals) + (read.halves ? sizeof(HalfTotals) : 0));
   if (kHeadBytes + manifest_bytes + pixel_bytes + kHashBytes != in.size())
     in.fail("the file's size does not match its image");
   FilmTotals& totals = read.result.sums.totals;
   totals = FilmTotals(
       PixelWindow<PixelTotals>(read.width, read.height, read.x0, read.y0, read.full_width, read.full_height),
       read.units);
-  for (int y = 0; y < read.height; ++y)
-    in.get(&totals.pixels().at(0, y), sizeof(PixelTotals) * size_t(read.width));
+  get(&totals.pixels(), &in);
+  if (read.halves) totals.keep_halves();
+  get(&totals.half_pixels(), &in);
   return std::move(read.result);
 }
 
@@ -224,6 +237,8 @@ std::string difference(const PartialResult& a, const PartialResult& b) {
   if (a.sums.radii && b.sums.radii && *a.sums.radii != *b.sums.radii) return "their gather radii differ";
   if (a.sums.shares != b.sums.shares || a.sums.totals.units() != b.sums.totals.units())
     return "their sums have different units";
+  if (a.sums.totals.has_halves() != b.sums.totals.has_halves())
+    return "only one of them has its samples in halves, for denoising";
   return {};
 }
 

@@ -6,9 +6,11 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -84,6 +86,43 @@ void write_exr_file(const std::string& path, const ExrPicture& picture, const Me
     throw;
   }
   stream.close();
+}
+
+const std::vector<float>* ExrChannels::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? nullptr : &values[size_t(found - names.begin())];
+}
+
+ExrChannels read_exr_file(const std::string& path, uint64_t most_pixels) {
+  constexpr int kNoThreads = 0;
+  Imf::InputFile in(path.c_str(), kNoThreads);
+  const Imath::Box2i window = in.header().dataWindow(), display = in.header().displayWindow();
+  const uint64_t width = uint64_t(int64_t(window.max.x) - window.min.x + 1);
+  const uint64_t height = uint64_t(int64_t(window.max.y) - window.min.y + 1);
+  if (width > most_pixels || height > most_pixels / width)
+    throw std::runtime_error("the picture is too large");
+  ExrChannels out{window.min.x,
+                  window.min.y,
+                  int(width),
+                  int(height),
+                  display.max.x - display.min.x + 1,
+                  display.max.y - display.min.y + 1,
+                  {},
+                  {}};
+  const Imf::ChannelList& channels = in.header().channels();
+  for (auto c = channels.begin(); c != channels.end(); ++c) {
+    if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
+      throw std::runtime_error("its channels are subsampled");
+    out.names.emplace_back(c.name());
+    out.values.emplace_back(size_t(width * height));
+  }
+  Imf::FrameBuffer buffer;
+  for (size_t c = 0; c < out.names.size(); ++c)
+    buffer.insert(out.names[c], Imf::Slice::Make(Imf::FLOAT, out.values[c].data(), window, sizeof(float),
+                                                 sizeof(float) * size_t(width)));
+  in.setFrameBuffer(buffer);
+  in.readPixels(window.min.y, window.max.y);
+  return out;
 }
 
 }  // namespace kaustik::render

@@ -21,4 +21,19 @@ struct ExrPicture {
 // threads. Throws std::exception on failure; the caller must remove what was written of the file.
 void write_exr_file(const std::string& path, const ExrPicture& picture, const Metadata& attributes);
 
+// All channels of a file's first part, converted to 32-bit floats.
+struct ExrChannels {
+  int x0 = 0, y0 = 0, width = 0, height = 0;  // the data window
+  int full_width = 0, full_height = 0;        // the display window's size
+  std::vector<std::string> names;
+  std::vector<std::vector<float>> values;  // of each channel, row by row
+
+  // The values of a channel; null if the file does not have it.
+  const std::vector<float>* find(const std::string& name) const;
+};
+
+// Throws std::exception for files that cannot be read, have subsampled channels, or whose data window has
+// more than most_pixels.
+ExrChannels read_exr_file(const std::string& path, uint64_t most_pixels);
+
 }  // namespace kaustik::render

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "render/film/film.h"
+#include "render/film/halves.h"
+#include "render/picture/exr_file.h"
 #include "render/picture/image.h"
 #include "render/picture/image_formats.h"
 #include "render/picture/tonemap.h"
@@ -29,10 +30,14 @@ struct WriteOptions {
   std::vector<Layer> layers;  // EXR only, in addition to the image itself
   Metadata metadata;          // string attributes, for formats that keep them
   ToneSettings tone;          // PNG and JPEG only
+  // The picture, in place of the film's total radiance, which EXR files then hold as the layer `noisy`; of
+  // the film's size, or null.
+  const Image* picture = nullptr;
+  const HalfFilm* halves = nullptr;  // EXR only: written too, if not null
 };
 
-// Layers from the names of `--aov`; "all" means every layer, and repeated names count once. Throws
-// std::invalid_argument for an unknown layer, with the list of valid ones.
+// Layers from the names of `--aov`; "all" means every layer, "denoising" those that a denoiser reads, and
+// repeated names count once. Throws std::invalid_argument for an unknown layer, with the list of valid ones.
 std::vector<Layer> layers_from_names(const std::vector<std::string>& names);
 
 // The total radiance as an image.
@@ -56,6 +61,9 @@ bool is_exr(const std::string& path);
 // is written under a temporary name in the same folder and renamed when complete. Throws ImageError; then no
 // file is left behind, and a previous file of that name is unchanged.
 void write_film(const std::string& path, const Film& film, const WriteOptions& options = {});
+
+// Writes channels as they are to an EXR file, in the same way.
+void write_channels(const std::string& path, const ExrChannels& channels, const Metadata& metadata = {});
 
 // Writes a plain picture like write_film() (EXR: channels R G B).
 void write_image(const std::string& path, const Image& image, const ToneSettings& tone = {},

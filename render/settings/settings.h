@@ -57,12 +57,21 @@ struct RenderSettings {
   CropWindow crop;
   // Whether to measure the kernels' bias, once per pixel and pass; unset: no.
   std::optional<bool> estimate_bias;
-  std::vector<std::string> aov;  // layers to write besides the image; empty = none, "all" = all
+  std::optional<bool> denoise;  // whether to filter the picture; unset: no
+  // Layers to write besides the image; empty = none, "all" = all, "denoising" = those that denoisers read.
+  std::vector<std::string> aov;
   // Number of passes among which photons and spp are divided; 0: as many as are needed for the photons of one
   // pass to fit into photon_memory.
   uint64_t passes = 0;
   // Bytes that the photons of a pass may take while they are shot and their maps are built.
   uint64_t photon_memory = std::numeric_limits<uint64_t>::max();
 };
+
+// The name in `aov` of the layers and halves that denoisers read.
+inline constexpr const char* kDenoisingLayers = "denoising";
+// Whether `aov` asks for what denoisers read.
+bool names_denoising(const std::vector<std::string>& aov);
+// Whether a render keeps its samples in halves (render/film/halves.h).
+bool keeps_halves(const RenderSettings& settings);
 
 }  // namespace kaustik::render

@@ -21,7 +21,8 @@ bool valid_radiance(const PixelResult& s, DirectEstimator direct) {
 
 void expose(const Sensor& sensor, PixelResult* s) {
   if (sensor.neutral) return;
-  for (Rgb* light : {&s->emitted, &s->direct, &s->caustic, &s->indirect, &s->bias}) *light = sensor(*light);
+  for (Rgb* light : {&s->emitted, &s->direct, &s->caustic, &s->indirect, &s->bias, &s->denoising_emitted})
+    *light = sensor(*light);
 }
 
 // Samples of the pixels of one block of rays, pixel by pixel, since neighbouring pixels see much the same
@@ -52,17 +53,18 @@ class BlockSamples {
     batch->flush(counters.gather);
   }
 
-  void add_to(FilmSums* film, BlockMoments* moments, TileResult* tile) {
+  void add_to(const BlockSums& sums) {
     for_each([&](int x, int y, uint64_t i, Sample& sample) {
       PixelResult& result = sample.result;
       if (valid_radiance(result, ctx_.plan.direct)) {
         expose(ctx_.scene.sensor, &result);
-        film->at(x - film->x0(), y - film->y0()).add(result, rays_.weight(x, y, i), samples_.light);
-        if (moments) add_to(&(*moments)[pixel_of_block(x, y)], sample);
+        const int weight = rays_.weight(x, y, i);
+        add_to(sums.film, x - sums.film->sums.x0(), y - sums.film->sums.y0(), i, result, weight);
+        if (sums.moments) add_to(&(*sums.moments)[pixel_of_block(x, y)], sample);
         return;
       }
-      ++tile->dropped;
-      add_examples({{y, x, i}}, &tile->examples);
+      ++sums.tile->dropped;
+      add_examples({{y, x, i}}, &sums.tile->examples);
     });
   }
 
@@ -71,6 +73,13 @@ class BlockSamples {
     PixelResult result;
     uint64_t rays = 0, gathers = 0;  // cost: rays traced, gathers from a map
   };
+
+  // Adds sample i of pixel (x, y) of the window.
+  void add_to(PassFilm* film, int x, int y, uint64_t i, const PixelResult& result, int weight) const {
+    film->sums.at(x, y).add(result, weight, samples_.light);
+    if (film->halved() && in_half(i, ctx_.samples.end - ctx_.samples.first))
+      film->half.at(x, y).add(result, weight, samples_.light);
+  }
 
   // Traced light (kTraced) is what shadow rays and emission contribute. Its variance is reported as zero
   // where it cannot be separated from what the maps contribute, or where weights may cancel.
@@ -106,7 +115,7 @@ bool render_block(const RenderContext& ctx, const PixelRange& pixels, const Samp
   for (uint64_t first = samples.first; first < samples.end; first += most) {
     BlockSamples some(ctx, pixels, {samples.part, first, std::min(samples.end, first + most), samples.light});
     some.shade(batch, sums.tile->counters);
-    some.add_to(sums.film, sums.moments, sums.tile);
+    some.add_to(sums);
     if (!go_on()) return false;
   }
   return true;

@@ -10,7 +10,7 @@
 #include "render/camera/camera_rays.h"
 #include "render/camera/pixel_range.h"
 #include "render/estimators/render_context.h"
-#include "render/film/film.h"
+#include "render/film/halves.h"
 
 namespace kaustik::render {
 
@@ -30,7 +30,7 @@ struct SampleRange {
 
 // Where the samples of a block go.
 struct BlockSums {
-  FilmSums* film;
+  PassFilm* film;
   BlockMoments* moments;  // may be null
   TileResult* tile;
 };

@@ -48,23 +48,35 @@ constexpr double kSecondsBetweenReports = 0.1;
 class TileCopy {
  public:
   // has_samples: false before a pass's first samples, when all sums are zero and nothing is copied.
-  TileCopy(const FilmSums& film, const PixelRange& tile, bool has_samples) : tile_(tile) {
+  TileCopy(const PassFilm& film, const PixelRange& tile, bool has_samples) : tile_(tile) {
     if (!has_samples) return;
-    sums_.reserve(tile.pixels());
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) sums_.push_back(film.at(x - film.x0(), y - film.y0()));
+    copy(film.sums, &sums_);
+    if (film.halved()) copy(film.half, &half_);
   }
 
-  void restore(FilmSums* film) const {
-    size_t i = 0;
-    for (int y = tile_.y0; y < tile_.y1; ++y)
-      for (int x = tile_.x0; x < tile_.x1; ++x, ++i)
-        film->at(x - film->x0(), y - film->y0()) = sums_.empty() ? PixelSum{} : sums_[i];
+  void restore(PassFilm* film) const {
+    put_back(sums_, &film->sums);
+    if (film->halved()) put_back(half_, &film->half);
   }
 
  private:
+  template <class Sum>
+  void copy(const PixelWindow<Sum>& film, std::vector<Sum>* sums) const {
+    sums->reserve(tile_.pixels());
+    for (int y = tile_.y0; y < tile_.y1; ++y)
+      for (int x = tile_.x0; x < tile_.x1; ++x) sums->push_back(film.at(x - film.x0(), y - film.y0()));
+  }
+  template <class Sum>
+  void put_back(const std::vector<Sum>& sums, PixelWindow<Sum>* film) const {
+    size_t i = 0;
+    for (int y = tile_.y0; y < tile_.y1; ++y)
+      for (int x = tile_.x0; x < tile_.x1; ++x, ++i)
+        film->at(x - film->x0(), y - film->y0()) = sums.empty() ? Sum{} : sums[i];
+  }
+
   PixelRange tile_;
   std::vector<PixelSum> sums_;
+  std::vector<HalfSum> half_;
 };
 
 // What a tile has counted so far, and whether it shall go on.
@@ -80,11 +92,12 @@ constexpr double kMostAfterShort = double(0.74f);
 // Renders one pass's samples of all pixels in the film's window.
 class TilePass {
  public:
-  TilePass(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film)
+  TilePass(const RenderContext& ctx, const ProgressCallback& progress, PassFilm* film)
       : ctx_(ctx), progress_(progress), film_(*film) {
-    const PixelRange window{film->x0(), film->x0() + film->width(), film->y0(), film->y0() + film->height()};
+    const FilmSums& sums = film->sums;
+    const PixelRange window{sums.x0(), sums.x0() + sums.width(), sums.y0(), sums.y0() + sums.height()};
     window.for_each_square(kTileSize, [this](const PixelRange& tile) { tiles_.push_back(tile); });
-    if (ctx.samples.adaptive_work > 0) counts_.emplace(*film);
+    if (ctx.samples.adaptive_work > 0) counts_.emplace(sums);
     to_do_ = tiles_.size() * (1 + rounds_of(ctx.samples.adaptive_work));
   }
 
@@ -214,7 +227,7 @@ class TilePass {
 
   const RenderContext& ctx_;
   const ProgressCallback& progress_;
-  FilmSums& film_;
+  PassFilm& film_;
   std::vector<PixelRange> tiles_;
   std::optional<SampleCounts> counts_;  // set if adaptive samples follow
   MergedTiles merged_;
@@ -227,7 +240,7 @@ class TilePass {
 
 }  // namespace
 
-bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
+bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, PassFilm* film,
                   RenderStatistics* statistics, const AdaptiveWork& adaptive_work) {
   TilePass pass(ctx, progress, film);
   const bool finished = pass.render(adaptive_work);

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "render/estimators/render_context.h"
-#include "render/film/film.h"
+#include "render/film/halves.h"
 #include "render/plan/progress.h"
 
 namespace kaustik::render {
@@ -43,7 +43,7 @@ inline size_t rounds_of(double work) {
 // counts to statistics. False when the progress callback cancelled; then tiles are missing. The callback is
 // called at the start, after each tile, and several times a second within long ones. If ctx allows adaptive
 // samples, adaptive_work, if set, says how many; statistics says what it allowed.
-bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, FilmSums* film,
+bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, PassFilm* film,
                   RenderStatistics* statistics, const AdaptiveWork& adaptive_work = {});
 
 }  // namespace kaustik::render

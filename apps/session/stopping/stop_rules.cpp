@@ -74,7 +74,7 @@ bool StopRule::met_by(const render::PassSums& sums) {
 bool StopRule::enough(const render::PassSums& sums) {
   const double now = seconds(), pass = now - last_;
   last_ = now;
-  if (!reaches_target(sums) && settings_.seconds && now + pass > *settings_.seconds)
+  if (!reaches_target(sums) && settings_.seconds && now + pass + seconds_after_ > *settings_.seconds)
     reason_ = fmt::format("time {}s", *settings_.seconds);
   return !reason_.empty();
 }

@@ -35,8 +35,14 @@ void settle_error_settings(const Console& console, const SceneNeeds& needs, Sett
 class StopRule {
  public:
   // `seconds_before`: time spent by earlier commands on the same render. `total`: started with this command.
-  StopRule(const StopSettings& settings, double seconds_before, const Stopwatch& total)
-      : settings_(settings), seconds_before_(seconds_before), total_(total), last_(seconds()) {}
+  // `seconds_after`: what follows the last pass, for which time is left.
+  StopRule(const StopSettings& settings, double seconds_before, const Stopwatch& total,
+           double seconds_after = 0)
+      : settings_(settings),
+        seconds_before_(seconds_before),
+        seconds_after_(seconds_after),
+        total_(total),
+        last_(seconds()) {}
 
   // Whether the passes of an earlier command already suffice.
   bool met_by(const render::PassSums& sums);
@@ -53,7 +59,7 @@ class StopRule {
   double seconds() const { return seconds_before_ + total_.seconds(); }
 
   StopSettings settings_;
-  double seconds_before_;
+  double seconds_before_, seconds_after_;
   const Stopwatch& total_;
   double last_;                  // seconds() at the last check
   std::optional<double> error_;  // relative

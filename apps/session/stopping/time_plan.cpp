@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "apps/session/stopping/denoising_time.h"
 #include "apps/session/stopping/path_choice.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "render/camera/pixel_range.h"
@@ -96,7 +97,8 @@ class TimePlan {
         render_(settings->render),
         plan_(render::make_plan(render_, scene.needs)),
         gathers_(render::kinds_needed(plan_).any()),
-        fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)) {}
+        fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)),
+        denoising_(denoising_seconds(render_, scene.camera)) {}
 
   FilledTime settle() {
     if (!gathers_) return settle_by_trials();
@@ -112,7 +114,7 @@ class TimePlan {
 
   double left() const {
     const uint64_t pixels = render::rendered_range(render_.crop, scene_.camera).pixels();
-    return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels);
+    return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels) - denoising_;
   }
 
   FilledTime settle_by_trials() {
@@ -289,6 +291,7 @@ class TimePlan {
   render::EstimatorPlan plan_;
   bool gathers_;       // whether there are photons at all
   double fewest_;      // photons
+  double denoising_;   // seconds
   std::string paths_;  // the options by which paths replace maps
   std::shared_ptr<render::ExploredScene> explored_ = std::make_shared<render::ExploredScene>();
 };

@@ -139,7 +139,7 @@ Setting cone_k_setting() {
 Setting exposure_setting() {
   Setting s{.name = "exposure",
             .commands = SettingsCommand::kRender | SettingsCommand::kResume | SettingsCommand::kMerge |
-                        SettingsCommand::kSweep,
+                        SettingsCommand::kSweep | SettingsCommand::kDenoise,
             .kind = ValueKind::kNumber,
             .value_name = "STOPS",
             .unit = "stops",

@@ -79,36 +79,54 @@ Setting time_row() {
       {&StopSettings::seconds, parse_duration, "a time above 0 with its unit, like 60s, 10m or 1.5h", "s"});
 }
 
-Setting estimate_bias_row() {
+// A setting that is off, on, or left to its default.
+Setting switch_row(std::string_view name, CommandSet commands,
+                   std::optional<bool> render::RenderSettings::*member, std::string_view by_default,
+                   std::string_view doc) {
   constexpr std::array<std::string_view, 2> kOffOn = {"off", "on"};
-  Setting s{.name = "estimate-bias",
-            .commands = kRenderingCommands,
+  Setting s{.name = name,
+            .commands = commands,
             .kind = ValueKind::kChoice,
             .value_name = "NAME",
             .range = "off, on",
-            .default_text = "on if the error is asked for",
-            .doc =
-                "Measure the bias of the photon maps' kernels by gathering at half the radius too, once per "
-                "pixel and "
-                "pass. --target-error and the layers error and bias turn it on."};
+            .default_text = std::string(by_default),
+            .doc = doc};
   s.choices.assign(kOffOn.begin(), kOffOn.end());
-  s.assign = [kOffOn](Settings& settings, ValueTexts texts) -> Complaint {
+  s.assign = [kOffOn, member](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<bool> on = render::from_name<bool>(kOffOn, texts[0]);
     if (!on) return fmt::format("`{}`: expected off or on", texts[0]);
-    settings.render.estimate_bias = *on;
+    settings.render.*member = *on;
     return std::nullopt;
   };
-  s.show = [kOffOn](const Settings& settings) {
-    const std::optional<bool>& on = settings.render.estimate_bias;
+  s.show = [kOffOn, member](const Settings& settings) {
+    const std::optional<bool>& on = settings.render.*member;
     return on ? as_texts(kOffOn[*on ? 1 : 0]) : std::vector<std::string>{};
   };
   return s;
 }
 
+Setting estimate_bias_row() {
+  return switch_row(
+      "estimate-bias", kRenderingCommands, &render::RenderSettings::estimate_bias,
+      "on if the error is asked for",
+      "Measure the bias of the photon maps' kernels by gathering at half the radius too, once per pixel and "
+      "pass. --target-error and the layers error and bias turn it on.");
+}
+
+Setting denoise_row() {
+  return switch_row(
+      "denoise", SettingsCommand::kRender, &render::RenderSettings::denoise,
+      "on for --time and for up to 16 samples a pixel; off for more, and with --passes, --target-error, "
+      "--crop, "
+      "partial results or --method mc",
+      "Filter noise out of the picture. EXR files then hold the unfiltered picture as the layer noisy; other "
+      "layers and the stated error are never filtered.");
+}
+
 }  // namespace
 
 std::vector<Setting> stop_rows() {
-  return {target_error_row(), target_quantile_row(), time_row(), estimate_bias_row()};
+  return {target_error_row(), target_quantile_row(), time_row(), estimate_bias_row(), denoise_row()};
 }
 
 }  // namespace kaustik::app

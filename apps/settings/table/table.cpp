@@ -121,11 +121,14 @@ Setting aov_setting() {
             .commands = kThatWritePictures,
             .kind = ValueKind::kNames,
             .value_name = "NAMES",
-            .range = fmt::format("{}, all, none", fmt::join(render::kLayerNames, ", ")),
+            .range = fmt::format("{}, {}, all, none", fmt::join(render::kLayerNames, ", "),
+                                 render::kDenoisingLayers),
             .default_text = "none",
-            .doc = "Layers to write to EXR files besides the image, separated by commas."};
+            .doc =
+                "Layers to write to EXR files besides the image, separated by commas; denoising: all that "
+                "`kaustik denoise` reads."};
   s.choices.assign(render::kLayerNames.begin(), render::kLayerNames.end());
-  s.choices.insert(s.choices.end(), {"all", "none"});
+  s.choices.insert(s.choices.end(), {render::kDenoisingLayers, "all", "none"});
   s.assign = [names = s.choices](Settings& settings, ValueTexts texts) -> Complaint {
     std::vector<std::string> layers = split_at_commas(fmt::format("{}", fmt::join(texts, ",")));
     for (const std::string& layer : layers) {
@@ -147,7 +150,7 @@ Setting aov_setting() {
 Setting tonemap_setting() {
   Setting s{
       .name = "tonemap",
-      .commands = kThatWritePictures | SettingsCommand::kSweep,
+      .commands = kThatWritePictures | SettingsCommand::kSweep | SettingsCommand::kDenoise,
       .kind = ValueKind::kChoice,
       .value_name = "NAME",
       .range = fmt::format("{}", fmt::join(render::kTonemapNames, ", ")),
@@ -261,9 +264,11 @@ void add_image(std::vector<Setting>& table) {
   table.back().reader = SettingReader::kAdaptiveSamples;
   table.push_back(count("seed", kAllThatTrace, {}, &RenderSettings::seed, 0, kMaxUint64, {},
                         "Random seed. The same seed gives a bit-identical image."));
-  table.push_back(count("threads", kRenderAndPhotons | SettingsCommand::kResume | SettingsCommand::kSweep,
-                        "threads", &RenderSettings::threads, 0, 65535, "0 (all usable cores)",
-                        "Most threads that the process uses. The image does not depend on it."));
+  table.push_back(count(
+      "threads",
+      kRenderAndPhotons | SettingsCommand::kResume | SettingsCommand::kSweep | SettingsCommand::kDenoise,
+      "threads", &RenderSettings::threads, 0, 65535, "0 (all usable cores)",
+      "Most threads that the process uses. The image does not depend on it."));
   table.back().decides_sums = false;
   table.push_back(count("width", kAllThatTrace, "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
                         "Image width. If it is given alone, the height keeps the aspect ratio."));

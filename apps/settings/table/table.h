@@ -16,7 +16,17 @@
 namespace kaustik::app {
 
 // The commands that take settings as options.
-enum class SettingsCommand : unsigned { kRender, kResume, kMerge, kPhotons, kBench, kSweep, kInfo, kConvert };
+enum class SettingsCommand : unsigned {
+  kRender,
+  kResume,
+  kMerge,
+  kPhotons,
+  kBench,
+  kSweep,
+  kInfo,
+  kConvert,
+  kDenoise
+};
 
 // A set of them. There is no empty one: a row of the table that names no command does not compile.
 class CommandSet {

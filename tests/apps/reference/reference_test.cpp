@@ -162,7 +162,7 @@ TEST_F(Reference, BashCompletesCommandsOptionsValuesAndFiles) {
   EXPECT_EQ(completed("render --guide ''"), "off;on;");
   EXPECT_EQ(completed("render --guide = of"), "off;");
   EXPECT_EQ(completed("render --guide ="), "off;on;");
-  EXPECT_EQ(completed("render --aov direct,de"), "direct,depth;");
+  EXPECT_EQ(completed("render --aov direct,dep"), "direct,depth;");
   EXPECT_EQ(completed("sweep --methods mc,ray"), "mc,raytrace;");
   EXPECT_EQ(completed("photons --kinds sh"), "shadow;");
   EXPECT_EQ(completed("render --photons ''"), ";");

@@ -104,6 +104,25 @@ TEST_F(PartialFile, KeepsEverything) {
   EXPECT_EQ(back.sums.statistics.radius, 3e10f);
 }
 
+TEST_F(PartialFile, KeepsHalves) {
+  PartialResult part = example();
+  EXPECT_FALSE(part.sums.totals.has_halves());
+  FilmSums film(3, 2, 1, 0, 8, 8);
+  film.at(2, 1) = {.direct = {1, 2, 3}, .count = 4};
+  part.sums.totals = FilmTotals(window_of<PixelTotals>(film), {-60, -50, -70});
+  part.sums.totals.keep_halves();
+  part.sums.totals.add_as_half(film);
+  write_partial(file_, part.manifest, part.sums);
+  const PartialResult back = read_partial(file_);
+  EXPECT_EQ(difference(part, back), "");
+  ASSERT_TRUE(back.sums.totals.has_halves());
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x)
+      EXPECT_EQ(back.sums.totals.half_pixels().at(x, y), part.sums.totals.half_pixels().at(x, y));
+  EXPECT_EQ(back.sums.totals.half_pixels().at(2, 1).weight, 4);
+  EXPECT_THAT(difference(example(), back), HasSubstr("halves"));
+}
+
 // Flips bytes in the header, the manifest, the sums and the checksum.
 TEST_F(PartialFile, EveryFlippedByteIsFound) {
   const PartialResult part = example();
@@ -136,7 +155,7 @@ TEST_F(PartialFile, TruncatedAndForeignFilesAreRefusedByName) {
   std::string newer = whole;
   ++newer[8];
   write(newer);
-  EXPECT_THAT(complaint(), HasSubstr("version 3 of the format"));
+  EXPECT_THAT(complaint(), HasSubstr("version 4 of the format"));
   std::filesystem::remove(file_);
   EXPECT_THAT(complaint(), HasSubstr("No such file"));
   std::filesystem::create_directory(file_);

@@ -69,7 +69,7 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
   const Film film = numbered_film();
   write_film(path, film, options);
   const Channels file = read_channels(path);
-  EXPECT_EQ(file.spec.nchannels, 3 + 3 * 8 + 2);
+  EXPECT_EQ(file.spec.nchannels, 3 + 3 * 11 + 3);
   EXPECT_EQ(file.spec.get_string_attribute("kaustik:seed"), "42");
   EXPECT_EQ(file.spec.get_string_attribute("DateTime"), "") << "the bytes must not depend on the time of day";
   for (int y = 0; y < 2; ++y)
@@ -85,11 +85,41 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
       EXPECT_EQ(file.at(x, y, "normal.Y"), p.normal.y);
       EXPECT_EQ(file.at(x, y, "depth.Z"), p.depth);
       EXPECT_EQ(file.at(x, y, "photons.Y"), p.photons);
+      EXPECT_EQ(file.at(x, y, "denoising_emitted.R"), p.denoising_emitted.x);
+      EXPECT_EQ(file.at(x, y, "denoising_albedo.G"), p.denoising_albedo.y);
+      EXPECT_EQ(file.at(x, y, "denoising_normal.Z"), p.denoising_normal.z);
+      EXPECT_EQ(file.at(x, y, "denoising_depth.Z"), p.denoising_depth);
       EXPECT_EQ(file.at(x, y, "error.G"), p.error.y);
       EXPECT_EQ(file.at(x, y, "bias.B"), p.bias.z);
     }
   const Image image = read_image(path);
   EXPECT_EQ(image.at(2, 1), film.at(2, 1).radiance());
+}
+
+// The picture that is shown, the film's own as the layer `noisy`, and the halves of its samples.
+TEST(ImageIo, ExrKeepsHalvesAndThePictureBeforeDenoising) {
+  const std::string path = output_file("denoised.exr");
+  const Film film = numbered_film();
+  HalfFilm halves = window_of<HalfMeans>(film);
+  halves.at(2, 1).mean[1][half_of(Layer::kDenoisingNormal) + 2] = 5;
+  halves.at(2, 1).share = {0.25f, 0.75f};
+  const Image shown(film.width(), film.height(), Rgb(1, 2, 3));
+  WriteOptions options;
+  options.picture = &shown, options.halves = &halves;
+  write_film(path, film, options);
+  const Channels file = read_channels(path);
+  EXPECT_EQ(file.spec.nchannels, 3 + 3 + 2 * (int(kHalfChannels) + 1));
+  EXPECT_EQ(file.at(2, 1, "G"), 2);
+  EXPECT_EQ(file.at(2, 1, "noisy.G"), film.at(2, 1).radiance().y);
+  EXPECT_EQ(file.at(2, 1, "half_b.denoising_normal.Z"), 5);
+  EXPECT_EQ(file.at(2, 1, "half_a.share.Y"), 0.25f);
+  const ExrChannels channels = read_exr_file(path, 100);
+  ASSERT_NE(channels.find("half_b.share.Y"), nullptr);
+  EXPECT_EQ((*channels.find("half_b.share.Y"))[size_t(film.width()) + 2], 0.75f);
+  EXPECT_EQ(channels.find("half_c.share.Y"), nullptr);
+  EXPECT_THROW(read_exr_file(path, 3), std::runtime_error);
+  write_channels(output_file("copy.exr"), channels);
+  EXPECT_EQ(read_exr_file(output_file("copy.exr"), 100).values, channels.values);
 }
 
 TEST(ImageIo, ReadsOneLayer) {

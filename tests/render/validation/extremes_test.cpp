@@ -50,6 +50,7 @@ TEST(Extremes, EveryPowerOfTwoGivesTheSamePicture) {
       for (int y = 0; y < 12; ++y)
         for (int x = 0; x < 12; ++x) {
           scaled.film.at(x, y).depth /= std::ldexp(1.0f, k);
+          scaled.film.at(x, y).denoising_depth /= std::ldexp(1.0f, k);
           ASSERT_EQ(std::memcmp(&scaled.film.at(x, y), &one.film.at(x, y), sizeof(PixelResult)), 0)
               << "2^" << k << " at " << x << " " << y;
         }

@@ -1,0 +1,32 @@
+#include "render/denoise/plane.h"
+
+#include <algorithm>
+
+namespace kaustik::render {
+
+namespace {
+
+// The number of pixels within `radius` of pixel `at` in a row of `size`.
+int reached(int at, int radius, int size) {
+  return std::min(at + radius, size - 1) - std::max(at - radius, 0) + 1;
+}
+
+}  // namespace
+
+Plane blurred(const Plane& plane, int radius) {
+  const int width = plane.width(), height = plane.height();
+  Plane columns(width, height), out(width, height);
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int v = -radius; v <= radius; ++v)
+      for (int x = 0; x < width; ++x) columns.at(x, y) += plane.at(x, y + v);
+  });
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int u = -radius; u <= radius; ++u)
+      for (int x = 0; x < width; ++x) out.at(x, y) += columns.at(x + u, y);
+    for (int x = 0; x < width; ++x)
+      out.at(x, y) /= float(reached(x, radius, width) * reached(y, radius, height));
+  });
+  return out;
+}
+
+}  // namespace kaustik::render

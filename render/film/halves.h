@@ -1,0 +1,104 @@
+#pragma once
+// The samples of each pixel in two halves, of which one is summed apart. Denoisers learn the noise from what
+// two independent halves differ by, and check a filter of one half by the other.
+//
+// Several passes are halved by passes, odd ones apart, so that the halves share no photons. A single pass is
+// halved by samples; its halves share the photons, and their difference is the noise of camera samples alone.
+
+#include <array>
+#include <cstdint>
+
+#include "render/film/exact_sum.h"
+#include "render/film/film.h"
+
+namespace kaustik::render {
+
+// The layers that are halved.
+constexpr bool in_halves(const LayerRow& row) {
+  switch (row.layer) {
+    case Layer::kDirect:
+    case Layer::kCaustic:
+    case Layer::kIndirect:
+    case Layer::kDenoisingEmitted:
+    case Layer::kDenoisingAlbedo:
+    case Layer::kDenoisingNormal:
+    case Layer::kDenoisingDepth:
+      return true;
+    default:
+      return false;
+  }
+}
+// The halves hold the numbers of these layers, one after the other. Where a layer's begin:
+constexpr size_t half_of(Layer layer) {
+  size_t channel = 0;
+  for (const LayerRow& row : kLayerTable)
+    if (row.layer < layer && in_halves(row)) channel += row.channels.size();
+  return channel;
+}
+inline constexpr size_t kHalfChannels = half_of(Layer(kLayers));
+
+// Calls fn(row, i, c) for channel c of each layer that is halved; i counts the channels of all.
+template <class Fn>
+void for_each_half_channel(const Fn& fn) {
+  size_t i = 0;
+  for (const LayerRow& row : kLayerTable)
+    for (size_t c = 0; in_halves(row) && c < row.channels.size(); ++c) fn(row, i++, c);
+}
+
+// Whether sample `index` of a pass belongs to the half that is summed apart. samples: how many each pixel
+// takes before adaptive ones. Up to four samples in a row stay together: every aligned block of 2^k is
+// stratified (core/sampling/sampler.h), so that the halves' noise is nearly independent, while that of even
+// and odd samples would be opposite.
+constexpr bool in_half(uint64_t index, uint64_t samples) {
+  const int block = samples >= 8 ? 2 : samples >= 4 ? 1 : 0;
+  return (index >> block) & 1;
+}
+
+// Sums over the samples of one half, as PixelSum.
+struct HalfSum {
+  std::array<double, kHalfChannels> sums{};
+  int64_t weight = 0;       // of all samples
+  int64_t maps_weight = 0;  // of those that computed what photon maps contribute
+
+  void add(const PixelResult& s, int sample_weight, SampleLight light) {
+    for_each_half_channel(
+        [&](const LayerRow& row, size_t i, size_t c) { sums[i] += sample_weight * double(row.in(s)[c]); });
+    weight += sample_weight;
+    maps_weight += light == SampleLight::kAll ? sample_weight : 0;
+  }
+};
+using HalfSums = PixelWindow<HalfSum>;
+
+// The film into which a pass is rendered.
+struct PassFilm {
+  FilmSums sums;
+  HalfSums half;  // of the half that is summed apart; empty if the pass is not halved
+
+  bool halved() const { return half.width() > 0; }
+  void clear() {
+    sums.clear();
+    half.clear();
+  }
+};
+
+// Exact sums of the half of all passes that is summed apart.
+struct HalfTotals {
+  std::array<ExactSum, kHalfChannels> sums;
+  int64_t weight = 0, maps_weight = 0;
+  int64_t all_maps_weight = 0;  // of both halves
+  int64_t unused = 0;           // no padding, since partial results hold the bytes of these totals
+
+  bool operator==(const HalfTotals&) const = default;
+};
+
+inline constexpr std::array<std::string_view, 2> kHalfNames = {"half_a", "half_b"};
+
+// Means over the samples of either half.
+struct HalfMeans {
+  std::array<std::array<float, kHalfChannels>, 2> mean{};
+  // The share of each in the weight of all samples; 0 where there are none, or their weights cancel.
+  std::array<float, 2> share{};
+};
+using HalfFilm = PixelWindow<HalfMeans>;
+
+}  // namespace kaustik::render
