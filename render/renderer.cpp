@@ -79,6 +79,10 @@ class PassRenderer {
   }
   const std::optional<GatherRadii>& radii() const { return photons_.radii(); }
 
+  PassShare share(uint64_t pass) const {
+    return pass_share(pass, shares_, input_.settings.photons, input_.settings.spp);
+  }
+
   // Renders one pass into a film of zeros. False when the progress callback cancelled.
   bool render(uint64_t pass, PassFilm* film, RenderStatistics* statistics) {
     const PassShare part = share(pass);
@@ -115,10 +119,6 @@ class PassRenderer {
     return true;
   }
 
-  PassShare share(uint64_t pass) const {
-    return pass_share(pass, shares_, input_.settings.photons, input_.settings.spp);
-  }
-
   const RenderInput input_;
   uint64_t shares_;
   std::shared_ptr<FirstPhotons> first_;
@@ -151,9 +151,10 @@ PassSums nothing_yet(const RenderInput& input, uint64_t shares, bool with_totals
 }
 
 // Adds a pass to the totals; returns how many sums were clamped.
-uint64_t add_pass(uint64_t pass, const PassFilm& film, PassSums* sums) {
+uint64_t add_pass(const PassShare& pass, const PassFilm& film, PassSums* sums) {
   if (film.halved()) return sums->totals.add(film.sums, &film.half);
-  return pass % 2 == 1 ? sums->totals.add_as_half(film.sums) : sums->totals.add(film.sums);
+  const bool half = pass_in_half(pass.pass, pass.shares, pass.end_sample - pass.first_sample);
+  return half ? sums->totals.add_as_half(film.sums) : sums->totals.add(film.sums);
 }
 
 // Renders the passes of `missing` one after the other and adds them to result->sums. False when the progress
@@ -172,7 +173,7 @@ bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderT
       const bool finished = renderer.render(pass, tiles, &result->statistics);
       sums.radii = renderer.radii();
       if (!finished) return false;
-      if (task.keep_sums) result->statistics.clamped_sums = add_pass(pass, *tiles, &sums);
+      if (task.keep_sums) result->statistics.clamped_sums = add_pass(renderer.share(pass), *tiles, &sums);
       sums.passes.add(PassSet(pass, pass + 1));
       sums.statistics += result->statistics;
       if (task.after_pass && !task.after_pass(sums)) return true;
@@ -227,8 +228,9 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   PassRenderer renderer(input, shares, task, result.sums.radii,
                         serialised(callback, goal.end() < kMostPasses ? std::max(shares, goal.end()) : 0));
   PassFilm tiles{make_window<PixelSum>(settings.crop, scene.camera), {}};
-  // Several passes are halved by passes, which the totals do.
-  if (keeps_halves(settings) && shares == 1) tiles.half = make_window<HalfSum>(settings.crop, scene.camera);
+  const bool halved = task.keep_sums ? result.sums.totals.has_halves() : keeps_halves(settings);
+  // Several planned passes are halved by passes, which the totals do.
+  if (halved && shares == 1) tiles.half = make_window<HalfSum>(settings.crop, scene.camera);
   result.cancelled = !render_passes(renderer, missing, task, &tiles, &result);
   show(tiles, task.keep_sums, &result);
   return result;

@@ -31,7 +31,7 @@ render::ExrChannels read(const std::string& path) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw render::ImageError(path, error.what());
+    refuse(fmt::format("{}: {}", path, error.what()));
   }
 }
 
@@ -39,7 +39,7 @@ render::NoisyPicture noisy_picture(const render::ExrChannels& file, const std::s
   try {
     return render::noisy_picture(file);
   } catch (const std::runtime_error& error) {
-    throw render::ImageError(path, error.what());
+    refuse(fmt::format("{}: {}", path, error.what()));
   }
 }
 

@@ -11,8 +11,8 @@ void settle_denoising(bool writes_sums, Settings* settings) {
   if (render.denoise) return;
   const bool counts = writes_sums || settings->stop.target_error || render.passes > 0 ||
                       !render.crop.empty() || render.method == render::Method::kMc ||
-                      names_error_layer(render.aov);
-  render.denoise = !counts && (settings->stop.seconds || render.spp <= kSamplesDenoised);
+                      names_error_layer(render.aov) || render.estimate_bias.value_or(false);
+  if (counts || !settings->stop.seconds) render.denoise = !counts && render.spp <= kSamplesDenoised;
 }
 
 std::optional<render::Image> denoised(const render::RenderResult& result,
@@ -26,9 +26,14 @@ std::optional<render::Image> denoised(const render::RenderResult& result,
     return {};
   }
   const Stopwatch watch;
-  render::Image image = render::denoise(result.film, result.halves);
-  *seconds = watch.seconds();
-  return image;
+  try {
+    render::Image image = render::denoise(result.film, result.halves);
+    *seconds = watch.seconds();
+    return image;
+  } catch (const std::bad_alloc&) {
+    console.warning("the picture is not denoised: out of memory");
+    return {};
+  }
 }
 
 }  // namespace kaustik::app

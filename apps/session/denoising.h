@@ -13,12 +13,14 @@ namespace kaustik::app {
 // Renders of at most this many samples a pixel are denoised unless the settings say otherwise.
 inline constexpr int kSamplesDenoised = 16;
 
-// Where the settings leave it open, turns denoising on for renders that have little time or few samples, and
-// off for those whose numbers count: several passes, an error to reach or to show, partial results
-// (writes_sums), crops, whose pixels are those of the whole picture, and `mc`.
+// Where the settings leave it open, turns denoising on for renders of few samples, and off for those whose
+// numbers count: several passes, an error to reach or to show, partial results (writes_sums), crops, whose
+// pixels are those of the whole picture, and `mc`. Renders for --time stay open: see
+// stopping/denoising_time.h.
 void settle_denoising(bool writes_sums, Settings* settings);
 
-// The denoised picture, if the settings ask for it. Nothing, and a note, if the samples have no halves. Sets
+// The denoised picture, if the settings ask for it. Nothing, with a message, if the samples have no halves or
+// memory does not suffice. Sets
 // *seconds to what it took.
 std::optional<render::Image> denoised(const render::RenderResult& result,
                                       const render::RenderSettings& settings, const Console& console,

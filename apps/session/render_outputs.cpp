@@ -97,8 +97,12 @@ void write_pictures(const std::vector<std::string>& files, const Outcome& outcom
   render::WriteOptions options;
   options.layers = layers_of(outcome, console);
   if (picture) options.picture = &*picture;
-  if (render::names_denoising(outcome.settings.render.aov) && result.halves.width() > 0)
-    options.halves = &result.halves;
+  if (render::names_denoising(outcome.settings.render.aov)) {
+    if (result.halves.width() > 0)
+      options.halves = &result.halves;
+    else
+      console.warning("the halves of samples are left out: the passes were rendered without --aov denoising");
+  }
   options.metadata = render::metadata_of(result, outcome.settings.render, settings);
   if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
     options.metadata.emplace_back("kaustik:stopped_by", rule);

@@ -134,6 +134,7 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     const accel::Bvh bvh(job.scene, job.settings.render.threads);
     times.bvh = watch.seconds();
     ProgressBar bar(console);
+    settle_timed_denoising(job.scene.camera, console, &job.settings);
     FilledTime filled = run_trials(job, session, bvh, bar, interrupt, total, console);
     const double filled_seconds = filled.single_pass ? *job.settings.stop.seconds : 0;
     times.trials =

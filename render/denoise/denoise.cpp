@@ -1,4 +1,4 @@
-// Features, classes of light, estimated errors, and the choice among filters.
+// Features, classes of light, estimated errors, and where the filter is taken.
 
 #include "render/denoise/denoise.h"
 
@@ -20,12 +20,18 @@ float mean_of(const HalfMeans& pixel, size_t channel) {
   return pixel.share[0] * pixel.mean[0][channel] + pixel.share[1] * pixel.mean[1][channel];
 }
 
-double mean_depth(const HalfFilm& halves) {
+// The harmonic mean of depths, which a far background hardly changes.
+double usual_depth(const HalfFilm& halves) {
   double sum = 0;
+  int64_t count = 0;
   for (int y = 0; y < halves.height(); ++y)
-    for (int x = 0; x < halves.width(); ++x)
-      sum += double(mean_of(halves.at(x, y), half_of(Layer::kDenoisingDepth)));
-  return sum / (double(halves.width()) * double(halves.height()));
+    for (int x = 0; x < halves.width(); ++x) {
+      const float depth = mean_of(halves.at(x, y), half_of(Layer::kDenoisingDepth));
+      if (!(depth > 0)) continue;
+      sum += 1 / double(depth);
+      ++count;
+    }
+  return sum > 0 ? double(count) / sum : 1;
 }
 
 bool known(const HalfMeans& pixel) {
@@ -37,14 +43,14 @@ FeaturePlanes features_of(const HalfFilm& halves) {
   static_assert(half_of(Layer::kDenoisingNormal) == half_of(Layer::kDenoisingAlbedo) + 3);
   static_assert(half_of(Layer::kDenoisingDepth) == half_of(Layer::kDenoisingAlbedo) + 6);
   constexpr size_t kDepth = 6;
-  const double usual = mean_depth(halves);
+  const double usual = usual_depth(halves);
   FeaturePlanes features;
   for (Plane& plane : features) plane = Plane(halves.width(), halves.height());
   for_each_pixel(halves.width(), halves.height(), [&](int x, int y) {
     for (size_t f = 0; f < kFeatures; ++f)
       features[f].at(x, y) = mean_of(halves.at(x, y), half_of(Layer::kDenoisingAlbedo) + f);
     float& depth = features[kDepth].at(x, y);
-    if (usual > 0) depth = float(double(depth) / (double(depth) + usual));
+    depth = depth > 0 ? float(double(depth) / (double(depth) + usual)) : 0;
   });
   return features;
 }
@@ -100,8 +106,10 @@ void set_class(const Picture& picture, Layer layer, ClassOfLight* light) {
     if (lit_row) lit = true;
   });
   out.dark = !lit;
-  if (!out.dark)
-    for (Plane& plane : out.variance) plane = blurred(plane, 1);
+  if (out.dark) return;
+  for (Plane& plane : out.variance) plane = blurred(plane, 1);
+  for (ColourPlanes* planes : {&out.mean, &out.variance})
+    for (Plane& plane : *planes) plane.extend();  // patches reach over the picture's edge
 }
 
 // Estimated squared error of the mean of a pixel's samples, in one channel.
@@ -184,7 +192,8 @@ void apply(Filtered& light, const Plane& level, Image* image) {
                  [&](int x, int y) { taken.at(x, y) = taken.at(x, y) > 0 ? 1.0f : 0.0f; });
   taken = blurred(taken, 2);
   for_each_pixel(image->width, image->height, [&](int x, int y) {
-    for (size_t c = 0; c < 3; ++c) image->at(x, y)[int(c)] += taken.at(x, y) * light.change[c].at(x, y);
+    if (taken.at(x, y) > 0)
+      for (size_t c = 0; c < 3; ++c) image->at(x, y)[int(c)] += taken.at(x, y) * light.change[c].at(x, y);
   });
 }
 

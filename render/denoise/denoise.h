@@ -2,11 +2,11 @@
 // Filters what is left of noise out of a picture.
 //
 // Each class of light is filtered by itself, divided by the albedo of what is seen where surfaces scatter it
-// diffusely, and guided by albedo, normal and depth (regression.h). Two bandwidths are tried. Their errors
-// are estimated from two halves of the samples: the filtered half A is compared with half B, whose noise is
-// independent, and vice versa. Each pixel takes what has the least error about it: one of the two filters, or
-// its own samples. Where samples agree, such as at the edges of a caustic whose photons all samples share,
-// nothing is changed. What the first hit emits is not filtered.
+// diffusely, and guided by albedo, normal and depth (regression.h). The error is estimated from two halves of
+// the samples: the filtered half A is compared with half B, whose noise is independent, and vice versa. Each
+// pixel takes what has the least error about it: the filter's value, or its own samples. Where samples agree,
+// such as at the edges of a caustic whose photons all samples share, nothing is changed. What the first hit
+// emits is not filtered.
 
 #include "render/film/halves.h"
 #include "render/picture/image.h"

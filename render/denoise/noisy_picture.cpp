@@ -105,7 +105,9 @@ std::vector<Channel> first_of(const ExrChannels& file, std::span<const std::stri
 // Sets a channel of both halves.
 void set_both(Channel channel, size_t to, NoisyPicture* picture) {
   for_each_value(picture->film, channel, [&](int x, int y, float v) {
-    picture->halves.at(x, y).mean[0][to] = picture->halves.at(x, y).mean[1][to] = v;
+    // Where nothing is seen, other renderers write an infinite depth.
+    const bool far = to == half_of(Layer::kDenoisingDepth) && !std::isfinite(v);
+    for (auto& mean : picture->halves.at(x, y).mean) mean[to] = far ? 1e30f : v;
   });
 }
 
@@ -137,7 +139,8 @@ Plane noise_of(const Plane& values) {
     size_t count = 0;
     for (int v = std::max(y - kAround, 0); v <= std::min(y + kAround, height - 1); ++v)
       for (int u = std::max(x - kAround, 0); u <= std::min(x + kAround, width - 1); ++u)
-        around[count++] = difference.at(u, v);
+        if (std::isfinite(difference.at(u, v))) around[count++] = difference.at(u, v);
+    if (count == 0) return 0.0f;
     const auto middle = around.begin() + std::ptrdiff_t(count / 2);
     std::nth_element(around.begin(), middle, around.begin() + std::ptrdiff_t(count));
     return kOfMedian / kGain * *middle;
@@ -172,6 +175,7 @@ void leave_out_unknown(NoisyPicture* picture) {
     bool finite = is_finite(picture->film.at(x, y).radiance());
     for (const auto& half : pixel.mean)
       for (const float v : half) finite &= std::isfinite(v);
+    for (const float share : pixel.share) finite &= share > 0 && share < 1;
     if (!finite) pixel = {};
   });
 }
@@ -179,16 +183,17 @@ void leave_out_unknown(NoisyPicture* picture) {
 }  // namespace
 
 NoisyPicture noisy_picture(const ExrChannels& file) {
+  constexpr std::array<std::string_view, 4> kColours = {"noisy", "Noisy Image", "", "Combined"};
+  const bool measured = has_halves(file);
+  const std::vector<Channel> colours = first_of(file, kColours, "RGB");
+  if (!measured && colours.empty()) throw std::runtime_error("it has no channels R, G and B");
   NoisyPicture picture{Film(file.width, file.height, 0, 0, file.width, file.height),
                        HalfFilm(file.width, file.height, 0, 0, file.width, file.height),
-                       has_halves(file),
+                       measured,
                        {}};
-  if (picture.measured) {
+  if (measured) {
     read_halves(file, &picture);
   } else {
-    constexpr std::array<std::string_view, 4> kColours = {"noisy", "Noisy Image", "", "Combined"};
-    const std::vector<Channel> colours = first_of(file, kColours, "RGB");
-    if (colours.empty()) throw std::runtime_error("it has no channels R, G and B");
     read_features(file, &picture);
     read_colours(colours, &picture);
   }

@@ -3,7 +3,7 @@
 // `--aov denoising`, or one of another renderer.
 //
 // Layers of other renderers go by the names that Blender (`ViewLayer.Noisy Image.R`, `ViewLayer.Denoising
-// Albedo.R`, ...), pbrt (`Albedo.R`, `Ns.X`, ...) and Mitsuba's documentation (`albedo.R`, `nn.X`, `dd.y`)
+// Albedo.R`, ...), pbrt (`Albedo.R`, `Ns.X`, ...) and Mitsuba's documentation (`albedo.R`, `nn.X`)
 // give them. Such a file has no halves of samples. Its noise is estimated from what each pixel differs by
 // from the affine function of its neighbours, as the median over 7 x 7 pixels, which edges hardly change
 // (Immerkaer 1996; Donoho and Johnstone 1994); and two halves are made of the picture by adding and

@@ -13,6 +13,14 @@ int reached(int at, int radius, int size) {
 
 }  // namespace
 
+void Plane::extend() {
+  for (int y = 0; y < height_; ++y)
+    for (int i = 1; i <= kBorder; ++i) at(-i, y) = at(0, y), at(width_ - 1 + i, y) = at(width_ - 1, y);
+  for (int i = 1; i <= kBorder; ++i)
+    for (int x = -kBorder; x < width_ + kBorder; ++x)
+      at(x, -i) = at(x, 0), at(x, height_ - 1 + i) = at(x, height_ - 1);
+}
+
 Plane blurred(const Plane& plane, int radius) {
   const int width = plane.width(), height = plane.height();
   Plane columns(width, height), out(width, height);

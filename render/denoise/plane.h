@@ -34,6 +34,8 @@ class Plane {
   int height() const { return height_; }
   float& at(int x, int y) { return values_[index(x, y)]; }
   float at(int x, int y) const { return values_[index(x, y)]; }
+  // Repeats the pixels of the picture's edge in the border, kBorder of them on each side.
+  void extend();
   const float* row(int x, int y) const { return &values_[index(x, y)]; }
 
  private:

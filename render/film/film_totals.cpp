@@ -79,26 +79,36 @@ uint64_t add_pixel(const PixelSum& samples, const PerUnit& per_unit, PixelTotals
 
 // Adds the half of a pass's samples that is summed apart. pass: all its samples.
 void add_half(const HalfSum& half, const PixelSum& pass, const PerUnit& per_unit, HalfTotals* totals) {
+  const double weight = double(half.weight), other_weight = double(pass.weight()) - weight;
+  const double maps = double(half.maps_weight);
+  const double other_maps = double(pass.weight() - int64_t(pass.traced)) - maps;
+  const bool known = maps > 0 && other_maps > 0;
+  const double all_maps = std::max(maps + other_maps, 1.0);
+  size_t map_channel = 0;
   for_each_half_channel([&](const LayerRow& row, size_t i, size_t c) {
-    totals->sums[i].add(half.sums[i], per_unit.sums[sum_of(row.layer) + c]);
+    const double unit = per_unit.sums[sum_of(row.layer) + c], sum = half.sums[i], all = row.in(pass)[c];
+    if (!row.from_maps) {
+      totals->sums[i].add(sum, unit);
+      return;
+    }
+    // Where no sample of a half computed this light, all samples stand in.
+    totals->sums[i].add(weight * (known ? sum / maps : all / all_maps), unit);
+    totals->other_maps[map_channel++].add(other_weight * (known ? (all - sum) / other_maps : all / all_maps),
+                                          unit);
   });
   totals->weight += half.weight;
-  totals->maps_weight += half.maps_weight;
-  totals->all_maps_weight += pass.weight() - int64_t(pass.traced);
 }
 
 HalfSum as_half(const PixelSum& pass) {
-  const PixelSum sum = pass.completed();
-  HalfSum half{.weight = pass.weight(), .maps_weight = pass.weight()};
-  for_each_half_channel([&](const LayerRow& row, size_t i, size_t c) { half.sums[i] = row.in(sum)[c]; });
+  HalfSum half{.weight = pass.weight(), .maps_weight = pass.weight() - int64_t(pass.traced)};
+  for_each_half_channel([&](const LayerRow& row, size_t i, size_t c) { half.sums[i] = row.in(pass)[c]; });
   return half;
 }
 
 void add_half(const HalfTotals& part, HalfTotals* totals) {
   for (size_t i = 0; i < kHalfChannels; ++i) totals->sums[i] += part.sums[i];
+  for (size_t i = 0; i < kHalfMapChannels; ++i) totals->other_maps[i] += part.other_maps[i];
   totals->weight += part.weight;
-  totals->maps_weight += part.maps_weight;
-  totals->all_maps_weight += part.all_maps_weight;
 }
 
 void add_pixel(const PixelTotals& part, PixelTotals* totals) {
@@ -123,22 +133,19 @@ PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
   return out;
 }
 
-// The other half's sums are those of all samples less those of this one. The totals of what maps contribute
-// were extrapolated to all samples (PixelSum::completed), which is undone for that.
 HalfMeans halves_of(const HalfTotals& half, const PixelTotals& all, const PixelUnits& units) {
   HalfMeans out;
-  const double weight = double(all.weight), maps = double(half.all_maps_weight);
-  const std::array<double, 2> weights = {weight - double(half.weight), double(half.weight)};
-  const std::array<double, 2> maps_weights = {maps - double(half.maps_weight), double(half.maps_weight)};
-  if (!(std::min(weights[0], weights[1]) > 0 && std::min(maps_weights[0], maps_weights[1]) > 0)) return out;
-  for (size_t h = 0; h < 2; ++h) out.share[h] = float(weights[h] / weight);
+  const double weight = double(half.weight), other_weight = double(all.weight) - weight;
+  if (!(weight > 0 && other_weight > 0)) return out;
+  out.share = {float(other_weight / double(all.weight)), float(weight / double(all.weight))};
+  size_t map_channel = 0;
   for_each_half_channel([&](const LayerRow& row, size_t i, size_t c) {
     const size_t in_all = sum_of(row.layer) + c;
-    const double part = half.sums[i].value(units.sums[in_all]);
-    const double whole = all.sums[in_all].value(units.sums[in_all]) * (row.from_maps ? maps / weight : 1);
-    const std::array<double, 2>& w = row.from_maps ? maps_weights : weights;
-    out.mean[0][i] = float((whole - part) / w[0]);
-    out.mean[1][i] = float(part / w[1]);
+    const double unit = units.sums[in_all], sum = half.sums[i].value(unit);
+    const double other =
+        row.from_maps ? half.other_maps[map_channel++].value(unit) : all.sums[in_all].value(unit) - sum;
+    out.mean[0][i] = float(other / other_weight);
+    out.mean[1][i] = float(sum / weight);
   });
   return out;
 }
@@ -191,15 +198,15 @@ void FilmTotals::keep_halves() {
 }
 
 uint64_t FilmTotals::add(const FilmSums& pass, const HalfSums* half) {
-  return add(pass, [half](int x, int y, const PixelSum&) { return half ? half->at(x, y) : HalfSum{}; });
+  return add_pass(pass, [half](int x, int y, const PixelSum&) { return half ? half->at(x, y) : HalfSum{}; });
 }
 
 uint64_t FilmTotals::add_as_half(const FilmSums& pass) {
-  return add(pass, [](int, int, const PixelSum& all) { return as_half(all); });
+  return add_pass(pass, [](int, int, const PixelSum& all) { return as_half(all); });
 }
 
 template <class HalfOf>
-uint64_t FilmTotals::add(const FilmSums& pass, const HalfOf& half_of) {
+uint64_t FilmTotals::add_pass(const FilmSums& pass, const HalfOf& half_of) {
   if (!same_window(pixels_, pass)) throw std::invalid_argument("the films show different windows");
   const PerUnit per_unit(units_);
   std::atomic<uint64_t> clamped{0};

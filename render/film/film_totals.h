@@ -88,7 +88,7 @@ class FilmTotals {
  private:
   // half_of(x, y, all samples): the HalfSum of the pass in a pixel.
   template <class HalfOf>
-  uint64_t add(const FilmSums& pass, const HalfOf& half_of);
+  uint64_t add_pass(const FilmSums& pass, const HalfOf& half_of);
 
   ExactUnits units_;
   PixelWindow<PixelTotals> pixels_;

@@ -2,7 +2,7 @@
 // The samples of each pixel in two halves, of which one is summed apart. Denoisers learn the noise from what
 // two independent halves differ by, and check a filter of one half by the other.
 //
-// Several passes are halved by passes, odd ones apart, so that the halves share no photons. A single pass is
+// Several planned passes are halved by passes, so that the halves share no photons. A single pass is
 // halved by samples; its halves share the photons, and their difference is the noise of camera samples alone.
 
 #include <array>
@@ -54,6 +54,14 @@ constexpr bool in_half(uint64_t index, uint64_t samples) {
   return (index >> block) & 1;
 }
 
+// Whether pass `pass` belongs to that half. samples: of each pixel in a pass. Passes of few samples stay
+// together for the same reason. shares: how many passes are planned; with two or more, both halves hold some.
+constexpr bool pass_in_half(uint64_t pass, uint64_t shares, uint64_t samples) {
+  int block = samples >= 4 ? 0 : samples >= 2 ? 1 : 2;
+  while (block > 0 && shares < (uint64_t{2} << block)) --block;
+  return (pass >> block) & 1;
+}
+
 // Sums over the samples of one half, as PixelSum.
 struct HalfSum {
   std::array<double, kHalfChannels> sums{};
@@ -81,12 +89,22 @@ struct PassFilm {
   }
 };
 
-// Exact sums of the half of all passes that is summed apart.
+// How many of the halves' channels come from photon maps.
+inline constexpr size_t kHalfMapChannels = [] {
+  size_t channels = 0;
+  for (const LayerRow& row : kLayerTable)
+    if (in_halves(row) && row.from_maps) channels += row.channels.size();
+  return channels;
+}();
+
+// Exact sums of the half of all passes that is summed apart, as if every sample had computed all light. Those
+// of the other half are the sums of all samples less these, except for what comes from maps: samples that
+// left it out are made up for in each half by its own samples, and in all by all.
 struct HalfTotals {
   std::array<ExactSum, kHalfChannels> sums;
-  int64_t weight = 0, maps_weight = 0;
-  int64_t all_maps_weight = 0;  // of both halves
-  int64_t unused = 0;           // no padding, since partial results hold the bytes of these totals
+  std::array<ExactSum, kHalfMapChannels> other_maps;  // of the other half
+  int64_t weight = 0;
+  int64_t unused = 0;  // no padding, since partial results hold the bytes of these totals
 
   bool operator==(const HalfTotals&) const = default;
 };

@@ -32,7 +32,7 @@ constexpr uint64_t kHeadBytes = 24, kHashBytes = 16;
 static_assert(sizeof(PixelTotals) == 16 * (kSumChannels + 6) + 16);
 static_assert(std::endian::native == std::endian::little);
 static_assert(std::is_trivially_copyable_v<PixelTotals> && std::is_trivially_copyable_v<HalfTotals>);
-static_assert(sizeof(HalfTotals) == 16 * kHalfChannels + 32);
+static_assert(sizeof(HalfTotals) == 16 * (kHalfChannels + kHalfMapChannels) + 16);
 
 struct Closer {
   void operator()(std::FILE* file) const { std::fclose(file); }

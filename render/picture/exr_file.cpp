@@ -1,4 +1,4 @@
-// Writes EXR files with OpenEXR.
+// Writes and reads EXR files with OpenEXR.
 
 #include "render/picture/exr_file.h"
 
@@ -93,26 +93,38 @@ const std::vector<float>* ExrChannels::find(const std::string& name) const {
   return found == names.end() ? nullptr : &values[size_t(found - names.begin())];
 }
 
+namespace {
+
+// Throws unless the numbers of a file's channels may be kept in memory.
+void check_size(int64_t width, int64_t height, const Imf::ChannelList& channels, uint64_t most_pixels) {
+  constexpr int64_t kMostSide = 65536, kMostNumbers = int64_t{1} << 32;
+  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide ||
+      uint64_t(width * height) > most_pixels)
+    throw std::runtime_error("the picture is too large");
+  int64_t count = 0;
+  for (auto c = channels.begin(); c != channels.end(); ++c, ++count)
+    if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
+      throw std::runtime_error("its channels are subsampled");
+  if (count > kMostNumbers / (width * height)) throw std::runtime_error("it has too many channels");
+}
+
+}  // namespace
+
 ExrChannels read_exr_file(const std::string& path, uint64_t most_pixels) {
   constexpr int kNoThreads = 0;
   Imf::InputFile in(path.c_str(), kNoThreads);
   const Imath::Box2i window = in.header().dataWindow(), display = in.header().displayWindow();
-  const uint64_t width = uint64_t(int64_t(window.max.x) - window.min.x + 1);
-  const uint64_t height = uint64_t(int64_t(window.max.y) - window.min.y + 1);
-  if (width > most_pixels || height > most_pixels / width)
-    throw std::runtime_error("the picture is too large");
-  ExrChannels out{window.min.x,
-                  window.min.y,
-                  int(width),
-                  int(height),
-                  display.max.x - display.min.x + 1,
-                  display.max.y - display.min.y + 1,
-                  {},
-                  {}};
+  const int64_t width = int64_t(window.max.x) - window.min.x + 1;
+  const int64_t height = int64_t(window.max.y) - window.min.y + 1;
+  check_size(width, height, in.header().channels(), most_pixels);
+  ExrChannels out{.x0 = window.min.x - display.min.x,
+                  .y0 = window.min.y - display.min.y,
+                  .width = int(width),
+                  .height = int(height),
+                  .full_width = display.max.x - display.min.x + 1,
+                  .full_height = display.max.y - display.min.y + 1};
   const Imf::ChannelList& channels = in.header().channels();
   for (auto c = channels.begin(); c != channels.end(); ++c) {
-    if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
-      throw std::runtime_error("its channels are subsampled");
     out.names.emplace_back(c.name());
     out.values.emplace_back(size_t(width * height));
   }

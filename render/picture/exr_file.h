@@ -1,6 +1,6 @@
 #pragma once
-// Writes OpenEXR files with OpenEXR's own library, so that this format does not need OpenImageIO (see
-// image_formats.h).
+// Writes and reads OpenEXR files with OpenEXR's own library, so that this format does not need OpenImageIO
+// (see image_formats.h).
 
 #include <string>
 #include <vector>
@@ -23,10 +23,10 @@ void write_exr_file(const std::string& path, const ExrPicture& picture, const Me
 
 // All channels of a file's first part, converted to 32-bit floats.
 struct ExrChannels {
-  int x0 = 0, y0 = 0, width = 0, height = 0;  // the data window
+  int x0 = 0, y0 = 0, width = 0, height = 0;  // the data window, counted from the display window's corner
   int full_width = 0, full_height = 0;        // the display window's size
-  std::vector<std::string> names;
-  std::vector<std::vector<float>> values;  // of each channel, row by row
+  std::vector<std::string> names{};
+  std::vector<std::vector<float>> values{};  // of each channel, row by row
 
   // The values of a channel; null if the file does not have it.
   const std::vector<float>* find(const std::string& name) const;

@@ -1,5 +1,8 @@
 #include "apps/session/stopping/denoising_time.h"
 
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
 #include "core/math/hash.h"
 #include "core/stopwatch.h"
 #include "render/camera/pixel_range.h"
@@ -7,23 +10,44 @@
 
 namespace kaustik::app {
 
-double denoising_seconds(const render::RenderSettings& settings, const Camera& camera) {
-  if (!settings.denoise.value_or(false)) return 0;
-  constexpr int kSide = 64;  // of a square of random numbers
-  render::Film film(kSide, kSide);
-  render::HalfFilm halves(kSide, kSide);
+namespace {
+
+// Random halves of a picture of this size.
+render::HalfFilm random_halves(int width, int height) {
+  render::HalfFilm halves(width, height);
   uint64_t drawn = 0;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
       render::HalfMeans& pixel = halves.at(x, y);
       pixel.share = {0.5f, 0.5f};
       for (auto& half : pixel.mean)
         for (float& channel : half) channel = float(mix64(++drawn) >> 40) * 0x1p-24f;
     }
+  return halves;
+}
+
+}  // namespace
+
+double denoising_seconds(const render::RenderSettings& settings, const Camera& camera) {
+  if (!settings.denoise.value_or(false)) return 0;
+  constexpr int kWidth = 64, kRowsOfThread = 32;
+  const int height = kRowsOfThread * std::clamp(tbb::this_task_arena::max_concurrency(), 1, 64);
+  const render::Film film(kWidth, height);
+  const render::HalfFilm halves = random_halves(kWidth, height);
   const Stopwatch watch;
   render::denoise(film, halves);
   const uint64_t pixels = render::rendered_range(settings.crop, camera).pixels();
-  return watch.seconds() * double(pixels) / (kSide * kSide);
+  return watch.seconds() * double(pixels) / (kWidth * height);
+}
+
+void settle_timed_denoising(const Camera& camera, const Console& console, Settings* settings) {
+  constexpr double kMost = 0.25;  // of the time
+  if (settings->render.denoise || !settings->stop.seconds) return;
+  settings->render.denoise = true;
+  const double seconds = denoising_seconds(settings->render, camera);
+  if (seconds <= kMost * *settings->stop.seconds) return;
+  settings->render.denoise = false;
+  console.note(fmt::format("the picture is not denoised: that would take {:.2g} s of the time", seconds));
 }
 
 }  // namespace kaustik::app

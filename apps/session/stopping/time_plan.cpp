@@ -145,6 +145,7 @@ class TimePlan {
   FilledTime one_pass(const render::SampleCost& cost, std::shared_ptr<render::FirstPhotons> photons) {
     const double sure = render_.adaptive > 0 ? kSure : 1;
     render_.spp = samples_within(cost, render_.adaptive, sure * left(), kMostOfOne);
+    if (render_.spp < 2) render_.denoise = false;  // most pixels would have no second half
     return {.single_pass = true,
             .work = {.photons = std::move(photons), .explored = explored_},
             .adaptive_work = adaptive_work(cost)};

@@ -116,6 +116,8 @@ TEST(Denoise, TakesTheNoiseOfASmoothPicture) {
   const Image image = denoise(picture.film, picture.halves);
   EXPECT_NEAR(error_of(raw(picture), light), deviation * deviation, 0.1 * deviation * deviation);
   EXPECT_LT(error_of(image, light), deviation * deviation / 7);
+  const auto at_border = [](int x, int y) { return x < 2 || y < 2 || x >= kWidth - 2 || y >= kHeight - 2; };
+  EXPECT_LT(error_of(image, light, at_border), deviation * deviation / 2.5);
 }
 
 TEST(Denoise, LeavesAPictureWithoutNoiseAsItIs) {

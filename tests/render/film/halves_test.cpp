@@ -22,6 +22,17 @@ TEST(Halves, BothHoldSamplesFromTheSecondOn) {
   }
 }
 
+TEST(Halves, BothHoldPassesFromTheSecondOn) {
+  for (const uint64_t samples : {1, 2, 3, 4, 16})
+    for (uint64_t shares = 2; shares <= 64; ++shares) {
+      uint64_t count = 0;
+      for (uint64_t pass = 0; pass < shares; ++pass) count += pass_in_half(pass, shares, samples);
+      EXPECT_GE(count, shares / 4) << samples << ' ' << shares;
+      EXPECT_LE(count, (shares + 1) / 2) << samples << ' ' << shares;
+      EXPECT_GE(count, 1u) << samples << ' ' << shares;
+    }
+}
+
 // A pixel's samples, of which every third computes traced light alone.
 struct Samples {
   PixelSum all;
@@ -60,6 +71,27 @@ TEST(Halves, HaveTheMeansOfTheirSamples) {
       EXPECT_FLOAT_EQ(means.share[h], float(samples.count[h] / 24));
     }
   }
+}
+
+// What maps contribute is made up for in each pass by itself: a pass of many traced samples counts as one of
+// few.
+TEST(Halves, MakeUpForTracedSamplesPassByPass) {
+  FilmTotals totals(PixelWindow<PixelTotals>(1, 1), kUnits);
+  totals.keep_halves();
+  std::array<double, 2> sum{}, weight{};
+  for (const bool traced : {false, true}) {
+    const Samples samples = random_samples(traced);
+    FilmSums sums(1, 1);
+    HalfSums half(1, 1);
+    sums.at(0, 0) = samples.all, half.at(0, 0) = samples.half;
+    totals.add(sums, &half);
+    for (size_t h = 0; h < 2; ++h) {
+      sum[h] += samples.caustic[h] / samples.with_maps[h] * samples.count[h];
+      weight[h] += samples.count[h];
+    }
+  }
+  const HalfMeans means = totals.halves().at(0, 0);
+  for (size_t h = 0; h < 2; ++h) EXPECT_NEAR(double(means.mean[h][kCaustic]), sum[h] / weight[h], 1e-6);
 }
 
 TEST(Halves, OfPassesAreTheOddOnesInAnyOrder) {
