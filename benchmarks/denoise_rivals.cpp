@@ -1,5 +1,5 @@
-// Rivals of `kaustik denoise`: a joint bilateral filter and NL-means, as papers describe them, of the picture
-// as a whole.
+// Rivals of `kaustik denoise`: a joint bilateral filter and NL-means, as papers describe them, of all
+// classes of light together.
 //
 //   denoise_rivals bilateral|nl-means NOISY.exr OUT.exr
 //
@@ -21,6 +21,14 @@ namespace kaustik::render {
 namespace {
 
 constexpr int kReach = 5, kPatchReach = 2;
+
+// What is filtered: all light but that which the first hit emits, as `kaustik denoise` has it.
+Rgb seen_directly(const PixelResult& pixel) {
+  return pixel.emitted - pixel.denoising_emitted;
+}
+Rgb filtered_part(const PixelResult& pixel) {
+  return pixel.radiance() - seen_directly(pixel);
+}
 
 float squared_distance(const HalfMeans& p, const HalfMeans& q, Layer layer, size_t channels) {
   float sum = 0;
@@ -76,7 +84,7 @@ float nl_means_weight(const NoisyPicture& in, const ColourPlanes& variance, int 
         return a >= 0 && b >= 0 && a < in.film.width() && b < in.film.height();
       };
       if (!inside(x + dx, y + dy) || !inside(u + dx, v + dy)) continue;
-      const Rgb step = in.film.at(x + dx, y + dy).radiance() - in.film.at(u + dx, v + dy).radiance();
+      const Rgb step = filtered_part(in.film.at(x + dx, y + dy)) - filtered_part(in.film.at(u + dx, v + dy));
       for (size_t c = 0; c < 3; ++c, ++count) {
         const float at_p = variance[c].at(x + dx, y + dy), at_q = variance[c].at(u + dx, v + dy);
         sum += (step[int(c)] * step[int(c)] - (at_p + std::min(at_p, at_q))) /
@@ -94,10 +102,10 @@ Image filtered(const NoisyPicture& in, const std::function<float(int, int, int, 
     for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, out.height - 1); ++v)
       for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, out.width - 1); ++u) {
         const float w = weight(x, y, u, v);
-        sum += w * in.film.at(u, v).radiance();
+        sum += w * filtered_part(in.film.at(u, v));
         total += w;
       }
-    out.at(x, y) = sum / total;
+    out.at(x, y) = sum / total + seen_directly(in.film.at(x, y));
   });
   return out;
 }
