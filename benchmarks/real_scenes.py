@@ -12,7 +12,7 @@ error, or the one of --reference-by. DIR/SCENE-auto.exr and -mc.exr (with --widt
 elsewhere, too.
 Then each trial renders, with a seed of its own and one after the other: auto for T = --seconds, mc for T, mc for 10 T, both for
 T by --other, and SPPM (benchmarks/sppm_rival) with the best of a few radii. The tables hold medians over the trials: relMSE with
-its range, RMSE, relMSE of means over blocks (noise of independent samples falls by about 4 a step, blotches do not), fireflies (pixels above ten times the median of the 5 x 5
+its range, RMSE, FLIP, relMSE of means over blocks (noise of independent samples falls by about 4 a step, blotches do not), fireflies (pixels above ten times the median of the 5 x 5
 about them that the reference does not have), and the mean
 of each class in per cent of the reference's. One more render of auto, which states its error, tells how many pixels lie within it.
 --trials 0 only makes references; --options "--crop X0 X1 Y0 Y1" limits all renders, and so the references, to a part. Writes DIR/results.json, or the file of --json.
@@ -166,15 +166,15 @@ def class_text(trials, name):
 
 
 def table(result):
-    yield (f"| {result['name']} | s (processor s) | relMSE (range) | RMSE | 2 x 2 | 4 x 4 | 8 x 8 | fireflies | " +
+    yield (f"| {result['name']} | s (processor s) | relMSE (range) | RMSE | FLIP | 2 x 2 | 4 x 4 | 8 x 8 | fireflies | " +
            " | ".join(f"{name} %" for name in CLASSES) + " |")
-    yield "| --- " * (8 + len(CLASSES)) + "|"
+    yield "| --- " * (9 + len(CLASSES)) + "|"
     for row, trials in result["trials"].items():
         relmse = [t["relmse"] for t in trials]
         blocks = " | ".join(number(median_of(trials, lambda t: t["relmse_of_blocks"][side])) for side in SIDES)
         yield (f"| {row} | {median_of(trials, lambda t: t['seconds']):.1f} ({median_of(trials, lambda t: t['cpu']):.1f}) | "
                f"{number(statistics.median(relmse))} ({number(min(relmse))}..{number(max(relmse))}) | "
-               f"{number(median_of(trials, lambda t: t['rmse']))} | {blocks} | "
+               f"{number(median_of(trials, lambda t: t['rmse']))} | {median_of(trials, lambda t: t['flip']):.3f} | {blocks} | "
                f"{median_of(trials, lambda t: t['fireflies']):g} | " +
                " | ".join(class_text(trials, name) for name in CLASSES) + " |")
 

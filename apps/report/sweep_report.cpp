@@ -97,10 +97,11 @@ std::string table_html(const SweepResult& result) {
     const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
     out += fmt::format(
         "<tr{}><th "
-        "scope=\"row\"><code>{}</code></th><td>{}</td><td>{:.3g}</td>{}<td>{}</td><td>{}</td><td>{}</td>"
+        "scope=\"row\"><code>{}</code></th><td>{}</td><td>{:.3g}</td>{}<td>{:.3f}</td><td>{}</td><td>{}</"
+        "td><td>{}</td>"
         "<td>{:.3g}</td><td>{}</td></tr>\n",
         on_front ? " class=\"front\"" : "", html_escaped(cell.flags), percent(std::sqrt(cell.error.relmse)),
-        cell.error.relmse, blocks_html(cell), number_or_dash(cell.error.bias2),
+        cell.error.relmse, blocks_html(cell), cell.flip, number_or_dash(cell.error.bias2),
         number_or_dash(cell.error.variance),
         cell.point.reads_photons() ? fmt::format("{:.3g}", cell.r0()) : "-", cell.time(),
         on_front ? "yes" : "");

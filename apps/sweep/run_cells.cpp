@@ -7,6 +7,7 @@
 #include "apps/session/render_job.h"
 #include "apps/sweep/pictures.h"
 #include "render/picture/error_parts.h"
+#include "render/picture/flip.h"
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -88,6 +89,8 @@ class CellRun {
     cell_.relmse_by_seed.push_back(compared.relmse);
     for (size_t i = 0; i < compared.relmse_of_blocks.size(); ++i)
       cell_.relmse_of_blocks[i] += compared.relmse_of_blocks[i] / double(sweep_.grid.seeds);
+    const auto flip = sweep_.reference.image.for_display ? render::flip_of_display : render::flip_of_radiance;
+    cell_.flip += flip(sweep_.reference.image, image, {}, sweep_.compare).mean / double(sweep_.grid.seeds);
     const auto seconds = phase_seconds(outcome);
     for (size_t i = 0; i < kPhases; ++i) seconds_[i].push_back(seconds[i]);
     if (!first) return;

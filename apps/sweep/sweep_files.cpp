@@ -43,6 +43,7 @@ Json error_json(const SweepCell& cell) {
           {"variance", or_null(e.variance)},
           {"relmse_by_seed", cell.relmse_by_seed},
           {"relmse_of_blocks", blocks_json(cell.relmse_of_blocks)},
+          {"flip", cell.flip},
           {"pixels", {{"compared", e.compared}, {"masked", e.masked}, {"not_finite", e.not_finite}}}};
 }
 
@@ -98,6 +99,7 @@ SweepCell cell_from_json(const Json& in) {
   error.at("relmse_by_seed").get_to(cell.relmse_by_seed);
   for (size_t i = 0; i < render::kBlockSides.size(); ++i)
     error.at("relmse_of_blocks").at(std::to_string(render::kBlockSides[i])).get_to(cell.relmse_of_blocks[i]);
+  error.at("flip").get_to(cell.flip);
   error.at("pixels").at("compared").get_to(cell.error.compared);
   error.at("pixels").at("masked").get_to(cell.error.masked);
   error.at("pixels").at("not_finite").get_to(cell.error.not_finite);
@@ -137,7 +139,7 @@ Json sweep_json(const SweepResult& result) {
 std::string sweep_csv(const SweepResult& result) {
   std::string csv = "method,photons,radius,spp,seeds,r0_m,relmse,relative_rmse,bias2,variance";
   for (const auto& [name, side] : kBlockColumns) csv += fmt::format(",{}", name);
-  csv += ",seconds";
+  csv += ",flip,seconds";
   for (size_t i = 0; i + 1 < kPhases; ++i) csv += fmt::format(",seconds_{}", kPhaseNames[i]);
   csv += ",pareto\n";
   const Json json = sweep_json(result);
@@ -153,6 +155,7 @@ std::string sweep_csv(const SweepResult& result) {
     add(cell["r0"].is_null() ? Json(nullptr) : cell["r0"]["largest"]);
     for (const char* key : {"relmse", "relative_rmse", "bias2", "variance"}) add(cell["error"][key]);
     for (const auto& [name, side] : kBlockColumns) add(cell["error"]["relmse_of_blocks"][std::string(side)]);
+    add(cell["error"]["flip"]);
     add(cell["seconds"]["total"]["median"]);
     for (size_t i = 0; i + 1 < kPhases; ++i) add(cell["seconds"][std::string(kPhaseNames[i])]["median"]);
     add(cell["pareto"]);

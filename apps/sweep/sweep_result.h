@@ -20,6 +20,7 @@ struct SweepCell {
   std::vector<double> relmse_by_seed;  // relMSE of each image
   // relMSE of means over blocks, the mean over the seeds; see CompareResult
   std::array<double, render::kBlockSides.size()> relmse_of_blocks{};
+  double flip = 0;                      // mean of FLIP over pixels and seeds
   std::array<Spread, kPhases> seconds;  // by Phase, over the seeds
   render::GatherRadii radii;            // r0 of each map with the first seed, metres; 0 = not gathered from
   std::string picture, error_map;       // of the first seed; file names in the sweep's folder

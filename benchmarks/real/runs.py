@@ -47,8 +47,9 @@ def compare(args, reference, image, *options):
 def errors(args, reference, image, layers=True):
     """The errors of an image, and the mean of each class in units of the reference's; None where that has none."""
     mask = ["--mask-bright", args.mask_bright] if args.mask_bright > 0 else []
-    found = compare(args, reference, image, *mask)
+    found = compare(args, reference, image, "--flip", *mask)
     out = {key: found[key] for key in ("relmse", "rmse", "relmse_of_blocks", "mean_ratio")}
+    out["flip"] = found["flip"]["mean"]
     out["fireflies"] = found["fireflies"]["count"]
     out["masked"] = found["pixels"]["masked"] / max(1, found["pixels"]["masked"] + found["pixels"]["compared"])
     if layers:

@@ -73,6 +73,7 @@ def test_script(program, folder):
     trial, = result["trials"]["auto, T"]
     assert trial["relmse"] > 0 and set(trial["relmse_of_blocks"]) == {"1", "2", "4", "8"}, trial
     assert trial["fireflies"] >= 0, trial
+    assert 0 <= trial["flip"] <= 1, trial
     assert set(trial["classes"]) == set(references.CLASSES), trial
     within, passes = result["calibration"]["within_bound"], real_scenes.passes_in(result["calibration"]["passes"])
     assert (within is None) == (passes < 2) and (within is None or 0 <= within <= 1), result["calibration"]

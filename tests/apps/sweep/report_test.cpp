@@ -72,7 +72,7 @@ TEST_F(Report, NamesAreEscapedEverywhere) {
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBOR"));
 }
 
-// A column for each size of blocks, between relMSE and bias^2.
+// A column for each size of blocks and one for FLIP, between relMSE and bias^2.
 TEST_F(Report, TableHoldsTheErrorOfBlocks) {
   SweepResult result;
   result.reference.picture = "a.png";
@@ -80,12 +80,14 @@ TEST_F(Report, TableHoldsTheErrorOfBlocks) {
   cell.picture = cell.error_map = "a.png";
   cell.error.relmse = 0.5;
   cell.relmse_of_blocks = {0.5, 0.25, 0.125, 0.0625};
+  cell.flip = 0.03125;
   result.cells = {cell};
   write_picture(path("a.png"), render::Image(2, 2), {});
   const std::string page = sweep_report(result, path(""));
   EXPECT_THAT(page, HasSubstr("<th scope=\"col\">2 x 2</th><th scope=\"col\">4 x 4</th><th "
                               "scope=\"col\">8 x 8</th>"));
-  EXPECT_THAT(page, HasSubstr("<td>0.5</td><td>0.25</td><td>0.125</td><td>0.0625</td><td>-</td>"));
+  EXPECT_THAT(page,
+              HasSubstr("<td>0.5</td><td>0.25</td><td>0.125</td><td>0.0625</td><td>0.031</td><td>-</td>"));
 }
 
 }  // namespace

@@ -131,14 +131,17 @@ TEST_F(SweepCommand, ErrorsMatchTheRender) {
   const Json cell = result()["cells"][3];
   ASSERT_EQ(cell["flags"], "--photons 4k --radius 2x --spp 2");
   Json sum = {{"1", 0.0}, {"2", 0.0}, {"4", 0.0}, {"8", 0.0}};
+  double flip = 0;
   for (const char* seed : {"0", "1"}) {
     expect_done({"render", scene_, "--photons", "4k", "--radius", "2x", "--spp", "2", "--seed", seed,
                  "--denoise", "off", "-o", path("a.exr"), "-q"});
-    const Outcome compared = run_kaustik({"compare", path("ref.exr"), path("a.exr"), "--json"});
+    const Outcome compared = run_kaustik({"compare", path("ref.exr"), path("a.exr"), "--json", "--flip"});
     const Json json = Json::parse(compared.out);
     EXPECT_EQ(cell["error"]["relmse_by_seed"][size_t(seed[0] - '0')], json["relmse"]);
+    flip += double(json["flip"]["mean"]) / 2;
     for (auto& [side, value] : sum.items()) value = double(value) + double(json["relmse_of_blocks"][side]);
   }
+  EXPECT_DOUBLE_EQ(double(cell["error"]["flip"]), flip);
   for (const auto& [side, value] : sum.items()) {  // the mean of two rounds once in double
     EXPECT_NEAR(cell["error"]["relmse_of_blocks"][side], double(value) / 2, 1e-15) << side;
   }
