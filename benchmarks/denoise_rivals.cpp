@@ -13,6 +13,7 @@
 #include <functional>
 #include <string>
 
+#include "render/denoise/denoise.h"
 #include "render/denoise/noisy_picture.h"
 #include "render/denoise/plane.h"
 #include "render/picture/image_io.h"
@@ -33,11 +34,8 @@ Rgb filtered_part(const PixelResult& pixel) {
 float squared_distance(const HalfMeans& p, const HalfMeans& q, Layer layer, size_t channels) {
   float sum = 0;
   for (size_t c = 0; c < channels; ++c) {
-    const auto mean = [&](const HalfMeans& pixel) {
-      return pixel.share[0] * pixel.mean[0][half_of(layer) + c] +
-             pixel.share[1] * pixel.mean[1][half_of(layer) + c];
-    };
-    sum += (mean(p) - mean(q)) * (mean(p) - mean(q));
+    const float step = p.of_all(half_of(layer) + c) - q.of_all(half_of(layer) + c);
+    sum += step * step;
   }
   return sum;
 }
@@ -59,17 +57,16 @@ float bilateral_weight(const NoisyPicture& in, int x, int y, int u, int v) {
 ColourPlanes variance_of(const NoisyPicture& in) {
   ColourPlanes variance;
   for (size_t c = 0; c < 3; ++c)
-    variance[c] = blurred(
-        plane_of(in.film.width(), in.film.height(),
-                 [&](int x, int y) {
-                   const HalfMeans& pixel = in.halves.at(x, y);
-                   float difference = 0;
-                   for (const Layer layer :
-                        {Layer::kDirect, Layer::kCaustic, Layer::kIndirect, Layer::kDenoisingEmitted})
-                     difference += pixel.mean[0][half_of(layer) + c] - pixel.mean[1][half_of(layer) + c];
-                   return difference * difference * pixel.share[0] * pixel.share[1];
-                 }),
-        1);
+    variance[c] = blurred(plane_of(in.film.width(), in.film.height(),
+                                   [&](int x, int y) {
+                                     const HalfMeans& pixel = in.halves.at(x, y);
+                                     float difference = 0;
+                                     for (const Layer layer : kFilteredLight)
+                                       difference += pixel.mean[0][half_of(layer) + c] -
+                                                     pixel.mean[1][half_of(layer) + c];
+                                     return difference * difference * pixel.share[0] * pixel.share[1];
+                                   }),
+                          1);
   return variance;
 }
 

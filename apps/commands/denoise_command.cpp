@@ -1,7 +1,8 @@
 // kaustik denoise: filters the noise out of a picture that is already there.
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
@@ -25,20 +26,14 @@ struct DenoiseOptions {
   SettingOverrides overrides;
 };
 
-render::ExrChannels read(const std::string& path) {
+// What read() makes of a file; refuses the file with its name if that fails.
+template <class Read>
+auto read_or_refuse(const std::string& path, const Read& read) {
   try {
-    return render::read_exr_file(path, render::kMostPixelsRead);
+    return read();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    refuse(fmt::format("{}: {}", path, error.what()));
-  }
-}
-
-render::NoisyPicture noisy_picture(const render::ExrChannels& file, const std::string& path) {
-  try {
-    return render::noisy_picture(file);
-  } catch (const std::runtime_error& error) {
     refuse(fmt::format("{}: {}", path, error.what()));
   }
 }
@@ -72,26 +67,27 @@ int run_denoise(const DenoiseOptions& options, const Console& console) {
   const Settings settings = options.overrides.alone();
   FileWriter writer(console);
   with_thread_limit(settings.render.threads, console, [&] {
-    render::ExrChannels file = read(options.picture);
-    const render::NoisyPicture noisy = noisy_picture(file, options.picture);
+    const std::string& path = options.picture;
+    render::ExrChannels file =
+        read_or_refuse(path, [&] { return render::read_exr_file(path, render::kMostPixelsRead); });
+    const render::NoisyPicture noisy = read_or_refuse(path, [&] { return render::noisy_picture(file); });
     if (!noisy.measured)
       console.note(
           "the file has no halves of samples (kaustik render --aov denoising): its noise is estimated from "
           "the picture");
     for (const std::string& feature : noisy.missing)
-      console.warning(
-          fmt::format("{}: no layer of {} was found, which keeps edges sharp", options.picture, feature));
+      console.warning(fmt::format("{}: no layer of {} was found, which keeps edges sharp", path, feature));
     const Stopwatch watch;
     const render::Image image = render::denoise(noisy.film, noisy.halves);
     console.note(
         fmt::format("denoised {} x {} pixels in {:.2f} s", image.width, image.height, watch.seconds()));
     replace_picture(image, noisy.film, &file);
-    for (const std::string& path : options.outputs)
-      writer.write(path, [&] {
-        if (render::is_exr(path))
-          render::write_channels(path, file, {{"kaustik:denoised", options.picture}});
+    for (const std::string& output : options.outputs)
+      writer.write(output, [&] {
+        if (render::is_exr(output))
+          render::write_channels(output, file, {{"kaustik:denoised", path}});
         else
-          render::write_image(path, image, settings.tone);
+          render::write_image(output, image, settings.tone);
       });
   });
   return writer.report() ? kDone : kFailed;

@@ -20,8 +20,7 @@ inline constexpr int kSamplesDenoised = 16;
 void settle_denoising(bool writes_sums, Settings* settings);
 
 // The denoised picture, if the settings ask for it. Nothing, with a message, if the samples have no halves or
-// memory does not suffice. Sets
-// *seconds to what it took.
+// memory does not suffice. Sets *seconds to what it took.
 std::optional<render::Image> denoised(const render::RenderResult& result,
                                       const render::RenderSettings& settings, const Console& console,
                                       double* seconds);

@@ -28,9 +28,11 @@ render::ProgressCallback shown_by(ProgressBar& bar, const InterruptGuard& interr
 
 // Lets trials choose what the session leaves open. Without any, the result has nothing but defaults.
 FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& bvh, ProgressBar& bar,
-                      const InterruptGuard& interrupt, const Stopwatch& total, const Console& console) {
+                      const InterruptGuard& interrupt, const Stopwatch& total, double seconds_after,
+                      const Console& console) {
   const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
-  if (session.fill_time) return settle_time(job.scene, bvh, total, go_on, console, &job.settings);
+  if (session.fill_time)
+    return settle_time(job.scene, bvh, total, seconds_after, go_on, console, &job.settings);
   FilledTime filled;
   if (!session.try_paths) return filled;
   filled.work = settle_paths(job.scene, bvh, shown_by(bar, interrupt), &job.settings);
@@ -134,15 +136,13 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     const accel::Bvh bvh(job.scene, job.settings.render.threads);
     times.bvh = watch.seconds();
     ProgressBar bar(console);
-    settle_timed_denoising(job.scene.camera, console, &job.settings);
-    FilledTime filled = run_trials(job, session, bvh, bar, interrupt, total, console);
+    const double seconds_after = settle_timed_denoising(job.scene.camera, console, &job.settings);
+    FilledTime filled = run_trials(job, session, bvh, bar, interrupt, total, seconds_after, console);
     const double filled_seconds = filled.single_pass ? *job.settings.stop.seconds : 0;
     times.trials =
         watch.seconds() - times.bvh - (filled.work.photons ? seconds_of(filled.work.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
-    const double seconds_after =
-        job.settings.stop.seconds ? denoising_seconds(job.settings.render, job.scene.camera) : 0;
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total, seconds_after);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
       console.note(note);

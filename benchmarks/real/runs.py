@@ -1,4 +1,5 @@
 """Runs renderers and `kaustik compare`, and measures them."""
+import functools
 import json
 import os
 import pathlib
@@ -27,13 +28,19 @@ def size_options(args):
     return ["--width", args.width] if args.width else []
 
 
+@functools.cache
+def undenoised(program):
+    """The options by which a program does not denoise: none for builds from before it could."""
+    return ["--denoise", "off"] if "--denoise" in run([program, "render", "--help"])[0] else []
+
+
 def render(args, scene, image, options, program=None):
     """Renders with kaustik into an EXR file; returns seconds, processor seconds and the program's own statistics. Estimators are
     compared, so nothing is denoised unless the options say so."""
     stats = pathlib.Path(image).with_suffix(".json")
     threads = ["--threads", args.threads] if args.threads else []
     _, seconds, cpu = run([program or args.program, "render", scene, "-o", image, "--stats", stats, "--quiet", *threads,
-                           *size_options(args), "--denoise", "off", *args.options.split(), *options])
+                           *size_options(args), *undenoised(program or args.program), *args.options.split(), *options])
     found = json.loads(stats.read_text())
     os.remove(stats)
     rendered = sum(found["seconds"][phase] for phase in ("photon_trace", "photon_build", "render"))

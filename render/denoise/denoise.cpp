@@ -16,17 +16,13 @@ namespace {
 
 using FeaturePlanes = std::array<Plane, kFeatures>;
 
-float mean_of(const HalfMeans& pixel, size_t channel) {
-  return pixel.share[0] * pixel.mean[0][channel] + pixel.share[1] * pixel.mean[1][channel];
-}
-
 // The harmonic mean of depths, which a far background hardly changes.
 double usual_depth(const HalfFilm& halves) {
   double sum = 0;
   int64_t count = 0;
   for (int y = 0; y < halves.height(); ++y)
     for (int x = 0; x < halves.width(); ++x) {
-      const float depth = mean_of(halves.at(x, y), half_of(Layer::kDenoisingDepth));
+      const float depth = halves.at(x, y).of_all(half_of(Layer::kDenoisingDepth));
       if (!(depth > 0)) continue;
       sum += 1 / double(depth);
       ++count;
@@ -48,7 +44,7 @@ FeaturePlanes features_of(const HalfFilm& halves) {
   for (Plane& plane : features) plane = Plane(halves.width(), halves.height());
   for_each_pixel(halves.width(), halves.height(), [&](int x, int y) {
     for (size_t f = 0; f < kFeatures; ++f)
-      features[f].at(x, y) = mean_of(halves.at(x, y), half_of(Layer::kDenoisingAlbedo) + f);
+      features[f].at(x, y) = halves.at(x, y).of_all(half_of(Layer::kDenoisingAlbedo) + f);
     float& depth = features[kDepth].at(x, y);
     depth = depth > 0 ? float(double(depth) / (double(depth) + usual)) : 0;
   });
@@ -84,6 +80,11 @@ float factor(const Picture& picture, Layer layer, size_t channel, int x, int y) 
   return layer == Layer::kDenoisingEmitted ? 1 : std::max(picture.features[channel].at(x, y), kLeastAlbedo);
 }
 
+// Estimated squared error of the mean of a pixel's samples, in one channel.
+float error_of_samples(float a, float b, const HalfMeans& pixel) {
+  return (a - b) * (a - b) * pixel.share[0] * pixel.share[1];
+}
+
 void set_class(const Picture& picture, Layer layer, ClassOfLight* light) {
   ClassOfLight& out = *light;
   out.layer = layer;
@@ -100,7 +101,7 @@ void set_class(const Picture& picture, Layer layer, ClassOfLight* light) {
         out.half[0][c].at(x, y) = a;
         out.half[1][c].at(x, y) = b;
         out.mean[c].at(x, y) = pixel.share[0] * a + pixel.share[1] * b;
-        out.variance[c].at(x, y) = (a - b) * (a - b) * pixel.share[0] * pixel.share[1];
+        out.variance[c].at(x, y) = error_of_samples(a, b, pixel);
       }
     }
     if (lit_row) lit = true;
@@ -110,11 +111,6 @@ void set_class(const Picture& picture, Layer layer, ClassOfLight* light) {
   for (Plane& plane : out.variance) plane = blurred(plane, 1);
   for (ColourPlanes* planes : {&out.mean, &out.variance})
     for (Plane& plane : *planes) plane.extend();  // patches reach over the picture's edge
-}
-
-// Estimated squared error of the mean of a pixel's samples, in one channel.
-float error_of_samples(float a, float b, const HalfMeans& pixel) {
-  return (a - b) * (a - b) * pixel.share[0] * pixel.share[1];
 }
 
 // That of a filter, from the filtered halves. fa differs from b by its own error and by b's noise, so the
@@ -214,7 +210,7 @@ Image denoise(const Film& film, const HalfFilm& halves) {
   std::vector<Filtered> classes;
   ClassOfLight light(film.width(), film.height());
   Regression regression(film.width(), film.height());
-  for (const Layer layer : {Layer::kDenoisingEmitted, Layer::kDirect, Layer::kCaustic, Layer::kIndirect}) {
+  for (const Layer layer : kFilteredLight) {
     set_class(picture, layer, &light);
     if (!light.dark) classes.push_back(filtered(picture, light, &regression));
   }

@@ -8,10 +8,16 @@
 // such as at the edges of a caustic whose photons all samples share, nothing is changed. What the first hit
 // emits is not filtered.
 
+#include <array>
+
 #include "render/film/halves.h"
 #include "render/picture/image.h"
 
 namespace kaustik::render {
+
+// The classes of light that are filtered.
+inline constexpr std::array kFilteredLight = {Layer::kDenoisingEmitted, Layer::kDirect, Layer::kCaustic,
+                                              Layer::kIndirect};
 
 // Whether any pixel has two halves.
 bool any_halves(const HalfFilm& halves);

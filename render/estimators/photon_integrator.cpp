@@ -177,8 +177,8 @@ void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& b
   result->indirect += beta * path.indirect;
 }
 
-void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* result) {
-  result->albedo = albedo(*hit.bsdf);
+void set_features(const ShadingPoint& hit, const Rgb& rho, const Point3& eye, PixelResult* result) {
+  result->albedo = rho;
   result->normal = hit.si.ns;
   result->depth = glm::distance(hit.si.p, eye);
 }
@@ -186,11 +186,12 @@ void set_features(const ShadingPoint& hit, const Point3& eye, PixelResult* resul
 // Chains of more delta lobes than this are cut for features: what is seen after so many is small.
 constexpr int kMostFollowed = 8;
 
-// Adds the features of what a chain of delta lobes shows, weighted by its throughput. length: of the chain.
-void add_denoising_features(const ShadingPoint& end, const Rgb& beta, float share, float length,
-                            PixelResult* result) {
+// Adds the features of what a chain of delta lobes shows, weighted by its throughput. rho: the albedo at its
+// end. length: of the chain.
+void add_denoising_features(const ShadingPoint& end, const Rgb& rho, const Rgb& beta, float share,
+                            float length, PixelResult* result) {
   // Radiance is larger in a denser medium, albedos are not.
-  result->denoising_albedo += glm::min(beta, Rgb(share)) * albedo(*end.bsdf);
+  result->denoising_albedo += glm::min(beta, Rgb(share)) * rho;
   result->denoising_normal += share * end.si.ns;
   result->denoising_depth += share * length;
 }
@@ -298,11 +299,15 @@ class CameraPath {
     const RayCone cone = branch.cone.after(hit.t);
     const bool constant = ctx_.scene.materials[si.material].constant();
     const ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
-    if (branch.events == 0) set_features(x, branch.ray.o, result_);
     const Lobes parts = lobes(*x.bsdf);
     const float length = branch.length + hit.t;
     const bool end = parts.diffuse || parts.glossy || !parts.specular || branch.events == kMostFollowed;
-    if (end && !branch.shown) add_denoising_features(x, branch.beta, branch.share, length, result_);
+    const bool first = branch.events == 0, last = end && !branch.shown;
+    if (first || last) {
+      const Rgb rho = albedo(*x.bsdf);
+      if (first) set_features(x, rho, branch.ray.o, result_);
+      if (last) add_denoising_features(x, rho, branch.beta, branch.share, length, result_);
+    }
     if (parts.diffuse)
       if (const float weight = roulette_weight(gather_probability(branch.share), sampler_); weight > 0)
         add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_, maps_);

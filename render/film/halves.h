@@ -116,6 +116,9 @@ struct HalfMeans {
   std::array<std::array<float, kHalfChannels>, 2> mean{};
   // The share of each in the weight of all samples; 0 where there are none, or their weights cancel.
   std::array<float, 2> share{};
+
+  // The mean over all samples.
+  float of_all(size_t channel) const { return share[0] * mean[0][channel] + share[1] * mean[1][channel]; }
 };
 using HalfFilm = PixelWindow<HalfMeans>;
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+
 #include "core/math/hash.h"
 #include "core/stopwatch.h"
 #include "render/camera/pixel_range.h"
@@ -26,10 +28,7 @@ render::HalfFilm random_halves(int width, int height) {
   return halves;
 }
 
-}  // namespace
-
 double denoising_seconds(const render::RenderSettings& settings, const Camera& camera) {
-  if (!settings.denoise.value_or(false)) return 0;
   constexpr int kWidth = 64, kRowsOfThread = 32;
   const int height = kRowsOfThread * std::clamp(tbb::this_task_arena::max_concurrency(), 1, 64);
   const render::Film film(kWidth, height);
@@ -40,14 +39,20 @@ double denoising_seconds(const render::RenderSettings& settings, const Camera& c
   return watch.seconds() * double(pixels) / (kWidth * height);
 }
 
-void settle_timed_denoising(const Camera& camera, const Console& console, Settings* settings) {
+}  // namespace
+
+double settle_timed_denoising(const Camera& camera, const Console& console, Settings* settings) {
   constexpr double kMost = 0.25;  // of the time
-  if (settings->render.denoise || !settings->stop.seconds) return;
-  settings->render.denoise = true;
+  std::optional<bool>& denoise = settings->render.denoise;
+  if (!settings->stop.seconds || !denoise.value_or(true)) return 0;
   const double seconds = denoising_seconds(settings->render, camera);
-  if (seconds <= kMost * *settings->stop.seconds) return;
-  settings->render.denoise = false;
+  if (denoise || seconds <= kMost * *settings->stop.seconds) {
+    denoise = true;
+    return seconds;
+  }
+  denoise = false;
   console.note(fmt::format("the picture is not denoised: that would take {:.2g} s of the time", seconds));
+  return 0;
 }
 
 }  // namespace kaustik::app

@@ -7,11 +7,9 @@
 
 namespace kaustik::app {
 
-// Seconds that denoising will take after the render, by a trial; 0 if the settings do not ask for it.
-double denoising_seconds(const render::RenderSettings& settings, const Camera& camera);
-
-// Where the settings of a render with a given time leave it open, turns denoising on, unless it would take a
-// large part of that time, which is logged. Call it within the render's task arena.
-void settle_timed_denoising(const Camera& camera, const Console& console, Settings* settings);
+// Seconds that denoising will take after a render with a given time, by a trial; 0 without denoising or
+// without such a time. Where the settings leave it open, turns denoising on, unless it would take a large
+// part of that time, which is logged. Call it within the render's task arena.
+double settle_timed_denoising(const Camera& camera, const Console& console, Settings* settings);
 
 }  // namespace kaustik::app

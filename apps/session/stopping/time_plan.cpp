@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "apps/session/stopping/denoising_time.h"
 #include "apps/session/stopping/path_choice.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "render/camera/pixel_range.h"
@@ -87,7 +86,7 @@ constexpr const char* kNoTimeForMaps = "there is no time to make photon maps: pa
 // Runs the trials and makes the choice.
 class TimePlan {
  public:
-  TimePlan(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
+  TimePlan(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total, double seconds_after,
            const render::ProgressCallback& progress, Settings* settings)
       : scene_(scene),
         bvh_(bvh),
@@ -98,7 +97,7 @@ class TimePlan {
         plan_(render::make_plan(render_, scene.needs)),
         gathers_(render::kinds_needed(plan_).any()),
         fewest_(std::min(kFewestPhotons * double(render_.photons), kEnoughPhotons)),
-        denoising_(denoising_seconds(render_, scene.camera)) {}
+        seconds_after_(seconds_after) {}
 
   FilledTime settle() {
     if (!gathers_) return settle_by_trials();
@@ -114,7 +113,7 @@ class TimePlan {
 
   double left() const {
     const uint64_t pixels = render::rendered_range(render_.crop, scene_.camera).pixels();
-    return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels) - denoising_;
+    return (1 - kMargin) * seconds_ - total_.seconds() - kSecondsPerPixel * double(pixels) - seconds_after_;
   }
 
   FilledTime settle_by_trials() {
@@ -290,9 +289,9 @@ class TimePlan {
   double seconds_;
   render::RenderSettings& render_;
   render::EstimatorPlan plan_;
-  bool gathers_;       // whether there are photons at all
-  double fewest_;      // photons
-  double denoising_;   // seconds
+  bool gathers_;   // whether there are photons at all
+  double fewest_;  // photons
+  double seconds_after_;
   std::string paths_;  // the options by which paths replace maps
   std::shared_ptr<render::ExploredScene> explored_ = std::make_shared<render::ExploredScene>();
 };
@@ -310,8 +309,9 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
 }
 
 FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
-                       const render::ProgressCallback& progress, const Console& console, Settings* settings) {
-  FilledTime filled = TimePlan(scene, bvh, total, progress, settings).settle();
+                       double seconds_after, const render::ProgressCallback& progress, const Console& console,
+                       Settings* settings) {
+  FilledTime filled = TimePlan(scene, bvh, total, seconds_after, progress, settings).settle();
   if (filled.work.photons && !filled.work.photons->photons.radii()) return filled;
   if (!filled.single_pass) settle_error_settings(console, scene.needs, settings);
   const render::RenderSettings& render = settings->render;

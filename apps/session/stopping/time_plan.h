@@ -33,9 +33,10 @@ struct FilledTime {
 };
 
 // Chooses photons, samples and passes by short trial renders, and logs them. If a single pass would be long,
-// plans an open-ended number of passes. `total`: started with the command. Call it within the render's task
-// arena. The arguments must outlive the result.
+// plans an open-ended number of passes. `total`: started with the command. `seconds_after`: what follows the
+// render. Call it within the render's task arena. The arguments must outlive the result.
 FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatch& total,
-                       const render::ProgressCallback& progress, const Console& console, Settings* settings);
+                       double seconds_after, const render::ProgressCallback& progress, const Console& console,
+                       Settings* settings);
 
 }  // namespace kaustik::app
