@@ -10,9 +10,9 @@
 #include "apps/session/files/collisions.h"
 #include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
-#include "render/picture/compare.h"
-#include "render/picture/fireflies.h"
-#include "render/picture/flip.h"
+#include "render/compare/compare.h"
+#include "render/compare/fireflies.h"
+#include "render/compare/flip.h"
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -57,7 +57,8 @@ std::string blocks_text(const render::CompareResult& r) {
 struct Comparison {
   render::CompareResult result;
   render::Fireflies fireflies;
-  int side = 0;                                   // of --blocks; 0 without it
+  bool mixed = false;  // one of the pictures is radiance, the other what a screen shows
+  int side = 0;        // of --blocks; 0 without it
   std::optional<render::BlockDeviations> blocks;  // of --blocks
   std::optional<render::Flip> flip;
 };
@@ -187,6 +188,7 @@ Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
       compared.mask_from = &whole.emplace(render::read_image(options.reference));
     Comparison found{render::compare(reference, image, compared),
                      render::find_fireflies(reference, image, compared),
+                     reference.for_display != image.for_display,
                      side,
                      {},
                      {}};
@@ -217,6 +219,10 @@ int run_compare(const CompareOptions& options, const Console& console) {
   quiet.quiet = true;  // compare has no log
   FileWriter writer(quiet);
   const Comparison found = compare_files(options, writer);
+  if (found.mixed)
+    console.warning(
+        "one of the pictures is in an integer format, which holds what a screen shows: it is compared with "
+        "radiance as if it had been written with --exposure 0 --tonemap srgb");
   const render::CompareResult& result = found.result;
   if (result.compared == 0) throw ExitError(kBadCommandLine, "there is no pixel to compare");
   // A pixel that is not finite in the image only counts as an infinite error.

@@ -10,6 +10,7 @@
 #include "apps/session/files/collisions.h"
 #include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
+#include "apps/session/tone.h"
 #include "apps/settings/setting_options.h"
 #include "core/stopwatch.h"
 #include "render/denoise/denoise.h"
@@ -82,12 +83,15 @@ int run_denoise(const DenoiseOptions& options, const Console& console) {
     console.note(
         fmt::format("denoised {} x {} pixels in {:.2f} s", image.width, image.height, watch.seconds()));
     replace_picture(image, noisy.film, &file);
+    render::ToneSettings tone;
+    if (std::any_of(options.outputs.begin(), options.outputs.end(), shows_tones))
+      tone = tone_for(image, &noisy.film, settings.tone, console);
     for (const std::string& output : options.outputs)
       writer.write(output, [&] {
         if (render::is_exr(output))
           render::write_channels(output, file, {{"kaustik:denoised", path}});
         else
-          render::write_image(output, image, settings.tone);
+          render::write_image(output, image, tone);
       });
   });
   return writer.report() ? kDone : kFailed;

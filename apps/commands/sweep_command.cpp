@@ -100,8 +100,8 @@ void warn_of_reference(const SweepOptions& options, const Job& job, const Consol
   const std::string extension = lower_extension(options.reference.file);
   if (!extension.empty() && !among(kFloatPictures, extension))
     console.warning(
-        fmt::format("the reference {} is in an integer format: radiance above 1 is clipped, and "
-                    "rounding counts as error",
+        fmt::format("the reference {} is in an integer format: it is read as if it had been written with "
+                    "--exposure 0 --tonemap srgb; radiance above 1 is clipped, and rounding counts as error",
                     options.reference.file));
   if (options.reference.method == render::Method::kMc && job.scene.needs.specular)
     console.warning(

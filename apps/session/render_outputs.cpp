@@ -9,6 +9,7 @@
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/scene_loading.h"
 #include "apps/session/stopping/stop_rules.h"
+#include "apps/session/tone.h"
 #include "apps/settings/settings_json.h"
 #include "core/stopwatch.h"
 #include "render/picture/image_io.h"
@@ -106,7 +107,9 @@ void write_pictures(const std::vector<std::string>& files, const Outcome& outcom
   options.metadata = render::metadata_of(result, outcome.settings.render, settings);
   if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
     options.metadata.emplace_back("kaustik:stopped_by", rule);
-  options.tone = outcome.settings.tone;
+  if (std::any_of(files.begin(), files.end(), shows_tones))
+    options.tone = tone_for(picture ? *picture : render::image_of(result.film), &result.film,
+                            outcome.settings.tone, console);
   for (const std::string& path : files) {
     if (!render::is_partial_name(path))
       writer.write(path, [&] { render::write_film(path, result.film, options); });

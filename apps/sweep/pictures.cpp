@@ -1,6 +1,6 @@
 #include "apps/sweep/pictures.h"
 
-#include "render/picture/compare.h"
+#include "render/compare/compare.h"
 #include "render/picture/image_io.h"
 #include "render/picture/shrink.h"
 

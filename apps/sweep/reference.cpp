@@ -10,6 +10,7 @@
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/partial_files.h"
 #include "apps/session/render_job.h"
+#include "apps/session/tone.h"
 #include "apps/sweep/pictures.h"
 #include "core/files/content_hash.h"
 #include "core/stopwatch.h"
@@ -184,7 +185,8 @@ std::optional<Reference> render_reference(const ReferenceChoice& choice, render:
       render::write_partial(part, manifest_of(job, {}, {}, result.sums), result.sums);
     return std::nullopt;
   }
-  Reference reference{render::image_of(result.film), {}, {}};
+  Reference reference;
+  reference.image = render::image_of(result.film);
   reference.about = {.source = fmt::format("method {}, {} passes", render::name_of(method), passes),
                      .noise = render::relative_noise(result.sums.totals),
                      .seconds = before + watch.seconds(),
@@ -227,7 +229,8 @@ std::optional<Reference> make_reference(const ReferenceChoice& choice, Job& job,
   reference->hash = picture_hash(reference->image);
   reference->about.mean = mean_of(reference->image);
   reference->about.picture = "reference.png";
-  write_picture(folder.path(reference->about.picture), reference->image, job.settings.tone);
+  reference->tone = tone_for(reference->image, nullptr, job.settings.tone, console);
+  write_picture(folder.path(reference->about.picture), reference->image, reference->tone);
   return reference;
 }
 

@@ -28,6 +28,7 @@ struct Reference {
   std::string
       hash;  // picture_hash of the image; part of each cell's key, so a new reference measures cells anew
   SweepReference about;
+  render::ToneSettings tone;  // of all pictures of the sweep, so that they can be compared
 };
 
 // Reports progress in milliseconds; returning false cancels.

@@ -6,8 +6,8 @@
 #include "apps/session/files/partial_files.h"
 #include "apps/session/render_job.h"
 #include "apps/sweep/pictures.h"
-#include "render/picture/error_parts.h"
-#include "render/picture/flip.h"
+#include "render/compare/error_parts.h"
+#include "render/compare/flip.h"
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -96,7 +96,7 @@ class CellRun {
     if (!first) return;
     const render::RenderStatistics& s = outcome.result.statistics;
     cell_.radii = {s.direct_radius, s.caustic_radius, s.indirect_radius};
-    write_picture(folder_.path(cell_.picture), image, settings_.tone);
+    write_picture(folder_.path(cell_.picture), image, sweep_.reference.tone);
     write_error_map(folder_.path(cell_.error_map), sweep_.reference.image, image);
   }
 

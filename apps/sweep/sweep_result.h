@@ -7,8 +7,8 @@
 
 #include "apps/bench/bench_result.h"
 #include "apps/sweep/sweep_grid.h"
+#include "render/compare/error_parts.h"
 #include "render/maps/gather_radii.h"
-#include "render/picture/error_parts.h"
 
 namespace kaustik::app {
 

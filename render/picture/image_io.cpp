@@ -107,6 +107,13 @@ void write_srgb8(const std::string& path, const Image& image, const ToneSettings
   if (!error.empty()) throw ImageError(path, error);
 }
 
+// The metadata with what turned radiance into what the file holds.
+Metadata with_tone(Metadata metadata, const ToneSettings& tone) {
+  metadata.emplace_back("kaustik:exposure", fmt::format("{}", tone.exposure));
+  metadata.emplace_back("kaustik:tonemap", kTonemapNames[static_cast<size_t>(tone.tonemap)]);
+  return metadata;
+}
+
 // An image of three channels, or of the first one three times.
 Image image_from(const ImageNumbers& numbers) {
   const size_t channels = size_t(numbers.channels);
@@ -158,7 +165,8 @@ void write_film(const std::string& path, const Film& film, const WriteOptions& o
   if (is_exr(path))
     write_exr(path, film, options);
   else
-    write_srgb8(path, options.picture ? *options.picture : image_of(film), options.tone, options.metadata);
+    write_srgb8(path, options.picture ? *options.picture : image_of(film), options.tone,
+                with_tone(options.metadata, options.tone));
 }
 
 void write_channels(const std::string& path, const ExrChannels& channels, const Metadata& metadata) {

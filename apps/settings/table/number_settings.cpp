@@ -11,6 +11,12 @@ namespace kaustik::app {
 
 using render::RenderSettings;
 
+namespace {
+
+constexpr int kMostStops = 64;  // the largest exposure, either way
+
+}  // namespace
+
 std::optional<RadiusChoice> parse_radius(std::string_view text) {
   RadiusChoice choice;
   if (text == "auto") return choice;
@@ -137,22 +143,31 @@ Setting cone_k_setting() {
 }
 
 Setting exposure_setting() {
-  Setting s{.name = "exposure",
-            .commands = SettingsCommand::kRender | SettingsCommand::kResume | SettingsCommand::kMerge |
-                        SettingsCommand::kSweep | SettingsCommand::kDenoise,
-            .kind = ValueKind::kNumber,
-            .value_name = "STOPS",
-            .unit = "stops",
-            .range = "-64 to 64",
-            .default_text = "0",
-            .doc = "Multiply the radiance by 2^STOPS for PNG and JPEG files. EXR files keep the radiance."};
+  Setting s{
+      .name = "exposure",
+      .commands = SettingsCommand::kRender | SettingsCommand::kResume | SettingsCommand::kMerge |
+                  SettingsCommand::kSweep | SettingsCommand::kDenoise,
+      .kind = ValueKind::kNumber,
+      .value_name = "STOPS",
+      .unit = "stops",
+      .range = fmt::format("-{} to {}, or auto", kMostStops, kMostStops),
+      .default_text = "auto",
+      .doc =
+          "Multiply the radiance by 2^STOPS for PNG and JPEG files. EXR files keep the radiance. auto: show "
+          "the log-average luminance of the picture as middle grey, without the lights that it shows and "
+          "without extreme pixels. The number of stops is printed, to use it for other pictures."};
   s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<float> value = parse_number(texts[0]);
-    if (!value || std::abs(*value) > 64) return fmt::format("`{}`: expected stops, -64 to 64", texts[0]);
-    settings.tone.exposure = *value;
+    const bool automatic = texts[0] == "auto";
+    if (!automatic && (!value || std::abs(*value) > kMostStops))
+      return fmt::format("`{}`: expected stops, -{} to {}, or auto", texts[0], kMostStops, kMostStops);
+    settings.tone.exposure = automatic ? std::nullopt : value;
     return std::nullopt;
   };
-  s.show = [](const Settings& settings) { return as_texts(settings.tone.exposure); };
+  s.show = [](const Settings& settings) {
+    const std::optional<float> stops = settings.tone.exposure;
+    return as_texts(stops ? fmt::format("{}", *stops) : "auto");
+  };
   s.decides_sums = false;
   return s;
 }

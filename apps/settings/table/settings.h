@@ -18,9 +18,15 @@ struct StopSettings {
   bool any() const { return target_error || seconds; }
 };
 
+// How PNG and JPEG files show radiance.
+struct ToneChoice {
+  std::optional<float> exposure;  // stops; unset = automatic, see render::automatic_exposure()
+  render::Tonemap tonemap = render::Tonemap::kFilmic;
+};
+
 struct Settings {
   render::RenderSettings render;
-  render::ToneSettings tone;
+  ToneChoice tone;
   StopSettings stop;
   ImportOptions import_options;
 };

@@ -148,14 +148,16 @@ Setting aov_setting() {
 }
 
 Setting tonemap_setting() {
-  Setting s{
-      .name = "tonemap",
-      .commands = kThatWritePictures | SettingsCommand::kSweep | SettingsCommand::kDenoise,
-      .kind = ValueKind::kChoice,
-      .value_name = "NAME",
-      .range = fmt::format("{}", fmt::join(render::kTonemapNames, ", ")),
-      .default_text = std::string(render::kTonemapNames[static_cast<size_t>(render::ToneSettings{}.tonemap)]),
-      .doc = "How PNG and JPEG files map radiance to the range from 0 to 1. srgb: by clipping."};
+  Setting s{.name = "tonemap",
+            .commands = kThatWritePictures | SettingsCommand::kSweep | SettingsCommand::kDenoise,
+            .kind = ValueKind::kChoice,
+            .value_name = "NAME",
+            .range = fmt::format("{}", fmt::join(render::kTonemapNames, ", ")),
+            .default_text = std::string(render::kTonemapNames[static_cast<size_t>(ToneChoice{}.tonemap)]),
+            .doc =
+                "How PNG and JPEG files map radiance to the range from 0 to 1. filmic: a curve that keeps "
+                "detail in "
+                "highlights. reinhard: the same by luminance alone. srgb: by clipping."};
   s.choices.assign(render::kTonemapNames.begin(), render::kTonemapNames.end());
   s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<render::Tonemap> value = render::tonemap_from_name(texts[0]);

@@ -19,6 +19,7 @@ using test::ThreadCounts;
 using test::wait_until_handled;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class RenderCommand : public test::ProgramTest {
  protected:
@@ -37,6 +38,36 @@ TEST_F(RenderCommand, WritesAndReportsEveryFile) {
   const render::Image image = render::read_image(path("a.exr"));
   EXPECT_EQ(image.width, 24);
   EXPECT_EQ(image.height, 16);
+}
+
+// The exposure that the log names.
+std::string logged_exposure(const std::string& log) {
+  const std::string before = "exposure: --exposure ";
+  const size_t at = log.find(before);
+  if (at == std::string::npos) return "none is logged";
+  return log.substr(at + before.size(), log.find(' ', at + before.size()) - at - before.size());
+}
+
+TEST_F(RenderCommand, LogsAnExposureThatRepeatsThePicture) {
+  const auto render = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render",    small_scene(film(24, 16)),
+                                          "-o",        path(name + ".png"),
+                                          "-o",        path(name + ".exr"),
+                                          "--photons", "5k",
+                                          "--spp",     "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_kaustik(arguments);
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return outcome.err;
+  };
+  const std::string exposure = logged_exposure(render("a", {}));
+  EXPECT_THAT(render("b", {"--exposure", exposure}), Not(HasSubstr("exposure:")));
+  EXPECT_EQ(read("a.png"), read("b.png"));
+  EXPECT_EQ(logged_exposure(render("c", {"--exposure", "auto"})), exposure);
+  render("d", {"--exposure", std::to_string(std::stod(exposure) + 1)});
+  EXPECT_NE(read("a.png"), read("d.png"));
+  EXPECT_EQ(read("a.exr"), read("d.exr")) << "EXR files keep the radiance";
+  EXPECT_NE(logged_exposure(render("e", {"--tonemap", "srgb"})), exposure) << "grey depends on the operator";
 }
 
 TEST_F(RenderCommand, StatisticsHaveTheDocumentedKeys) {

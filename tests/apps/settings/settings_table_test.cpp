@@ -64,6 +64,8 @@ TEST(SettingsTable, ValuesAreStoredInTheirFields) {
   EXPECT_EQ(s.render.crop.y1, 9);
   EXPECT_THAT(s.render.aov, ::testing::ElementsAre("direct", "depth", "normal"));
   EXPECT_EQ(s.tone.exposure, -1.5f);
+  EXPECT_EQ(assign(s, "exposure", {"auto"}), std::nullopt);
+  EXPECT_EQ(s.tone.exposure, std::nullopt);
   EXPECT_EQ(assign(s, "radius", {"auto"}), std::nullopt);
   EXPECT_EQ(s.render.radius, std::nullopt);
   EXPECT_EQ(assign(s, "adaptive", {"1.25"}), std::nullopt);
@@ -85,7 +87,7 @@ TEST(SettingsTable, ShownValuesParseToTheSameSettings) {
   s.render.crop = {1, 5, 2, 9};
   s.render.aov = {"direct", "depth"};
   s.tone.exposure = -1.0f / 3;
-  s.tone.tonemap = render::Tonemap::kFilmic;
+  s.tone.tonemap = render::Tonemap::kReinhard;
   Settings copy;
   for (const Setting& setting : settings_table()) {
     const std::vector<std::string> texts = setting.show(s);
@@ -99,6 +101,7 @@ TEST(SettingsTable, ShownValuesParseToTheSameSettings) {
   EXPECT_EQ(copy.render.direct, s.render.direct);
   EXPECT_EQ(copy.render.caustics, std::nullopt);
   EXPECT_EQ(copy.tone.exposure, s.tone.exposure);
+  EXPECT_EQ(copy.tone.tonemap, s.tone.tonemap);
 }
 
 TEST(SettingsTable, ErrorsNameTheNearestValueAndChangeNothing) {
@@ -112,6 +115,9 @@ TEST(SettingsTable, ErrorsNameTheNearestValueAndChangeNothing) {
   EXPECT_TRUE(assign(s, "radius", {"0"}).has_value());
   EXPECT_TRUE(assign(s, "radius", {"automatic"}).has_value());
   EXPECT_TRUE(assign(s, "cone-k", {"0.9"}).has_value());
+  EXPECT_TRUE(assign(s, "exposure", {"65"}).has_value());
+  EXPECT_TRUE(assign(s, "exposure", {"nan"}).has_value());
+  EXPECT_TRUE(assign(s, "exposure", {"Auto"}).has_value());
   EXPECT_TRUE(assign(s, "adaptive", {"-1"}).has_value());
   EXPECT_TRUE(assign(s, "adaptive", {"101"}).has_value());
   EXPECT_TRUE(assign(s, "adaptive", {"nan"}).has_value());

@@ -401,6 +401,27 @@ TEST_F(SweepCommand, IntegerReferenceGivesAWarning) {
   EXPECT_THAT(run_kaustik(sweep(against_file())).err, Not(HasSubstr(warning)));
 }
 
+// All pictures of a sweep have the reference's exposure, so that they can be compared by eye.
+TEST_F(SweepCommand, PicturesShareOneExposure) {
+  const auto picture_of_cell = [&](const std::string& folder) {
+    return read(folder + "/" + result(folder)["cells"][0]["picture"].get<std::string>());
+  };
+  const Arguments one = {"sweep", scene_,    "--photons", "1k",          "--spp",
+                         "2",     "--seeds", "1",         "--reference", path("ref.exr")};
+  const Outcome automatic = run_kaustik(one + Arguments{"-o", path("auto")});
+  EXPECT_EQ(automatic.code, kDone) << automatic.err;
+  const std::string before = "exposure: --exposure ";
+  const size_t at = automatic.err.find(before);
+  ASSERT_NE(at, std::string::npos) << automatic.err;
+  const size_t start = at + before.size();
+  const std::string stops = automatic.err.substr(start, automatic.err.find(' ', start) - start);
+  expect_done(one + Arguments{"-o", path("named"), "--exposure", stops, "-q"});
+  EXPECT_EQ(picture_of_cell("auto"), picture_of_cell("named"));
+  EXPECT_EQ(read("auto/reference.png"), read("named/reference.png"));
+  expect_done(one + Arguments{"-o", path("three"), "--exposure", "3", "-q"});
+  EXPECT_NE(picture_of_cell("auto"), picture_of_cell("three"));
+}
+
 TEST_F(SweepCommand, BadGridIsReportedBeforeAnythingIsRendered) {
   expect_refused(with_reference({"--photons", "100", "--passes", "1000"}),
                  "cannot be divided among 1k passes");

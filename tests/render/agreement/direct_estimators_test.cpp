@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/compare/compare.h"
 #include "render/estimators/lighting.h"
-#include "render/picture/compare.h"
 #include "render/statistics_json.h"
 #include "tests/render/support/class_agreement.h"
 #include "tests/render/support/closed_forms.h"

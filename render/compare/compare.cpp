@@ -1,6 +1,6 @@
 // Error measures and error images.
 
-#include "render/picture/compare.h"
+#include "render/compare/compare.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Tests the metrics against values worked out by hand.
 
-#include "render/picture/compare.h"
-#include "render/picture/fireflies.h"
+#include "render/compare/compare.h"
+#include "render/compare/fireflies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Variance and bias from the moments of several images, and the noise of a reference.
 
-#include "render/picture/error_parts.h"
+#include "render/compare/error_parts.h"
 
 #include <cmath>
 #include <stdexcept>

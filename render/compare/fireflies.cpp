@@ -1,4 +1,4 @@
-#include "render/picture/fireflies.h"
+#include "render/compare/fireflies.h"
 
 #include <algorithm>
 #include <array>

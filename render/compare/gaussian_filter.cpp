@@ -1,4 +1,4 @@
-#include "render/picture/gaussian_filter.h"
+#include "render/compare/gaussian_filter.h"
 
 #include <tbb/parallel_for.h>
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/math/vec.h"
+#include "render/compare/compare.h"
 #include "render/film/film_totals.h"
-#include "render/picture/compare.h"
 
 namespace kaustik::render {
 

@@ -1,6 +1,6 @@
 // Tests bias and variance against closed forms on synthetic images.
 
-#include "render/picture/error_parts.h"
+#include "render/compare/error_parts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Tests FLIP against the paper's formulas, written out anew in two dimensions and double precision, and
 // against values worked out by hand.
 
-#include "render/picture/flip.h"
+#include "render/compare/flip.h"
 
 #include <gtest/gtest.h>
 

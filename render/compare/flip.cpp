@@ -1,6 +1,6 @@
 // FLIP in the steps of the paper's reference implementation: sections are those of Andersson et al. 2020.
 
-#include "render/picture/flip.h"
+#include "render/compare/flip.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -12,8 +12,8 @@
 
 #include "core/spectrum/colour_space.h"
 #include "core/spectrum/srgb.h"
+#include "render/compare/gaussian_filter.h"
 #include "render/picture/colour_ramp.h"
-#include "render/picture/gaussian_filter.h"
 #include "render/picture/tonemap.h"
 
 namespace kaustik::render {

@@ -1,7 +1,7 @@
 #pragma once
 // Finds single bright pixels that a reference does not have.
 
-#include "render/picture/compare.h"
+#include "render/compare/compare.h"
 
 namespace kaustik::render {
 

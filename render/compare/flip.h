@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "render/picture/compare.h"
+#include "render/compare/compare.h"
 
 namespace kaustik::render {
 
