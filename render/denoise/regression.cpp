@@ -61,8 +61,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, 16>;
 using Vf = hn::Vec<Floats>;
 
-constexpr int kTerms = 1 + int(kFeatures) + 2;  // constant, features, x and y
-constexpr int kPairs = kTerms * (kTerms + 1) / 2;
+// Terms of a fit: the constant, features, x and y.
+constexpr int TermsOf(int features) {
+  return 1 + features + 2;
+}
 // Position of entry (i, j), j <= i, of a symmetric matrix.
 constexpr int Pair(int i, int j) {
   return i * (i + 1) / 2 + j;
@@ -71,11 +73,19 @@ constexpr int Pair(int i, int j) {
 // What a thread needs for a tile.
 struct Scratch {
   // For each group of as many windows as there are lanes, of each row of the tile: the distances of all
-  // offsets, and the weights of one group.
+  // offsets.
   alignas(64) float distances[kTileHeight * kTileWidth * kOffsets];
-  alignas(64) float weights[16 * kOffsets];
-  alignas(64) float terms[kOffsets][kTerms][16];
+  // Of one group, without the offsets that have no weight in any of its windows.
+  int offsets[kOffsets];
+  alignas(64) float weights[kOffsets][16];
+  alignas(64) float terms[kOffsets][TermsOf(kFeatures)][16];
   alignas(64) float targets[kOffsets][kTargets][16];
+};
+
+// The features of a tile, those that vary in its windows first.
+struct TileFeatures {
+  std::array<const Plane*, kFeatures> planes;
+  size_t varying = 0;
 };
 
 // Squared difference of two pixels of the guide less what noise explains, over the variance of noise.
@@ -122,38 +132,32 @@ void PatchDistances(const RegressionInput& in, int x0, int y0, int offset, Scrat
   }
 }
 
-// The windows about `lanes` pixels from (x, y) on.
+// The windows about `lanes` pixels from (x, y) on, with the first kUsed features of the tile.
+template <int kUsed>
 class Windows {
  public:
-  Windows(const RegressionInput& in, int x, int y, Scratch* scratch)
-      : in_(in), x_(x), y_(y), scratch_(*scratch) {
-    const Floats d;
-    for (int o = 0; o < kOffsets; ++o) {
-      float(*const terms)[16] = scratch_.terms[o];
-      hn::Store(hn::Set(d, 1), d, terms[0]);
-      for (size_t f = 0; f < kFeatures; ++f)
-        hn::Store(hn::Sub(hn::LoadU(d, in.features[f]->row(x + Dx(o), y + Dy(o))),
-                          hn::LoadU(d, in.features[f]->row(x, y))),
-                  d, terms[1 + f]);
-      for (size_t c = 0; c < kTargets; ++c)
-        hn::Store(hn::LoadU(d, in.targets[c]->row(x + Dx(o), y + Dy(o))), d, scratch_.targets[o][c]);
-      hn::Store(hn::Set(d, float(Dx(o)) / kReach), d, terms[kTerms - 2]);
-      hn::Store(hn::Set(d, float(Dy(o)) / kReach), d, terms[kTerms - 1]);
-    }
-  }
+  static constexpr int kTerms = TermsOf(kUsed), kPairs = kTerms * (kTerms + 1) / 2;
 
+  Windows(const RegressionInput& in, const TileFeatures& features, int x, int y, Scratch* scratch)
+      : in_(in), features_(features), x_(x), y_(y), scratch_(*scratch) {}
+
+  // Sets the weights from the distances of patches, and the terms where they are needed.
   void Weigh(const float* distances) {
     const Floats d;
     const size_t lanes = hn::Lanes(d);
     const Vf scale = hn::Set(d, -1 / (kBandwidth * kBandwidth));
     const Vf inside = hn::LoadU(d, in_.inside->row(x_, y_));
+    used_ = 0;
     for (int o = 0; o < kOffsets; ++o) {
       const Vf exponent = hn::Mul(hn::Max(hn::Load(d, distances + size_t(o) * lanes), hn::Zero(d)), scale);
       // Weights below e^-10 are left out: they do not matter, and their products would be denormal and slow.
       const Vf least = hn::Set(d, -10);
+      if (hn::AllFalse(d, hn::Gt(exponent, least))) continue;
       const Vf w = hn::IfThenElseZero(hn::Gt(exponent, least), hn::Exp(d, hn::Max(exponent, least)));
       const Vf both = hn::Mul(inside, hn::LoadU(d, in_.inside->row(x_ + Dx(o), y_ + Dy(o))));
-      hn::Store(hn::Mul(w, both), d, scratch_.weights + size_t(o) * lanes);
+      hn::Store(hn::Mul(w, both), d, scratch_.weights[used_]);
+      SetTerms(o);
+      scratch_.offsets[used_++] = o;
     }
   }
 
@@ -161,7 +165,7 @@ class Windows {
     for (Vf& sum : matrix_) sum = hn::Zero(Floats());
     for (auto& row : coefficients_)
       for (Vf& sum : row) sum = hn::Zero(Floats());
-    for (int first = 0; first < kOffsets; first += kSide) Sum<0>(first);
+    for (int first = 0; first < used_; first += kSide) Sum<0>(first, std::min(first + kSide, used_));
     Regularise();
     Factorise();
     for (int c = 0; c < int(kTargets); ++c) Solve(c);
@@ -170,13 +174,13 @@ class Windows {
   // Adds the predictions to the band's sums; y is counted from its first row.
   void Predict(int y, BandSums* sums) const {
     const Floats d;
-    const size_t lanes = hn::Lanes(d);
-    for (int o = 0; o < kOffsets; ++o) {
-      const Vf w = hn::Load(d, scratch_.weights + size_t(o) * lanes);
+    for (int n = 0; n < used_; ++n) {
+      const int o = scratch_.offsets[n];
+      const Vf w = hn::Load(d, scratch_.weights[n]);
       for (int c = 0; c < int(kTargets); ++c) {
         Vf value = coefficients_[0][c];
         for (int i = 1; i < kTerms; ++i)
-          value = hn::MulAdd(coefficients_[i][c], hn::Load(d, scratch_.terms[o][i]), value);
+          value = hn::MulAdd(coefficients_[i][c], hn::Load(d, scratch_.terms[n][i]), value);
         AddTo(sums->row(size_t(c), x_ + Dx(o), y + Dy(o)), hn::Mul(w, value));
       }
       AddTo(sums->row(kTargets, x_ + Dx(o), y + Dy(o)), w);
@@ -189,27 +193,41 @@ class Windows {
     hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
   }
 
-  // Adds a column of the window, from offset `first` on, to rows i and further of the normal equations: a
-  // column of the window, so that it stays in the first-level cache, and a row of the equations, so that its
-  // sums stay in registers.
-  template <int i>
-  HWY_INLINE void Sum(int first) {
+  // The terms and targets of the pixel at an offset, for the next place.
+  HWY_INLINE void SetTerms(int o) {
     const Floats d;
-    const size_t lanes = hn::Lanes(d);
+    float(*const terms)[16] = scratch_.terms[used_];
+    hn::Store(hn::Set(d, 1), d, terms[0]);
+    for (size_t f = 0; f < size_t(kUsed); ++f) {
+      const Plane& feature = *features_.planes[f];
+      hn::Store(hn::Sub(hn::LoadU(d, feature.row(x_ + Dx(o), y_ + Dy(o))), hn::LoadU(d, feature.row(x_, y_))),
+                d, terms[1 + f]);
+    }
+    hn::Store(hn::Set(d, float(Dx(o)) / kReach), d, terms[kTerms - 2]);
+    hn::Store(hn::Set(d, float(Dy(o)) / kReach), d, terms[kTerms - 1]);
+    for (size_t c = 0; c < kTargets; ++c)
+      hn::Store(hn::LoadU(d, in_.targets[c]->row(x_ + Dx(o), y_ + Dy(o))), d, scratch_.targets[used_][c]);
+  }
+
+  // Adds some pixels of the window to rows i and further of the normal equations: as many pixels as stay in
+  // the first-level cache, and a row of the equations, so that its sums stay in registers.
+  template <int i>
+  HWY_INLINE void Sum(int first, int end) {
+    const Floats d;
     Vf products[i + 1], targets[kTargets];
     for (int j = 0; j <= i; ++j) products[j] = matrix_[Pair(i, j)];
     for (size_t c = 0; c < kTargets; ++c) targets[c] = coefficients_[i][c];
-    for (int o = first; o < first + kSide; ++o) {
-      const Vf w = hn::Load(d, scratch_.weights + size_t(o) * lanes);
-      const Vf weighted = i == 0 ? w : hn::Mul(w, hn::Load(d, scratch_.terms[o][i]));
+    for (int n = first; n < end; ++n) {
+      const Vf w = hn::Load(d, scratch_.weights[n]);
+      const Vf weighted = i == 0 ? w : hn::Mul(w, hn::Load(d, scratch_.terms[n][i]));
       for (int j = 0; j <= i; ++j)
-        products[j] = hn::MulAdd(weighted, hn::Load(d, scratch_.terms[o][j]), products[j]);
+        products[j] = hn::MulAdd(weighted, hn::Load(d, scratch_.terms[n][j]), products[j]);
       for (size_t c = 0; c < kTargets; ++c)
-        targets[c] = hn::MulAdd(weighted, hn::Load(d, scratch_.targets[o][c]), targets[c]);
+        targets[c] = hn::MulAdd(weighted, hn::Load(d, scratch_.targets[n][c]), targets[c]);
     }
     for (int j = 0; j <= i; ++j) matrix_[Pair(i, j)] = products[j];
     for (size_t c = 0; c < kTargets; ++c) coefficients_[i][c] = targets[c];
-    if constexpr (i + 1 < kTerms) Sum<i + 1>(first);
+    if constexpr (i + 1 < kTerms) Sum<i + 1>(first, end);
   }
 
   // A ridge decides what the window does not: terms that do not vary in it get no coefficient.
@@ -249,7 +267,8 @@ class Windows {
   }
 
   const RegressionInput& in_;
-  int x_, y_;
+  const TileFeatures& features_;
+  int x_, y_, used_ = 0;
   Scratch& scratch_;
   Vf matrix_[kPairs];
   Vf coefficients_[kTerms][kTargets];  // first the right sides
@@ -266,21 +285,57 @@ bool IsLit(const RegressionInput& in, int x0, int y0) {
   return !hn::AllTrue(d, hn::Eq(most, hn::Zero(d)));
 }
 
-void RegressBand(const RegressionInput& in, int y0, BandSums* sums) {
+// Whether a feature varies so much in the windows of a tile that it has a say in a fit. The ridge allows a
+// term that varies less than that no more than a thousandth of the coefficient that it would have without.
+bool Varies(const Plane& feature, int x0, int y0) {
+  constexpr float kLeastRange = 0.002f;
+  const int x1 = std::min(x0 + kTileWidth + kReach, feature.width());
+  const int y1 = std::min(y0 + kTileHeight + kReach, feature.height());
+  float least = feature.at(x0, y0), most = least;
+  for (int y = std::max(y0 - kReach, 0); y < y1; ++y) {
+    const float* const row = feature.row(0, y);
+    for (int x = std::max(x0 - kReach, 0); x < x1; ++x) {
+      least = std::min(least, row[x]);
+      most = std::max(most, row[x]);
+    }
+  }
+  return most - least > kLeastRange;
+}
+
+TileFeatures FeaturesOf(const RegressionInput& in, int x0, int y0) {
+  TileFeatures out{in.features};
+  const auto end = std::stable_partition(out.planes.begin(), out.planes.end(),
+                                         [&](const Plane* plane) { return Varies(*plane, x0, y0); });
+  out.varying = size_t(end - out.planes.begin());
+  return out;
+}
+
+template <int kUsed>
+void RegressTile(const RegressionInput& in, const TileFeatures& features, int x0, int y0, Scratch* scratch,
+                 BandSums* sums) {
   const int lanes = int(hn::Lanes(Floats()));
-  const auto scratch = std::make_unique<Scratch>();
   const int width = in.inside->width(), rows = std::min(kTileHeight, in.inside->height() - y0);
-  for (int x0 = 0; x0 < width; x0 += kTileWidth) {
+  for (int o = 0; o < kOffsets; ++o) PatchDistances(in, x0, y0, o, scratch);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < kTileWidth && x0 + x < width; x += lanes) {
+      Windows<kUsed> windows(in, features, x0 + x, y0 + y, scratch);
+      const int group = (y * kTileWidth + x) / lanes;
+      windows.Weigh(scratch->distances + size_t(group) * kOffsets * size_t(lanes));
+      windows.Fit();
+      windows.Predict(y, sums);
+    }
+}
+
+void RegressBand(const RegressionInput& in, int y0, BandSums* sums) {
+  const auto scratch = std::make_unique<Scratch>();
+  for (int x0 = 0; x0 < in.inside->width(); x0 += kTileWidth) {
     if (!IsLit(in, x0, y0)) continue;  // the targets stay as they are
-    for (int o = 0; o < kOffsets; ++o) PatchDistances(in, x0, y0, o, scratch.get());
-    for (int y = 0; y < rows; ++y)
-      for (int x = 0; x < kTileWidth && x0 + x < width; x += lanes) {
-        Windows windows(in, x0 + x, y0 + y, scratch.get());
-        const int group = (y * kTileWidth + x) / lanes;
-        windows.Weigh(scratch->distances + size_t(group) * kOffsets * size_t(lanes));
-        windows.Fit();
-        windows.Predict(y, sums);
-      }
+    const TileFeatures features = FeaturesOf(in, x0, y0);
+    const auto regress = features.varying == 0   ? RegressTile<0>
+                         : features.varying == 1 ? RegressTile<1>
+                         : features.varying <= 4 ? RegressTile<4>
+                                                 : RegressTile<int(kFeatures)>;
+    regress(in, features, x0, y0, scratch.get(), sums);
   }
 }
 

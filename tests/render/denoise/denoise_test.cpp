@@ -9,6 +9,7 @@
 #include <cstring>
 #include <functional>
 #include <numbers>
+#include <vector>
 
 #include "render/denoise/regression.h"
 #include "tests/support/random.h"
@@ -83,18 +84,26 @@ bool same(const Image& a, const Image& b) {
   return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0;
 }
 
-// The sum of an affine function of position and of the features is fitted exactly, whatever the weights: the
-// ridge of 1e-3 pulls coefficients towards 0 by about that share.
-TEST(Regression, FitsAffineFunctions) {
+// A plane of random numbers from -1 to 1.
+Plane random_plane(test::Random* random) {
+  Plane plane(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) plane.at(x, y) = random->uniform(-1, 1);
+  return plane;
+}
+
+// Expects that an affine function of position and of these features is fitted exactly, whatever the weights:
+// the ridge of 1e-3 pulls coefficients towards 0 by about that share. The other features do not vary.
+void expect_affine_fit(const std::vector<size_t>& varying) {
   test::Random random(3);
   std::array<Plane, kFeatures> features;
-  for (Plane& plane : features) plane = plane_of(kWidth, kHeight, [](int, int) { return 0.0f; });
   for (size_t f = 0; f < kFeatures; ++f)
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) features[f].at(x, y) = random.uniform(-1, 1);
+    features[f] = plane_of(kWidth, kHeight, [&](int, int) { return 0.125f * float(f); });
+  for (const size_t f : varying) features[f] = random_plane(&random);
   const Plane affine = plane_of(kWidth, kHeight, [&](int x, int y) {
-    return 1 + 0.02f * float(x) - 0.01f * float(y) + 0.5f * features[0].at(x, y) -
-           0.25f * features[6].at(x, y);
+    float value = 1 + 0.02f * float(x) - 0.01f * float(y);
+    for (const size_t f : varying) value += (f % 2 == 0 ? 0.5f : -0.25f) * features[f].at(x, y);
+    return value;
   });
   const Plane ones = plane_of(kWidth, kHeight, [](int, int) { return 1.0f; });
   const Plane guide = plane_of(kWidth, kHeight, [&](int x, int y) { return 0.01f * float(x + y); });
@@ -106,6 +115,14 @@ TEST(Regression, FitsAffineFunctions) {
   for (const Plane& plane : fitted)
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) EXPECT_NEAR(plane.at(x, y), affine.at(x, y), 0.01f) << x << ' ' << y;
+}
+
+TEST(Regression, FitsAffineFunctions) {
+  for (const std::vector<size_t>& varying :
+       {std::vector<size_t>{}, {6}, {1, 4}, {0, 3, 4, 5}, {0, 1, 2, 3, 4, 5, 6}}) {
+    SCOPED_TRACE(varying.size());
+    expect_affine_fit(varying);
+  }
 }
 
 // Some hundred pixels are averaged, at the cost of ten coefficients each; at the borders a quarter of them.
