@@ -66,6 +66,7 @@ struct ClassOfLight {
   Layer layer{};
   std::array<ColourPlanes, 2> half;  // means of the halves
   ColourPlanes mean, variance;       // of all samples; of that mean, averaged over 3 x 3 pixels
+  Plane noise;                       // the sum of the variances
   bool dark = true;                  // in all pixels
 
   ClassOfLight(int width, int height) {
@@ -109,8 +110,12 @@ void set_class(const Picture& picture, Layer layer, ClassOfLight* light) {
   out.dark = !lit;
   if (out.dark) return;
   for (Plane& plane : out.variance) plane = blurred(plane, 1);
+  out.noise = plane_of(picture.width(), picture.height(), [&](int x, int y) {
+    return out.variance[0].at(x, y) + out.variance[1].at(x, y) + out.variance[2].at(x, y);
+  });
+  out.noise.extend();  // patches reach over the picture's edge
   for (ColourPlanes* planes : {&out.mean, &out.variance})
-    for (Plane& plane : *planes) plane.extend();  // patches reach over the picture's edge
+    for (Plane& plane : *planes) plane.extend();
 }
 
 // That of a filter, from the filtered halves. fa differs from b by its own error and by b's noise, so the
@@ -137,6 +142,7 @@ Filtered filtered(const Picture& picture, const ClassOfLight& light, Regression*
     in.targets[c] = &light.half[0][c], in.targets[3 + c] = &light.half[1][c];
   }
   for (size_t f = 0; f < kFeatures; ++f) in.features[f] = &picture.features[f];
+  in.noise = &light.noise;
   in.inside = &picture.inside;
   const Fitted& fitted = regression->fit(in);
   Filtered out;

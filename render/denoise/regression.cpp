@@ -91,17 +91,18 @@ struct TileFeatures {
 // Squared difference of two pixels of the guide less what noise explains, over the variance of noise.
 HWY_INLINE Vf Distance(const RegressionInput& in, int x, int y, int dx, int dy) {
   const Floats d;
-  Vf difference = hn::Zero(d), noise = hn::Set(d, 1e-30f);
+  const Vf noise_at_p = hn::LoadU(d, in.noise->row(x, y));
+  const Vf noise = hn::Add(noise_at_p, hn::LoadU(d, in.noise->row(x + dx, y + dy)));
+  Vf squares = hn::Zero(d), explained = noise_at_p;
   for (size_t c = 0; c < 3; ++c) {
-    const Vf at_p = hn::LoadU(d, in.variance[c]->row(x, y));
-    const Vf at_q = hn::LoadU(d, in.variance[c]->row(x + dx, y + dy));
     const Vf step =
         hn::Sub(hn::LoadU(d, in.guide[c]->row(x, y)), hn::LoadU(d, in.guide[c]->row(x + dx, y + dy)));
-    difference = hn::Add(difference, hn::Sub(hn::Mul(step, step), hn::Add(at_p, hn::Min(at_p, at_q))));
-    noise = hn::Add(noise, hn::Add(at_p, at_q));
+    squares = hn::MulAdd(step, step, squares);
+    explained = hn::Add(explained, hn::Min(hn::LoadU(d, in.variance[c]->row(x, y)),
+                                           hn::LoadU(d, in.variance[c]->row(x + dx, y + dy))));
   }
   // A patch that differs in one pixel by a hundred standard deviations differs.
-  return hn::Min(hn::Div(difference, noise), hn::Set(d, 1e4f));
+  return hn::Min(hn::Div(hn::Sub(squares, explained), hn::Add(noise, hn::Set(d, 1e-30f))), hn::Set(d, 1e4f));
 }
 
 // Mean distances of the patches about the pixels of a tile from those that lie (dx, dy) from them.

@@ -24,6 +24,7 @@ static_assert(kReach + kPatchReach < Plane::kBorder);
 
 struct RegressionInput {
   std::array<const Plane*, 3> guide, variance;  // and the variance of its noise
+  const Plane* noise;                           // the sum of these variances
   std::array<const Plane*, kFeatures> features;
   std::array<const Plane*, kTargets> targets;
   const Plane* inside;  // 1 where pixels are known, else 0, as beyond the picture

@@ -23,6 +23,9 @@ constexpr double kErrorOfMillion = 0.006;
 double error_of_map(double stored) {
   return kErrorOfMillion / std::pow(stored / 1e6, 2.0 / 3);
 }
+// Of the noise of samples, what the denoiser leaves. The error of maps stays, so photons get more of the
+// time.
+constexpr double kNoiseLeft = 0.5;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.015;
@@ -223,11 +226,12 @@ class TimePlan {
   // those that were emitted are stored differs by a factor of thirty from scene to scene.
   double photon_share(const render::PhotonCost& cost, const render::SampleTrial& sample) const {
     const double each = std::max(cost.each, 1e-12), time = left();
+    const double noise = sample.errors.samples * (render_.denoise.value_or(false) ? kNoiseLeft : 1);
     double best = kLeastPhotons, least = HUGE_VAL;
     for (double share = kLeastPhotons; share <= kMostPhotons; share += 0.01) {
       const double samples = (1 - share) * time / sample.seconds;
       const double photons = std::max(share * time / each, 1.0);
-      const double error = sample.errors.samples / std::max(samples, 1e-9) +
+      const double error = noise / std::max(samples, 1e-9) +
                            sample.errors.caustic * error_of_map(photons * cost.stored_caustic) +
                            sample.errors.indirect * error_of_map(photons * cost.stored_indirect);
       if (error < least) least = error, best = share;

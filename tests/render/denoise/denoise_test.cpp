@@ -107,7 +107,8 @@ void expect_affine_fit(const std::vector<size_t>& varying) {
   });
   const Plane ones = plane_of(kWidth, kHeight, [](int, int) { return 1.0f; });
   const Plane guide = plane_of(kWidth, kHeight, [&](int x, int y) { return 0.01f * float(x + y); });
-  RegressionInput in{{&guide, &guide, &guide}, {&ones, &ones, &ones}, {}, {}, &ones};
+  const Plane threes = plane_of(kWidth, kHeight, [](int, int) { return 3.0f; });
+  RegressionInput in{{&guide, &guide, &guide}, {&ones, &ones, &ones}, &threes, {}, {}, &ones};
   for (size_t f = 0; f < kFeatures; ++f) in.features[f] = &features[f];
   in.targets.fill(&affine);
   Regression regression(kWidth, kHeight);
