@@ -107,9 +107,11 @@ void write_pictures(const std::vector<std::string>& files, const Outcome& outcom
   options.metadata = render::metadata_of(result, outcome.settings.render, settings);
   if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
     options.metadata.emplace_back("kaustik:stopped_by", rule);
-  if (std::any_of(files.begin(), files.end(), shows_tones))
-    options.tone = tone_for(picture ? *picture : render::image_of(result.film), &result.film,
-                            outcome.settings.tone, console);
+  if (std::any_of(files.begin(), files.end(), shows_tones)) {
+    std::optional<render::Image> of_film;
+    const render::Image& shown = picture ? *picture : of_film.emplace(render::image_of(result.film));
+    options.tone = tone_for(shown, &result.film, outcome.settings.tone, console);
+  }
   for (const std::string& path : files) {
     if (!render::is_partial_name(path))
       writer.write(path, [&] { render::write_film(path, result.film, options); });

@@ -12,7 +12,6 @@ constexpr double kMiddleGrey = 0.18;
 constexpr double kBrightest = 0.01;  // the share of the pixels that is left out as too bright
 constexpr double kBright = 0.05;     // the share of the pixels that sets what is dark beside it
 constexpr double kDarkStops = 8;     // so far below these, a pixel is shown as black or nearly so
-constexpr double kMostStops = 64;    // what `--exposure` accepts
 
 // The radiance that `tonemap` shows as middle grey.
 double radiance_of_grey(Tonemap tonemap) {
@@ -47,12 +46,20 @@ float exposure_for(std::vector<float> luminances, Tonemap tonemap) {
     ++count;
   }
   const double stops = std::log2(radiance_of_grey(tonemap)) - sum / double(count);
-  return float(std::round(std::clamp(stops, -kMostStops, kMostStops) * 100) / 100);
+  return float(std::round(std::clamp(stops, double(-kMostStops), double(kMostStops)) * 100) / 100);
 }
 
-void add_luminance(const Rgb& radiance, std::vector<float>* luminances) {
-  const float Y = luminance(radiance);
-  if (std::isfinite(Y) && Y > 0) luminances->push_back(Y);
+// The luminances of the pixels for which metered(x, y), without those that are no light.
+template <class Metered>
+std::vector<float> luminances_of(const Image& picture, const Metered& metered) {
+  std::vector<float> luminances;
+  luminances.reserve(picture.pixels.size());
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const float Y = luminance(picture.at(x, y));
+      if (std::isfinite(Y) && Y > 0 && metered(x, y)) luminances.push_back(Y);
+    }
+  return luminances;
 }
 
 // Whether a pixel's radiance is mostly that of a light which the camera sees directly.
@@ -63,18 +70,12 @@ bool shows_light(const PixelResult& pixel) {
 }  // namespace
 
 float automatic_exposure(const Image& picture, Tonemap tonemap) {
-  std::vector<float> luminances;
-  luminances.reserve(picture.pixels.size());
-  for (const Rgb& radiance : picture.pixels) add_luminance(radiance, &luminances);
-  return exposure_for(std::move(luminances), tonemap);
+  return exposure_for(luminances_of(picture, [](int, int) { return true; }), tonemap);
 }
 
 float automatic_exposure(const Image& picture, const Film& film, Tonemap tonemap) {
-  std::vector<float> luminances;
-  luminances.reserve(picture.pixels.size());
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x)
-      if (!shows_light(film.at(x, y))) add_luminance(picture.at(x, y), &luminances);
+  std::vector<float> luminances =
+      luminances_of(picture, [&](int x, int y) { return !shows_light(film.at(x, y)); });
   return luminances.empty() ? automatic_exposure(picture, tonemap)
                             : exposure_for(std::move(luminances), tonemap);
 }

@@ -13,6 +13,8 @@ namespace kaustik::render {
 enum class Tonemap { kSrgb, kReinhard, kFilmic };
 inline constexpr std::array<std::string_view, 3> kTonemapNames = {"srgb", "reinhard", "filmic"};
 
+inline constexpr int kMostStops = 64;  // the largest exposure, either way
+
 struct ToneSettings {
   float exposure = 0;  // stops: radiance is multiplied by 2^exposure
   Tonemap tonemap = Tonemap::kSrgb;

@@ -9,13 +9,8 @@
 
 namespace kaustik::app {
 
+using render::kMostStops;
 using render::RenderSettings;
-
-namespace {
-
-constexpr int kMostStops = 64;  // the largest exposure, either way
-
-}  // namespace
 
 std::optional<RadiusChoice> parse_radius(std::string_view text) {
   RadiusChoice choice;

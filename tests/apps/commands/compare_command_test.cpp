@@ -89,7 +89,7 @@ TEST_F(CompareCommand, WritesAHeatmap) {
   EXPECT_GT(luminance(heat.at(3, 2)), luminance(heat.at(0, 0)));
 }
 
-// Even pictures have no edges: of the grey 0.2 and 0.3, FLIP is as tests/render/picture/flip_test.cpp works
+// Even pictures have no edges: of the grey 0.2 and 0.3, FLIP is as tests/render/compare/flip_test.cpp works
 // out.
 TEST_F(CompareCommand, FlipOfDisplayValuesAndOfRadiance) {
   const auto flip_of = [&](const std::string& reference, const std::string& image) {

@@ -13,6 +13,7 @@ namespace kaustik::app {
 namespace {
 
 using test::count_threads;
+using test::logged_exposure;
 using test::Outcome;
 using test::run_kaustik;
 using test::ThreadCounts;
@@ -38,14 +39,6 @@ TEST_F(RenderCommand, WritesAndReportsEveryFile) {
   const render::Image image = render::read_image(path("a.exr"));
   EXPECT_EQ(image.width, 24);
   EXPECT_EQ(image.height, 16);
-}
-
-// The exposure that the log names.
-std::string logged_exposure(const std::string& log) {
-  const std::string before = "exposure: --exposure ";
-  const size_t at = log.find(before);
-  if (at == std::string::npos) return "none is logged";
-  return log.substr(at + before.size(), log.find(' ', at + before.size()) - at - before.size());
 }
 
 TEST_F(RenderCommand, LogsAnExposureThatRepeatsThePicture) {

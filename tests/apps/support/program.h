@@ -29,6 +29,15 @@ inline Outcome run_kaustik(const std::vector<std::string>& arguments) {
   return {code, out.str(), err.str()};
 }
 
+// The exposure that a log names, as the option's text.
+inline std::string logged_exposure(const std::string& log) {
+  const std::string before = "exposure: --exposure ";
+  const size_t at = log.find(before);
+  if (at == std::string::npos) return "none is logged";
+  const size_t start = at + before.size();
+  return log.substr(start, log.find(' ', start) - start);
+}
+
 // Works in output_folder(), which is emptied at the start of the test and kept after it for inspection.
 class ProgramTest : public ::testing::Test {
  protected:

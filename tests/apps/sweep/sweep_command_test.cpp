@@ -410,11 +410,8 @@ TEST_F(SweepCommand, PicturesShareOneExposure) {
                          "2",     "--seeds", "1",         "--reference", path("ref.exr")};
   const Outcome automatic = run_kaustik(one + Arguments{"-o", path("auto")});
   EXPECT_EQ(automatic.code, kDone) << automatic.err;
-  const std::string before = "exposure: --exposure ";
-  const size_t at = automatic.err.find(before);
-  ASSERT_NE(at, std::string::npos) << automatic.err;
-  const size_t start = at + before.size();
-  const std::string stops = automatic.err.substr(start, automatic.err.find(' ', start) - start);
+  const std::string stops = test::logged_exposure(automatic.err);
+  ASSERT_NE(stops, "none is logged") << automatic.err;
   expect_done(one + Arguments{"-o", path("named"), "--exposure", stops, "-q"});
   EXPECT_EQ(picture_of_cell("auto"), picture_of_cell("named"));
   EXPECT_EQ(read("auto/reference.png"), read("named/reference.png"));

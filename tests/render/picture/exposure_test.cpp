@@ -51,8 +51,7 @@ TEST(AutomaticExposure, IgnoresBackgroundsAndHighlights) {
   const float plain = automatic_exposure(picture, Tonemap::kFilmic);
   for (int y = 10; y < 70; ++y)  // a black background, light leaks of 1e-6 among it
     for (int x = 0; x < 100; ++x) picture.at(x, y) = Rgb(y < 40 ? 0 : 1e-6f);
-  for (int x = 0; x < 40; ++x)
-    picture.at(x, 99) = Rgb(1e6f);  // highlights: 1 % of the pixels that have light
+  for (int x = 0; x < 40; ++x) picture.at(x, 99) = Rgb(1e6f);  // highlights: fewer than 1 % of the pixels
   picture.at(50, 0) = Rgb(std::nanf(""));
   picture.at(51, 0) = Rgb(INFINITY);
   picture.at(52, 0) = Rgb(-1);
