@@ -13,13 +13,14 @@ import pathlib
 import subprocess
 
 DIRECT_ONLY = ["--caustics", "off", "--indirect", "off", "--quiet"]
+TONE = ["--exposure", "0", "--tonemap", "srgb"]  # the same for all pictures, so that they can be compared by eye
 REFERENCE_SEED = "77"  # not the seed of the measured runs: errors must not correlate
 
 
 def render(args, name, options):
     image, stats = args.out / (name + ".exr"), args.out / (name + ".json")
     outputs = ["-o", str(image), "-o", str(image.with_suffix(".png")), "--stats", str(stats)]
-    command = [args.kaustik, "render", args.scene, *outputs, *DIRECT_ONLY, "--denoise", "off", *options]
+    command = [args.kaustik, "render", args.scene, *outputs, *DIRECT_ONLY, *TONE, "--denoise", "off", *options]
     subprocess.run(command, check=True)
     return image, json.loads(stats.read_text())
 

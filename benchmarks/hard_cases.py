@@ -182,6 +182,7 @@ SCENES = {"many-lights": many_lights, "light-in-glass": light_in_glass, "mirror-
 BY_PHOTONS = {"light-in-glass", "mirror-box", "sky-window", "sky-pane", "small-glass"}  # paths meet these lights too seldom
 # A pass has an eighth of the photons and samples.
 PASSES = ["--passes", "8", "--alpha", "0.667"]
+TONE = ["--exposure", "0", "--tonemap", "srgb"]  # the same for all pictures, so that they can be compared by eye
 PATHS, PHOTONS = ["--method", "mc", "--spp", "128"], ["--method", "auto", "--photons", "8M", "--spp", "128"]
 
 
@@ -190,7 +191,7 @@ def render(args, scene, image, options, seed):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run([args.kaustik, "render", scene, "-o", image, "-o", image.with_suffix(".png"), "--stats",
                     image.with_suffix(".json"), "--quiet", "--threads", args.threads, "--width", args.size, "--height", args.size,
-                    "--seed", seed, *PASSES, *options], check=True, stderr=subprocess.DEVNULL)
+                    "--seed", seed, *PASSES, *TONE, *options], check=True, stderr=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 

@@ -102,6 +102,15 @@ std::string refusal(const OIIO::ImageSpec& spec, Channels channels, uint64_t mos
   return {};
 }
 
+// The attributes by which kaustik says how it made a picture.
+Metadata texts_of(const OIIO::ImageSpec& spec) {
+  Metadata texts;
+  for (const OIIO::ParamValue& value : spec.extra_attribs)
+    if (value.name().string().starts_with("kaustik:"))
+      texts.emplace_back(value.name().string(), value.get_string());
+  return texts;
+}
+
 class OpenImageIo final : public render::ImageFormats {
  public:
   // Keeps OpenEXR's thread pool empty. OpenImageIO's own pool is never made: to set its attribute "threads"
@@ -129,7 +138,7 @@ class OpenImageIo final : public render::ImageFormats {
     if (std::string why = refusal(spec, channels, most_pixels); !why.empty()) return fail(std::move(why));
     const auto [first, count] =
         channels == Channels::kAll ? std::pair(0, spec.nchannels) : colour_channels(spec);
-    ImageNumbers out{spec.width, spec.height, count, !spec.format.is_floating_point(), {}};
+    ImageNumbers out{spec.width, spec.height, count, !spec.format.is_floating_point(), {}, texts_of(spec)};
     out.values.resize(out.count() * size_t(count));
     if (!in->read_image(0, 0, first, first + count, OIIO::TypeDesc::FLOAT, out.values.data()))
       return fail(in->geterror());

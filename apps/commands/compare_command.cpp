@@ -57,8 +57,8 @@ std::string blocks_text(const render::CompareResult& r) {
 struct Comparison {
   render::CompareResult result;
   render::Fireflies fireflies;
-  bool mixed = false;  // one of the pictures is radiance, the other what a screen shows
-  int side = 0;        // of --blocks; 0 without it
+  std::string doubt;                              // why the numbers may mislead; empty = they do not
+  int side = 0;                                   // of --blocks; 0 without it
   std::optional<render::BlockDeviations> blocks;  // of --blocks
   std::optional<render::Flip> flip;
 };
@@ -155,6 +155,25 @@ std::string as_text(const Comparison& found, const CompareOptions& options) {
   return text;
 }
 
+std::string options_of(const render::ToneSettings& tone) {
+  return fmt::format("--exposure {} --tonemap {}", tone.exposure, render::name_of(tone.tonemap));
+}
+
+// Why the comparison of pictures may mislead: they do not show radiance in the same way. Otherwise empty.
+std::string doubt_about(const render::Image& reference, const render::Image& image) {
+  const bool mixed = reference.for_display != image.for_display;
+  const render::Image& shown = reference.for_display ? reference : image;
+  if (mixed && shown.tone != render::ToneSettings{})
+    return fmt::format(
+        "one of the pictures is in an integer format, which holds what a screen shows{}: it is compared with "
+        "radiance as if it had been written with {}",
+        shown.tone ? fmt::format(" ({})", options_of(*shown.tone)) : "", options_of({}));
+  if (!mixed && reference.tone && image.tone && *reference.tone != *image.tone)
+    return fmt::format("the pictures show radiance differently: the reference by {}, the other one by {}",
+                       options_of(*reference.tone), options_of(*image.tone));
+  return {};
+}
+
 // The picture, or the layer of it that is asked for.
 render::Image picture_of(const std::string& path, const CompareOptions& options) {
   return options.layer.empty() ? render::read_image(path) : render::read_layer(path, options.layer);
@@ -188,7 +207,7 @@ Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
       compared.mask_from = &whole.emplace(render::read_image(options.reference));
     Comparison found{render::compare(reference, image, compared),
                      render::find_fireflies(reference, image, compared),
-                     reference.for_display != image.for_display,
+                     doubt_about(reference, image),
                      side,
                      {},
                      {}};
@@ -219,10 +238,7 @@ int run_compare(const CompareOptions& options, const Console& console) {
   quiet.quiet = true;  // compare has no log
   FileWriter writer(quiet);
   const Comparison found = compare_files(options, writer);
-  if (found.mixed)
-    console.warning(
-        "one of the pictures is in an integer format, which holds what a screen shows: it is compared with "
-        "radiance as if it had been written with --exposure 0 --tonemap srgb");
+  if (!found.doubt.empty()) console.warning(found.doubt);
   const render::CompareResult& result = found.result;
   if (result.compared == 0) throw ExitError(kBadCommandLine, "there is no pixel to compare");
   // A pixel that is not finite in the image only counts as an infinite error.

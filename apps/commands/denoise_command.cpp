@@ -15,6 +15,7 @@
 #include "core/stopwatch.h"
 #include "render/denoise/denoise.h"
 #include "render/denoise/noisy_picture.h"
+#include "render/picture/exposure.h"
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -85,7 +86,7 @@ int run_denoise(const DenoiseOptions& options, const Console& console) {
     replace_picture(image, noisy.film, &file);
     render::ToneSettings tone;
     if (std::any_of(options.outputs.begin(), options.outputs.end(), shows_tones))
-      tone = tone_for(image, &noisy.film, settings.tone, console);
+      tone = tone_for(image, render::lights_seen(file), settings.tone, console);
     for (const std::string& output : options.outputs)
       writer.write(output, [&] {
         if (render::is_exr(output))

@@ -94,6 +94,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   session.outputs = options.outputs, session.checkpoint = options.checkpoint, session.goal = options.passes;
   session.outputs.files = outputs_of(options, job);
   check_with_scene(options, session.outputs.files, job);
+  warn_of_layers(session.outputs, job.settings.render.aov, console);
   settle_denoising(writes_sums(session), &job.settings);
   session.fill_time = options.passes.empty() &&
                       time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));

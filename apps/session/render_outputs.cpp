@@ -1,6 +1,7 @@
 #include "apps/session/render_outputs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "apps/session/tone.h"
 #include "apps/settings/settings_json.h"
 #include "core/stopwatch.h"
+#include "render/picture/exposure.h"
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -90,10 +92,13 @@ void report_error(const render::RenderResult& result, const render::RenderSettin
                            settings.denoise.value_or(false) ? ", before denoising" : ""));
 }
 
-// Writes the files of -o: pictures and partial results.
-void write_pictures(const std::vector<std::string>& files, const Outcome& outcome,
-                    const std::optional<render::Image>& picture, const nlohmann::ordered_json& settings,
-                    FileWriter& writer, const Console& console) {
+// Writes the files of -o: pictures and partial results. Returns what turned radiance into PNG and JPEG files,
+// if there are any.
+std::optional<render::ToneSettings> write_pictures(const std::vector<std::string>& files,
+                                                   const Outcome& outcome,
+                                                   const std::optional<render::Image>& picture,
+                                                   const nlohmann::ordered_json& settings, FileWriter& writer,
+                                                   const Console& console) {
   const render::RenderResult& result = outcome.result;
   render::WriteOptions options;
   options.layers = layers_of(outcome, console);
@@ -107,10 +112,11 @@ void write_pictures(const std::vector<std::string>& files, const Outcome& outcom
   options.metadata = render::metadata_of(result, outcome.settings.render, settings);
   if (const std::string& rule = outcome.manifest.stopped_by; !rule.empty())
     options.metadata.emplace_back("kaustik:stopped_by", rule);
-  if (std::any_of(files.begin(), files.end(), shows_tones)) {
+  const bool tones = std::any_of(files.begin(), files.end(), shows_tones);
+  if (tones) {
     std::optional<render::Image> of_film;
     const render::Image& shown = picture ? *picture : of_film.emplace(render::image_of(result.film));
-    options.tone = tone_for(shown, &result.film, outcome.settings.tone, console);
+    options.tone = tone_for(shown, render::lights_seen(result.film), outcome.settings.tone, console);
   }
   for (const std::string& path : files) {
     if (!render::is_partial_name(path))
@@ -118,6 +124,7 @@ void write_pictures(const std::vector<std::string>& files, const Outcome& outcom
     else if (!result.sums.passes.empty())
       writer.write(path, [&] { render::write_partial(path, outcome.manifest, result.sums); });
   }
+  return tones ? std::optional(options.tone) : std::nullopt;
 }
 
 }  // namespace
@@ -143,6 +150,13 @@ void check_outputs(const OutputOptions& options) {
   if (!options.statistics.empty()) check_writable(options.statistics);
 }
 
+void warn_of_layers(const OutputOptions& options, const std::vector<std::string>& layers,
+                    const Console& console) {
+  if (layers.empty() || !std::all_of(options.files.begin(), options.files.end(), shows_tones)) return;
+  console.warning(fmt::format("no file holds the layer{} {}: only EXR files do, `-o FILE.exr`",
+                              layers.size() == 1 ? "" : "s", fmt::join(layers, ", ")));
+}
+
 std::vector<NamedFile> named_files(const OutputOptions& options) {
   std::vector<NamedFile> files;
   for (const std::string& path : options.files) files.push_back({"-o", path});
@@ -156,9 +170,12 @@ bool write_outputs(const OutputOptions& options, const Outcome& outcome, render:
   const auto picture = denoised(result, outcome.settings.render, console, &times.denoise);
   times.total += times.denoise;
   const Stopwatch watch;
-  const nlohmann::ordered_json settings = statistics_settings(outcome.settings, result.plan);
+  nlohmann::ordered_json settings = statistics_settings(outcome.settings, result.plan);
   FileWriter writer(console);
-  write_pictures(options.files, outcome, picture, settings, writer, console);
+  if (const auto tone = write_pictures(options.files, outcome, picture, settings, writer, console)) {
+    settings["exposure"] = tone->exposure;
+    settings["tonemap"] = render::name_of(tone->tonemap);
+  }
   times.write = watch.seconds();
   times.total += times.write;
   if (!options.statistics.empty())

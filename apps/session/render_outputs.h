@@ -28,6 +28,10 @@ void check_outputs(const OutputOptions& options);
 // The files with the options that name them, for check_collisions().
 std::vector<NamedFile> named_files(const OutputOptions& options);
 
+// Warns of layers that none of the output files can hold: pictures other than EXR have none.
+void warn_of_layers(const OutputOptions& options, const std::vector<std::string>& layers,
+                    const Console& console);
+
 // Everything that goes into the output files.
 struct Outcome {
   const render::RenderResult& result;

@@ -3,7 +3,6 @@
 
 #include "apps/console/console.h"
 #include "apps/settings/table/settings.h"
-#include "render/film/film.h"
 #include "render/picture/image.h"
 #include "render/picture/tonemap.h"
 
@@ -13,9 +12,8 @@ namespace kaustik::app {
 bool shows_tones(const std::string& path);
 
 // The tone mapping that the settings ask for, with the picture's own exposure if they leave it open. That
-// exposure is logged as an option that repeats it. `film`: the picture's, or null if only its pixels are
-// known.
-render::ToneSettings tone_for(const render::Image& picture, const render::Film* film,
+// exposure is logged as an option that repeats it. `lights`: lights_seen() of the picture.
+render::ToneSettings tone_for(const render::Image& picture, const render::Image& lights,
                               const ToneChoice& choice, const Console& console);
 
 }  // namespace kaustik::app

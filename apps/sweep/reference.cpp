@@ -15,6 +15,7 @@
 #include "core/files/content_hash.h"
 #include "core/stopwatch.h"
 #include "render/camera/pixel_range.h"
+#include "render/picture/exposure.h"
 #include "render/picture/image_io.h"
 #include "render/renderer.h"
 #include "render/settings/names.h"
@@ -74,20 +75,26 @@ double mean_of(const render::Image& image) {
   return sum / (3.0 * double(image.pixels.size()));
 }
 
-// Reads an image. Throws ImageError, also when its size is not the job's.
-render::Image read_picture(const std::string& path, const Job& job) {
-  render::Image image = render::read_image(path);
+// Reads a picture. Throws ImageError, also when its size is not the job's.
+void read_picture(const std::string& path, const Job& job, Reference* reference) {
+  render::Image& image = reference->image;
+  image = render::read_image(path);
   const auto [width, height] = picture_size(job);
   if (image.width != width || image.height != height)
     throw render::ImageError(path, fmt::format("it has {} x {} pixels, but the scene's picture has {} x {}",
                                                image.width, image.height, width, height));
-  return image;
+  if (!render::is_exr(path)) return;
+  try {
+    reference->lights = render::lights_seen(render::read_exr_file(path, render::kMostPixelsRead));
+  } catch (const std::exception&) {
+    // OpenImageIO reads some files that OpenEXR alone does not: their lights are not known
+  }
 }
 
 Reference read_reference(const std::string& path, const Job& job) {
   Reference reference;
   try {
-    reference.image = read_picture(path, job);
+    read_picture(path, job, &reference);
   } catch (const render::ImageError& error) {
     throw ExitError(kBadCommandLine, fmt::format("--reference: {}", error.what()));
   }
@@ -101,7 +108,7 @@ Reference kept_reference(const Job& job, const SweepFolder& folder) {
   const std::optional<Json> about = folder.read(kAboutName);
   if (!about) throw std::runtime_error(folder.path(kAboutName) + ": it is not valid JSON");
   Reference reference;
-  reference.image = read_picture(folder.path(kPictureName), job);
+  read_picture(folder.path(kPictureName), job, &reference);
   if (about->at("hash") != picture_hash(reference.image))
     throw std::runtime_error(
         fmt::format("{}: it is not the picture that {} describes", folder.path(kPictureName), kAboutName));
@@ -144,8 +151,10 @@ render::PassSums begun_passes(const std::string& path, const Console& console) {
   }
 }
 
-void keep_reference(const Reference& reference, const SweepFolder& folder) {
-  render::write_image(folder.path(kPictureName), reference.image);
+void keep_reference(const Reference& reference, const render::Film& film, const SweepFolder& folder) {
+  // The layers tell which pixels show lights.
+  render::write_film(folder.path(kPictureName), film,
+                     {{render::Layer::kEmitted, render::Layer::kDenoisingEmitted}, {}, {}});
   const SweepReference& about = reference.about;
   const Json json = {{"hash", picture_hash(reference.image)},
                      {"source", about.source},
@@ -187,12 +196,14 @@ std::optional<Reference> render_reference(const ReferenceChoice& choice, render:
   }
   Reference reference;
   reference.image = render::image_of(result.film);
+  reference.lights = render::lights_seen(result.film);
   reference.about = {.source = fmt::format("method {}, {} passes", render::name_of(method), passes),
                      .noise = render::relative_noise(result.sums.totals),
                      .seconds = before + watch.seconds(),
                      .passes = passes,
-                     .picture = {}};
-  keep_reference(reference, folder);
+                     .picture = {},
+                     .tone = {}};
+  keep_reference(reference, result.film, folder);
   return reference;
 }
 
@@ -229,8 +240,8 @@ std::optional<Reference> make_reference(const ReferenceChoice& choice, Job& job,
   reference->hash = picture_hash(reference->image);
   reference->about.mean = mean_of(reference->image);
   reference->about.picture = "reference.png";
-  reference->tone = tone_for(reference->image, nullptr, job.settings.tone, console);
-  write_picture(folder.path(reference->about.picture), reference->image, reference->tone);
+  reference->about.tone = tone_for(reference->image, reference->lights, job.settings.tone, console);
+  write_picture(folder.path(reference->about.picture), reference->image, reference->about.tone);
   return reference;
 }
 

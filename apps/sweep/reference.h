@@ -25,10 +25,10 @@ render::Method reference_method(const SceneNeeds& needs);
 
 struct Reference {
   render::Image image;
-  std::string
-      hash;  // picture_hash of the image; part of each cell's key, so a new reference measures cells anew
+  render::Image lights;  // lights_seen() of it
+  // picture_hash of the image; part of each cell's key, so a new reference measures cells anew
+  std::string hash;
   SweepReference about;
-  render::ToneSettings tone;  // of all pictures of the sweep, so that they can be compared
 };
 
 // Reports progress in milliseconds; returning false cancels.

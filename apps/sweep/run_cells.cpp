@@ -96,7 +96,7 @@ class CellRun {
     if (!first) return;
     const render::RenderStatistics& s = outcome.result.statistics;
     cell_.radii = {s.direct_radius, s.caustic_radius, s.indirect_radius};
-    write_picture(folder_.path(cell_.picture), image, sweep_.reference.tone);
+    write_picture(folder_.path(cell_.picture), image, sweep_.reference.about.tone);
     write_error_map(folder_.path(cell_.error_map), sweep_.reference.image, image);
   }
 

@@ -57,9 +57,14 @@ Json radii_json(const SweepCell& cell) {
 }
 
 Json reference_json(const SweepReference& r) {
-  return {{"source", r.source},   {"noise_relmse", or_null(r.noise)},
-          {"seconds", r.seconds}, {"passes", r.passes},
-          {"mean", r.mean},       {"picture", r.picture}};
+  return {{"source", r.source},
+          {"noise_relmse", or_null(r.noise)},
+          {"seconds", r.seconds},
+          {"passes", r.passes},
+          {"mean", r.mean},
+          {"picture", r.picture},
+          {"exposure", double(r.tone.exposure)},
+          {"tonemap", render::name_of(r.tone.tonemap)}};
 }
 
 Json advice_json(const std::vector<SweepCell>& cells) {

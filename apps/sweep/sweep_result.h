@@ -9,6 +9,7 @@
 #include "apps/sweep/sweep_grid.h"
 #include "render/compare/error_parts.h"
 #include "render/maps/gather_radii.h"
+#include "render/picture/tonemap.h"
 
 namespace kaustik::app {
 
@@ -36,6 +37,8 @@ struct SweepReference {
   uint64_t passes = 0;
   double mean = 0;      // mean radiance over pixels and channels, W/(m^2 sr)
   std::string picture;  // file name in the sweep's folder
+  // Of all pictures of the sweep, so that they can be compared by eye.
+  render::ToneSettings tone;
 };
 
 struct SweepResult {

@@ -24,6 +24,7 @@ struct ImageNumbers {
   int width = 0, height = 0, channels = 0;
   bool integers = false;
   std::vector<float> values;
+  Metadata texts{};  // those of its attributes that kaustik has written
 
   size_t count() const { return size_t(width) * size_t(height); }
 };

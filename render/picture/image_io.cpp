@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <charconv>
 #include <filesystem>
 
 #include "core/files/pending_file.h"
@@ -90,6 +91,15 @@ void write_exr(const std::string& path, const Image& image, const Metadata& meta
   write_exr(path, picture, metadata);
 }
 
+constexpr std::string_view kExposureKey = "kaustik:exposure", kTonemapKey = "kaustik:tonemap";
+
+// The metadata with what turned radiance into what the file holds.
+Metadata with_tone(Metadata metadata, const ToneSettings& tone) {
+  metadata.emplace_back(kExposureKey, fmt::format("{}", tone.exposure));
+  metadata.emplace_back(kTonemapKey, name_of(tone.tonemap));
+  return metadata;
+}
+
 void write_srgb8(const std::string& path, const Image& image, const ToneSettings& tone,
                  const Metadata& metadata) {
   std::vector<uint8_t> pixels;
@@ -100,18 +110,24 @@ void write_srgb8(const std::string& path, const Image& image, const ToneSettings
   }
   const Encoding encoding = lower_extension(path) == ".png" ? Encoding::kPng : Encoding::kJpeg;
   std::string error;
-  const auto bytes =
-      image_formats().encode_srgb8(encoding, image.width, image.height, pixels, metadata, error);
+  const auto bytes = image_formats().encode_srgb8(encoding, image.width, image.height, pixels,
+                                                  with_tone(metadata, tone), error);
   if (!bytes) throw ImageError(path, error);
   error = write_file(path, *bytes);
   if (!error.empty()) throw ImageError(path, error);
 }
 
-// The metadata with what turned radiance into what the file holds.
-Metadata with_tone(Metadata metadata, const ToneSettings& tone) {
-  metadata.emplace_back("kaustik:exposure", fmt::format("{}", tone.exposure));
-  metadata.emplace_back("kaustik:tonemap", kTonemapNames[static_cast<size_t>(tone.tonemap)]);
-  return metadata;
+// What with_tone() has written, if a file has it.
+std::optional<ToneSettings> tone_in(const Metadata& metadata) {
+  std::optional<float> exposure;
+  std::optional<Tonemap> tonemap;
+  for (const auto& [key, value] : metadata) {
+    if (float stops = 0; key == kExposureKey &&
+                         std::from_chars(value.data(), value.data() + value.size(), stops).ec == std::errc())
+      exposure = stops;
+    if (key == kTonemapKey) tonemap = tonemap_from_name(value);
+  }
+  return exposure && tonemap ? std::optional(ToneSettings{*exposure, *tonemap}) : std::nullopt;
 }
 
 // An image of three channels, or of the first one three times.
@@ -119,6 +135,7 @@ Image image_from(const ImageNumbers& numbers) {
   const size_t channels = size_t(numbers.channels);
   Image image(numbers.width, numbers.height);
   image.for_display = numbers.integers;
+  if (numbers.integers) image.tone = tone_in(numbers.texts);
   for (size_t i = 0; i < image.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c) {
       const float v = numbers.values[i * channels + size_t(channels == 3 ? c : 0)];
@@ -165,8 +182,7 @@ void write_film(const std::string& path, const Film& film, const WriteOptions& o
   if (is_exr(path))
     write_exr(path, film, options);
   else
-    write_srgb8(path, options.picture ? *options.picture : image_of(film), options.tone,
-                with_tone(options.metadata, options.tone));
+    write_srgb8(path, options.picture ? *options.picture : image_of(film), options.tone, options.metadata);
 }
 
 void write_channels(const std::string& path, const ExrChannels& channels, const Metadata& metadata) {

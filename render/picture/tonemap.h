@@ -13,11 +13,17 @@ namespace kaustik::render {
 enum class Tonemap { kSrgb, kReinhard, kFilmic };
 inline constexpr std::array<std::string_view, 3> kTonemapNames = {"srgb", "reinhard", "filmic"};
 
+inline std::string_view name_of(Tonemap tonemap) {
+  return kTonemapNames[static_cast<size_t>(tonemap)];
+}
+
 inline constexpr int kMostStops = 64;  // the largest exposure, either way
 
 struct ToneSettings {
   float exposure = 0;  // stops: radiance is multiplied by 2^exposure
   Tonemap tonemap = Tonemap::kSrgb;
+
+  bool operator==(const ToneSettings&) const = default;
 };
 
 // Returns nothing if no operator has this name.

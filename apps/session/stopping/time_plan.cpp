@@ -23,9 +23,10 @@ constexpr double kErrorOfMillion = 0.006;
 double error_of_map(double stored) {
   return kErrorOfMillion / std::pow(stored / 1e6, 2.0 / 3);
 }
-// Of the noise of samples, what the denoiser leaves. The error of maps stays, so photons get more of the
-// time.
+// Of the noise of samples, what the denoiser leaves; it needs some samples a pixel. The error of maps stays,
+// so photons get more of the time.
 constexpr double kNoiseLeft = 0.5;
+constexpr int kFewestFiltered = 2;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
 constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.015;
@@ -147,7 +148,7 @@ class TimePlan {
   FilledTime one_pass(const render::SampleCost& cost, std::shared_ptr<render::FirstPhotons> photons) {
     const double sure = render_.adaptive > 0 ? kSure : 1;
     render_.spp = samples_within(cost, render_.adaptive, sure * left(), kMostOfOne);
-    if (render_.spp < 2) render_.denoise = false;  // most pixels would have no second half
+    if (render_.spp < kFewestFiltered) render_.denoise = false;  // most pixels would have no second half
     return {.single_pass = true,
             .work = {.photons = std::move(photons), .explored = explored_},
             .adaptive_work = adaptive_work(cost)};
@@ -221,17 +222,22 @@ class TimePlan {
     };
   }
 
+  // The noise of the picture, after denoising, from the variance of one sample and the samples a pixel.
+  double noise_of(double variance, double samples) const {
+    const bool filtered = render_.denoise.value_or(false) && samples >= kFewestFiltered;
+    return (filtered ? kNoiseLeft : 1) * variance / std::max(samples, 1e-9);
+  }
+
   // The share of the time that photons get: where the sum of the noise of samples and of the photons' error
   // is least. The photons' error is taken to fall as the number in reach of an estimate grows. How many of
   // those that were emitted are stored differs by a factor of thirty from scene to scene.
   double photon_share(const render::PhotonCost& cost, const render::SampleTrial& sample) const {
     const double each = std::max(cost.each, 1e-12), time = left();
-    const double noise = sample.errors.samples * (render_.denoise.value_or(false) ? kNoiseLeft : 1);
     double best = kLeastPhotons, least = HUGE_VAL;
     for (double share = kLeastPhotons; share <= kMostPhotons; share += 0.01) {
       const double samples = (1 - share) * time / sample.seconds;
       const double photons = std::max(share * time / each, 1.0);
-      const double error = noise / std::max(samples, 1e-9) +
+      const double error = noise_of(sample.errors.samples, samples) +
                            sample.errors.caustic * error_of_map(photons * cost.stored_caustic) +
                            sample.errors.indirect * error_of_map(photons * cost.stored_indirect);
       if (error < least) least = error, best = share;
@@ -239,10 +245,9 @@ class TimePlan {
     return best;
   }
 
-  // The error that is left of the variance of one sample when the samples of this trial fill a share of the
-  // time.
-  double noise_of(double variance, const render::SampleTrial& sample, double share, int passes) const {
-    return variance * sample.each / std::max(share * left() - passes * sample.fixed, sample.each);
+  // The number of samples a pixel for which there is time when samples as in this trial fill a share of it.
+  double samples_in(double share, const render::SampleTrial& sample, int passes) const {
+    return std::max((share * left() - passes * sample.fixed) / sample.each, 1.0);
   }
 
   // Tries paths in place of photon maps and takes them where the picture's error is less by much.
@@ -255,9 +260,10 @@ class TimePlan {
     const auto judge = [&](const TrialComparison& found, const PathTrial& paths) {
       const bool gathers = render::kinds_needed(paths.plan).any();
       const double photons_beside = gathers ? photon_share(cost, paths.sample) : 0;
-      return ErrorsAtCost{noise_of(found.variance_of_maps, maps, 1 - share, passes) +
-                              found.error_of_maps * share_of_map_error(cost.photons, of_pass),
-                          noise_of(found.variance_of_paths, paths.sample, 1 - photons_beside, kPasses)};
+      return ErrorsAtCost{
+          noise_of(found.variance_of_maps, samples_in(1 - share, maps, passes)) +
+              found.error_of_maps * share_of_map_error(cost.photons, of_pass),
+          noise_of(found.variance_of_paths, samples_in(1 - photons_beside, paths.sample, kPasses))};
     };
     const auto try_paths = [&](const render::RenderInput& tried) {
       return render::try_one_sample(tried, {.seconds = kSampleTrial / 2 * seconds_}, false, photons);

@@ -148,16 +148,17 @@ Setting aov_setting() {
 }
 
 Setting tonemap_setting() {
-  Setting s{.name = "tonemap",
-            .commands = kThatWritePictures | SettingsCommand::kSweep | SettingsCommand::kDenoise,
-            .kind = ValueKind::kChoice,
-            .value_name = "NAME",
-            .range = fmt::format("{}", fmt::join(render::kTonemapNames, ", ")),
-            .default_text = std::string(render::kTonemapNames[static_cast<size_t>(ToneChoice{}.tonemap)]),
-            .doc =
-                "How PNG and JPEG files map radiance to the range from 0 to 1. filmic: a curve that keeps "
-                "detail in "
-                "highlights. reinhard: the same by luminance alone. srgb: by clipping."};
+  Setting s{
+      .name = "tonemap",
+      .commands = kThatWritePictures | SettingsCommand::kSweep | SettingsCommand::kDenoise,
+      .kind = ValueKind::kChoice,
+      .value_name = "NAME",
+      .range = fmt::format("{}", fmt::join(render::kTonemapNames, ", ")),
+      .default_text = std::string(render::name_of(ToneChoice{}.tonemap)),
+      .doc =
+          "How PNG and JPEG files map radiance to the range from 0 to 1. filmic: each channel by a curve "
+          "that keeps detail in highlights. reinhard: all channels by the luminance Y, times 1 / (1 + Y). "
+          "srgb: by clipping."};
   s.choices.assign(render::kTonemapNames.begin(), render::kTonemapNames.end());
   s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<render::Tonemap> value = render::tonemap_from_name(texts[0]);
@@ -165,9 +166,7 @@ Setting tonemap_setting() {
     settings.tone.tonemap = *value;
     return std::nullopt;
   };
-  s.show = [](const Settings& settings) {
-    return as_texts(render::kTonemapNames[static_cast<size_t>(settings.tone.tonemap)]);
-  };
+  s.show = [](const Settings& settings) { return as_texts(render::name_of(settings.tone.tonemap)); };
   s.decides_sums = false;
   return s;
 }

@@ -116,6 +116,30 @@ TEST_F(CompareCommand, FlipOfDisplayValuesAndOfRadiance) {
               kBadCommandLine);
 }
 
+TEST_F(CompareCommand, WarnsOfPicturesThatShowRadianceDifferently) {
+  const auto shown = [&](const std::string& name, float stops, render::Tonemap tonemap) {
+    render::write_image(path(name), render::Image(8, 6, Rgb(0.25f)), {stops, tonemap});
+    return path(name);
+  };
+  using enum render::Tonemap;
+  const std::string radiance = picture("r.exr", 0.25f, 0.25f), plain = shown("plain.png", 0, kSrgb),
+                    filmic = shown("filmic.png", 0.5f, kFilmic), lighter = shown("lighter.png", 1, kFilmic),
+                    unknown = shown("unknown.jpg", 0, kSrgb);  // JPEG files do not keep the exposure
+  const auto warning = [](const std::string& reference, const std::string& image) {
+    return run_kaustik({"compare", reference, image}).err;
+  };
+  const std::string mixed = "one of the pictures is in an integer format";
+  EXPECT_THAT(warning(radiance, filmic), HasSubstr(mixed));
+  EXPECT_THAT(warning(filmic, radiance), HasSubstr("(--exposure 0.5 --tonemap filmic)"));
+  EXPECT_THAT(warning(radiance, unknown), HasSubstr(mixed));
+  EXPECT_EQ(warning(radiance, plain), "");
+  EXPECT_THAT(warning(filmic, lighter), HasSubstr("the reference by --exposure 0.5 --tonemap filmic, the "
+                                                  "other one by --exposure 1 --tonemap filmic"));
+  EXPECT_EQ(warning(filmic, filmic), "");
+  EXPECT_EQ(warning(filmic, unknown), "");
+  EXPECT_EQ(warning(radiance, picture("other.exr", 0.5f, 0.5f)), "");
+}
+
 TEST_F(CompareCommand, WritesAMapOfFlip) {
   const std::string reference = picture("r.exr", 0.5f, 0.5f), image = picture("i.exr", 0.5f, 1.5f);
   const Outcome outcome = run_kaustik({"compare", reference, image, "--flip-map", path("f.png")});

@@ -61,6 +61,21 @@ TEST_F(RenderCommand, LogsAnExposureThatRepeatsThePicture) {
   EXPECT_NE(read("a.png"), read("d.png"));
   EXPECT_EQ(read("a.exr"), read("d.exr")) << "EXR files keep the radiance";
   EXPECT_NE(logged_exposure(render("e", {"--tonemap", "srgb"})), exposure) << "grey depends on the operator";
+  render("f", {"--stats", path("f.json")});
+  EXPECT_NEAR(stats("f.json")["settings"]["exposure"].get<double>(), std::stod(exposure), 1e-5);
+  EXPECT_EQ(stats("f.json")["settings"]["tonemap"], "filmic");
+}
+
+TEST_F(RenderCommand, WarnsOfLayersThatNoFileHolds) {
+  const auto log_of = [&](const std::vector<std::string>& files) {
+    std::vector<std::string> arguments = {"render", small_scene(film(8, 8)), "--photons", "1k", "--spp", "1",
+                                          "--aov",  "depth,normal",          "-q"};
+    for (const std::string& file : files) arguments.insert(arguments.end(), {"-o", path(file)});
+    return run_kaustik(arguments).err;
+  };
+  EXPECT_THAT(log_of({"a.png"}), HasSubstr("no file holds the layers depth, normal"));
+  EXPECT_EQ(log_of({"a.png", "a.exr"}), "");
+  EXPECT_EQ(log_of({"a.kpart"}), "");
 }
 
 TEST_F(RenderCommand, StatisticsHaveTheDocumentedKeys) {

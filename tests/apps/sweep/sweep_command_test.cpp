@@ -415,8 +415,39 @@ TEST_F(SweepCommand, PicturesShareOneExposure) {
   expect_done(one + Arguments{"-o", path("named"), "--exposure", stops, "-q"});
   EXPECT_EQ(picture_of_cell("auto"), picture_of_cell("named"));
   EXPECT_EQ(read("auto/reference.png"), read("named/reference.png"));
+  EXPECT_NEAR(result("auto")["reference"]["exposure"].get<double>(), std::stod(stops), 1e-5);
+  EXPECT_EQ(result("auto")["reference"]["tonemap"], "filmic");
   expect_done(one + Arguments{"-o", path("three"), "--exposure", "3", "-q"});
   EXPECT_NE(picture_of_cell("auto"), picture_of_cell("three"));
+}
+
+// A far light covers much of the picture but gives little light: metered, it would darken the rest by stops.
+TEST_F(SweepCommand, ExposureLeavesOutLightsThatTheReferenceShows) {
+  const std::string scene = write(
+      "lit.pbrt", read("small.pbrt") +
+                      "Translate 0 0 -40\nMaterial \"diffuse\"\n"
+                      "AreaLightSource \"diffuse\" \"rgb L\" 1000\nShape \"sphere\" \"float radius\" 12\n");
+  const auto exposure_by = [&](const Arguments& arguments) {
+    const Outcome outcome = run_kaustik(arguments);
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return test::logged_exposure(outcome.err);
+  };
+  const Arguments render = {"render", scene, "--method", "mc", "--spp", "16", "--denoise", "off"};
+  const std::string rendered = exposure_by(
+      render + Arguments{"-o", path("lit.exr"), "-o", path("lit.png"), "--aov", "emitted,denoising_emitted"});
+  exposure_by(render + Arguments{"-o", path("plain.exr")});
+  const auto exposure_of_sweep = [&](const std::string& folder, const Arguments& reference) {
+    return exposure_by(
+        Arguments{"sweep", scene, "--photons", "1k", "--spp", "2", "--seeds", "1", "-o", path(folder)} +
+        reference);
+  };
+  EXPECT_EQ(exposure_of_sweep("layers", {"--reference", path("lit.exr")}), rendered);
+  EXPECT_LT(std::stod(exposure_of_sweep("plain", {"--reference", path("plain.exr")})),
+            std::stod(rendered) - 1);
+  const Arguments own = {"--reference-time", "50ms", "--reference-method", "mc"};
+  const std::string first = exposure_of_sweep("own", own);
+  EXPECT_NEAR(std::stod(first), std::stod(rendered), 0.5);  // another seed, and other samples
+  EXPECT_EQ(exposure_of_sweep("own", own), first) << "the reference that was kept";
 }
 
 TEST_F(SweepCommand, BadGridIsReportedBeforeAnythingIsRendered) {
