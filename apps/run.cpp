@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <new>
+#include <string_view>
 
 #include "apps/command_line/parser.h"
 #include "apps/commands/commands.h"
@@ -57,6 +59,12 @@ int run_command(const Command& command, const Console& console) {
 
 namespace {
 
+// Whether a file is a terminal that can redraw a line.
+bool redraws_lines(int file) {
+  const char* const type = std::getenv("TERM");
+  return isatty(file) != 0 && !(type && std::string_view(type) == "dumb");
+}
+
 int run_program(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
   Program program("kaustik",
                   "Photon-mapping renderer: caustics, direct and indirect light from the command line");
@@ -67,7 +75,7 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
   if (const ExitCode* code = std::get_if<ExitCode>(&parsed)) return *code;
   const Command& command = *std::get<const Command*>(parsed);
   const std::string name = program.name + " " + command.name;
-  const bool terminal = &err == &std::cerr && isatty(STDERR_FILENO) != 0;
+  const bool terminal = &err == &std::cerr && redraws_lines(STDERR_FILENO);
   return run_command(command, Console{out, err, terminal, *command.quiet, name});
 }
 

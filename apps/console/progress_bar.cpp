@@ -1,6 +1,8 @@
 #include "apps/console/progress_bar.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,16 @@ namespace {
 
 constexpr double kRedrawSeconds = 0.1;  // least time between redraws on a terminal
 constexpr double kLineSeconds = 5;      // least time between lines in a log
+
+constexpr int kLogColumns = 200;
+
+// The width of the terminal, which is asked for each time, since it may change.
+int terminal_columns() {
+  constexpr int kUsual = 80;
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : kUsual;
+}
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<uint64_t>(std::ceil(seconds));
@@ -26,30 +38,35 @@ std::string phase_text(const render::Progress& progress) {
 
 }  // namespace
 
-std::string progress_line(std::string_view phase, double fraction, double left) {
-  constexpr int kWidth = 40;
-  const double inside = std::clamp(fraction, 0.0, 1.0);
-  const int filled = static_cast<int>(inside * kWidth);
-  const std::string eta = left < 0 ? std::string() : fmt::format("  ETA {}", duration_text(left));
-  return fmt::format("{:<8} [{:#<{}}{:-<{}}] {:3.0f} %{}", phase, "", filled, "", kWidth - filled,
-                     std::floor(inside * 100), eta);
+std::string progress_line(const ProgressText& text, int columns) {
+  constexpr int kMostBar = 40, kLeastBar = 4, kFrame = 3;  // brackets, and the space before them
+  const double inside = std::clamp(text.fraction, 0.0, 1.0);
+  std::string line = fmt::format("{:<8}", text.phase);
+  std::string end = fmt::format(" {:3.0f} %", std::floor(inside * 100));
+  if (text.seconds_left) end += fmt::format("  ETA {}", duration_text(*text.seconds_left));
+  if (!text.remark.empty()) end += "  " + text.remark;
+  const int bar = std::min(kMostBar, columns - int(line.size() + end.size()) - kFrame);
+  if (bar >= kLeastBar) {
+    const int filled = static_cast<int>(inside * bar);
+    line += fmt::format(" [{:#<{}}{:-<{}}]", "", filled, "", bar - filled);
+  }
+  line += end;
+  if (int(line.size()) > columns) line.resize(size_t(std::max(columns, 0)));
+  return line;
+}
+
+void ProgressBar::set_deadline(double seconds) {
+  time_left_.set_deadline(now() + seconds);
 }
 
 void ProgressBar::update(const render::Progress& progress) {
   if (console_.quiet) return;
-  const Clock::time_point now = Clock::now();
-  const std::string phase = phase_text(progress);
-  if (phase_ != phase) {
-    phase_ = phase;
-    phase_start_ = now;
-  }
-  const std::chrono::duration<double> since_drawn = now - last_drawn_, elapsed = now - phase_start_;
-  if (since_drawn.count() < (console_.terminal ? kRedrawSeconds : kLineSeconds)) return;
+  const double now = this->now();
+  const TimeLeft::Estimate estimate = time_left_.update(progress, now);
+  if (last_drawn_ >= 0 && now - last_drawn_ < (console_.terminal ? kRedrawSeconds : kLineSeconds)) return;
   last_drawn_ = now;
-  const double done = static_cast<double>(progress.done), total = static_cast<double>(progress.total);
-  const double left = done > 0 ? elapsed.count() * (total - done) / done : -1;
-  std::string line = progress_line(phase_, total > 0 ? done / total : 0, left);
-  if (!remark_.empty()) line += "  " + remark_;
+  const std::string line = progress_line({phase_text(progress), remark_, estimate.fraction, estimate.seconds},
+                                         console_.terminal ? terminal_columns() - 1 : kLogColumns);
   if (console_.terminal) {
     console_.err << '\r' << line << "\x1b[K" << std::flush;
     visible_ = true;

@@ -2,18 +2,28 @@
 // Shows the progress of a render and its estimated time left on one line.
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "apps/console/console.h"
-#include "render/renderer.h"
+#include "apps/console/time_left.h"
 
 namespace kaustik::app {
 
-// For example "photons  [########------------]  40 %  ETA 1:05". `left`: seconds, negative when unknown.
-std::string progress_line(std::string_view phase, double fraction, double left);
+// What the line says.
+struct ProgressText {
+  std::string phase, remark;
+  double fraction = 0;
+  std::optional<double> seconds_left;
+};
+
+// For example "photons  [########------------]  40 %  ETA 1:05", with at most `columns` characters: first the
+// bar becomes shorter, then the end is cut.
+std::string progress_line(const ProgressText& text, int columns);
 
 // Redraws its line in place on a terminal, and writes a new line every few seconds elsewhere; silent when
-// console.quiet. update() is not thread-safe: the renderer serialises its calls.
+// console.quiet. The bar and the time left are those of the whole render. update() is not thread-safe: the
+// renderer serialises its calls.
 class ProgressBar {
  public:
   explicit ProgressBar(const Console& console) : console_(console) {}
@@ -24,16 +34,24 @@ class ProgressBar {
   void update(const render::Progress& progress);
   // Sets a text that is appended to every line from now on.
   void remark(std::string text) { remark_ = std::move(text); }
+  // See TimeLeft. `seconds`: from now on.
+  void set_end(uint64_t pass) { time_left_.set_end(pass); }
+  void set_deadline(double seconds);
   // Removes the bar from the terminal.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  // Seconds since the bar exists.
+  double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
   const Console& console_;
-  std::string phase_, remark_;
+  std::string remark_;
+  TimeLeft time_left_;
+  Clock::time_point start_ = Clock::now();
   // On a terminal the first line is drawn at once; in a log it comes after kLineSeconds.
-  Clock::time_point phase_start_, last_drawn_ = console_.terminal ? Clock::time_point() : Clock::now();
+  double last_drawn_ = console_.terminal ? -1 : 0;
   bool visible_ = false;
 };
 

@@ -27,7 +27,7 @@ render::ProgressCallback shown_by(ProgressBar& bar, const InterruptGuard& interr
 }
 
 // Lets trials choose what the session leaves open. Without any, the result has nothing but defaults.
-FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& bvh, ProgressBar& bar,
+FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& bvh,
                       const InterruptGuard& interrupt, const Stopwatch& total, double seconds_after,
                       const Console& console) {
   const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
@@ -35,6 +35,7 @@ FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& 
     return settle_time(job.scene, bvh, total, seconds_after, go_on, console, &job.settings);
   FilledTime filled;
   if (!session.try_paths) return filled;
+  ProgressBar bar(console);
   filled.work = settle_paths(job.scene, bvh, shown_by(bar, interrupt), &job.settings);
   bar.clear();
   const std::string& paths = filled.work.paths;
@@ -135,10 +136,10 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     const Stopwatch watch;
     const accel::Bvh bvh(job.scene, job.settings.render.threads);
     times.bvh = watch.seconds();
-    ProgressBar bar(console);
     const double seconds_after = settle_timed_denoising(job.scene.camera, console, &job.settings);
-    FilledTime filled = run_trials(job, session, bvh, bar, interrupt, total, seconds_after, console);
-    const double filled_seconds = filled.single_pass ? *job.settings.stop.seconds : 0;
+    FilledTime filled = run_trials(job, session, bvh, interrupt, total, seconds_after, console);
+    const std::optional<double> seconds = job.settings.stop.seconds;
+    const double filled_seconds = filled.single_pass ? *seconds : 0;
     times.trials =
         watch.seconds() - times.bvh - (filled.work.photons ? seconds_of(filled.work.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
@@ -146,13 +147,18 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total, seconds_after);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
       console.note(note);
+    ProgressBar bar(console);
+    const render::PassSet goal = goal_of(job, session, rule);
+    if (goal.end() < render::kMostPasses) bar.set_end(goal.without(session.done.passes).end());
+    if (seconds) bar.set_deadline(*seconds - seconds_of(session.done.statistics) - total.seconds());
     const auto after_pass = [&](const render::PassSums& sums) {
       const bool enough = rule.enough(sums);
       bar.remark(rule.progress());
+      if (const auto passes = rule.passes_needed(sums)) bar.set_end(*passes);
       if (!enough) checkpoint.after_pass(sums);
       return !enough;
     };
-    render::RenderTask task{.passes = goal_of(job, session, rule),
+    render::RenderTask task{.passes = goal,
                             .done = std::move(session.done),
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session),

@@ -79,6 +79,12 @@ bool StopRule::enough(const render::PassSums& sums) {
   return !reason_.empty();
 }
 
+std::optional<uint64_t> StopRule::passes_needed(const render::PassSums& sums) const {
+  if (!error_ || !std::isfinite(*error_)) return {};
+  const double times = std::pow(*error_ / *settings_.target_error, 2);
+  return uint64_t(std::min(std::ceil(times * double(sums.passes.count())), double(render::kMostPasses)));
+}
+
 std::string StopRule::progress() const {
   if (!error_) return {};
   return fmt::format("error {}, target {}", percent(*error_), percent(*settings_.target_error));

@@ -49,6 +49,9 @@ class StopRule {
   // Whether these passes suffice; call it after each pass. Also stops when another pass as long as the last
   // would exceed the time.
   bool enough(const render::PassSums& sums);
+  // How many passes the target error takes in all, by the noise of those checked last; unset without a
+  // target. Noise falls with the square root of the number of passes.
+  std::optional<uint64_t> passes_needed(const render::PassSums& sums) const;
   // For example "error 3.2 %, target 1 %", for the passes checked last; empty without --target-error.
   std::string progress() const;
   // The rule that ended the render, such as "target-error 0.01"; empty while it goes on.

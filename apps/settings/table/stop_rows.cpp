@@ -37,18 +37,34 @@ Setting rule(Setting s, const RuleValue& rule) {
   return s;
 }
 
+// A share. One above 1 needs the percent sign: `5` is more likely meant as 5 % than as 500 %.
+std::optional<double> parse_error(std::string_view text) {
+  const std::optional<double> share = parse_share(text);
+  return share && *share > 1 && !text.ends_with('%') ? std::nullopt : share;
+}
+
+std::string error_text(double share) {
+  return share > 1 ? fmt::format("{}%", 100 * share) : fmt::format("{}", share);
+}
+
 Setting target_error_row() {
-  return rule(
+  Setting s = rule(
       {.name = "target-error",
        .commands = kStopped,
        .value_name = "E",
-       .range = "above 0, like 1% or 0.01; none",
+       .range = "above 0, like 1% or 0.01; above 1 only with %; none",
        .default_text = "none",
        .doc =
            "Render passes until the picture's error is at most E. The error is the 90 % confidence bound of "
            "noise and kernel bias, relative to the radiance, as a mean over the pixels. Radiance below a "
            "tenth of the picture's mean counts as a tenth of it."},
-      {&StopSettings::target_error, parse_share, "a share above 0, like 1% or 0.01"});
+      {&StopSettings::target_error, parse_error,
+       "a share above 0, like 1% or 0.01, and the percent sign if it is above 1"});
+  s.show = [](const Settings& settings) {
+    const std::optional<double> share = settings.stop.target_error;
+    return share ? as_texts(error_text(*share)) : std::vector<std::string>{};
+  };
+  return s;
 }
 
 Setting target_quantile_row() {

@@ -8,13 +8,25 @@ namespace kaustik::app {
 namespace {
 
 TEST(ProgressLine, ShowsShareAndTimeLeft) {
-  EXPECT_EQ(progress_line("render", 0.25, 65),
+  EXPECT_EQ(progress_line({"render", "", 0.25, 65}, 79),
             "render   [##########------------------------------]  25 %  ETA 1:05");
-  EXPECT_EQ(progress_line("photons", 0, -1), "photons  [----------------------------------------]   0 %");
-  EXPECT_EQ(progress_line("render", 1, 0),
+  EXPECT_EQ(progress_line({"photons", "", 0, {}}, 79),
+            "photons  [----------------------------------------]   0 %");
+  EXPECT_EQ(progress_line({"render", "", 1, 0}, 79),
             "render   [########################################] 100 %  ETA 0:00");
-  EXPECT_EQ(progress_line("build", 0.5, 3725.2),
+  EXPECT_EQ(progress_line({"build", "", 0.5, 3725.2}, 79),
             "build    [####################--------------------]  50 %  ETA 1:02:06");
+}
+
+TEST(ProgressLine, IsNeverWiderThanTheTerminal) {
+  const ProgressText text{"render 12/64", "error 3.21 %, target 1 %", 0.5, 65};
+  EXPECT_EQ(progress_line(text, 79),
+            "render 12/64 [###########-----------]  50 %  ETA 1:05  error 3.21 %, target 1 %");
+  EXPECT_EQ(progress_line(text, 62), "render 12/64 [##---]  50 %  ETA 1:05  error 3.21 %, target 1 %");
+  EXPECT_EQ(progress_line(text, 55), "render 12/64  50 %  ETA 1:05  error 3.21 %, target 1 %");
+  EXPECT_EQ(progress_line(text, 20), "render 12/64  50 %  ");
+  for (int columns = 0; columns < 200; ++columns)
+    EXPECT_LE(progress_line(text, columns).size(), size_t(columns));
 }
 
 TEST(ProgressBar, RedrawsOneLineOnATerminalAndClearsIt) {

@@ -87,6 +87,7 @@ TEST(SettingsTable, ShownValuesParseToTheSameSettings) {
   s.render.crop = {1, 5, 2, 9};
   s.render.aov = {"direct", "depth"};
   s.tone.exposure = -1.0f / 3;
+  s.stop.target_error = 1.5;
   s.tone.tonemap = render::Tonemap::kReinhard;
   Settings copy;
   for (const Setting& setting : settings_table()) {
@@ -101,6 +102,7 @@ TEST(SettingsTable, ShownValuesParseToTheSameSettings) {
   EXPECT_EQ(copy.render.direct, s.render.direct);
   EXPECT_EQ(copy.render.caustics, std::nullopt);
   EXPECT_EQ(copy.tone.exposure, s.tone.exposure);
+  EXPECT_EQ(copy.stop.target_error, s.stop.target_error);
   EXPECT_EQ(copy.tone.tonemap, s.tone.tonemap);
 }
 
@@ -115,6 +117,8 @@ TEST(SettingsTable, ErrorsNameTheNearestValueAndChangeNothing) {
   EXPECT_TRUE(assign(s, "radius", {"0"}).has_value());
   EXPECT_TRUE(assign(s, "radius", {"automatic"}).has_value());
   EXPECT_TRUE(assign(s, "cone-k", {"0.9"}).has_value());
+  EXPECT_TRUE(assign(s, "target-error", {"5"}).has_value());
+  EXPECT_TRUE(assign(s, "target-error", {"0%"}).has_value());
   EXPECT_TRUE(assign(s, "exposure", {"65"}).has_value());
   EXPECT_TRUE(assign(s, "exposure", {"nan"}).has_value());
   EXPECT_TRUE(assign(s, "exposure", {"Auto"}).has_value());
