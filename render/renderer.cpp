@@ -66,6 +66,7 @@ class PassRenderer {
         shares_(shares),
         first_(task.photons),
         adaptive_work_(task.adaptive_work),
+        on_pixels_(task.on_pixels),
         progress_(std::move(progress)),
         photons_(radii, task.explored ? task.explored : std::make_shared<ExploredScene>()) {}
 
@@ -98,7 +99,8 @@ class PassRenderer {
     const uint64_t samples = ctx.samples.end - ctx.samples.first;
     const auto discs = measure_discs(ctx, disc_pilot_points(ctx, samples));
     ctx.discs = discs.get();
-    const bool finished = render_tiles(ctx, progress_, film, statistics, adaptive_work_);
+    const bool finished = render_tiles(ctx, progress_, film, statistics, adaptive_work_, on_pixels_);
+    on_pixels_ = {};  // later passes are added to a picture that is there
     statistics->render_s += watch.seconds();
     statistics->passes += finished;
     return finished;
@@ -123,6 +125,7 @@ class PassRenderer {
   uint64_t shares_;
   std::shared_ptr<FirstPhotons> first_;
   AdaptiveWork adaptive_work_;
+  PixelsCallback on_pixels_;
   ProgressCallback progress_;
   PassPhotons photons_;
 };

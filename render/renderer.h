@@ -9,6 +9,7 @@
 #include "render/passes/pass_sums.h"
 #include "render/plan/plan.h"
 #include "render/plan/progress.h"
+#include "render/tiles/tiles.h"
 
 namespace kaustik::render {
 
@@ -28,6 +29,8 @@ struct RenderTask {
   // Decides about the adaptive samples of a single-pass render in place of settings.adaptive, which must not
   // be 0; render/tiles/tiles.h. Settings with the result's statistics.adaptive_work give the same bits.
   std::function<double(double done, double seconds)> adaptive_work{};
+  // Follows the first pass that is rendered; render/tiles/tiles.h. Changes neither bits nor counts.
+  PixelsCallback on_pixels{};
   // Photons of a single-pass render that were shot in advance, with the same settings except for the number
   // of samples; they are moved from here.
   std::shared_ptr<FirstPhotons> photons{};

@@ -43,12 +43,32 @@ struct MergedTiles {
 
 constexpr double kSecondsBetweenReports = 0.1;
 
+// Blocks of a square that one thread renders, 4 x 4 of them or fewer.
+struct Tile {
+  PixelRange pixels;        // the part of the square in the film's window
+  int stride = 1;           // blocks from one of the 4 x 4 to the next
+  bool every_block = true;  // otherwise without those that a tile of twice this stride has
+
+  // Calls fn(block) for the blocks' parts in the film's window.
+  template <class Fn>
+  void for_each_block(const Fn& fn) const {
+    const int side = kTileSize * stride, step = kRayBlock * stride;
+    const int x0 = pixels.x0 - pixels.x0 % side, y0 = pixels.y0 - pixels.y0 % side;
+    for (int j = 0; j < kTileSize / kRayBlock; ++j)
+      for (int i = 0; i < kTileSize / kRayBlock; ++i) {
+        if (!every_block && i % 2 == 0 && j % 2 == 0) continue;
+        const PixelRange block = pixels.in_square(x0 + i * step, y0 + j * step, kRayBlock);
+        if (block.width() > 0 && block.height() > 0) fn(block);
+      }
+  }
+};
+
 // The sums of a tile before it is rendered, to which a cancelled tile returns: the finished tiles alone
 // count.
 class TileCopy {
  public:
   // has_samples: false before a pass's first samples, when all sums are zero and nothing is copied.
-  TileCopy(const PassFilm& film, const PixelRange& tile, bool has_samples) : tile_(tile) {
+  TileCopy(const PassFilm& film, const Tile& tile, bool has_samples) : tile_(tile) {
     if (!has_samples) return;
     copy(film.sums, &sums_);
     if (film.halved()) copy(film.half, &half_);
@@ -60,21 +80,26 @@ class TileCopy {
   }
 
  private:
+  template <class Fn>
+  void for_each_pixel(const Fn& fn) const {
+    tile_.for_each_block([&](const PixelRange& block) {
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x) fn(x, y);
+    });
+  }
   template <class Sum>
   void copy(const PixelWindow<Sum>& film, std::vector<Sum>* sums) const {
-    sums->reserve(tile_.pixels());
-    for (int y = tile_.y0; y < tile_.y1; ++y)
-      for (int x = tile_.x0; x < tile_.x1; ++x) sums->push_back(film.at(x - film.x0(), y - film.y0()));
+    sums->reserve(kTileSize * kTileSize);
+    for_each_pixel([&](int x, int y) { sums->push_back(film.at(x - film.x0(), y - film.y0())); });
   }
   template <class Sum>
   void put_back(const std::vector<Sum>& sums, PixelWindow<Sum>* film) const {
     size_t i = 0;
-    for (int y = tile_.y0; y < tile_.y1; ++y)
-      for (int x = tile_.x0; x < tile_.x1; ++x, ++i)
-        film->at(x - film->x0(), y - film->y0()) = sums.empty() ? Sum{} : sums[i];
+    for_each_pixel(
+        [&](int x, int y) { film->at(x - film->x0(), y - film->y0()) = sums.empty() ? Sum{} : sums[i++]; });
   }
 
-  PixelRange tile_;
+  Tile tile_;
   std::vector<PixelSum> sums_;
   std::vector<HalfSum> half_;
 };
@@ -85,6 +110,28 @@ struct TileWork {
   std::function<bool()> go_on;
 };
 
+std::vector<Tile> tiles_of(const PixelRange& window) {
+  std::vector<Tile> tiles;
+  window.for_each_square(kTileSize, [&](const PixelRange& pixels) { tiles.push_back({pixels}); });
+  return tiles;
+}
+
+// All blocks of the window, those of a wide grid first, then those of ever finer grids between them. samples:
+// of each pixel.
+std::vector<Tile> tiles_coarse_to_fine(const PixelRange& window, uint64_t samples) {
+  constexpr double kFirstSamples = 1 << 16;  // in the widest grid: some tenths of a second
+  constexpr int kUsualStride = 16, kWidestStride = 256;
+  int stride = kUsualStride;
+  while (stride<kWidestStride&& double(window.pixels()) * double(samples)> kFirstSamples * stride * stride)
+    stride *= 2;
+  std::vector<Tile> tiles;
+  for (bool widest = true; stride >= 1; stride /= 2, widest = false)
+    window.for_each_square(kTileSize * stride, [&](const PixelRange& pixels) {
+      tiles.push_back({pixels, stride, widest});
+    });
+  return tiles;
+}
+
 // The largest total, in units of the first samples' work, that AdaptiveWork may reach after a short round:
 // below kFirstRound, since a greater total, given as a number, begins with a long round.
 constexpr double kMostAfterShort = double(0.74f);
@@ -92,20 +139,22 @@ constexpr double kMostAfterShort = double(0.74f);
 // Renders one pass's samples of all pixels in the film's window.
 class TilePass {
  public:
-  TilePass(const RenderContext& ctx, const ProgressCallback& progress, PassFilm* film)
-      : ctx_(ctx), progress_(progress), film_(*film) {
+  TilePass(const RenderContext& ctx, const ProgressCallback& progress, const PixelsCallback& on_pixels,
+           PassFilm* film)
+      : ctx_(ctx), progress_(progress), on_pixels_(on_pixels), film_(*film) {
     const FilmSums& sums = film->sums;
     const PixelRange window{sums.x0(), sums.x0() + sums.width(), sums.y0(), sums.y0() + sums.height()};
-    window.for_each_square(kTileSize, [this](const PixelRange& tile) { tiles_.push_back(tile); });
+    tiles_ = tiles_of(window);
+    if (on_pixels) coarse_to_fine_ = tiles_coarse_to_fine(window, samples());
     if (ctx.samples.adaptive_work > 0) counts_.emplace(sums);
-    to_do_ = tiles_.size() * (1 + rounds_of(ctx.samples.adaptive_work));
+    to_do_ = first_tiles().size() + tiles_.size() * rounds_of(ctx.samples.adaptive_work);
   }
 
   // False when the progress callback cancelled.
   bool render(const AdaptiveWork& adaptive_work) {
     if (!report()) return false;  // where there is one tile, its end is too late to cancel
     const Stopwatch watch;
-    if (!each_tile(&TilePass::first_samples)) return false;
+    if (!each_tile(first_tiles(), &TilePass::first_samples)) return false;
     if (!counts_) return true;
     adaptive_ = true;
     return adaptive_rounds(watch.seconds(), adaptive_work);
@@ -118,6 +167,7 @@ class TilePass {
 
  private:
   uint64_t samples() const { return ctx_.samples.end - ctx_.samples.first; }  // first samples of each pixel
+  const std::vector<Tile>& first_tiles() const { return on_pixels_ ? coarse_to_fine_ : tiles_; }
 
   bool first_samples(const PixelRange& block, photon::EstimateBatch* batch, TileWork* work) {
     const SampleRange range{BlockPart::kWhole, ctx_.samples.first, ctx_.samples.end};
@@ -154,7 +204,7 @@ class TilePass {
       sort_by_work();
       to_do_ = std::max(to_do_, done_ + tiles_.size());
       const Stopwatch watch;
-      if (!each_tile(&TilePass::adaptive_samples)) return false;
+      if (!each_tile(tiles_, &TilePass::adaptive_samples)) return false;
       if (work_ < end) return true;  // a further round would not begin where it should
       seconds = watch.seconds();
     }
@@ -162,9 +212,9 @@ class TilePass {
 
   // Starts with the tiles that take most samples, so that no thread is left with a long one at the end.
   void sort_by_work() {
-    const auto counts = [&](const PixelRange& tile) {
+    const auto counts = [&](const Tile& tile) {
       uint64_t sum = 0;
-      tile.for_each_square(kRayBlock, [&](const PixelRange& block) {
+      tile.for_each_block([&](const PixelRange& block) {
         for (int half = 0; half < kHalves; ++half) sum += counts_->count(block.x0, block.y0, half);
       });
       return sum;
@@ -191,30 +241,32 @@ class TilePass {
   }
 
   // Nothing when cancelled; the film is then as it was before the tile.
-  std::optional<TileResult> render_tile(const PixelRange& tile, BlockRenderer add_samples) {
+  std::optional<TileResult> render_tile(const Tile& tile, BlockRenderer add_samples) {
     const TileCopy before(film_, tile, adaptive_);
     Stopwatch since_asked;
     TileWork work{{}, [&] { return goes_on(&since_asked); }};
     photon::EstimateBatch batch;
     bool whole = true;
-    tile.for_each_square(kRayBlock, [&](const PixelRange& block) {
+    tile.for_each_block([&](const PixelRange& block) {
       if (!whole) return;
       batch.begin_block();
       whole = (this->*add_samples)(block, &batch, &work);
+      if (whole && on_pixels_) on_pixels_(block, kRayBlock * tile.stride, film_.sums);
     });
     if (whole) return std::move(work.result);
     before.restore(&film_);
     return std::nullopt;
   }
 
-  // Renders all tiles in parallel. False when the progress callback cancelled.
-  bool each_tile(BlockRenderer add_samples) {
+  // Renders tiles in parallel. False when the progress callback cancelled.
+  bool each_tile(const std::vector<Tile>& tiles, BlockRenderer add_samples) {
     std::atomic<size_t> next{0};
+    const uint64_t before = done_;
     tbb::parallel_for(
-        size_t(0), tiles_.size(),
+        size_t(0), tiles.size(),
         [&](size_t) {
           if (cancelled_) return;
-          const std::optional<TileResult> tile = render_tile(tiles_[next++], add_samples);
+          const std::optional<TileResult> tile = render_tile(tiles[next++], add_samples);
           if (!tile) return;
           const std::lock_guard lock(mutex_);
           merged_.add(*tile);
@@ -222,13 +274,14 @@ class TilePass {
           report();
         },
         tbb::simple_partitioner());
-    return done_ % tiles_.size() == 0 && (done_ == to_do_ || !cancelled_);
+    return done_ - before == tiles.size() && (done_ == to_do_ || !cancelled_);
   }
 
   const RenderContext& ctx_;
   const ProgressCallback& progress_;
+  const PixelsCallback& on_pixels_;
   PassFilm& film_;
-  std::vector<PixelRange> tiles_;
+  std::vector<Tile> tiles_, coarse_to_fine_;
   std::optional<SampleCounts> counts_;  // set if adaptive samples follow
   MergedTiles merged_;
   std::mutex mutex_;  // guards merged_, the callback, and done_ while tiles are rendered
@@ -241,8 +294,9 @@ class TilePass {
 }  // namespace
 
 bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, PassFilm* film,
-                  RenderStatistics* statistics, const AdaptiveWork& adaptive_work) {
-  TilePass pass(ctx, progress, film);
+                  RenderStatistics* statistics, const AdaptiveWork& adaptive_work,
+                  const PixelsCallback& on_pixels) {
+  TilePass pass(ctx, progress, on_pixels, film);
   const bool finished = pass.render(adaptive_work);
   pass.fill(statistics);
   return finished;

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "render/camera/pixel_range.h"
 #include "render/estimators/render_context.h"
 #include "render/film/halves.h"
 #include "render/plan/progress.h"
@@ -39,11 +40,18 @@ inline size_t rounds_of(double work) {
   return rounds;
 }
 
+// Follows the picture while it is rendered. Called by many threads at once, for ranges that do not overlap,
+// after their samples have been added to `sums`. cell: the square of this many pixels a side in whose corner
+// the range lies, which it stands for until more of it is known.
+using PixelsCallback = std::function<void(const PixelRange& range, int cell, const FilmSums& sums)>;
+
 // Adds the samples of ctx.pass to each pixel of the film's window, and their ray, gather, lecture and drop
 // counts to statistics. False when the progress callback cancelled; then tiles are missing. The callback is
 // called at the start, after each tile, and several times a second within long ones. If ctx allows adaptive
-// samples, adaptive_work, if set, says how many; statistics says what it allowed.
+// samples, adaptive_work, if set, says how many; statistics says what it allowed. If on_pixels is set, blocks
+// are rendered coarse to fine: first those in a wide grid, then those of ever finer grids between them.
 bool render_tiles(const RenderContext& ctx, const ProgressCallback& progress, PassFilm* film,
-                  RenderStatistics* statistics, const AdaptiveWork& adaptive_work = {});
+                  RenderStatistics* statistics, const AdaptiveWork& adaptive_work = {},
+                  const PixelsCallback& on_pixels = {});
 
 }  // namespace kaustik::render

@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <tbb/task_arena.h>
 
+#include <cstring>
+#include <mutex>
+
+#include "render/camera/camera_rays.h"
+#include "render/camera/pixel_range.h"
 #include "tests/render/support/image_statistics.h"
 
 namespace kaustik::render {
@@ -48,6 +53,39 @@ TEST_P(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
     EXPECT_EQ(one.statistics.radius, many.statistics.radius);
     write_if_failed(many.film, "threads_" + std::to_string(threads));
   }
+}
+
+// A render that is followed takes its blocks coarse to fine, which changes neither bits nor counts. The crop
+// cuts blocks, and adaptive samples follow.
+TEST_P(Determinism, FollowedRendersHaveTheSameBits) {
+  const Scene scene = cornell(40);
+  RenderSettings settings = settings_of(GetParam());
+  settings.crop = {3, 37, 5, 40};
+  settings.adaptive = 1;
+  const auto alone = render_with_threads(scene, settings);
+  const accel::Bvh bvh(scene, 2);
+  std::mutex mutex;
+  std::vector<int> times(40 * 40);  // that a pixel was shown
+  std::vector<int> cells;
+  RenderTask task;
+  task.on_pixels = [&](const PixelRange& range, int cell, const FilmSums& sums) {
+    const std::lock_guard lock(mutex);
+    cells.push_back(cell);
+    for (int y = range.y0; y < range.y1; ++y)
+      for (int x = range.x0; x < range.x1; ++x) {
+        ++times[size_t(y * 40 + x)];
+        EXPECT_GT(sums.at(x - sums.x0(), y - sums.y0()).count, 0u);
+      }
+  };
+  RenderResult followed;
+  tbb::task_arena(2).execute([&] { followed = render(scene, bvh, settings, {}, std::move(task)); });
+  EXPECT_TRUE(same_bytes(alone.film, followed.film));
+  EXPECT_EQ(alone.statistics.gather_candidates, followed.statistics.gather_candidates);
+  EXPECT_EQ(alone.statistics.rays.all(), followed.statistics.rays.all());
+  for (int y = 5; y < 40; ++y)
+    for (int x = 3; x < 37; ++x) ASSERT_GE(times[size_t(y * 40 + x)], 1) << x << ' ' << y;
+  EXPECT_GE(cells.front(), 16) << "the first blocks stand for a large part of the picture";
+  EXPECT_EQ(cells.back(), kRayBlock);
 }
 
 // Neither the image nor the window consists of whole blocks of rays, and the samples do not fill the last

@@ -1,0 +1,166 @@
+#include "apps/live/live_picture.h"
+
+#include <fmt/format.h>
+
+#include "render/picture/image_io.h"
+
+namespace kaustik::app {
+
+using render::PixelRange;
+using render::PixelResult;
+
+namespace {
+
+// Blocks and tiles are counted from the corner of the full picture.
+int count_across(int begin, int end, int side) {
+  return (end - 1) / side - begin / side + 1;
+}
+
+size_t index_in_grid(const PixelRange& range, int x, int y, int side) {
+  const int across = count_across(range.x0, range.x1, side);
+  return size_t(y / side - range.y0 / side) * size_t(across) + size_t(x / side - range.x0 / side);
+}
+
+size_t size_of_grid(const PixelRange& range, int side) {
+  return size_t(count_across(range.x0, range.x1, side)) * size_t(count_across(range.y0, range.y1, side));
+}
+
+// The mean of the samples, as shown until the exact mean of a pass takes its place.
+PixelResult mean_of(const render::PixelSum& sum) {
+  PixelResult mean;
+  const render::PixelSum all = sum.completed();
+  const int64_t weight = all.weight() > 0 ? all.weight() : int64_t(all.count);
+  if (weight == 0) return mean;
+  for (const render::LayerRow& row : render::kLayerTable)
+    for (size_t c = 0; row.summed() && c < row.channels.size(); ++c)
+      row.in(mean)[c] = float(row.in(all)[c] / double(row.mean == render::LayerMean::kPasses ? 1 : weight));
+  return mean;
+}
+
+void add(const PixelResult& value, float share, PixelResult* sum) {
+  for (const render::LayerRow& row : render::kLayerTable)
+    for (size_t c = 0; c < row.channels.size(); ++c) row.in(*sum)[c] += share * row.in(value)[c];
+}
+
+}  // namespace
+
+std::vector<LiveChannel> live_channels(const std::vector<std::string>& layers) {
+  std::vector<LiveChannel> channels;
+  for (int c = 0; c < 3; ++c) channels.push_back({std::string(1, "RGB"[c]), -1, c});
+  for (const render::Layer layer : render::layers_from_names(layers)) {
+    const render::LayerRow& row = render::kLayerTable[size_t(layer)];
+    for (size_t c = 0; c < row.channels.size(); ++c)
+      channels.push_back({fmt::format("{}.{}", row.name, row.channels[c]), int(layer), int(c)});
+  }
+  return channels;
+}
+
+LivePicture::LivePicture(const PixelRange& range, int full_width, int full_height)
+    : range_(range),
+      full_width_(full_width),
+      full_height_(full_height),
+      pixels_(range.pixels()),
+      blocks_(size_of_grid(range, render::kRayBlock)),
+      tile_mutexes_(std::make_unique<std::mutex[]>(size_of_grid(range, kTile))),
+      versions_(size_of_grid(range, kTile)) {}
+
+size_t LivePicture::pixel_index(int x, int y) const {
+  return size_t(y - range_.y0) * size_t(range_.width()) + size_t(x - range_.x0);
+}
+
+size_t LivePicture::block_index(int x, int y) const {
+  return index_in_grid(range_, x, y, render::kRayBlock);
+}
+
+size_t LivePicture::tile_index(int x, int y) const {
+  return index_in_grid(range_, x, y, kTile);
+}
+
+const PixelResult& LivePicture::value(int x, int y) const {
+  const Block& block = blocks_[block_index(x, y)];
+  return block.known ? pixels_[pixel_index(x, y)] : block.mean;
+}
+
+template <class Fn>
+void LivePicture::for_each_tile(const PixelRange& range, const Fn& fn) const {
+  range.for_each_square(kTile, [&](const PixelRange& part) {
+    const std::lock_guard lock(tile_mutexes_[tile_index(part.x0, part.y0)]);
+    fn(part);
+  });
+}
+
+void LivePicture::changed(const PixelRange& tile) {
+  const std::lock_guard lock(versions_mutex_);
+  versions_[tile_index(tile.x0, tile.y0)] = ++version_;
+}
+
+void LivePicture::add(const PixelRange& range, int cell, const render::FilmSums& sums) {
+  PixelResult mean;
+  std::vector<PixelResult> values;
+  values.reserve(range.pixels());
+  for (int y = range.y0; y < range.y1; ++y)
+    for (int x = range.x0; x < range.x1; ++x) {
+      values.push_back(mean_of(sums.at(x - sums.x0(), y - sums.y0())));
+      app::add(values.back(), 1 / float(range.pixels()), &mean);
+    }
+  for_each_tile(range_.in_square(range.x0 - range.x0 % cell, range.y0 - range.y0 % cell, cell),
+                [&](const PixelRange& part) {
+                  part.for_each_square(render::kRayBlock, [&](const PixelRange& block) {
+                    Block& of = blocks_[block_index(block.x0, block.y0)];
+                    if (!of.known) of.mean = mean;
+                  });
+                  changed(part);
+                });
+  // A block lies in one tile.
+  for_each_tile(range, [&](const PixelRange& part) {
+    size_t i = 0;
+    for (int y = range.y0; y < range.y1; ++y)
+      for (int x = range.x0; x < range.x1; ++x) pixels_[pixel_index(x, y)] = values[i++];
+    blocks_[block_index(range.x0, range.y0)].known = true;
+    changed(part);
+  });
+}
+
+void LivePicture::show(const render::Film& film) {
+  for_each_tile(range_, [&](const PixelRange& part) {
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) {
+        pixels_[pixel_index(x, y)] = film.at(x - range_.x0, y - range_.y0);
+        blocks_[block_index(x, y)].known = true;
+      }
+    changed(part);
+  });
+}
+
+LivePicture::Changes LivePicture::changed_since(uint64_t version) const {
+  Changes changes;
+  const std::lock_guard lock(versions_mutex_);
+  changes.version = version_;
+  range_.for_each_square(kTile, [&](const PixelRange& tile) {
+    if (versions_[tile_index(tile.x0, tile.y0)] > version) changes.tiles.push_back(tile);
+  });
+  return changes;
+}
+
+void LivePicture::read(const PixelRange& range, const std::vector<LiveChannel>& channels,
+                       float* values) const {
+  for_each_tile(range, [&](const PixelRange& part) {
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) {
+        const PixelResult& from = value(x, y);
+        const Rgb all = from.radiance();
+        float* to =
+            values + (size_t(y - range.y0) * size_t(range.width()) + size_t(x - range.x0)) * channels.size();
+        for (const LiveChannel& c : channels)
+          *to++ = c.layer < 0 ? all[c.number] : render::kLayerTable[size_t(c.layer)].in(from)[c.number];
+      }
+  });
+}
+
+PixelResult LivePicture::pixel(int x, int y) const {
+  PixelResult result;
+  for_each_tile({x, x + 1, y, y + 1}, [&](const PixelRange&) { result = value(x, y); });
+  return result;
+}
+
+}  // namespace kaustik::app
