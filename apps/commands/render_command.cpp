@@ -24,6 +24,7 @@ struct RenderOptions {
   std::string scene;
   OutputOptions outputs;
   CheckpointSettings checkpoint;
+  LiveOptions live;
   render::PassSet passes;
   SettingOverrides overrides;
 };
@@ -82,6 +83,7 @@ void check_with_scene(RenderOptions options, const std::vector<std::string>& out
 int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
+  check_live_options(options.live);
   if (!options.checkpoint.path.empty()) check_writable(options.checkpoint.path);
   check_collisions(files_of(options), {{"the scene", options.scene}});
   const InterruptGuard interrupt;
@@ -92,6 +94,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   warn_of_unread(options, job, console);
   RenderSession session;
   session.outputs = options.outputs, session.checkpoint = options.checkpoint, session.goal = options.passes;
+  session.live = options.live;
   session.outputs.files = outputs_of(options, job);
   check_with_scene(options, session.outputs.files, job);
   warn_of_layers(session.outputs, job.settings.render.aov, console);
@@ -141,6 +144,7 @@ Command make_render_command() {
   add_output_options(command, options->outputs,
                      "the scene's Film \"filename\", else the scene's name with .exr");
   add_pass_options(command, *options);
+  add_live_options(command, options->live);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kRender);
   command.run = [options](const Console& console) { return run_render(*options, console); };

@@ -18,6 +18,7 @@ namespace {
 struct ResumeOptions {
   std::string partial, scene;
   OutputOptions outputs;
+  LiveOptions live;
   double checkpoint_every = CheckpointSettings{}.every;
   uint64_t passes = 0;  // total number at the end; 0 = as the partial result's settings say
   SettingOverrides overrides;
@@ -73,6 +74,7 @@ void check_rules(const ResumeOptions& options, const Job& job, const render::Pas
 int run_resume(const ResumeOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
+  check_live_options(options.live);
   check_writable(options.partial);
   const InterruptGuard interrupt;
   render::PartialResult part = load_partial(options.partial);
@@ -80,6 +82,7 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   RenderSession session;
   session.goal = goal_of(options, part);
   session.outputs = options.outputs;
+  session.live = options.live;
   if (session.outputs.files.empty()) session.outputs.files = part.manifest.outputs;
   check_outputs(session.outputs);
   check_collisions(named_files(session.outputs), {{"the checkpoint", options.partial}});
@@ -119,6 +122,7 @@ Command make_resume_command() {
   const auto options = std::make_shared<ResumeOptions>();
   command.add_argument("PART", options->partial, "Partial result (.kpart): a checkpoint, or merged parts");
   add_output_options(command, options->outputs, "the files of the interrupted render");
+  add_live_options(command, options->live);
   add_resume_options(command, *options);
   command.add_text("--scene", "FILE", options->scene,
                    "Path of the scene if it has moved; its contents must be the same. Default: the path "

@@ -59,11 +59,11 @@ void ProgressBar::set_deadline(double seconds) {
   time_left_.set_deadline(now() + seconds);
 }
 
-void ProgressBar::update(const render::Progress& progress) {
-  if (console_.quiet) return;
+TimeLeft::Estimate ProgressBar::update(const render::Progress& progress) {
   const double now = this->now();
   const TimeLeft::Estimate estimate = time_left_.update(progress, now);
-  if (last_drawn_ >= 0 && now - last_drawn_ < (console_.terminal ? kRedrawSeconds : kLineSeconds)) return;
+  const double between = console_.terminal ? kRedrawSeconds : kLineSeconds;
+  if (console_.quiet || (last_drawn_ >= 0 && now - last_drawn_ < between)) return estimate;
   last_drawn_ = now;
   const std::string line = progress_line({phase_text(progress), remark_, estimate.fraction, estimate.seconds},
                                          console_.terminal ? terminal_columns() - 1 : kLogColumns);
@@ -73,6 +73,7 @@ void ProgressBar::update(const render::Progress& progress) {
   } else {
     console_.err << line << std::endl;
   }
+  return estimate;
 }
 
 void ProgressBar::clear() {

@@ -31,7 +31,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void update(const render::Progress& progress);
+  // Returns what the line says of the whole render, also if nothing is drawn.
+  TimeLeft::Estimate update(const render::Progress& progress);
   // Sets a text that is appended to every line from now on.
   void remark(std::string text) { remark_ = std::move(text); }
   // See TimeLeft. `seconds`: from now on.

@@ -81,6 +81,10 @@ const PixelResult& LivePicture::value(int x, int y) const {
   return block.known ? pixels_[pixel_index(x, y)] : block.mean;
 }
 
+Rgb LivePicture::all_light(int x, int y) const {
+  return shown_.empty() ? value(x, y).radiance() : shown_[pixel_index(x, y)];
+}
+
 template <class Fn>
 void LivePicture::for_each_tile(const PixelRange& range, const Fn& fn) const {
   range.for_each_square(kTile, [&](const PixelRange& part) {
@@ -121,12 +125,22 @@ void LivePicture::add(const PixelRange& range, int cell, const render::FilmSums&
   });
 }
 
-void LivePicture::show(const render::Film& film) {
+void LivePicture::show(const render::Film& film, const render::Image* shown) {
+  if (shown && shown_.empty()) {
+    std::vector<Rgb> all(range_.pixels());
+    // Readers look at it under the lock of any tile.
+    std::vector<std::unique_lock<std::mutex>> locks;
+    for (size_t i = 0; i < versions_.size(); ++i) locks.emplace_back(tile_mutexes_[i]);
+    shown_ = std::move(all);
+  }
   for_each_tile(range_, [&](const PixelRange& part) {
     for (int y = part.y0; y < part.y1; ++y)
       for (int x = part.x0; x < part.x1; ++x) {
         pixels_[pixel_index(x, y)] = film.at(x - range_.x0, y - range_.y0);
         blocks_[block_index(x, y)].known = true;
+        if (!shown_.empty())
+          shown_[pixel_index(x, y)] =
+              shown ? shown->at(x - range_.x0, y - range_.y0) : pixels_[pixel_index(x, y)].radiance();
       }
     changed(part);
   });
@@ -148,19 +162,13 @@ void LivePicture::read(const PixelRange& range, const std::vector<LiveChannel>& 
     for (int y = part.y0; y < part.y1; ++y)
       for (int x = part.x0; x < part.x1; ++x) {
         const PixelResult& from = value(x, y);
-        const Rgb all = from.radiance();
+        const Rgb all = all_light(x, y);
         float* to =
             values + (size_t(y - range.y0) * size_t(range.width()) + size_t(x - range.x0)) * channels.size();
         for (const LiveChannel& c : channels)
           *to++ = c.layer < 0 ? all[c.number] : render::kLayerTable[size_t(c.layer)].in(from)[c.number];
       }
   });
-}
-
-PixelResult LivePicture::pixel(int x, int y) const {
-  PixelResult result;
-  for_each_tile({x, x + 1, y, y + 1}, [&](const PixelRange&) { result = value(x, y); });
-  return result;
 }
 
 }  // namespace kaustik::app

@@ -11,6 +11,7 @@
 #include "render/camera/camera_rays.h"
 #include "render/camera/pixel_range.h"
 #include "render/film/film.h"
+#include "render/picture/image.h"
 
 namespace kaustik::app {
 
@@ -37,8 +38,9 @@ class LivePicture {
 
   // For render::RenderTask::on_pixels.
   void add(const render::PixelRange& range, int cell, const render::FilmSums& sums);
-  // Replaces all pixels, after a pass or at the end.
-  void show(const render::Film& film);
+  // Replaces all pixels, after a pass or at the end. shown: the picture in place of the film's sum of all
+  // light, of the film's size, or null.
+  void show(const render::Film& film, const render::Image* shown = nullptr);
 
   struct Changes {
     uint64_t version = 0;  // of the picture with these changes; it grows with each of them
@@ -49,8 +51,6 @@ class LivePicture {
   // Copies the channels of the pixels of a range, row by row, those of a pixel together. Where nothing is
   // known, they are 0.
   void read(const render::PixelRange& range, const std::vector<LiveChannel>& channels, float* values) const;
-  // One pixel with all layers.
-  render::PixelResult pixel(int x, int y) const;
 
  private:
   // render::kRayBlock pixels a side, which the render completes together.
@@ -63,6 +63,7 @@ class LivePicture {
   size_t block_index(int x, int y) const;
   size_t tile_index(int x, int y) const;
   const render::PixelResult& value(int x, int y) const;
+  Rgb all_light(int x, int y) const;
   // Calls fn(part) for the parts of a range in each tile while the tile is locked.
   template <class Fn>
   void for_each_tile(const render::PixelRange& range, const Fn& fn) const;
@@ -71,6 +72,7 @@ class LivePicture {
   render::PixelRange range_;
   int full_width_, full_height_;
   std::vector<render::PixelResult> pixels_;
+  std::vector<Rgb> shown_;  // all light, where it is not that of the layers; or empty
   std::vector<Block> blocks_;
   std::unique_ptr<std::mutex[]> tile_mutexes_;  // guard the pixels and blocks of a tile
   mutable std::mutex versions_mutex_;           // guards what follows

@@ -169,6 +169,7 @@ bool write_outputs(const OutputOptions& options, const Outcome& outcome, render:
   const render::RenderResult& result = outcome.result;
   const auto picture = denoised(result, outcome.settings.render, console, &times.denoise);
   times.total += times.denoise;
+  if (outcome.live) outcome.live->picture.show(result.film, picture ? &*picture : nullptr);
   const Stopwatch watch;
   nlohmann::ordered_json settings = statistics_settings(outcome.settings, result.plan);
   FileWriter writer(console);

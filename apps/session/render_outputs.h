@@ -6,6 +6,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/console/console.h"
+#include "apps/live/live_render.h"
 #include "apps/session/files/collisions.h"
 #include "apps/settings/table/settings.h"
 #include "render/passes/partial_result.h"
@@ -37,6 +38,7 @@ struct Outcome {
   const render::RenderResult& result;
   const Settings& settings;
   const render::PartialManifest& manifest;
+  LiveRender* live = nullptr;  // shows the final picture, if not null
 };
 
 // Writes all files of `options`, partial results only if at least one pass is complete, and the report. The

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "apps/command_line/values.h"
 #include "apps/console/exit_code.h"
@@ -14,29 +15,62 @@
 #include "apps/session/stopping/path_choice.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "apps/session/stopping/time_plan.h"
+#include "render/camera/pixel_range.h"
+#include "render/film/error_estimate.h"
 
 namespace kaustik::app {
 
 namespace {
 
-render::ProgressCallback shown_by(ProgressBar& bar, const InterruptGuard& interrupt) {
-  return [&bar, &interrupt](const render::Progress& progress) {
-    bar.update(progress);
-    return !interrupt.requested();
+render::ProgressCallback shown_by(ProgressBar& bar, const InterruptGuard& interrupt, LiveRender* live) {
+  return [&bar, &interrupt, live](const render::Progress& progress) {
+    const TimeLeft::Estimate estimate = bar.update(progress);
+    const auto signalled = [&] { return interrupt.requested(); };
+    if (!live) return !signalled();
+    live->tell(progress, estimate.fraction, estimate.seconds);
+    return live->go_on(signalled);
+  };
+}
+
+// The render as its followers see it; null if there are none.
+std::unique_ptr<LiveRender> make_live(const Job& job, const LiveOptions& options) {
+  if (!options.any()) return nullptr;
+  const Camera& camera = job.scene.camera;
+  const render::PixelRange range = render::rendered_range(job.settings.render.crop, camera);
+  return std::make_unique<LiveRender>(std::filesystem::path(job.path).filename().string(), range,
+                                      camera.width, camera.height);
+}
+
+// Shows the mean of the passes so far, and its error.
+void show_passes(const render::PassSums& sums, LiveRender& live) {
+  const render::ErrorMap errors = render::estimate_errors(sums.totals);
+  render::Film film = sums.totals.mean();
+  render::show_errors(errors, &film);
+  live.picture.show(film);
+  const double error = render::relative_error(errors, sums.passes.count());
+  if (std::isfinite(error)) live.tell_error(sums.passes.count(), error);
+}
+
+// Shows the first pass while it is rendered, or the passes that there are already.
+render::PixelsCallback follow(const render::PassSums& done, LiveRender* live) {
+  if (live && !done.passes.empty()) show_passes(done, *live);
+  if (!live || !done.passes.empty()) return {};
+  return [live](const render::PixelRange& range, int cell, const render::FilmSums& sums) {
+    live->picture.add(range, cell, sums);
   };
 }
 
 // Lets trials choose what the session leaves open. Without any, the result has nothing but defaults.
 FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& bvh,
-                      const InterruptGuard& interrupt, const Stopwatch& total, double seconds_after,
-                      const Console& console) {
+                      const InterruptGuard& interrupt, LiveRender* live, const Stopwatch& total,
+                      double seconds_after, const Console& console) {
   const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
   if (session.fill_time)
     return settle_time(job.scene, bvh, total, seconds_after, go_on, console, &job.settings);
   FilledTime filled;
   if (!session.try_paths) return filled;
   ProgressBar bar(console);
-  filled.work = settle_paths(job.scene, bvh, shown_by(bar, interrupt), &job.settings);
+  filled.work = settle_paths(job.scene, bvh, shown_by(bar, interrupt, live), &job.settings);
   bar.clear();
   const std::string& paths = filled.work.paths;
   if (!paths.empty()) console.note(fmt::format("{}: rendered with{}", kPathsTaken, paths));
@@ -97,7 +131,7 @@ render::PartialManifest manifest_for_outputs(const Job& job, const RenderSession
 }
 
 int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, Checkpoint& checkpoint,
-           const StopRule& rule, const Console& console) {
+           const StopRule& rule, LiveRender* live, const Console& console) {
   const render::RenderResult& result = outcome.result;
   if (result.cancelled) console.error(interruption(result));
   if (result.shown == render::Shown::kNothing) return kInterrupted;
@@ -112,7 +146,7 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   const render::PartialManifest manifest = manifest_for_outputs(job, session, result.sums, rule.reason());
   report_stop(rule, result, console);
   const bool written =
-      write_outputs(session.outputs, {result, job.settings, manifest}, outcome.times, console);
+      write_outputs(session.outputs, {result, job.settings, manifest, live}, outcome.times, console);
   if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
   if (!trouble.empty()) console.error(trouble);
   if (!written) return kFailed;
@@ -136,8 +170,11 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     const Stopwatch watch;
     const accel::Bvh bvh(job.scene, job.settings.render.threads);
     times.bvh = watch.seconds();
+    const std::unique_ptr<LiveRender> live = make_live(job, session.live);
+    const auto viewers =
+        live ? start_viewers(session.live, *live, job.settings.render.aov, console) : LiveViewers{};
     const double seconds_after = settle_timed_denoising(job.scene.camera, console, &job.settings);
-    FilledTime filled = run_trials(job, session, bvh, interrupt, total, seconds_after, console);
+    FilledTime filled = run_trials(job, session, bvh, interrupt, live.get(), total, seconds_after, console);
     const std::optional<double> seconds = job.settings.stop.seconds;
     const double filled_seconds = filled.single_pass ? *seconds : 0;
     times.trials =
@@ -155,24 +192,28 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
       const bool enough = rule.enough(sums);
       bar.remark(rule.progress());
       if (const auto passes = rule.passes_needed(sums)) bar.set_end(*passes);
+      if (live && sums.totals.pixels().width() > 0) show_passes(sums, *live);
       if (!enough) checkpoint.after_pass(sums);
       return !enough;
     };
+    render::PixelsCallback on_pixels = follow(session.done, live.get());
     render::RenderTask task{.passes = goal,
                             .done = std::move(session.done),
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session),
                             .adaptive_work = std::move(filled.adaptive_work),
+                            .on_pixels = std::move(on_pixels),
                             .photons = std::move(filled.work.photons),
                             .explored = std::move(filled.work.explored)};
-    RenderOutcome outcome{
-        render::render(job.scene, bvh, job.settings.render, shown_by(bar, interrupt), std::move(task)),
-        times};
+    RenderOutcome outcome{render::render(job.scene, bvh, job.settings.render,
+                                         shown_by(bar, interrupt, live.get()), std::move(task)),
+                          times};
     bar.clear();
     if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.adaptive_work);
     if (filled_seconds > 0) report_filled(filled_seconds, job.settings.render, console);
     outcome.times.total = total.seconds();
-    code = finish(job, session, std::move(outcome), checkpoint, rule, console);
+    code = finish(job, session, std::move(outcome), checkpoint, rule, live.get(), console);
+    if (live) live->finish();
   });
   return code;
 }

@@ -2,6 +2,7 @@
 // What `render` and `resume` share: they render passes with a progress bar and checkpoints, and write files
 // at the end or after a signal.
 
+#include "apps/live/live_options.h"
 #include "apps/session/checkpoint.h"
 #include "apps/session/interrupt.h"
 #include "apps/session/render_outputs.h"
@@ -11,6 +12,7 @@ namespace kaustik::app {
 struct RenderSession {
   OutputOptions outputs;
   CheckpointSettings checkpoint;
+  LiveOptions live;
   render::PassSet goal;  // empty = all passes that the settings ask for
   bool bounded =
       false;  // `goal` holds even with a stop rule, which otherwise renders an open-ended number of passes

@@ -1,0 +1,54 @@
+#include "apps/live/live_render.h"
+
+#include <chrono>
+
+namespace kaustik::app {
+
+LiveStatus LiveRender::status() const {
+  const std::lock_guard lock(mutex_);
+  LiveStatus status = status_;
+  if (status.state != LiveState::kFinished) status.seconds = since_.seconds();
+  return status;
+}
+
+bool LiveRender::go_on(const std::function<bool()>& cancelled) {
+  constexpr std::chrono::milliseconds kBetweenQuestions{50};
+  std::unique_lock lock(mutex_);
+  while (status_.state == LiveState::kPaused && !status_.stopped && !cancelled())
+    changed_.wait_for(lock, kBetweenQuestions);
+  return !status_.stopped && !cancelled();
+}
+
+void LiveRender::tell(const render::Progress& progress, double fraction, std::optional<double> seconds_left) {
+  const std::lock_guard lock(mutex_);
+  status_.phase = progress.phase;
+  status_.pass = progress.pass, status_.passes = progress.passes;
+  status_.fraction = fraction, status_.seconds_left = seconds_left;
+}
+
+void LiveRender::tell_error(uint64_t passes, double error) {
+  const std::lock_guard lock(mutex_);
+  status_.errors.push_back({since_.seconds(), passes, error});
+}
+
+void LiveRender::finish() {
+  const std::lock_guard lock(mutex_);
+  status_.seconds = since_.seconds();
+  status_.state = LiveState::kFinished;
+  status_.seconds_left = 0;
+}
+
+void LiveRender::pause(bool paused) {
+  const std::lock_guard lock(mutex_);
+  if (status_.state == LiveState::kFinished) return;
+  status_.state = paused ? LiveState::kPaused : LiveState::kRunning;
+  changed_.notify_all();
+}
+
+void LiveRender::stop() {
+  const std::lock_guard lock(mutex_);
+  status_.stopped = true;
+  changed_.notify_all();
+}
+
+}  // namespace kaustik::app
