@@ -111,6 +111,15 @@ Metadata texts_of(const OIIO::ImageSpec& spec) {
   return texts;
 }
 
+// Where the data window is a part of the display window; nothing if it is all of it or reaches beyond it.
+std::optional<render::PartOf> part_of(const OIIO::ImageSpec& spec) {
+  const int x = spec.x - spec.full_x, y = spec.y - spec.full_y;
+  const bool inside =
+      x >= 0 && y >= 0 && spec.width <= spec.full_width - x && spec.height <= spec.full_height - y;
+  if (!inside || (spec.width == spec.full_width && spec.height == spec.full_height)) return std::nullopt;
+  return render::PartOf{x, y, spec.full_width, spec.full_height};
+}
+
 class OpenImageIo final : public render::ImageFormats {
  public:
   // Keeps OpenEXR's thread pool empty. OpenImageIO's own pool is never made: to set its attribute "threads"
@@ -138,7 +147,8 @@ class OpenImageIo final : public render::ImageFormats {
     if (std::string why = refusal(spec, channels, most_pixels); !why.empty()) return fail(std::move(why));
     const auto [first, count] =
         channels == Channels::kAll ? std::pair(0, spec.nchannels) : colour_channels(spec);
-    ImageNumbers out{spec.width, spec.height, count, !spec.format.is_floating_point(), {}, texts_of(spec)};
+    ImageNumbers out{spec.width, spec.height,    count,        !spec.format.is_floating_point(),
+                     {},         texts_of(spec), part_of(spec)};
     out.values.resize(out.count() * size_t(count));
     if (!in->read_image(0, 0, first, first + count, OIIO::TypeDesc::FLOAT, out.values.data()))
       return fail(in->geterror());
@@ -158,7 +168,8 @@ class OpenImageIo final : public render::ImageFormats {
       return fail(std::move(why));
     const std::vector<int> chosen = channels_of(spec, layer);
     if (chosen.empty()) return fail(no_layer(spec, layer));
-    ImageNumbers out{spec.width, spec.height, int(chosen.size()), !spec.format.is_floating_point(), {}};
+    ImageNumbers out{spec.width, spec.height, int(chosen.size()), !spec.format.is_floating_point(),
+                     {},         {},          part_of(spec)};
     out.values.resize(out.count() * chosen.size());
     for (size_t c = 0; c < chosen.size(); ++c)
       if (!in->read_image(0, 0, chosen[c], chosen[c] + 1, OIIO::TypeDesc::FLOAT, out.values.data() + c,

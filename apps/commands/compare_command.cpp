@@ -10,6 +10,7 @@
 #include "apps/session/files/collisions.h"
 #include "apps/session/files/file_writer.h"
 #include "apps/session/files/output_files.h"
+#include "render/compare/common_part.h"
 #include "render/compare/compare.h"
 #include "render/compare/fireflies.h"
 #include "render/compare/flip.h"
@@ -58,6 +59,7 @@ struct Comparison {
   render::CompareResult result;
   render::Fireflies fireflies;
   std::string doubt;                              // why the numbers may mislead; empty = they do not
+  std::optional<render::PixelRectangle> part;     // what is compared, where a picture is a crop
   int side = 0;                                   // of --blocks; 0 without it
   std::optional<render::BlockDeviations> blocks;  // of --blocks
   std::optional<render::Flip> flip;
@@ -97,6 +99,8 @@ std::string as_json(const Comparison& found, const CompareOptions& options, bool
   const render::CompareResult& r = found.result;
   nlohmann::ordered_json out;
   if (!options.layer.empty()) out["layer"] = options.layer;
+  if (const auto& p = found.part)
+    out["part"] = {{"x", p->x}, {"y", p->y}, {"width", p->width}, {"height", p->height}};
   out["rmse"] = r.rmse;
   out["relmse"] = r.relmse;
   out["relmse_of_blocks"] = blocks_json(r);
@@ -135,6 +139,9 @@ std::string deviations_text(const render::BlockDeviations& b, int side) {
 std::string as_text(const Comparison& found, const CompareOptions& options) {
   const render::CompareResult& r = found.result;
   std::string text = options.layer.empty() ? "" : fmt::format("layer           {}\n", options.layer);
+  if (const auto& p = found.part)
+    text += fmt::format("part            x {} to {}, y {} to {} of the full picture\n", p->x,
+                        p->x + p->width - 1, p->y, p->y + p->height - 1);
   text += fmt::format(
       "RMSE            {:.6g}\nrelMSE          {:.6g}\nof blocks       {}\nPSNR            {:.2f} dB\n"
       "largest error   {:.6g} at x {} y {}, channel {}\nmean            {:.6g}, reference {:.6g}",
@@ -179,6 +186,34 @@ render::Image picture_of(const std::string& path, const CompareOptions& options)
   return options.layer.empty() ? render::read_image(path) : render::read_layer(path, options.layer);
 }
 
+// The pictures of a comparison, of one size if that can be had.
+struct Pictures {
+  render::Image reference, image;
+  std::optional<render::Image> whole_reference;  // where a layer is compared and bright pixels are left out
+  std::optional<render::PixelRectangle> part{};  // to which pictures are cut
+};
+
+// Reads the files, and cuts a picture to the part of it that the other one shows.
+Pictures read_pictures(const CompareOptions& options) {
+  Pictures p{picture_of(options.reference, options), picture_of(options.image, options), {}};
+  if (!options.layer.empty() && options.mask_bright)
+    p.whole_reference = render::read_image(options.reference);
+  p.part = render::common_part(p.reference, p.image);
+  if (!p.part) return p;
+  p.reference = render::cut_to(p.reference, *p.part);
+  p.image = render::cut_to(p.image, *p.part);
+  if (p.whole_reference) p.whole_reference = render::cut_to(*p.whole_reference, *p.part);
+  return p;
+}
+
+// Lets places be those of the full picture.
+void move_to_full_picture(Comparison& found) {
+  const auto move = [&](int& x, int& y) { x += found.part->x, y += found.part->y; };
+  move(found.result.max_x, found.result.max_y);
+  if (found.fireflies.count > 0) move(found.fireflies.x, found.fireflies.y);
+  if (found.blocks && found.blocks->blocks > 0) move(found.blocks->x, found.blocks->y);
+}
+
 // Pictures that were both read from files of integers are compared as a screen shows them, others as
 // radiance.
 render::Flip flip_of(const render::Image& reference, const render::Image& image,
@@ -199,15 +234,14 @@ render::Flip flip_of(const render::Image& reference, const render::Image& image,
 Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
   const int side = options.blocks.empty() ? 0 : int(whole_number("--blocks", options.blocks, kLargestBlock));
   try {
-    const render::Image reference = picture_of(options.reference, options);
-    const render::Image image = picture_of(options.image, options);
-    std::optional<render::Image> whole;
+    const Pictures pictures = read_pictures(options);
+    const render::Image &reference = pictures.reference, &image = pictures.image;
     render::CompareOptions compared{.mask_bright = options.mask_bright};
-    if (!options.layer.empty() && options.mask_bright)
-      compared.mask_from = &whole.emplace(render::read_image(options.reference));
+    if (pictures.whole_reference) compared.mask_from = &*pictures.whole_reference;
     Comparison found{render::compare(reference, image, compared),
                      render::find_fireflies(reference, image, compared),
                      doubt_about(reference, image),
+                     pictures.part,
                      side,
                      {},
                      {}};
@@ -221,6 +255,7 @@ Comparison compare_files(const CompareOptions& options, FileWriter& writer) {
     if (!options.heatmap.empty())
       writer.write(options.heatmap,
                    [&] { render::write_image(options.heatmap, render::heatmap(reference, image)); });
+    if (found.part) move_to_full_picture(found);
     return found;
   } catch (const render::ImageError& error) {
     throw ExitError(kBadCommandLine, error.what());
@@ -258,7 +293,8 @@ Command make_compare_command() {
   Command command("compare", "Measure how much a picture differs from a reference");
   const auto options = std::make_shared<CompareOptions>();
   command.add_argument("REF", options->reference, "Reference picture");
-  command.add_argument("IMG", options->image, "Picture to compare, of the same size");
+  command.add_argument("IMG", options->image,
+                       "Picture to compare, of the same size, or a crop of the other one as an EXR file");
   command.add_flag("--json", options->json, "Print JSON");
   command
       .add_text(

@@ -14,10 +14,17 @@ namespace kaustik::render {
 
 namespace {
 
+std::string size_text(const Image& image) {
+  std::string text = fmt::format("{} x {}", image.width, image.height);
+  if (image.part)
+    text += fmt::format(" (a part of {} x {})", image.part->full_width, image.part->full_height);
+  return text;
+}
+
 void require_same_size(const Image& reference, const Image& image) {
   if (reference.width != image.width || reference.height != image.height)
-    throw std::invalid_argument(fmt::format("sizes differ: reference {} x {}, image {} x {}", reference.width,
-                                            reference.height, image.width, image.height));
+    throw std::invalid_argument(
+        fmt::format("sizes differ: reference {}, image {}", size_text(reference), size_text(image)));
   if (reference.pixels.empty()) throw std::invalid_argument("the images are empty");
 }
 

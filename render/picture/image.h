@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
+#include "render/picture/part_of.h"
 #include "render/picture/tonemap.h"
 
 namespace kaustik::render {
@@ -12,6 +13,7 @@ namespace kaustik::render {
 struct Image {
   int width = 0, height = 0;
   std::vector<Rgb> pixels;
+  std::optional<PartOf> part{};        // of a larger picture; nothing: the picture is whole
   bool for_display = false;            // read from a file of integers, which hold what a screen shows
   std::optional<ToneSettings> tone{};  // for_display: what turned radiance into it, if the file says so
 

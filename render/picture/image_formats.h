@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/texture/image_lookup.h"
+#include "render/picture/part_of.h"
 
 namespace kaustik::render {
 
@@ -24,7 +25,8 @@ struct ImageNumbers {
   int width = 0, height = 0, channels = 0;
   bool integers = false;
   std::vector<float> values;
-  Metadata texts{};  // those of its attributes that kaustik has written
+  Metadata texts{};              // those of its attributes that kaustik has written
+  std::optional<PartOf> part{};  // where the data window is a part of the display window
 
   size_t count() const { return size_t(width) * size_t(height); }
 };

@@ -134,6 +134,7 @@ std::optional<ToneSettings> tone_in(const Metadata& metadata) {
 Image image_from(const ImageNumbers& numbers) {
   const size_t channels = size_t(numbers.channels);
   Image image(numbers.width, numbers.height);
+  image.part = numbers.part;
   image.for_display = numbers.integers;
   if (numbers.integers) image.tone = tone_in(numbers.texts);
   for (size_t i = 0; i < image.pixels.size(); ++i)

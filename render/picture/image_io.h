@@ -72,8 +72,8 @@ void write_image(const std::string& path, const Image& image, const ToneSettings
 inline constexpr uint64_t kMostPixelsRead = uint64_t{1} << 30;
 
 // Reads R, G, B (or one grey channel three times) in any format that image_formats() knows, as linear floats:
-// integer formats are decoded from sRGB. Only the data window is returned. Throws ImageError, also for files
-// that ImageFormats::read() refuses.
+// integer formats are decoded from sRGB. Only the data window is returned, with its place. Throws ImageError,
+// also for files that ImageFormats::read() refuses.
 Image read_image(const std::string& path, uint64_t most_pixels = kMostPixelsRead);
 
 // Reads one layer of a picture, as write_film() names them: three channels, or one three times. Throws as

@@ -185,6 +185,62 @@ TEST_F(CompareCommand, ComparesOneLayer) {
   EXPECT_EQ(nlohmann::json::parse(masked.out)["pixels"]["masked"], 9);
 }
 
+// A film of 8 x 6 pixels, or the part of it from (x0, y0) on, whose radiance tells the pixel, with `more`
+// added in the pixel (4, 3).
+std::string numbered_film(const std::string& path, int x0, int y0, int width, int height, float more = 0) {
+  render::Film film(width, height, x0, y0, 8, 6);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      film.at(x, y).direct = Rgb(float(x0 + x + 8 * (y0 + y)) + (x0 + x == 4 && y0 + y == 3 ? more : 0));
+  render::write_film(path, film, {render::layers_from_names({"direct"}), {}, {}});
+  return path;
+}
+
+TEST_F(CompareCommand, ComparesACropWithItsPartOfTheFullPicture) {
+  const std::string full = numbered_film(path("full.exr"), 0, 0, 8, 6);
+  const std::string crop = numbered_film(path("crop.exr"), 2, 1, 4, 3, 1);
+  for (const auto& [reference, image] : {std::pair(full, crop), {crop, full}, {crop, crop}}) {
+    const Outcome outcome = run_kaustik({"compare", reference, image, "--json", "--layer", "direct"});
+    ASSERT_EQ(outcome.code, kDone) << outcome.err;
+    const nlohmann::json json = nlohmann::json::parse(outcome.out);
+    const bool same = reference == image;
+    EXPECT_EQ(json["pixels"]["compared"], 12);
+    EXPECT_EQ(json["max_difference"]["value"], same ? 0.0 : 1.0);
+    EXPECT_EQ(json["max_difference"]["x"], same ? 2 : 4);  // of the full picture
+    EXPECT_EQ(json["max_difference"]["y"], same ? 1 : 3);
+    EXPECT_EQ(json["part"], (nlohmann::json{{"x", 2}, {"y", 1}, {"width", 4}, {"height", 3}}));
+  }
+  EXPECT_THAT(run_kaustik({"compare", full, crop}).out,
+              HasSubstr("part            x 2 to 5, y 1 to 3 of the full picture\n"));
+  EXPECT_THAT(run_kaustik({"compare", full, full}).out, Not(HasSubstr("part")));
+}
+
+TEST_F(CompareCommand, MasksACropByItsPartOfTheFullPicture) {
+  const std::string full = numbered_film(path("full.exr"), 0, 0, 8, 6);
+  const std::string crop = numbered_film(path("crop.exr"), 2, 1, 4, 3, 1);
+  for (const std::vector<std::string>& layer : {std::vector<std::string>{}, {"--layer", "direct"}}) {
+    std::vector<std::string> words = {"compare", full, crop, "--json", "--mask-bright", "28"};
+    words.insert(words.end(), layer.begin(), layer.end());
+    const nlohmann::json json = nlohmann::json::parse(run_kaustik(words).out);
+    EXPECT_EQ(json["pixels"]["masked"], 9);  // 29, the crop's last pixel, masks 3 x 3 of its pixels
+    EXPECT_EQ(json["rmse"], 0);
+  }
+}
+
+TEST_F(CompareCommand, RefusesPicturesThatDoNotFit) {
+  const std::string crop = numbered_film(path("crop.exr"), 2, 1, 4, 3);
+  const auto message = [&](const std::string& reference, const std::string& image) {
+    const Outcome outcome = run_kaustik({"compare", reference, image});
+    EXPECT_EQ(outcome.code, kBadCommandLine);
+    return outcome.err;
+  };
+  EXPECT_THAT(message(picture("narrow.exr", 1, 1, 7), crop),
+              HasSubstr("sizes differ: reference 7 x 6, image 4 x 3 (a part of 8 x 6)"));
+  EXPECT_THAT(message(crop, numbered_film(path("other.exr"), 3, 1, 4, 3)),
+              HasSubstr("neither lies within the other one: the reference has x 2 to 5, y 1 to 3; the image "
+                        "has x 3 to 6, y 1 to 3"));
+}
+
 TEST_F(CompareCommand, NamesTheLayersThatThereAre) {
   const std::string reference = film_with_layers(path("r.exr"), 0.5f, {"emitted", "direct", "depth"});
   const std::string image = film_with_layers(path("i.exr"), 0.5f, {"emitted"});
