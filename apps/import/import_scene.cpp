@@ -1,10 +1,13 @@
 #include "apps/import/import_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <mutex>
 #include <set>
 
 #include "apps/import/common/image_files.h"
+#include "apps/import/common/no_scene.h"
 #include "apps/import/gltf/importer.h"
 #include "apps/import/lone_mesh.h"
 #include "apps/import/obj/obj_importer.h"
@@ -83,6 +86,10 @@ void check_only_camera(const SceneDescription& scene, const std::string& asked, 
 
 std::optional<SceneDescription> import_format(const std::filesystem::path& path, Diagnostics& diagnostics,
                                               const ImportOptions& options) {
+  if (const std::string none = why_no_scene_in(path); !none.empty()) {
+    diagnostics.error({}, fmt::format("cannot read \"{}\": {}", path.string(), none));
+    return std::nullopt;
+  }
   if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics, options);
   auto scene = is_obj(path)         ? import_obj(path, diagnostics)
                : is_lone_mesh(path) ? import_lone_mesh(path, diagnostics)

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "apps/import/common/gzip.h"
+#include "apps/import/common/no_scene.h"
 
 namespace kaustik::pbrt {
 
@@ -68,6 +69,15 @@ std::optional<uint32_t> SceneFiles::open(const fs::path& path, std::string& erro
       error = fmt::format("cannot read \"{}\": {}", path.string(), error);
       return std::nullopt;
     }
+  }
+  std::string none = why_no_scene(*text);
+  if (none.empty() && is_binary(*text))
+    none =
+        "it is a binary file, but a .pbrt scene is plain text; the names of other formats end in .gltf, "
+        ".glb, .obj, .ply or .stl";
+  if (!none.empty()) {
+    error = fmt::format("cannot read \"{}\": {}", path.string(), none);
+    return std::nullopt;
   }
   const uint32_t file = files_.add(path.string(), std::move(*text));
   by_canonical_path_.emplace(key, file);

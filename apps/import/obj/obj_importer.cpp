@@ -6,6 +6,7 @@
 #include <set>
 
 #include "apps/import/common/find_file.h"
+#include "apps/import/common/no_scene.h"
 #include "apps/import/common/scene_files.h"
 #include "apps/import/obj/obj_materials.h"
 #include "apps/import/obj/obj_meshes.h"
@@ -158,6 +159,11 @@ std::optional<SceneDescription> import_obj(const std::filesystem::path& path, Di
   auto bytes = pbrt::read_bytes(path, obj::kLargestFile, error);
   if (!bytes) {
     diagnostics.error({}, error);
+    return std::nullopt;
+  }
+  if (is_binary(*bytes)) {
+    diagnostics.error({}, fmt::format("cannot read \"{}\": it is a binary file, but OBJ files are plain text",
+                                      path.string()));
     return std::nullopt;
   }
   // Line ends of the old Macintosh.

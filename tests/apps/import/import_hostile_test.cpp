@@ -1,8 +1,13 @@
 // Tests malformed and hostile input: it must be refused, quickly and without a crash.
+#include <gmock/gmock.h>
+
 #include "tests/apps/import/import_support.h"
 
 namespace kaustik::pbrt {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 class ImportHostile : public ImportTest {};
 
@@ -38,12 +43,55 @@ TEST_F(ImportHostile, EveryByteChangedIsHandled) {
   }
 }
 
-TEST_F(ImportHostile, BinaryFilesStopAfterManyErrors) {
+TEST_F(ImportHostile, BinaryFilesAreOneError) {
   std::string bytes(100'000, '\0');
   for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>((i * 2654435761u) >> 13);
-  messages(bytes);
+  const std::string message = messages(bytes);
+  EXPECT_FALSE(loaded_);
+  EXPECT_EQ(diagnostics_.error_count(), 1u);
+  EXPECT_THAT(message, HasSubstr("it is a binary file, but a .pbrt scene is plain text"));
+  Diagnostics d;
+  EXPECT_FALSE(load_scene(write("scene.obj", bytes), d));
+  ASSERT_EQ(d.entries().size(), 1u);
+  EXPECT_THAT(d.entries().front().message, HasSubstr("it is a binary file, but OBJ files are plain text"));
+}
+
+TEST_F(ImportHostile, TextsWithManyErrorsStopAtSomeOfThem) {
+  std::string text;
+  for (int i = 0; i < 10'000; ++i) text += "nonsense\n";
+  messages(text);
   EXPECT_FALSE(loaded_);
   EXPECT_LE(diagnostics_.error_count(), 1100u);
+}
+
+// Pictures and partial results are none of the formats of scenes, whatever their names say.
+TEST_F(ImportHostile, PicturesAreOneErrorThatSaysSo) {
+  struct Case {
+    std::string bytes, what;
+  };
+  const std::string more("\0\1\2 8 8 rest\n", 14);
+  const Case cases[] = {{"\x89PNG\r\n\x1a\n" + more, "it is a picture (PNG), not a scene"},
+                        {"\xff\xd8\xff" + more, "it is a picture (JPEG), not a scene"},
+                        {"\x76\x2f\x31\x01" + more, "it is a picture (EXR), not a scene"},
+                        {"#?RADIANCE\n" + more, "it is a picture (HDR), not a scene"},
+                        {"PF\n8 8\n-1\n" + more, "it is a picture (PNM or PFM), not a scene"},
+                        {"KPART\r\n\x1a" + more, "it is a partial result of a render, not a scene"}};
+  for (const char* name : {"a.exr", "a.pbrt", "a.obj", "a.glb", "a.ply", "a.stl"})
+    for (const Case& c : cases) {
+      Diagnostics d;
+      EXPECT_FALSE(load_scene(write(name, c.bytes), d));
+      ASSERT_EQ(d.entries().size(), 1u) << name;
+      const std::string text = d.format_all();
+      EXPECT_THAT(text, HasSubstr(c.what)) << name;
+      EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char b) { return b == '\n' || b >= ' '; }))
+          << name;
+    }
+}
+
+TEST_F(ImportHostile, IncludedPicturesAreNamedWhereTheyAreIncluded) {
+  write("a.png", "\x89PNG\r\n\x1a\n");
+  EXPECT_THAT(messages("WorldBegin\nInclude \"a.png\"\n"),
+              AllOf(HasSubstr("scene.pbrt:2:"), HasSubstr("it is a picture (PNG), not a scene")));
 }
 
 TEST_F(ImportHostile, NulBytesAreNamed) {
