@@ -17,7 +17,7 @@ const worthDrawing = (phase, points) =>
 const sample = (x, spread) => ({x, y: spread.median, low: spread.min, high: spread.max});
 const drawable = points => sorted(points.filter(p => p.low > 0 && Number.isFinite(p.high)));
 const ideal = (name, x0, y0, x1, y1) =>
-  ({label: name, data: [{x: x0, y: y0}, {x: x1, y: y1}], borderColor: "#9aa5b1", backgroundColor: "transparent",
+  ({label: name, data: [{x: x0, y: y0}, {x: x1, y: y1}], borderColor: colour("guide"), backgroundColor: "transparent",
     borderDash: [6, 4], borderWidth: 1.5, pointStyle: "line",
     pointRadius: 0, pointHitRadius: 0, showLine: true});
 
@@ -27,7 +27,7 @@ const ranges = {
     const context = chart.ctx;
     chart.data.datasets.forEach((set, i) => {
       if (!chart.isDatasetVisible(i)) return;
-      context.strokeStyle = set.borderColor;
+      context.strokeStyle = set.borderColor();
       context.lineWidth = 1;
       for (const p of set.data) {
         if (!(p.high > p.low)) continue;

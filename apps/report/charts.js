@@ -3,8 +3,13 @@
 // as HTML.
 const byId = id => document.getElementById(id);
 
-// Colours that colour-blind readers can tell apart (Okabe and Ito 2008), and shapes for prints in grey.
-const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#4d4d4d"];
+// Colours are functions, which Chart.js calls whenever it draws, so that charts follow the page between light and dark.
+const colour = name => () => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const seriesColour = index => () => {
+  const colours = colour("series")().split(" ");
+  return colours[index % colours.length];
+};
+// For prints in grey.
 const SHAPES = ["circle", "rect", "triangle", "rectRot", "star", "crossRot", "cross"];
 
 function countText(n) {
@@ -17,9 +22,8 @@ const percent = x => `${short(100 * x)} %`;
 const secondsText = s => `${short(s)} s`;
 
 function dataset(name, points, index, more = {}) {
-  const colour = COLOURS[index % COLOURS.length];
-  return {label: name, data: points, borderColor: colour, backgroundColor: colour, borderWidth: 1.5, pointRadius: 4.5,
-          pointHoverRadius: 7, pointStyle: SHAPES[index % SHAPES.length], showLine: true, ...more};
+  return {label: name, data: points, borderColor: seriesColour(index), backgroundColor: seriesColour(index),
+          borderWidth: 1.5, pointRadius: 4.5, pointHoverRadius: 7, pointStyle: SHAPES[index % SHAPES.length], showLine: true, ...more};
 }
 
 const sorted = points => points.sort((a, b) => a.x - b.x);
@@ -41,10 +45,21 @@ function logAxis(title, format, values) {
   const least = Math.min(...values), most = Math.max(...values);
   const margin = Math.max(1.25, Math.sqrt(10 ** 0.8 * least / most));
   const range = values.length ? {min: least / margin, max: most * margin} : {};
-  return {type: "logarithmic", ...range, title: {display: true, text: title}, grid: {color: "#e6eaef"},
+  return {type: "logarithmic", ...range, title: {display: true, text: title}, grid: {color: colour("grid")},
           ticks: {callback: tickText(format), maxRotation: 0, autoSkip: false}};
 }
 
+Chart.defaults.color = colour("chart-ink");
 Chart.defaults.font.family = getComputedStyle(document.documentElement).fontFamily;
-Chart.defaults.color = "#3b4654";
-addEventListener("beforeprint", () => { for (const id in Chart.instances) Chart.instances[id].resize(); });
+// Pages are printed light, but the styles for print do not hold yet when the charts for print are drawn.
+function followScheme(prints) {
+  document.documentElement.toggleAttribute("data-prints", prints);
+  for (const id in Chart.instances) Chart.instances[id].update("none");
+}
+followScheme(false);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => followScheme(false));
+addEventListener("beforeprint", () => {
+  followScheme(true);
+  for (const id in Chart.instances) Chart.instances[id].resize();
+});
+addEventListener("afterprint", () => followScheme(false));

@@ -5,8 +5,7 @@
 const data = JSON.parse(byId("data").textContent);
 const cells = data.cells;
 
-const PHASES = [["bvh", "BVH", "#4d4d4d"], ["photon_trace", "photons", "#e69f00"],
-                ["photon_build", "maps", "#56b4e9"], ["render", "render", "#0072b2"]];
+const PHASES = [["bvh", "BVH", 6], ["photon_trace", "photons", 4], ["photon_build", "maps", 5], ["render", "render", 0]];
 
 const relative = cell => cell.error.relative_rmse;
 const seconds = cell => cell.seconds.total.median;
@@ -86,7 +85,7 @@ function drawErrorCharts() {
   const overTime = [...seriesBy(withPhotons, keys), ...without]
     .map((s, i) => dataset(s.name, s.cells.map(c => point(c, seconds(c), relative(c))), i));
   const front = sorted(cells.filter(c => c.pareto).map(c => point(c, seconds(c), relative(c))));
-  overTime.push({label: "Pareto front", data: front, borderColor: "#9aa5b1", backgroundColor: "transparent",
+  overTime.push({label: "Pareto front", data: front, borderColor: colour("guide"), backgroundColor: "transparent",
                  borderWidth: 6, pointRadius: 10, pointBorderWidth: 2, pointStyle: "circle", showLine: true, stepped: "before",
                  pointHitRadius: 0, order: 9});
   scatter("error-time", overTime, SECONDS, ERROR);
@@ -116,7 +115,7 @@ function drawParts() {
       const bias = points("bias2"), variance = points("variance");
       hidden += bias.filter(p => p.y <= 0).length;
       datasets.push(dataset(`bias\u00b2, ${s.name}`, bias.filter(p => p.y > 0), i));
-      datasets.push(dataset(`variance, ${s.name}`, variance, i, {borderDash: [6, 4], backgroundColor: "#fff"}));
+      datasets.push(dataset(`variance, ${s.name}`, variance, i, {borderDash: [6, 4], backgroundColor: colour("paper")}));
     });
     byId("parts-note").textContent = data.seeds < 2 ? "They need at least two seeds."
       : hidden ? `${hidden} value${hidden > 1 ? "s" : ""} of bias\u00b2 at or below zero cannot be shown on a logarithmic axis.` : "";
@@ -133,11 +132,11 @@ function drawPhases() {
   new Chart(byId("phases"), {
     type: "bar",
     data: {labels: cells.map(label),
-           datasets: PHASES.map(([key, name, colour]) =>
-             ({label: name, data: cells.map(c => c.seconds[key].median), backgroundColor: colour}))},
+           datasets: PHASES.map(([key, name, series]) =>
+             ({label: name, data: cells.map(c => c.seconds[key].median), backgroundColor: seriesColour(series)}))},
     options: {
       indexAxis: "y", animation: false, maintainAspectRatio: false, responsive: true,
-      scales: {x: {stacked: true, title: {display: true, text: "time [s]"}, grid: {color: "#e6eaef"}},
+      scales: {x: {stacked: true, title: {display: true, text: "time [s]"}, grid: {color: colour("grid")}},
                y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false, font: {size: 11}}}},
       plugins: {legend: {position: "bottom", labels: {boxWidth: 12}},
                 tooltip: {callbacks: {label: item => `${item.dataset.label}: ${secondsText(item.raw)}`}}}}});

@@ -148,8 +148,10 @@ def check_bench(browser, kaustik, out):
         assert chart("photons-per-second")[f"{name} photons"] == rates
     seconds = [[p["photons"], p["seconds"]["total"]["median"]] for p in points if p["threads"] == 2]
     assert chart("seconds-over-photons")["total"] == seconds
-    for name in ("speed-up-2k", "speed-up-8k", "photons-per-second", "seconds-over-photons"):
+    charts = ("speed-up-2k", "speed-up-8k", "photons-per-second", "seconds-over-photons")
+    for name in charts:
         assert colours_in(browser, name) > 8, name
+    check_schemes(browser, charts)
     check_quiet(browser)
 
 
@@ -177,13 +179,58 @@ def colours_in(browser, chart):
         return seen.size;""", chart)
 
 
-def wait_until_drawn(browser):
+def wait_until_drawn(browser, charts=CHARTS):
     """Waits until the charts are drawn again, some frames after a change of size; up to 30 s on a busy machine."""
     browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
     end = time.monotonic() + 30
-    while any(colours_in(browser, chart) <= 8 for chart in CHARTS) and time.monotonic() < end:
+    while any(colours_in(browser, chart) <= 8 for chart in charts) and time.monotonic() < end:
         time.sleep(0.1)
     time.sleep(0.5)  # gives the compositor time to draw
+
+
+def set_scheme(browser, scheme):
+    """Makes the reader's system light or dark."""
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+
+def luminance_of(browser, colour):
+    """The relative luminance of a CSS colour, of WCAG 2, for its contrast with others."""
+    parts = browser.execute_script("""
+        const canvas = document.createElement("canvas").getContext("2d");
+        canvas.fillStyle = arguments[0];
+        canvas.fillRect(0, 0, 1, 1);
+        return [...canvas.getImageData(0, 0, 1, 1).data];""", colour)
+    linear = [v / 255 / 12.92 if v / 255 <= 0.04045 else ((v / 255 + 0.055) / 1.055) ** 2.4 for v in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(browser, first, second):
+    low, high = sorted(luminance_of(browser, c) for c in (first, second))
+    return (high + 0.05) / (low + 0.05)
+
+
+def check_schemes(browser, charts):
+    """Page and charts follow the reader's scheme while they are shown, with the contrasts that WCAG 2.1 asks for: 4.5 for
+    texts, 3 for what a chart consists of. Lighter colours than that are in light charts as they were published."""
+    for scheme in ("dark", "light"):
+        set_scheme(browser, scheme)
+        wait_until_drawn(browser, charts)
+        style = lambda what, of: browser.execute_script(
+            f"return getComputedStyle(document.querySelector('{of}')).getPropertyValue('{what}')", )
+        paper = style("background-color", "section")
+        assert (luminance_of(browser, paper) < 0.05) == (scheme == "dark"), (scheme, paper)
+        for of in ("h2", "figcaption" if browser.find_elements(By.TAG_NAME, "figcaption") else "h2"):
+            assert contrast(browser, style("color", of), paper) >= 4.5, (scheme, of)
+        for chart in charts:
+            ink, lines = browser.execute_script("""
+                const chart = Chart.getChart(arguments[0]);
+                const line = i => chart.getDatasetMeta(i).data.concat(chart.getDatasetMeta(i).dataset ?? [])[0];
+                const shown = chart.data.datasets.map((_, i) => line(i)).filter(e => e);
+                return [Object.values(chart.scales)[0].options.ticks.color,
+                        shown.map(e => e.options.borderWidth ? e.options.borderColor : e.options.backgroundColor)];""", chart)
+            assert contrast(browser, ink, paper) >= 4.5, (scheme, chart, ink)
+            for line in lines:
+                assert contrast(browser, line, paper) >= (3 if scheme == "dark" else 1.5), (scheme, chart, line)
 
 
 def check_drawn(browser):
@@ -259,6 +306,10 @@ def main():
         check_slider(browser)
         for width, name in ((1280, "desk"), (360, "phone")):
             screenshot(browser, width, out / f"report-{name}.png")
+        check_schemes(browser, CHARTS)
+        set_scheme(browser, "dark")
+        screenshot(browser, 1280, out / "report-dark.png")
+        set_scheme(browser, "light")
         check_quiet(browser)
         check_bench(browser, sys.argv[1], out)
         check_zeros(browser, sys.argv[1], out)
