@@ -1,6 +1,21 @@
 "use strict";
 // Draws as gpu.js does, by a 2D canvas: pixels become colours once, and again where they or the look change.
 
+const LEVELS = 1 << 16;  // of linear light in a table of its encoded levels, which is exact but for a level at its edges
+let encodedLevels = null;
+
+// shownColour() for the radiance of a part of a picture, several times as fast.
+function radianceLevels(picture, look, data, x, y, w, h) {
+  const {values, width} = picture, {gain, operator} = look, out = [0, 0, 0];
+  encodedLevels ??= Uint8Array.from({length: LEVELS + 1}, (_, i) => Math.floor(255 * encode(i / LEVELS) + 0.5));
+  for (let row = 0, to = 0; row < h; ++row)
+    for (let from = 3 * ((y + row) * width + x), end = from + 3 * w; from < end; from += 3, to += 4) {
+      tonemap(values[from], values[from + 1], values[from + 2], gain, operator, out);
+      for (let c = 0; c < 3; ++c) data[to + c] = encodedLevels[Math.round(out[c] * LEVELS)];
+      data[to + 3] = 255;
+    }
+}
+
 class CanvasDrawer {
   constructor(canvas) {
     this.canvas = canvas;
@@ -29,6 +44,11 @@ class CanvasDrawer {
 
   colour(picture, look, context, x, y, w, h) {
     const image = context.createImageData(w, h), out = [0, 0, 0];
+    if (picture.show === SHOW.radiance) {
+      radianceLevels(picture, look, image.data, x, y, w, h);
+      context.putImageData(image, x, y);
+      return;
+    }
     for (let row = 0, i = 0; row < h; ++row)
       for (let column = 0; column < w; ++column, i += 4) {
         shownColour(picture, look, (y + row) * picture.width + x + column, out);

@@ -91,7 +91,7 @@ class Layers {
     this.status = null;
     this.fetching = false;
     this.offline = false;
-    for (const layer of info.layers) this.slots.set(layer.name, {layer, picture: null, version: 0, render: 0, seen: ""});
+    for (const layer of info.layers) this.slots.set(layer.name, {layer, picture: null, version: 0, render: 0, seen: "", old: false});
     this.wanted = [""];
     this.extra = [];       // layers to fetch once, after the wanted ones
   }
@@ -113,6 +113,11 @@ class Layers {
     for (const [name, slot] of this.slots)
       if (slot.version && isRelative(name)) copied.set(name, slot.picture.copy(copied.get("")));
     return copied;
+  }
+
+  // The program is another one, whose versions mean other pixels.
+  forget() {
+    for (const slot of this.slots.values()) Object.assign(slot, {version: 0, render: 0, seen: ""});
   }
 
   // Layers to keep up to date, the most important one first.
@@ -170,13 +175,17 @@ class Layers {
     const answer = await request(`pixels?layer=${encodeURIComponent(slot.layer.name)}&since=${since}`);
     const buffer = await answer.arrayBuffer();
     const picture = this.picture(slot.layer.name);
-    const {render} = readTiles(buffer, picture.channels);
+    const {render, tiles} = readTiles(buffer, picture.channels);
     if (render !== slot.render) {
       slot.render = render;
       slot.version = 0;
-      if (since !== 0) return;  // another render has begun: its tiles are asked for from the start
+      slot.old = true;  // the pixels stay until the new render has some
+      if (since !== 0) return;  // its tiles are asked for from the start
+    }
+    if (slot.old && tiles) {
       picture.values.fill(0);
       picture.touch();
+      slot.old = false;
     }
     const x0 = this.info.x0, y0 = this.info.y0;
     const head = readTiles(buffer, picture.channels, (x, y, w, h, values) => picture.write(x - x0, y - y0, w, h, values));

@@ -145,13 +145,17 @@ class PictureView {
       const pointer = this.pointers.get(event.pointerId);
       this.pointers.delete(event.pointerId);
       const pixel = pointer && this.pixelAt(pointer.x, pointer.y);
-      if (event.type === "pointerup" && pixel && pointer.path < CLICK_DISTANCE && !this.pinched)
+      if (event.type === "pointerup" && pixel && pointer.path < CLICK_DISTANCE && !this.pinched) {
+        this.hooks.onHover(pixel);
         this.hooks.onPick(pixel.x, pixel.y);
+      }
       if (!this.pointers.size) this.pinched = false;
     };
     stage.addEventListener("pointerup", end);
     stage.addEventListener("pointercancel", end);
-    stage.addEventListener("pointerleave", () => { if (!this.byKeys) this.hooks.onHover(null); });
+    stage.addEventListener("pointerleave", event => {
+      if (!this.byKeys && event.pointerType === "mouse") this.hooks.onHover(null);
+    });
     stage.addEventListener("dblclick", event => {
       if (!event.target.closest("[data-own-pointer]")) this.zoomTo(this.zoom * 2, place(event).x, place(event).y);
     });

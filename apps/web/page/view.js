@@ -67,9 +67,15 @@ class View {
 
   // Another program may answer at the same address.
   async back() {
-    const info = await (await request("info")).json();
+    let info;
+    try {
+      info = await (await request("info")).json();
+    } catch {
+      return;  // it is gone again, which the connection tells
+    }
     const same = ["title", "full_width", "full_height", "x0", "y0", "x1", "y1"].every(name => info[name] === this.info[name]);
-    if (!same) location.reload();
+    if (!same) return location.reload();
+    this.layers.forget();
     this.layers.offline = false;
     this.status.connection(null);
     this.layers.pump();

@@ -15,6 +15,7 @@ import pathlib
 import random
 import re
 import struct
+import sys
 import threading
 import time
 import urllib.parse
@@ -401,6 +402,11 @@ def read_options():
 class Server(http.server.ThreadingHTTPServer):
     daemon_threads = True
     request_queue_size = 64
+
+    def handle_error(self, request, client_address):
+        """Pages may leave while they are answered."""
+        if not isinstance(sys.exc_info()[1], ConnectionError):
+            super().handle_error(request, client_address)
 
 
 def main():

@@ -420,6 +420,12 @@ def check(browser, address, out, downloads):
     return page, drawers
 
 
+def leave(page):
+    """So that the end of the program is no error."""
+    page.browser.get("about:blank")
+    page.browser.get_log("browser")
+
+
 def main():
     out = pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(out, ignore_errors=True)
@@ -429,7 +435,7 @@ def main():
     try:
         if sys.argv[1] == "mock":
             with Mock("--size", "400x300", "--window", "50,30,250,170", "--no-lab") as mock:
-                check(browser, mock.address, out, downloads)
+                leave(check(browser, mock.address, out, downloads)[0])
             with Mock() as mock:
                 page, drawers = check(browser, mock.address, out, downloads)
                 check_end(page, mock)
