@@ -1,13 +1,43 @@
 #include "apps/live/live_options.h"
 
+#include "apps/live/tev_display.h"
+
 namespace kaustik::app {
 
-void add_live_options(Command&, LiveOptions&) {}
+namespace {
+
+constexpr uint16_t kTevPort = 14158;
+
+void add_display(Command& command, LiveOptions& options) {
+  command.add_parsed(
+      "--display", "HOST[:PORT]",
+      "Show the picture in progress in tev or HDRView, which run on this host. A viewer that is slow, or not "
+      "there, does not hold up the render. Default: no viewer; port 14158",
+      [&options](const std::string& text) {
+        try {
+          parse_address(text, kTevPort);
+        } catch (const std::invalid_argument& error) {
+          throw OptionError("--display", error.what());
+        }
+        options.display = text;
+      });
+}
+
+}  // namespace
+
+void add_live_options(Command& command, LiveOptions& options) {
+  add_display(command, options);
+}
 
 void check_live_options(const LiveOptions&) {}
 
-LiveViewers start_viewers(const LiveOptions&, LiveRender&, const std::vector<std::string>&, const Console&) {
-  return {};
+LiveViewers start_viewers(const LiveOptions& options, LiveRender& live,
+                          const std::vector<std::string>& layers, const Console& console) {
+  LiveViewers viewers;
+  if (!options.display.empty())
+    viewers.push_back(std::make_unique<TevDisplay>(parse_address(options.display, kTevPort),
+                                                   display_channels(layers), live, console));
+  return viewers;
 }
 
 }  // namespace kaustik::app

@@ -1,6 +1,7 @@
 #include "apps/live/live_render.h"
 
 #include <chrono>
+#include <utility>
 
 namespace kaustik::app {
 
@@ -38,6 +39,16 @@ void LiveRender::finish() {
   status_.seconds_left = 0;
 }
 
+std::vector<LiveMessage> LiveRender::take_messages() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(messages_, {});
+}
+
+void LiveRender::say(LiveMessage message) {
+  const std::lock_guard lock(mutex_);
+  messages_.push_back(std::move(message));
+}
+
 void LiveRender::pause(bool paused) {
   const std::lock_guard lock(mutex_);
   if (status_.state == LiveState::kFinished) return;
@@ -49,6 +60,15 @@ void LiveRender::stop() {
   const std::lock_guard lock(mutex_);
   status_.stopped = true;
   changed_.notify_all();
+}
+
+void show_messages(const std::vector<LiveMessage>& messages, const Console& console) {
+  for (const LiveMessage& message : messages) {
+    if (message.warning)
+      console.warning(message.text);
+    else
+      console.note(message.text);
+  }
 }
 
 }  // namespace kaustik::app

@@ -3,16 +3,24 @@
 // thread-safe.
 
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/console/console.h"
 #include "apps/live/live_picture.h"
 #include "core/stopwatch.h"
 #include "render/plan/progress.h"
 
 namespace kaustik::app {
+
+// A line for the person at the console.
+struct LiveMessage {
+  bool warning = false;  // else a note of the log
+  std::string text;
+};
 
 enum class LiveState { kRunning, kPaused, kFinished };
 
@@ -51,18 +59,25 @@ class LiveRender {
   void tell(const render::Progress& progress, double fraction, std::optional<double> seconds_left);
   void tell_error(uint64_t passes, double error);
   void finish();
+  // What followers have said since the last call.
+  std::vector<LiveMessage> take_messages();
 
   // For those who follow. stop(): the render ends and keeps what it has.
   void pause(bool paused);
   void stop();
+  // Followers have threads of their own, and the console only takes lines from the render.
+  void say(LiveMessage message);
 
  private:
   const std::string title_;
   const Stopwatch since_;
-  mutable std::mutex mutex_;  // guards the status
+  mutable std::mutex mutex_;  // guards all that follows
   std::condition_variable changed_;
   LiveStatus status_;
+  std::vector<LiveMessage> messages_;
 };
+
+void show_messages(const std::vector<LiveMessage>& messages, const Console& console);
 
 // Shows a LiveRender somewhere, by a thread of its own. The destructor shows the last state and ends.
 class LiveViewer {

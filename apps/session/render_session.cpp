@@ -22,12 +22,16 @@ namespace kaustik::app {
 
 namespace {
 
-render::ProgressCallback shown_by(ProgressBar& bar, const InterruptGuard& interrupt, LiveRender* live) {
-  return [&bar, &interrupt, live](const render::Progress& progress) {
+render::ProgressCallback shown_by(ProgressBar& bar, const InterruptGuard& interrupt, LiveRender* live,
+                                  const Console& console) {
+  return [&bar, &interrupt, live, &console](const render::Progress& progress) {
     const TimeLeft::Estimate estimate = bar.update(progress);
     const auto signalled = [&] { return interrupt.requested(); };
     if (!live) return !signalled();
     live->tell(progress, estimate.fraction, estimate.seconds);
+    const std::vector<LiveMessage> messages = live->take_messages();
+    if (!messages.empty()) bar.clear();
+    show_messages(messages, console);
     return live->go_on(signalled);
   };
 }
@@ -70,7 +74,7 @@ FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& 
   FilledTime filled;
   if (!session.try_paths) return filled;
   ProgressBar bar(console);
-  filled.work = settle_paths(job.scene, bvh, shown_by(bar, interrupt, live), &job.settings);
+  filled.work = settle_paths(job.scene, bvh, shown_by(bar, interrupt, live, console), &job.settings);
   bar.clear();
   const std::string& paths = filled.work.paths;
   if (!paths.empty()) console.note(fmt::format("{}: rendered with{}", kPathsTaken, paths));
@@ -206,7 +210,7 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
                             .photons = std::move(filled.work.photons),
                             .explored = std::move(filled.work.explored)};
     RenderOutcome outcome{render::render(job.scene, bvh, job.settings.render,
-                                         shown_by(bar, interrupt, live.get()), std::move(task)),
+                                         shown_by(bar, interrupt, live.get(), console), std::move(task)),
                           times};
     bar.clear();
     if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.adaptive_work);
