@@ -88,6 +88,6 @@ class EstimatePanel {
       if (distance < least) best = dot[2], least = distance;
     }
     byId("disc-photon").textContent = best
-      ? `flux ${triple(best.slice(3, 6))} W, distance ${short(best[6])} m, weight ${short(best[7])}` : "";
+      ? `flux ${triple(best.slice(3, 6))} W, distance ${short(best[6])} m, weight ${short(best[7])} /m\u00b2` : "";
   }
 }

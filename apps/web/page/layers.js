@@ -3,6 +3,9 @@
 
 const isRelative = name => name === "error" || name === "bias";
 
+// Emitted light that mirrors and glass show: the automatic exposure needs it, and /info need not list it.
+const SHOWN_BY_OTHERS = {name: "denoising_emitted", label: "", channels: 3, unit: "W/(m^2 sr)"};
+
 // How a layer of /info is shown.
 function showOf(layer) {
   if (layer.channels === 1) return SHOW.ramp;
@@ -91,7 +94,8 @@ class Layers {
     this.status = null;
     this.fetching = false;
     this.offline = false;
-    for (const layer of info.layers) this.slots.set(layer.name, {layer, picture: null, version: 0, render: 0, seen: "", old: false});
+    for (const layer of [SHOWN_BY_OTHERS, ...info.layers])
+      this.slots.set(layer.name, {layer, picture: null, version: 0, render: 0, seen: "", old: false});
     this.wanted = [""];
     this.extra = [];       // layers to fetch once, after the wanted ones
   }
@@ -109,7 +113,7 @@ class Layers {
   copies() {
     const copied = new Map();
     for (const [name, slot] of this.slots)
-      if (slot.version && !isRelative(name)) copied.set(name, slot.picture.copy());
+      if (slot.version && !isRelative(name) && slot.layer !== SHOWN_BY_OTHERS) copied.set(name, slot.picture.copy());
     for (const [name, slot] of this.slots)
       if (slot.version && isRelative(name)) copied.set(name, slot.picture.copy(copied.get("")));
     return copied;

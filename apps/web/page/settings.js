@@ -15,6 +15,9 @@ function numberOf(text) {
   return {value: Number(parts[1]) * factor, multiple: parts[2] === "x", write};
 }
 
+// 300000 as 300k, if that is the same number.
+const shortened = text => /^\d+000$/.test(text) && numberOf(countText(Number(text)))?.value === Number(text) ? countText(Number(text)) : text;
+
 class Settings {
   // onRender(names and values): before the program is asked to render with them.
   constructor(settings, onRender) {
@@ -27,7 +30,7 @@ class Settings {
 
   field(setting) {
     const id = `setting-${setting.name}`, help = make("span", {id: `${id}-doc`, class: "doc"}, setting.doc ?? "");
-    const label = make("label", {for: id, title: setting.doc ?? ""}, setting.unit ? `${setting.name} [${setting.unit}]` : setting.name);
+    const label = make("label", {for: id, title: setting.doc ?? ""}, setting.unit && setting.unit.length < 4 ? `${setting.name} [${setting.unit}]` : setting.name);
     const changed = () => this.change(setting.name, input.value);
     let input, slider = null;
     if (setting.choices.length) {
@@ -36,7 +39,7 @@ class Settings {
       if (!setting.choices.includes(setting.value)) input.prepend(new Option(setting.value || setting.default || "default", setting.value));
       input.value = setting.value;
     } else {
-      input = make("input", {id, type: "text", value: setting.value, placeholder: setting.default ?? "", autocomplete: "off", spellcheck: "false", change: changed});
+      input = make("input", {id, type: "text", value: shortened(setting.value), placeholder: setting.default ?? "", autocomplete: "off", spellcheck: "false", change: changed});
       slider = this.slider(setting, input, changed);
     }
     input.setAttribute("aria-describedby", `${id}-doc`);
@@ -85,7 +88,8 @@ class Settings {
     for (const {name, value, choices} of settings) {
       const field = this.fields.get(name);
       if (!field || field === document.activeElement || this.waiting) continue;
-      if (!choices.length || [...field.options].some(option => option.value === value)) field.value = value;
+      if (!choices.length) field.value = shortened(value);
+      else if ([...field.options].some(option => option.value === value)) field.value = value;
     }
   }
 

@@ -121,6 +121,9 @@ class StatusPanel {
     return status.state === "paused" ? "paused" : "running";
   }
 
+  // A render that has finished has, with its program or without it.
+  colourState() { return this.lost && this.state !== "finished" ? "lost" : this.state; }
+
   phaseText() {
     const {phase, pass, passes, state} = this.status;
     if (state === "finished") return this.status.stopped ? "Stopped with what it had" : "Finished";
@@ -132,7 +135,7 @@ class StatusPanel {
     const {status} = this, text = this.stateText();
     const chip = byId("state");
     if (chip.textContent !== text) chip.textContent = text;
-    chip.dataset.state = this.lost ? "lost" : this.state;
+    chip.dataset.state = this.colourState();
     if (this.told !== text) announce(`${this.title}: ${text}`);
     this.told = text;
     this.showConnection();
@@ -158,7 +161,7 @@ class StatusPanel {
   showProgress() {
     const {status} = this, whole = Math.round(1000 * clamp(status.fraction, 0, 1)) / 10, bar = byId("progress");
     bar.style.setProperty("--done", `${whole}%`);
-    bar.dataset.state = this.lost ? "lost" : status.state;
+    bar.dataset.state = this.colourState();
     bar.setAttribute("aria-valuenow", String(Math.floor(whole)));
     bar.setAttribute("aria-valuetext", `${Math.floor(whole)} percent, ${this.phaseText()}`);
     byId("phase").textContent = this.phaseText();

@@ -3,7 +3,7 @@
 
 const AUTO_EVERY = 1500;        // milliseconds between computations of the automatic exposure
 const LIGHTS_EVERY = 10000;     // and between fetches of the lights that it leaves out
-const LIGHT_LAYERS = ["emitted", "denoising_emitted"];  // all emitted light, and the part not seen directly
+const LIGHT_LAYERS = ["emitted", SHOWN_BY_OTHERS.name];  // all emitted light, and the part not seen directly
 
 class View {
   constructor(info) {
@@ -156,14 +156,13 @@ class View {
   async fetchLights() {
     const last = this.status.state === "finished" && !this.lightsOfEnd;
     const {offline, slots} = this.layers;
-    const names = LIGHT_LAYERS.filter(name => slots.has(name));
-    if (offline || !names.includes(LIGHT_LAYERS[0])) return;
+    if (offline || !slots.has(LIGHT_LAYERS[0])) return;
     if (performance.now() < this.lightsAt + LIGHTS_EVERY && !last) return;
     this.lightsAt = performance.now();
     this.lightsOfEnd = this.status.state === "finished";
-    if (!await this.layers.once(names)) return;
-    const [all, shown] = names.map(name => this.layers.picture(name).values);
-    this.lights = shown ? all.map((value, i) => value - shown[i]) : all.slice();
+    if (!await this.layers.once(LIGHT_LAYERS)) return;
+    const [all, shown] = LIGHT_LAYERS.map(name => this.layers.picture(name).values);
+    this.lights = all.map((value, i) => value - shown[i]);
   }
 
   showZoom() {

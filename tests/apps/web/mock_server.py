@@ -26,10 +26,10 @@ TILE = 64
 COARSEST = 16  # pixels a side of the first blocks
 RADIANCE = "W/(m^2 sr)"
 LAYERS = [("", "all light", 3, RADIANCE), ("direct", "direct light", 3, RADIANCE), ("caustic", "caustics", 3, RADIANCE),
-          ("emitted", "emitted light", 3, RADIANCE), ("denoising_emitted", "emitted light, not seen directly", 3, RADIANCE),
+          ("emitted", "emitted light", 3, RADIANCE),
           ("error", "error", 3, RADIANCE), ("bias", "bias", 3, RADIANCE), ("albedo", "albedo", 3, ""),
           ("normal", "normal", 3, ""), ("depth", "depth", 1, "m"), ("photons", "photons", 1, "photons")]
-CHANNELS = {name: channels for name, _, channels, _ in LAYERS}
+CHANNELS = {**{name: channels for name, _, channels, _ in LAYERS}, "denoising_emitted": 3}
 SETTINGS = [{"name": "photons", "value": "500k", "choices": [], "doc": "Number of photons to emit."},
             {"name": "radius", "value": "auto", "choices": [], "doc": "Gather radius r0 in metres, auto, or a multiple like 0.5x."},
             {"name": "kernel", "value": "constant", "choices": ["constant", "cone", "epanechnikov"],

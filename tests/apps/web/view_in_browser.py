@@ -120,9 +120,9 @@ class Page:
 def check_first_picture(page):
     page.wait("view.layers.slots.get('').version > 0", "the first pixels arrive")
     assert page.text("title") == page.info["title"]
-    early = page.js("return view.status.status.fraction")
+    early = page.js("return view.status.status.seconds")
     page.wait("view.status.status.version > arguments[0]", "the picture sharpens", page.js("return view.status.status.version"))
-    assert page.js("return view.status.status.fraction") > early
+    assert page.js("return view.status.status.seconds") > early
     assert page.js("return view.now().values.some(v => v > 0)"), "the picture is black"
     done = page.js("return getComputedStyle(document.getElementById('progress')).getPropertyValue('--done')")
     assert float(done.strip().rstrip("%")) > 0, done
@@ -213,9 +213,10 @@ def check_zoom(page):
     for _ in range(8):
         ActionChains(page.browser).scroll_from_origin(ScrollOrigin.from_element(stage), 0, -300).perform()
     page.wait("view.picture.zoom > 50", "the wheel zooms")
+    page.js("addEventListener('pointermove', event => { window.pointed = event; }, true)")
     ActionChains(page.browser).move_to_element_with_offset(stage, 31, 17).perform()
     x, y, values = page.js("""
-        const box = view.picture.box(), p = view.picture.pixelAt(Math.round(box.width / 2) + 31, Math.round(box.height / 2) + 17);
+        const box = view.picture.stage.getBoundingClientRect(), p = view.picture.pixelAt(pointed.clientX - box.x, pointed.clientY - box.y);
         const i = 3 * (p.y * view.now().width + p.x);
         return [p.x, p.y, [...view.now().values.slice(i, i + 3)].map(short).join("  ")];""")
     expected = f"x {x + page.info['x0']}  y {y + page.info['y0']}:  {values} "
@@ -304,6 +305,7 @@ def check_cloud(page):
     page.wait("view.lab.cloud.photons", "the photons arrive")
     count, = struct.unpack_from("<I", page.fetch("photons?most=200000"))
     assert page.js("return view.lab.cloud.photons.count") == count
+    page.js("view.lab.cloud.markEstimate(null)")
     drawn = """
         view.lab.cloud.draw();
         const from = view.lab.cloud.canvas, c = document.createElement("canvas");
