@@ -1,6 +1,7 @@
 // kaustik photons: writes the photons as a point cloud and as a picture.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 
@@ -28,6 +29,7 @@ using photon::PhotonKind;
 struct PhotonsOptions {
   std::string scene, cloud, image;
   std::vector<std::string> kinds;
+  render::PhotonColours colours = render::PhotonColours::kLight;
   SettingOverrides overrides;
 };
 
@@ -46,6 +48,14 @@ photon::KindMask mask_of(const std::vector<std::string>& kinds) {
     *fields[static_cast<size_t>(found - names.begin())] = true;
   }
   return mask;
+}
+
+render::PhotonColours colours_named(const std::string& name) {
+  const auto& names = render::kPhotonColoursNames;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw OptionError("--colours", fmt::format("`{}`: expected one of {}", name, fmt::join(names, ", ")));
+  return static_cast<render::PhotonColours>(found - names.begin());
 }
 
 void check_outputs(const PhotonsOptions& options) {
@@ -109,8 +119,9 @@ int shoot_and_write(const PhotonsOptions& options, const photon::KindMask& mask,
   if (!options.cloud.empty())
     writer.write(options.cloud, [&] { photon::write_photons_ply(options.cloud, photons, job.scene.origin); });
   if (!options.image.empty())
-    writer.write(options.image,
-                 [&] { render::write_image(options.image, render::draw_photons(bvh, photons)); });
+    writer.write(options.image, [&] {
+      render::write_image(options.image, render::draw_photons(bvh, photons, options.colours));
+    });
   return writer.report() ? kDone : kFailed;
 }
 
@@ -137,7 +148,13 @@ Command make_photons_command() {
   command.add_argument("SCENE", options->scene, "Scene file");
   command.add_text("-o,--output", "FILE", options->cloud, "Point cloud to write, a binary .ply");
   command.add_text("--image", "FILE", options->image,
-                   "Picture to write: the same points seen by the scene's camera");
+                   "Picture to write: the same points seen by the scene's camera, with a legend");
+  command
+      .add_parsed("--colours", "NAME",
+                  "Colours of the picture. light: those of the photons' light, and blue for shadow photons. "
+                  "kind: one for each kind of photon. Default: light",
+                  [options](const std::string& name) { options->colours = colours_named(name); })
+      .choices = choices_of(render::kPhotonColoursNames);
   command
       .add_list("--kinds", "NAMES", options->kinds,
                 "Kinds of photons, separated by commas: direct, shadow, caustic, indirect. Default: all")

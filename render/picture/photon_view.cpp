@@ -22,6 +22,11 @@ struct PixelCount {
   std::array<std::atomic<uint64_t>, 3> colour = {};  // sums of 8-bit values
 };
 
+// One for each kind, which people who see few colours can tell apart, too (Okabe and Ito 2008).
+constexpr std::array<glm::u8vec3, photon::kPhotonKinds> kKindColours = {
+    glm::u8vec3{240, 228, 66}, photon::kShadowColour, glm::u8vec3{230, 90, 0}, glm::u8vec3{0, 190, 140}};
+constexpr glm::u8vec3 kWhite{255};
+
 // The line of sight to a photon must be free up to this fraction of its length, since the photon's position
 // was rounded when it was stored.
 constexpr float kNearlyThere = 0.999f;
@@ -39,7 +44,7 @@ float mean_luminance(const photon::PhotonBuffer& buffer) {
   return buffer.records.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(buffer.records.size()));
 }
 
-void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons,
+void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons, PhotonColours colours,
                    std::vector<PixelCount>& counts) {
   const Camera& camera = bvh.scene().camera;
   const photon::PhotonBuffer& buffer = *photons.buffer;
@@ -54,7 +59,9 @@ void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons,
       const size_t x = std::min(static_cast<size_t>(raster.x), static_cast<size_t>(camera.width - 1));
       const size_t y = std::min(static_cast<size_t>(raster.y), static_cast<size_t>(camera.height - 1));
       PixelCount& pixel = counts[y * static_cast<size_t>(camera.width) + x];
-      const glm::u8vec3 colour = photon::photon_colour(photons.kind, photon.flux, mean_flux);
+      const glm::u8vec3 colour = colours == PhotonColours::kKind
+                                     ? kKindColours[size_t(photons.kind)]
+                                     : photon::photon_colour(photons.kind, photon.flux, mean_flux);
       pixel.photons.fetch_add(1, std::memory_order_relaxed);
       for (int c = 0; c < 3; ++c) {
         pixel.colour[static_cast<size_t>(c)].fetch_add(colour[c], std::memory_order_relaxed);
@@ -79,12 +86,26 @@ void draw_background(const accel::Bvh& bvh, Image& image) {
 
 }  // namespace
 
-Image draw_photons(const accel::Bvh& bvh, std::span<const photon::PlyPhotons> photons) {
+std::vector<LegendEntry> legend_of(std::span<const photon::PlyPhotons> photons, PhotonColours colours) {
+  std::vector<LegendEntry> entries;
+  for (const auto& [kind, buffer] : photons) {
+    const bool by_kind = colours == PhotonColours::kKind;
+    if (by_kind || kind == photon::PhotonKind::kShadow)
+      entries.push_back({by_kind ? kKindColours[size_t(kind)] : photon::kShadowColour,
+                         std::string(photon::kPhotonKindNames[size_t(kind)])});
+    else if (entries.empty() || entries.front().colour != kWhite)
+      entries.insert(entries.begin(), {kWhite, "colour of the light"});
+  }
+  return entries;
+}
+
+Image draw_photons(const accel::Bvh& bvh, std::span<const photon::PlyPhotons> photons,
+                   PhotonColours colours) {
   const Camera& camera = bvh.scene().camera;
   Image image(camera.width, camera.height);
   draw_background(bvh, image);
   std::vector<PixelCount> counts(image.pixels.size());
-  for (const photon::PlyPhotons& kind : photons) count_photons(bvh, kind, counts);
+  for (const photon::PlyPhotons& kind : photons) count_photons(bvh, kind, colours, counts);
 
   uint64_t total = 0, lit = 0;
   for (const PixelCount& pixel : counts) {
@@ -104,6 +125,7 @@ Image draw_photons(const accel::Bvh& bvh, std::span<const photon::PlyPhotons> ph
       image.pixels[i][c] = glm::mix(image.pixels[i][c], linear_from_srgb(encoded), coverage);
     }
   }
+  draw_legend(image, legend_of(photons, colours));
   return image;
 }
 

@@ -239,6 +239,32 @@ TEST_F(RenderCommand, PhotonsWritesACloudAndAView) {
   EXPECT_GT(brightest, 0.3f);  // far above the dim background, which stays below 0.06
 }
 
+// The picture's legend has a field of each colour; a picture that has no room for it has none.
+TEST_F(RenderCommand, PhotonsViewsHaveALegend) {
+  const auto view_of = [&](int width, const std::string& colours) {
+    const Outcome outcome =
+        run_kaustik({"photons", small_scene(film(width, width)), "--photons", "1k", "--image",
+                     path("view.exr"), "--kinds", "direct,shadow,caustic", "--colours", colours});
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return render::read_image(path("view.exr"));
+  };
+  // Fields are of 7 x 7 pixels in distances of 10, the lowest 4 from the picture's lower left corner.
+  const auto field = [](const render::Image& view, int from_below) {
+    return view.at(4 + 3, view.height - 4 - 4 - 10 * from_below);
+  };
+  const render::Image kinds = view_of(160, "kind");
+  EXPECT_GT(field(kinds, 0).x, field(kinds, 0).z);  // caustic: orange
+  EXPECT_GT(field(kinds, 1).z, field(kinds, 1).x);  // shadow: blue
+  EXPECT_GT(field(kinds, 2).y, field(kinds, 2).z);  // direct: yellow
+  const render::Image light = view_of(160, "light");
+  EXPECT_GT(field(light, 0).z, field(light, 0).x);
+  EXPECT_EQ(field(light, 1), Rgb(1));
+  EXPECT_NE(field(view_of(48, "light"), 1), Rgb(1));
+  const Outcome wrong = run_kaustik({"photons", small_scene(), "--image", path("a.png"), "--colours", "red"});
+  EXPECT_EQ(wrong.code, kBadCommandLine);
+  EXPECT_THAT(wrong.err, HasSubstr("--colours: `red`: expected one of light, kind"));
+}
+
 TEST_F(RenderCommand, InfoCountsTheObjectsOfTheScene) {
   const Outcome outcome = run_kaustik({"info", small_scene(film(48, 32)), "--json"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
