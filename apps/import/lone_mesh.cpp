@@ -72,6 +72,7 @@ std::optional<SceneDescription> import_lone_mesh(const std::filesystem::path& pa
   SceneDescription scene;
   scene.location = where;
   scene.shapes.push_back(shape_of(loaded.mesh, where));
+  scene.shapes[0].name = path.stem().string();
   if (!loaded.mesh.colours.empty()) show_vertex_colours(scene);
   return scene;
 }

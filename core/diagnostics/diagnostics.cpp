@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <tuple>
+#include <utility>
 
 namespace kaustik {
 namespace {
@@ -85,6 +87,22 @@ void DiagnosticList::sort_by_location() {
   };
   std::stable_sort(entries_.begin(), entries_.end(),
                    [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+}
+
+void DiagnosticList::merge_equal_warnings() {
+  std::map<std::string, size_t> counts;
+  for (const Diagnostic& d : entries_)
+    if (d.severity == Severity::kWarning) ++counts[d.message];
+  std::vector<Diagnostic> kept;
+  for (Diagnostic& d : entries_) {
+    if (d.severity == Severity::kWarning) {
+      const size_t count = std::exchange(counts[d.message], 0);
+      if (count == 0) continue;
+      if (count > 1) d.message += fmt::format(" ({} times)", count);
+    }
+    kept.push_back(std::move(d));
+  }
+  entries_ = std::move(kept);
 }
 
 size_t DiagnosticList::error_count() const {

@@ -36,6 +36,8 @@ class DiagnosticList {
   // Sorts by file (in the order of opening), line and column; keeps the order of entries with the same
   // location.
   void sort_by_location();
+  // Keeps the first of the warnings whose messages are equal, and appends to it how many there are.
+  void merge_equal_warnings();
 
   const std::vector<Diagnostic>& entries() const { return entries_; }
   bool has_errors() const { return error_count() > 0; }

@@ -90,7 +90,9 @@ class Importer {
     const auto mesh = node["mesh"].index(document_.size("meshes"));
     if (!mesh) return;
     if (deformation_.applies_to(placed.node)) return add_deformed(placed.node, *mesh, m);
-    for (const glm::dmat4& instance : instances_of(document_, node, warnings_)) add_mesh(*mesh, m * instance);
+    const std::string name = name_of(node, *mesh);
+    for (const glm::dmat4& instance : instances_of(document_, node, warnings_))
+      add_mesh(*mesh, name, m * instance);
   }
 
   std::optional<ShapeDescription> shape_of(const View& primitive) {
@@ -112,13 +114,29 @@ class Importer {
     return shape;
   }
 
-  std::vector<ShapeDescription> shapes_of(uint64_t mesh) {
+  std::vector<ShapeDescription> shapes_of(uint64_t mesh, const std::string& name) {
     std::vector<ShapeDescription> shapes;
     const View primitives = document_.item("meshes", mesh)["primitives"];
     for (uint64_t i = 0; i < primitives.size(); ++i) {
-      if (auto shape = shape_of(primitives.at(i))) shapes.push_back(std::move(*shape));
+      auto shape = shape_of(primitives.at(i));
+      if (!shape) continue;
+      shape->name = name_of(name, primitives, i);
+      shapes.push_back(std::move(*shape));
     }
     return shapes;
+  }
+
+  // What the file calls a node, or else its mesh.
+  std::string name_of(const View& node, uint64_t mesh) const {
+    const std::string name = node["name"].text("");
+    return name.empty() ? document_.item("meshes", mesh)["name"].text("") : name;
+  }
+
+  // The name of a part of something; materials tell several parts apart.
+  std::string name_of(const std::string& whole, const View& primitives, uint64_t part) const {
+    const auto material = primitives.at(part)["material"].index(document_.size("materials"));
+    if (primitives.size() == 1 || whole.empty() || !material) return whole;
+    return fmt::format("{}, {}", whole, document_.item("materials", *material)["name"].text("material"));
   }
 
   void add_deformed(uint64_t node, uint64_t mesh, const glm::dmat4& to_world) {
@@ -126,6 +144,7 @@ class Importer {
     for (uint64_t i = 0; i < primitives.size(); ++i) {
       auto shape = shape_of(primitives.at(i));
       if (!shape) continue;
+      shape->name = name_of(name_of(document_.item("nodes", node), mesh), primitives, i);
       const bool in_world = deformation_.apply(node, primitives.at(i), *shape);
       place(std::move(*shape), in_world ? glm::dmat4(1) : to_world);
     }
@@ -137,17 +156,17 @@ class Importer {
   }
 
   // A mesh that several nodes use becomes an object with instances. Its emitting shapes are copied, since
-  // lights cannot be instanced.
-  void add_mesh(uint64_t mesh, const glm::dmat4& to_world) {
+  // lights cannot be instanced. Instances have the name of the first node.
+  void add_mesh(uint64_t mesh, const std::string& name, const glm::dmat4& to_world) {
     if (uses_[mesh] == 1) {
-      for (ShapeDescription& shape : shapes_of(mesh)) place(std::move(shape), to_world);
+      for (ShapeDescription& shape : shapes_of(mesh, name)) place(std::move(shape), to_world);
       return;
     }
     const auto [found, is_new] = meshes_.try_emplace(mesh);
     SharedMesh& shared = found->second;
     if (is_new) {
       ObjectDescription object{fmt::format("mesh {}", mesh), warnings_.where(), {}};
-      for (ShapeDescription& shape : shapes_of(mesh))
+      for (ShapeDescription& shape : shapes_of(mesh, name))
         (shape.area_light ? shared.lights : object.shapes).push_back(std::move(shape));
       shared.object = object.name;
       if (!object.shapes.empty())

@@ -40,8 +40,8 @@ const Look& Materials::look(std::optional<uint64_t> index, const VertexTint& tin
   const auto found = looks_.find(key);
   if (found != looks_.end()) return found->second;
   const View material = index ? document_.item("materials", *index) : View();
-  std::string name = index ? fmt::format("{} {}", material["name"].text("material"), *index) : "default";
-  if (tint.key() != VertexTint{}.key()) name += fmt::format(" tinted {}", looks_.size());
+  std::string name = index ? std::string(material["name"].text("material")) : "default";
+  if (tint.key() != VertexTint{}.key()) name += " tinted";
   tint_ = tint;
   return looks_.emplace(key, make(material, name)).first->second;
 }
@@ -332,7 +332,7 @@ void Materials::add_roughness(const View& material, bool coat, MaterialDescripti
 }
 
 std::string Materials::add(MaterialDescription m, const std::string& name, const View& material) {
-  m.name = name;
+  m.name = names_.take(name);
   m.name_location = warnings_.where();
   if (const View normal = material["normalTexture"]) {
     if (normal["scale"].number(1) != 1) warnings_.say("the `scale` of normal maps is ignored");
@@ -340,7 +340,7 @@ std::string Materials::add(MaterialDescription m, const std::string& name, const
       m.parameters.push_back(textures_.file_parameter("normalmap", *file));
   }
   scene_.materials.push_back(std::move(m));
-  return name;
+  return scene_.materials.back().name;
 }
 
 std::optional<Parameter> Materials::alpha_of(const View& material) {

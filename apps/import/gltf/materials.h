@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 
+#include "apps/import/common/unique_names.h"
 #include "apps/import/common/warnings.h"
 #include "apps/import/gltf/file/document.h"
 #include "apps/import/gltf/textures.h"
@@ -74,6 +75,7 @@ class Materials {
   Share share_of(double factor, const View& texture, int channel);
   std::string mixed(const std::string& name, const std::string& first, const std::string& second,
                     const Share& share);
+  // Returns the name that the material has got, which has a number where `name` was taken.
   std::string add(MaterialDescription m, const std::string& name, const View& material);
   void add_colour(const std::string& parameter, const View& texture, const glm::dvec3& factor,
                   MaterialDescription& m, double exponent = 1);
@@ -93,6 +95,7 @@ class Materials {
   Textures& textures_;
   FileWarnings& warnings_;
   SceneDescription& scene_;
+  UniqueNames names_;
   VertexTint tint_;  // of the look under construction
   std::map<std::pair<std::optional<uint64_t>, std::array<double, 5>>, Look> looks_;
 };

@@ -95,6 +95,7 @@ class ObjScene {
     MeshMaker maker(text_);
     for (const ObjMesh& mesh : meshes) {
       ShapeDescription shape = maker.make(mesh, warnings_);
+      shape.name = mesh.name;
       const MtlLook& look = look_of(mesh);
       shape.material = {std::nullopt, look.material, mesh.material_where};
       shape.area_light = look.area_light;

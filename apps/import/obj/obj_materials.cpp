@@ -45,12 +45,11 @@ const MtlMap* image(const MtlMaterial& mtl, std::string_view keyword) {
 }  // namespace
 
 MtlLook MtlMaterials::add(const MtlMaterial& mtl) {
-  const std::string name = fmt::format("{} {}", mtl.name, scene_.materials.size());
-  add_surface(mtl, name);
-  return {name, add_light(mtl), alpha_of(mtl)};
+  std::string name = add_surface(mtl, mtl.name);
+  return {std::move(name), add_light(mtl), alpha_of(mtl)};
 }
 
-void MtlMaterials::add_surface(const MtlMaterial& mtl, const std::string& name) {
+std::string MtlMaterials::add_surface(const MtlMaterial& mtl, const std::string& name) {
   const int illum = illum_of(mtl);
   const glm::dvec3 kd = diffuse_colour(mtl), ks = glm::min(mtl.colour("ks").value_or(kBlack), 1.0);
   const bool diffuse = image(mtl, "map_kd") || (mtl.colour("kd") && kd != kBlack);
@@ -62,13 +61,15 @@ void MtlMaterials::add_surface(const MtlMaterial& mtl, const std::string& name) 
   if (illum == 3 && diffuse && ks != kBlack) return add_mirror_over_diffuse(mtl, name);
   if ((illum == 3 || illum == 5) && !(illum == 5 && diffuse))
     return add_material(metal(mtl, ks == kBlack ? kd : ks, nullptr), name, mtl);
-  add_material(opaque(mtl), name, mtl);
+  return add_material(opaque(mtl), name, mtl);
 }
 
-void MtlMaterials::add_material(MaterialDescription m, const std::string& name, const MtlMaterial& mtl) {
-  m.name = name;
+std::string MtlMaterials::add_material(MaterialDescription m, const std::string& name,
+                                       const MtlMaterial& mtl) {
+  m.name = names_.take(name);
   m.name_location = mtl.where;
   scene_.materials.push_back(std::move(m));
+  return scene_.materials.back().name;
 }
 
 MaterialDescription MtlMaterials::clear(const MtlMaterial& mtl) {
@@ -111,7 +112,7 @@ MaterialDescription MtlMaterials::opaque(const MtlMaterial& mtl) {
 
 // Phong's sum of Kd and a mirror of Ks, as a mixture whose parts are scaled so that the sum remains as long
 // as it does not exceed one.
-void MtlMaterials::add_mirror_over_diffuse(const MtlMaterial& mtl, const std::string& name) {
+std::string MtlMaterials::add_mirror_over_diffuse(const MtlMaterial& mtl, const std::string& name) {
   const glm::dvec3 kd = diffuse_colour(mtl), ks = glm::min(*mtl.colour("ks"), 1.0);
   const MtlMap* const map = image(mtl, "map_kd");
   const double both = most_of(map ? kGrey : kd) + most_of(ks), share = most_of(ks) / both;
@@ -119,12 +120,11 @@ void MtlMaterials::add_mirror_over_diffuse(const MtlMaterial& mtl, const std::st
   MaterialMaker diffuse("diffuse", mtl.where), mix("mix", mtl.where);
   add_colour(mtl, scale / (1 - share) * kd, map, *diffuse);
   add_normals(mtl, *diffuse);
-  add_material(std::move(*diffuse), name + " diffuse", mtl);
-  add_material(metal(mtl, scale / share * ks, nullptr), name + " mirror", mtl);
-  Parameter parts = make_parameter(ParameterType::kString, "materials", name + " diffuse", mtl.where);
-  parts.strings.push_back(name + " mirror");
+  const std::string below = add_material(std::move(*diffuse), name + " diffuse", mtl);
+  Parameter parts = make_parameter(ParameterType::kString, "materials", below, mtl.where);
+  parts.strings.push_back(add_material(metal(mtl, scale / share * ks, nullptr), name + " mirror", mtl));
   mix.add(std::move(parts)).number("amount", share);
-  add_material(std::move(*mix), name, mtl);
+  return add_material(std::move(*mix), name, mtl);
 }
 
 void MtlMaterials::add_colour(const MtlMaterial& mtl, const glm::dvec3& colour, const MtlMap* map,

@@ -6,6 +6,7 @@
 
 #include "apps/import/common/counted_warnings.h"
 #include "apps/import/common/temporary_folder.h"
+#include "apps/import/common/unique_names.h"
 #include "apps/import/obj/mtl_reader.h"
 #include "core/scene/description/description.h"
 
@@ -28,12 +29,13 @@ class MtlMaterials {
   MtlLook add(const MtlMaterial& mtl);
 
  private:
-  void add_surface(const MtlMaterial& mtl, const std::string& name);
-  void add_material(MaterialDescription m, const std::string& name, const MtlMaterial& mtl);
+  // These return the name that the material has got, which has a number where `name` was taken.
+  std::string add_surface(const MtlMaterial& mtl, const std::string& name);
+  std::string add_material(MaterialDescription m, const std::string& name, const MtlMaterial& mtl);
   MaterialDescription clear(const MtlMaterial& mtl);
   MaterialDescription metal(const MtlMaterial& mtl, const glm::dvec3& colour, const MtlMap* map);
   MaterialDescription opaque(const MtlMaterial& mtl);
-  void add_mirror_over_diffuse(const MtlMaterial& mtl, const std::string& name);
+  std::string add_mirror_over_diffuse(const MtlMaterial& mtl, const std::string& name);
   void add_colour(const MtlMaterial& mtl, const glm::dvec3& colour, const MtlMap* map,
                   MaterialDescription& m);
   void add_width(const MtlMaterial& mtl, MaterialDescription& m);
@@ -55,6 +57,7 @@ class MtlMaterials {
   std::shared_ptr<TemporaryFolder> folder_;  // of images that are made from others
   uint32_t folder_file_ = 0;                 // a name in it
   size_t derived_ = 0;
+  UniqueNames names_;
 };
 
 }  // namespace kaustik::obj

@@ -53,12 +53,18 @@ class Collector {
     return smoothing_names_.try_emplace(name, uint32_t(smoothing_names_.size()) + 1).first->second;
   }
 
+  std::string name() const {
+    const std::string& of_faces = object_.empty() ? group_ : object_;
+    if (!by_group_ || of_faces.empty()) return material_;
+    return material_.empty() || material_ == of_faces ? of_faces : of_faces + ", " + material_;
+  }
+
   void add_run(const Run& run) {
     if (run.begin == run.end) return;
     if (!current_) {
       const std::string group = by_group_ ? object_ + '\n' + group_ : "";
       const auto [at, is_new] = indices_.try_emplace({group, material_}, meshes_.size());
-      if (is_new) meshes_.push_back({material_, material_where_, where_, {}, 0});
+      if (is_new) meshes_.push_back({name(), material_, material_where_, where_, {}, 0});
       current_ = &meshes_[at->second];
     }
     current_->runs.push_back(run);

@@ -14,6 +14,7 @@ struct Run {
 };
 
 struct ObjMesh {
+  std::string name;      // its object's, or else its group's, and its material's
   std::string material;  // as `usemtl` names it; empty before the first one
   SourceLocation material_where;
   SourceLocation where;  // of the name of its object, group or material, whichever is last; or the file

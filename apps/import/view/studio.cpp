@@ -8,6 +8,7 @@
 
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/common/temporary_folder.h"
+#include "apps/import/common/unique_names.h"
 #include "core/sampling/equal_area.h"
 #include "render/picture/image_io.h"
 
@@ -183,14 +184,18 @@ std::optional<std::string> add_studio_light(SceneDescription& scene, const Model
 void add_studio_floor(SceneDescription& scene, const ModelBox& box, const SourceLocation& where) {
   // Faces that lie on the ground and the floor must not share a plane.
   constexpr double kGap = 1e-3, kRadius = 8;
+  UniqueNames names;
+  for (const MaterialDescription& m : scene.materials) names.take(m.name);
+  const std::string name = names.take("studio floor");
   DirectiveMaker<MaterialDescription> material("diffuse", where);
   material.rgb("reflectance", glm::dvec3(kFloorReflectance));
-  material->name = "studio floor";
+  material->name = name;
   material->name_location = where;
   scene.materials.push_back(std::move(*material));
   DirectiveMaker<ShapeDescription> disk("disk", where);
   disk.number("radius", kRadius * box.radius());
-  disk->material = {std::nullopt, "studio floor", where};
+  disk->name = "studio floor";
+  disk->material = {std::nullopt, name, where};
   const glm::dvec3 c = box.center();
   // The disk's normal +z becomes +y.
   disk->object_to_world = glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0),

@@ -17,7 +17,8 @@ namespace kaustik::app {
 namespace {
 
 // Prints the errors and warnings of scene and settings together, so that one run shows every error of a file.
-void print_diagnostics(const Diagnostics& diagnostics, const Console& console) {
+void print_diagnostics(Diagnostics& diagnostics, const Console& console) {
+  diagnostics.merge_equal_warnings();
   console.err << diagnostics.format_all();
 }
 
@@ -35,7 +36,7 @@ bool names_place(const DiagnosticList& diagnostics, const SourceLocation& place)
 // Reports a scene that could not be built, together with the errors of its settings. An error that both the
 // schema and the settings find is reported once.
 [[noreturn]] void report_broken_scene(const std::string& path, const ImportOptions& options,
-                                      const Diagnostics& diagnostics, const Console& console) {
+                                      Diagnostics& diagnostics, const Console& console) {
   print_diagnostics(diagnostics, console);
   Diagnostics again;
   DiagnosticList settings_only;

@@ -16,6 +16,7 @@
 #include "core/scene/build/material_table.h"
 #include "core/scene/build/sensor_builder.h"
 #include "core/scene/build/surface_groups.h"
+#include "core/scene/build/without_area.h"
 #include "core/scene/schema/light_images.h"
 #include "core/scene/shapes/shape_source.h"
 
@@ -129,7 +130,7 @@ class Builder {
   std::optional<LightTable> lights_;
   std::vector<Item> items_;
   std::vector<Placement> placements_;
-  std::set<size_t> warned_without_area_;
+  TrianglesWithoutArea without_area_;
   LeftOut flat_shapes_, flat_instances_;
 };
 
@@ -318,20 +319,19 @@ bool Builder::keep(const Placement& placement, PlacedShape& placed) {
     diagnostics_.error(shape.location, "the transform takes this shape beyond the range of floats");
     return false;
   }
-  if (placed.without_area > 0 && warned_without_area_.insert(placement.item).second) {
-    const TriangleMesh& mesh = *placed.shape.mesh();
-    diagnostics_.warning(shape.location,
-                         fmt::format("{} of {} triangles have no area and are left out", placed.without_area,
-                                     mesh.indices.size() + placed.without_area));
-  }
+  if (placed.without_area > 0)
+    without_area_.add(placement.item, shape.location, placed.without_area,
+                      placed.shape.mesh()->indices.size() + placed.without_area);
   return primitive_count(placed.shape) > 0;
 }
 
 std::string Builder::group_name(const ShapeDescription& shape) const {
   if (const Parameter* group = shape.find("surfacegroup")) return group->strings[0];
+  if (!shape.name.empty()) return shape.name;
   if (!shape.location.valid()) return shape.type;
-  return fmt::format("{} at {}:{}", shape.type, diagnostics_.files.name(shape.location.file),
-                     shape.location.line);
+  const std::string_view file = diagnostics_.files.name(shape.location.file);
+  if (shape.location.line == 0) return fmt::format("{} in {}", shape.type, file);
+  return fmt::format("{} at {}:{}", shape.type, file, shape.location.line);
 }
 
 // Shapes with the same key form one named surface group; each instance of an object has groups of its own.
@@ -370,6 +370,7 @@ void Builder::place(Scene& scene) {
     places.push_back(group_name(*item.description));
     scene.shapes.push_back(std::move(shape));
   }
+  without_area_.report(diagnostics_);
   scene.surface_group_names.resize(assign_surface_groups(scene.shapes, names));
   for (size_t i = scene.shapes.size(); i-- > 0;)
     scene.surface_group_names[scene.shapes[i].surface_group] = places[i];

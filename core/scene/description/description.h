@@ -88,6 +88,7 @@ struct MaterialReference {
 };
 
 struct ShapeDescription : Directive {
+  std::string name;  // what its file calls it, if that has names for shapes
   glm::dmat4 object_to_world{1};
   bool reverse_orientation = false;
   MaterialReference material;

@@ -12,6 +12,7 @@ namespace {
 
 using test::Outcome;
 using test::run_kaustik;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class InfoCommand : public test::ProgramTest {
@@ -53,6 +54,27 @@ TEST_F(InfoCommand, ReportsImagesThatAreMissingOrNone) {
   const Outcome text = run_kaustik({"info", scene_with("text.png")});
   EXPECT_EQ(text.code, kBadScene);
   EXPECT_THAT(text.err, HasSubstr("cannot read the image"));
+}
+
+// Two objects share a material whose name the MTL file has once; faces before the first object have their
+// material's name. Shapes lie apart, since those that touch share their photons.
+TEST_F(InfoCommand, NamesThingsAsTheirFileDoes) {
+  write("room.mtl", "newmtl oak\nKd .5 .4 .3\nnewmtl unused\nKd 1 0 0\n");
+  std::string vertices;
+  for (int i = 0; i < 3; ++i)
+    for (const char* corner : {"0 0", "1 0", "0 1"})
+      vertices += "v " + std::to_string(3 * i) + " " + corner + "\n";
+  const std::string scene = write(
+      "room.obj", "mtllib room.mtl\n" + vertices + "usemtl oak\nf 1 2 3\no table\nf 4 5 6\no oak\nf 7 8 9\n");
+  const Outcome info = run_kaustik({"info", scene, "--json", "--floor", "on"});
+  ASSERT_EQ(info.code, kDone) << info.err;
+  const auto names = [json = nlohmann::json::parse(info.out)](const char* list) {
+    std::vector<std::string> found;
+    for (const nlohmann::json& item : json[list]) found.push_back(item["name"]);
+    return found;
+  };
+  EXPECT_THAT(names("materials"), ElementsAre("oak", "studio floor"));
+  EXPECT_THAT(names("surface_groups"), ElementsAre("oak", "table, oak", "oak", "studio floor"));
 }
 
 }  // namespace

@@ -102,5 +102,21 @@ TEST(NearestName, FindsTheNearestNameWithinReach) {
   EXPECT_EQ(nearest_name(std::string(1'000'000, 'e'), names), std::nullopt);
 }
 
+TEST(Diagnostics, EqualWarningsAreCountedButNoErrors) {
+  Diagnostics d;
+  const uint32_t file = d.files.add("a.pbrt", "x\ny\n");
+  d.warning({file, 1, 1}, "ignored");
+  d.error({file, 1, 1}, "wrong");
+  d.warning({file, 2, 1}, "ignored");
+  d.warning({file, 2, 1}, "another");
+  d.error({file, 2, 1}, "wrong");
+  d.merge_equal_warnings();
+  ASSERT_EQ(d.entries().size(), 4u);
+  EXPECT_EQ(d.entries()[0].message, "ignored (2 times)");
+  EXPECT_EQ(d.entries()[0].location.line, 1u);
+  EXPECT_EQ(d.entries()[2].message, "another");
+  EXPECT_EQ(d.error_count(), 2u);
+}
+
 }  // namespace
 }  // namespace kaustik

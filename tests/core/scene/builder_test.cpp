@@ -128,6 +128,18 @@ TEST(Builder, TrianglesWithoutAreaAreLeftOutAtEveryScale) {
   }
 }
 
+TEST(Builder, AllTrianglesWithoutAreaAreOneWarning) {
+  SceneDescription d;
+  for (int i = 0; i < 3; ++i)
+    d.shapes.push_back(
+        shape_of("trianglemesh", {numbers(ParameterType::kPoint3, "P", {0, 0, 0, 1, 1, 1, 0, 1, 0}),
+                                  numbers(ParameterType::kInteger, "indices", {0, 1, 2, 0, 1, 1})}));
+  Diagnostics diagnostics;
+  EXPECT_TRUE(build_scene(d, nullptr, diagnostics));
+  ASSERT_EQ(diagnostics.entries().size(), 1u);
+  EXPECT_EQ(diagnostics.entries()[0].message, "3 of 6 triangles in 3 meshes have no area and are left out");
+}
+
 TEST(Bilinear, FlatConvexPatchesAreTwoTriangles) {
   const PatchMesh patch{{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {3, 4, 0}}, {}, {}, {{0, 1, 2, 3}}};
   const TriangleMesh mesh = triangulate_patches(patch);

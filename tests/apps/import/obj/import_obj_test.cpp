@@ -81,7 +81,7 @@ TEST_F(ImportObj, SeveralLibrariesAreRead) {
       describe("mtllib a.mtl b.mtl\n" + std::string(kObjQuad) + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
   double sum = 0;
   for (const MaterialDescription& m : s.materials) {
-    if (m.name.starts_with("a ") || m.name.starts_with("b ")) sum += numbers(m, "reflectance").at(0);
+    if (m.name == "a" || m.name == "b") sum += numbers(m, "reflectance").at(0);
   }
   EXPECT_EQ(sum, 1);
 }
