@@ -20,19 +20,51 @@ namespace kaustik::app {
 
 namespace {
 
-// Logs where the photons' flux went, as shares of the emitted flux.
+// Logs where the photons' flux went, as shares of the emitted flux. Those of flux that arrives somewhere can
+// exceed 100 % together, by the noise of Russian roulette.
 void report_energy(const render::RenderStatistics& s, const Console& console) {
   const photon::EnergyLedger& e = s.photons.energy;
   if (e.emitted == 0) return;
   const auto share = [&](int64_t units) { return 100 * double(units) / double(e.emitted); };
   console.note(fmt::format(
-      "energy: {:.5g} W emitted (R + G + B); absorbed {:.2f} %, escaped {:.2f} %, in paths not followed "
-      "further {:.2f} %, lost by Russian roulette {:.2f} %",
+      "energy: {:.5g} W emitted (R + G + B); {:.2f} % absorbed, {:.2f} % escaped, {:.2f} % not traced "
+      "further, as no map needs it or --max-bounces ends it; noise of Russian roulette, zero on average: "
+      "{:+.2f} %",
       e.watts(e.emitted) / double(std::max<uint64_t>(1, s.passes)), share(e.absorbed), share(e.escaped),
       share(e.terminated), share(e.roulette)));
   if (e.unaccounted() != 0)
     console.warning(
         fmt::format("energy: {:.3g} % of the photons' flux is unaccounted for", share(e.unaccounted())));
+}
+
+// Logs the radius of each map that holds photons.
+void report_radii(const render::RenderStatistics& s, const Console& console) {
+  using photon::PhotonKind;
+  const auto stored = [&](PhotonKind kind) {
+    return s.photons.stored[size_t(kind)] + s.guided.stored[size_t(kind)] > 0;
+  };
+  std::vector<std::string> radii;
+  if (stored(PhotonKind::kDirect) || stored(PhotonKind::kShadow))
+    radii.push_back(fmt::format("direct {:.4g} m", s.direct_radius));
+  if (stored(PhotonKind::kCaustic)) radii.push_back(fmt::format("caustic {:.4g} m", s.caustic_radius));
+  if (stored(PhotonKind::kIndirect)) radii.push_back(fmt::format("indirect {:.4g} m", s.indirect_radius));
+  if (!radii.empty())
+    console.note(
+        fmt::format("gather radius{}: {}", s.passes > 1 ? " of the first pass" : "", fmt::join(radii, ", ")));
+}
+
+// Logs the seconds of each phase, which add up to the total. That of a continued or merged render is the time
+// of this process alone, while the phases contain those of the parts before.
+void report_times(const render::RenderStatistics& s, const render::OuterTimes& t, const Console& console) {
+  const double phases =
+      t.load + t.bvh + t.trials + s.photon_trace_s + s.photon_build_s + s.render_s + t.denoise + t.write;
+  const double other = t.total - phases;
+  console.note(fmt::format(
+      "seconds: load {:.2f}, bvh {:.2f}, trials {:.2f}, photon trace {:.2f}, photon build {:.2f}, render "
+      "{:.2f}, denoise {:.2f}, write {:.2f}, {}",
+      t.load, t.bvh, t.trials, s.photon_trace_s, s.photon_build_s, s.render_s, t.denoise, t.write,
+      other < 0 ? fmt::format("this process {:.2f}", t.total)
+                : fmt::format("other {:.2f}, total {:.2f}", other, t.total)));
 }
 
 std::string by_kind(const std::array<uint64_t, photon::kPhotonKinds>& counts) {
@@ -54,7 +86,7 @@ void report_photons(const render::RenderResult& result, const Console& console) 
         grouped(s.guided.emitted), by_kind(s.guided.stored), grouped(s.guide_photons),
         grouped(s.guide_hits)));
   report_energy(s, console);
-  if (s.radius > 0) console.note(fmt::format("gather radius: {:.4g} m", s.radius));
+  report_radii(s, console);
   if (result.plan.direct == render::DirectEstimator::kLecture) {
     console.note(fmt::format(
         "lecture: {} points decided by photons ({} of them in a larger cell); shadow rays at {} points with "
@@ -192,11 +224,7 @@ bool write_outputs(const OutputOptions& options, const Outcome& outcome, render:
 void report(const render::RenderResult& result, const render::OuterTimes& times, const Console& console) {
   const render::RenderStatistics& s = result.statistics;
   report_photons(result, console);
-  console.note(fmt::format(
-      "seconds: load {:.2f}, bvh {:.2f}, trials {:.2f}, photon trace {:.2f}, photon build {:.2f}, render "
-      "{:.2f}, denoise {:.2f}, write {:.2f}, total {:.2f}",
-      times.load, times.bvh, times.trials, s.photon_trace_s, s.photon_build_s, s.render_s, times.denoise,
-      times.write, times.total));
+  report_times(s, times, console);
   if (s.dropped_samples > 0) {
     console.warning(
         fmt::format("{} samples were negative or not finite and were dropped", s.dropped_samples));

@@ -8,6 +8,7 @@
 #include "apps/console/exit_error.h"
 #include "apps/machine/usable_memory.h"
 #include "apps/session/files/dark_scene.h"
+#include "apps/session/files/wide_radius.h"
 #include "core/stopwatch.h"
 #include "render/camera/pixel_range.h"
 #include "render/film/film_totals.h"
@@ -149,6 +150,7 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
   job.settings.render.photon_memory = memory_beside(film_of(job));
   job.settings.render.width = job.scene.camera.width;
   job.settings.render.height = job.scene.camera.height;
+  if (const std::string why = why_wide(job.scene, job.settings.render); !why.empty()) console.warning(why);
   job.load_seconds = watch.seconds();
   console.note(fmt::format("{}: {}", path, scene_summary(job.scene)));
   for (const std::string& note : loaded->description.notes) console.note(note);
