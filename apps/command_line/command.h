@@ -15,7 +15,8 @@ namespace kaustik::app {
 
 struct Command {
   std::string name, description;
-  bool hidden = false;  // the help and the reference do not show it
+  std::string examples;  // lines at the end of its help; empty for none
+  bool hidden = false;   // the help and the reference do not show it
   std::vector<Argument> arguments;
   std::vector<Option> options;  // in the order of the help
   // Runs the command and returns the exit code. Throws ExitError, or any other exception for a failure during

@@ -34,7 +34,8 @@ struct Option {
   bool at_commas = false;   // texts are split at commas before assign() receives them
   bool last_wins = false;   // may be repeated: the last value counts. Without this or takes_list, it may not
   bool required = false;
-  bool is_setting = false;                   // a row of settings_table(), under a heading of its own
+  bool is_setting = false;    // a row of settings_table(), under a heading of its own
+  bool for_everyday = false;  // a setting for everyday use, under another heading than those for experts
   std::vector<std::string> choices;          // the values, where there are only so many: for completions
   std::vector<std::string> needs, excludes;  // long names of other options of the command
 

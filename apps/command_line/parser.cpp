@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <sstream>
 
+#include "apps/command_line/other_names.h"
 #include "core/diagnostics/nearest_name.h"
 
 namespace kaustik::app {
@@ -66,7 +68,7 @@ void add_option(CLI::App& parser, const Option& option) {
   CLI::Option* added =
       parser.add_option(names, assigning(option.assign, option.long_name()), option.description);
   added->option_text(option.value_name)->expected(option.values)->required(option.required);
-  if (option.is_setting) added->group("Settings");
+  if (option.is_setting) added->group(option.for_everyday ? "Everyday settings" : "Expert settings");
   if (option.at_commas) added->delimiter(',');
   if (option.takes_list) added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   if (option.last_wins) added->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -75,14 +77,29 @@ void add_option(CLI::App& parser, const Option& option) {
 void add_command(CLI::App& program, const Command& command) {
   CLI::App& parser = *program.add_subcommand(command.name, command.description);
   if (command.hidden) parser.group("");
+  if (!command.examples.empty()) parser.footer("Examples:\n" + command.examples);
   for (const Argument& argument : command.arguments) add_argument(parser, argument);
-  for (const Option& option : command.options) add_option(parser, option);
+  // Headings stand in the order in which their first options are added.
+  for (const bool expert : {false, true})
+    for (const Option& option : command.options)
+      if ((option.is_setting && !option.for_everyday) == expert) add_option(parser, option);
   for (const Option& option : command.options) {
     for (const std::string& other : option.needs)
       parser.get_option(option.long_name())->needs(parser.get_option(other));
     for (const std::string& other : option.excludes)
       parser.get_option(option.long_name())->excludes(parser.get_option(other));
   }
+}
+
+// "; did you mean --kernel?" for a name that is near, or that is another program's; empty if there is
+// neither.
+std::string suggestion(const std::string& name, const std::vector<std::string_view>& known) {
+  std::vector<std::string> here = names_here(name);
+  std::erase_if(
+      here, [&](const std::string& n) { return std::find(known.begin(), known.end(), n) == known.end(); });
+  if (here.empty())
+    if (const auto nearest = nearest_name(name, known)) here.emplace_back(*nearest);
+  return here.empty() ? "" : fmt::format("; did you mean {}?", fmt::join(here, " and "));
 }
 
 // The message for arguments that the parser does not know, such as "unknown option --kernal; did you mean
@@ -96,9 +113,7 @@ std::string describe_extras(const CLI::App& parser, const Program& program, cons
     for (const Option& option : command ? command->options : program.options)
       known.push_back(option.long_name());
     const std::string name = extra.substr(0, extra.find('='));
-    const auto nearest = nearest_name(name, known);
-    return fmt::format("unknown option {}{}", name,
-                       nearest ? fmt::format("; did you mean {}?", *nearest) : "");
+    return fmt::format("unknown option {}{}", name, suggestion(name, known));
   }
   if (command) return fmt::format("unexpected argument {}", extras.front());
   for (const Command& c : program.commands)

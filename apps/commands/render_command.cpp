@@ -111,6 +111,13 @@ int run_render(const RenderOptions& options, const Console& console) {
   return run_session(std::move(job), std::move(session), interrupt, total, console);
 }
 
+constexpr const char* kExamples =
+    "  kaustik render room.pbrt -o room.exr -o room.png     radiance, and a picture for the screen\n"
+    "  kaustik render model.glb -o model.png --time 2m      the best picture of two minutes\n"
+    "  kaustik render room.pbrt -o room.png --quality draft --width 320\n"
+    "  kaustik render room.pbrt -o room.exr --target-error 2% --time 1h\n"
+    "  kaustik render room.pbrt -o caustic.exr --aov caustic --crop 100 300 200 400";
+
 void add_pass_options(Command& command, RenderOptions& options) {
   command.add_text(
       "--checkpoint", "FILE", options.checkpoint.path,
@@ -147,6 +154,7 @@ Command make_render_command() {
   add_live_options(command, options->live);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kRender);
+  command.examples = kExamples;
   command.run = [options](const Console& console) { return run_render(*options, console); };
   return command;
 }

@@ -69,6 +69,7 @@ void add_setting_options(Command& command, SettingOverrides& overrides, Settings
     option.takes_list = setting.kind == ValueKind::kNames;
     option.last_wins = !option.takes_list;
     option.is_setting = true;
+    option.for_everyday = setting.for_everyday;
     option.choices = choices_of(setting.choices);
     command.add_option(std::move(option));
   }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 
@@ -282,6 +284,11 @@ void add_image(std::vector<Setting>& table) {
   table.push_back(tonemap_setting());
 }
 
+// What renders of a scene need most: how good, how long, how large, how bright, and from where.
+constexpr std::array<std::string_view, 16> kEveryday = {
+    "quality", "time", "target-error", "method", "photons", "spp",     "denoise", "width",
+    "height",  "crop", "exposure",     "aov",    "camera",  "look-at", "sky",     "threads"};
+
 std::vector<Setting> make_table() {
   std::vector<Setting> table = {quality_setting()};
   add_methods(table);
@@ -291,6 +298,8 @@ std::vector<Setting> make_table() {
   add_image(table);
   for (std::vector<Setting> rows : {import_rows(), view_rows()})
     std::move(rows.begin(), rows.end(), std::back_inserter(table));
+  for (Setting& setting : table)
+    setting.for_everyday = std::find(kEveryday.begin(), kEveryday.end(), setting.name) != kEveryday.end();
   return table;
 }
 

@@ -82,6 +82,7 @@ struct Setting {
   bool decides_sums = true;
   bool in_scene_files = true;  // as a parameter of Integrator "photonmap"
   SettingReader reader = SettingReader::kEveryRender;
+  bool for_everyday = false;  // the help shows it before the settings for experts
 };
 
 // All settings in the order of the help. Built once, immutable.

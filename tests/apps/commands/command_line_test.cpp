@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "apps/command_line/other_names.h"
 #include "apps/settings/table/table.h"
 #include "core/version.h"
 #include "tests/apps/support/program.h"
@@ -13,6 +14,7 @@ using test::Outcome;
 using test::run_kaustik;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class CommandLine : public test::ProgramTest {};
 
@@ -37,6 +39,51 @@ TEST_F(CommandLine, RenderHelpExplainsEverySettingWithItsDefault) {
   for (const Setting& setting : settings_table()) {
     EXPECT_THAT(flat, HasSubstr("--" + std::string(setting.name)));
     EXPECT_THAT(flat, HasSubstr("Default: " + setting.default_text)) << setting.name;
+  }
+}
+
+TEST_F(CommandLine, RenderHelpHasAPartForEverydayAndEndsWithExamples) {
+  const std::string help = run_kaustik({"render", "--help"}).out;
+  const size_t everyday = help.find("\nEveryday settings:"), expert = help.find("\nExpert settings:");
+  const size_t examples = help.find("\nExamples:");
+  ASSERT_LT(everyday, expert);
+  ASSERT_LT(expert, examples);
+  ASSERT_NE(examples, help.npos);
+  for (const Setting& setting : settings_table()) {
+    if (!setting.commands.has(SettingsCommand::kRender)) continue;
+    const size_t at = help.find("\n  --" + std::string(setting.name) + " ");
+    EXPECT_EQ(at < expert, setting.for_everyday) << setting.name;
+    EXPECT_GT(at, everyday);
+    EXPECT_LT(at, examples);
+  }
+  EXPECT_LT(help.find("--time TIME"), expert);
+  EXPECT_GT(help.find("--cone-k K"), expert);
+  EXPECT_THAT(help.substr(examples), HasSubstr("\n  kaustik render "));
+}
+
+TEST_F(CommandLine, OptionsOfOtherProgramsAreTranslated) {
+  const auto message = [&](const std::string& command, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {command, "a.pbrt"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run_kaustik(words);
+    EXPECT_EQ(outcome.code, kBadCommandLine);
+    return outcome.err;
+  };
+  EXPECT_THAT(message("render", {"--r0", "0.1"}), HasSubstr("unknown option --r0; did you mean --radius?"));
+  EXPECT_THAT(message("render", {"-N", "5"}), HasSubstr("unknown option -N; did you mean --photons?"));
+  EXPECT_THAT(message("render", {"--samples=5"}), HasSubstr("did you mean --spp?"));
+  EXPECT_THAT(message("render", {"--resolution", "8", "8"}), HasSubstr("did you mean --width and --height?"));
+  EXPECT_THAT(message("render", {"-j4"}), HasSubstr("did you mean --threads?"));
+  EXPECT_THAT(message("info", {"--r0", "0.1"}), Not(HasSubstr("--radius")));  // which it does not have
+}
+
+// A name that is translated into one that does not exist would never be suggested.
+TEST_F(CommandLine, TranslationsExist) {
+  const std::string help = run_kaustik({"render", "--help"}).out;
+  for (const char* other : {"--r0", "-N", "-k", "--samples", "--size", "-j", "--depth", "--integrator",
+                            "--preset", "--out", "--region", "--timeout", "--noise", "--hdri", "--layers"}) {
+    ASSERT_FALSE(names_here(other).empty()) << other;
+    for (const std::string& name : names_here(other)) EXPECT_THAT(help, HasSubstr(name + " ")) << other;
   }
 }
 
