@@ -158,14 +158,19 @@ class Cloud {
     this.redraw();
   }
 
-  // Marks the disc of an estimate and its normal.
+  // Marks the disc of an estimate, its normal, and the octree cell of the lecture's test.
   markEstimate(estimate) {
     this.point = null;
     if (estimate) {
       const {point, normal} = estimate.hit, [u, v] = planeOf(normal), radius = Math.max(...estimate.maps.map(m => m.radius), 0);
-      const on = k => vec.add(point, vec.add(vec.scale(u, radius * Math.cos(k * Math.PI / 24)), vec.scale(v, radius * Math.sin(k * Math.PI / 24))));
+      const on = k => {
+        const angle = k * Math.PI / 24, across = vec.add(vec.scale(u, Math.cos(angle)), vec.scale(v, Math.sin(angle)));
+        return vec.add(point, vec.scale(across, radius));
+      };
       const corners = [point, vec.add(point, vec.scale(normal, 2 * radius))];
       for (let k = 0; k < 48; ++k) corners.push(on(k), on(k + 1));
+      const {cell} = estimate;
+      if (cell) corners.push(...EDGES.map(corner => cell.min.map((low, axis) => corner >> axis & 1 ? cell.max[axis] : low)));
       this.point = new Float32Array(corners.flatMap(p => [...p, 0, 0, 0, 0, -1]));
     }
     this.fill("point", this.point);

@@ -150,7 +150,8 @@ class Compare {
     });
     divider.addEventListener("pointermove", event => { if (divider.hasPointerCapture(event.pointerId)) follow(event); });
     divider.addEventListener("keydown", event => {
-      const steps = {ArrowLeft: -0.01, ArrowDown: -0.01, ArrowRight: 0.01, ArrowUp: 0.01, PageDown: -0.1, PageUp: 0.1, Home: -1, End: 1};
+      const steps = {ArrowLeft: -0.01, ArrowDown: -0.01, ArrowRight: 0.01, ArrowUp: 0.01, PageDown: -0.1, PageUp: 0.1,
+                     Home: -1, End: 1};
       if (!Object.hasOwn(steps, event.key)) return;
       event.preventDefault();
       event.stopPropagation();

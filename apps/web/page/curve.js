@@ -2,6 +2,7 @@
 // The chart of the error against time, both on logarithmic scales, as SVG.
 
 const CURVE = {width: 320, height: 200, left: 46, right: 10, top: 8, bottom: 36};
+const MOST_POINTS = 500;
 
 function svg(tag, attributes, ...children) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
@@ -31,7 +32,8 @@ function logRange(values) {
 
 // points: [seconds, passes, relative error].
 function drawCurve(box, points) {
-  const drawable = points.filter(([x, , y]) => x > 0 && y > 0 && Number.isFinite(y));
+  const some = Math.ceil(points.length / MOST_POINTS), last = points[points.length - 1];
+  const drawable = points.filter((p, i) => (i % some === 0 || p === last) && p[0] > 0 && p[2] > 0 && Number.isFinite(p[2]));
   box.toggleAttribute("hidden", !drawable.length);  // SVG elements have no property of this name
   byId("curve-none").hidden = drawable.length > 0;
   if (!drawable.length) return;
@@ -53,9 +55,10 @@ function drawCurve(box, points) {
                             transform: `rotate(-90 12 ${(top + height - bottom) / 2})`}, "relative error [%]"));
   const line = drawable.map(p => `${px(p[0]).toFixed(1)},${py(p[2]).toFixed(1)}`).join(" ");
   const dots = drawable.length > 60 ? drawable.slice(-1) : drawable;
-  const last = drawable[drawable.length - 1];
   box.replaceChildren(grid, texts, svg("polyline", {points: line, class: "curve"}),
                       ...dots.map(p => svg("circle", {cx: px(p[0]), cy: py(p[2]), r: 3, class: "dot"},
                         svg("title", {}, `${percent(p[2])} after ${durationText(p[0])} and ${p[1]} passes`))));
-  box.setAttribute("aria-label", `Relative error over time, both on logarithmic scales: ${percent(last[2])} after ${durationText(last[0])}.`);
+  const end = drawable[drawable.length - 1];
+  box.setAttribute("aria-label", `Relative error over time, both on logarithmic scales: ${percent(end[2])} after `
+    + `${durationText(end[0])}.`);
 }

@@ -41,21 +41,23 @@ function hueOf(r, g, b) {
   return `rgb(${[r, g, b].map(x => Math.round(255 * encode(clip(x / most)))).join(" ")})`;
 }
 
-// Draws one map of an estimate into a canvas; returns [x, y, photon] of the dots in CSS pixels.
-function drawDisc(canvas, estimate, map) {
+// Draws one map of an estimate into a canvas, out to the disc's edge, or to those of the whole cell; returns
+// [x, y, photon] of the dots in CSS pixels.
+function drawDisc(canvas, estimate, map, wholeCell) {
   const scale = fitCanvas(canvas), context = canvas.getContext("2d"), side = Math.min(canvas.clientWidth, canvas.clientHeight);
   const {point, normal} = estimate.hit, plane = planeOf(normal);
-  const reach = Math.max(map.radius, ...map.photons.map(p => p[6])) || 1, unit = side / 2 / (1.12 * reach);
+  const ofDisc = Math.max(map.radius, ...map.photons.map(p => p[6])) || 1;
+  const {cell} = estimate, cut = cell ? cutOfBox(point, plane, cell, Math.hypot(...vec.sub(cell.max, cell.min))) : [];
+  const reach = wholeCell ? Math.max(ofDisc, ...cut.flat().map(Math.abs)) : ofDisc, unit = side / 2 / (1.12 * reach);
   const at = (a, b) => [canvas.clientWidth / 2 + a * unit, canvas.clientHeight / 2 - b * unit];
   context.setTransform(scale, 0, 0, scale, 0, 0);
   context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
-  if (estimate.cell) {
-    const cut = cutOfBox(point, plane, estimate.cell, 2 * reach);
+  if (cut.length) {
     context.beginPath();
     cut.forEach(([a, b], i) => i ? context.lineTo(...at(a, b)) : context.moveTo(...at(a, b)));
     context.closePath();
-    context.fillStyle = estimate.cell.trusted ? "rgb(0 158 115 / .18)" : "rgb(213 94 0 / .18)";
-    context.strokeStyle = estimate.cell.trusted ? "#00b383" : "#e8772e";
+    context.fillStyle = cell.trusted ? "rgb(0 158 115 / .18)" : "rgb(213 94 0 / .18)";
+    context.strokeStyle = cell.trusted ? "#00b383" : "#e8772e";
     context.fill();
     context.stroke();
   }

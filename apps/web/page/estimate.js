@@ -10,7 +10,7 @@ class EstimatePanel {
     this.onEstimate = onEstimate;
     this.estimate = null;
     this.dots = [];
-    byId("estimate-map").addEventListener("change", () => this.draw());
+    for (const id of ["estimate-map", "whole-cell"]) byId(id).addEventListener("change", () => this.draw());
     byId("disc").addEventListener("pointermove", event => this.hover(event));
     byId("disc").addEventListener("pointerleave", () => { byId("disc-photon").textContent = ""; });
     new ResizeObserver(() => this.draw()).observe(byId("disc"));
@@ -48,7 +48,8 @@ class EstimatePanel {
     this.showCell(estimate.cell);
     this.draw();
     this.onEstimate(estimate);
-    announce(`Estimate of pixel ${this.pixel.x}, ${this.pixel.y}: ${estimate.maps.map(m => `${m.accepted} ${m.kind} photons`).join(", ")}`);
+    const counts = estimate.maps.map(map => `${map.accepted} ${map.kind} photons`).join(", ");
+    announce(`Estimate of pixel ${this.pixel.x}, ${this.pixel.y}: ${counts || "no map is read"}`);
   }
 
   map() { return this.estimate?.maps.find(map => map.kind === byId("estimate-map").value) ?? null; }
@@ -63,14 +64,15 @@ class EstimatePanel {
     if (map) {
       rows.push(["radius", `${short(map.radius)} m`], ["kernel", map.kernel], ["photons", String(map.accepted)],
                 ["radiance", `${triple(map.radiance)} W/(m\u00b2 sr)`]);
-      this.dots = drawDisc(byId("disc"), this.estimate, map);
+      this.dots = drawDisc(byId("disc"), this.estimate, map, byId("whole-cell").checked);
     }
     byId("estimate-facts").replaceChildren(...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
   }
 
   showCell(cell) {
     const box = byId("cell");
-    box.hidden = !cell;
+    box.hidden = byId("whole-cell").parentElement.hidden = !cell;
+    if (!cell) byId("whole-cell").checked = false;
     if (!cell) return;
     const size = cell.max.map((x, i) => short(x - cell.min[i])).join(" x ");
     box.dataset.trusted = String(cell.trusted);

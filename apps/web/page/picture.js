@@ -118,11 +118,7 @@ class PictureView {
   }
 
   listen() {
-    const stage = this.stage;
-    const place = event => {
-      const box = stage.getBoundingClientRect();
-      return {x: event.clientX - box.left, y: event.clientY - box.top};
-    };
+    const stage = this.stage, place = event => this.placeOf(event);
     stage.addEventListener("wheel", event => {
       event.preventDefault();
       const unit = event.deltaMode === 1 ? 20 : event.deltaMode === 2 ? 300 : 1, at = place(event);
@@ -141,18 +137,7 @@ class PictureView {
       this.byKeys = false;
       this.hooks.onHover(this.pixelAt(at.x, at.y));
     });
-    const end = event => {
-      const pointer = this.pointers.get(event.pointerId);
-      this.pointers.delete(event.pointerId);
-      const pixel = pointer && this.pixelAt(pointer.x, pointer.y);
-      if (event.type === "pointerup" && pixel && pointer.path < CLICK_DISTANCE && !this.pinched) {
-        this.hooks.onHover(pixel);
-        this.hooks.onPick(pixel.x, pixel.y);
-      }
-      if (!this.pointers.size) this.pinched = false;
-    };
-    stage.addEventListener("pointerup", end);
-    stage.addEventListener("pointercancel", end);
+    for (const end of ["pointerup", "pointercancel"]) stage.addEventListener(end, event => this.lift(event));
     stage.addEventListener("pointerleave", event => {
       if (!this.byKeys && event.pointerType === "mouse") this.hooks.onHover(null);
     });
@@ -160,6 +145,24 @@ class PictureView {
       if (!event.target.closest("[data-own-pointer]")) this.zoomTo(this.zoom * 2, place(event).x, place(event).y);
     });
     stage.addEventListener("blur", () => this.useKeys(false));
+  }
+
+  // Of an event, from the corner of the stage.
+  placeOf(event) {
+    const box = this.stage.getBoundingClientRect();
+    return {x: event.clientX - box.left, y: event.clientY - box.top};
+  }
+
+  // The end of a drag, or of a click.
+  lift(event) {
+    const pointer = this.pointers.get(event.pointerId);
+    this.pointers.delete(event.pointerId);
+    const pixel = pointer && this.pixelAt(pointer.x, pointer.y);
+    if (event.type === "pointerup" && pixel && pointer.path < CLICK_DISTANCE && !this.pinched) {
+      this.hooks.onHover(pixel);
+      this.hooks.onPick(pixel.x, pixel.y);
+    }
+    if (!this.pointers.size) this.pinched = false;
   }
 
   drag(id, at) {
@@ -213,7 +216,8 @@ class PictureView {
   }
 
   drawMark(context, origin) {
-    const side = Math.max(this.zoom, 9), x = origin.x + (this.mark.x + 0.5) * this.zoom, y = origin.y + (this.mark.y + 0.5) * this.zoom;
+    const side = Math.max(this.zoom, 9);
+    const x = origin.x + (this.mark.x + 0.5) * this.zoom, y = origin.y + (this.mark.y + 0.5) * this.zoom;
     for (const [colour, more] of [["#000", 1.5], ["#ffd24d", 0]]) {
       context.strokeStyle = colour;
       context.lineWidth = 1.5;

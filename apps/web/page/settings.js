@@ -16,7 +16,10 @@ function numberOf(text) {
 }
 
 // 300000 as 300k, if that is the same number.
-const shortened = text => /^\d+000$/.test(text) && numberOf(countText(Number(text)))?.value === Number(text) ? countText(Number(text)) : text;
+function shortened(text) {
+  const number = Number(text), written = countText(number);
+  return /^\d+000$/.test(text) && numberOf(written)?.value === number ? written : text;
+}
 
 class Settings {
   // onRender(names and values): before the program is asked to render with them.
@@ -30,16 +33,19 @@ class Settings {
 
   field(setting) {
     const id = `setting-${setting.name}`, help = make("span", {id: `${id}-doc`, class: "doc"}, setting.doc ?? "");
-    const label = make("label", {for: id, title: setting.doc ?? ""}, setting.unit && setting.unit.length < 4 ? `${setting.name} [${setting.unit}]` : setting.name);
+    const unit = setting.unit && setting.unit.length < 4 ? ` [${setting.unit}]` : "";  // longer ones repeat the name
+    const label = make("label", {for: id, title: setting.doc ?? ""}, setting.name + unit);
     const changed = () => this.change(setting.name, input.value);
     let input, slider = null;
     if (setting.choices.length) {
       input = make("select", {id, change: changed}, ...setting.choices.map(c => new Option(c, c)));
       // A value that is not given follows from other settings, or is the default.
-      if (!setting.choices.includes(setting.value)) input.prepend(new Option(setting.value || setting.default || "default", setting.value));
+      const {value} = setting;
+      if (!setting.choices.includes(value)) input.prepend(new Option(value || setting.default || "default", value));
       input.value = setting.value;
     } else {
-      input = make("input", {id, type: "text", value: shortened(setting.value), placeholder: setting.default ?? "", autocomplete: "off", spellcheck: "false", change: changed});
+      input = make("input", {id, type: "text", value: shortened(setting.value), placeholder: setting.default ?? "",
+                             autocomplete: "off", spellcheck: "false", change: changed});
       slider = this.slider(setting, input, changed);
     }
     input.setAttribute("aria-describedby", `${id}-doc`);

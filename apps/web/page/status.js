@@ -168,7 +168,8 @@ class StatusPanel {
     byId("percent").textContent = `${whole < 10 ? whole.toFixed(1) : Math.floor(whole)} %`;
     byId("elapsed").textContent = durationText(status.seconds);
     const left = status.seconds_left;
-    byId("left").textContent = status.state === "finished" || this.lost ? "\u2013" : left === null ? "not known yet" : durationText(left);
+    byId("left").textContent = status.state === "finished" || this.lost ? "\u2013"
+      : left === null ? "not known yet" : durationText(left);
     const last = status.errors.at(-1);
     byId("error").textContent = last ? percent(last[2]) : "\u2013";
     const done = status.state === "finished" ? "" : `${Math.floor(whole)} % `;

@@ -26,7 +26,8 @@ class View {
     this.listen();
     this.setExposure(this.exposure);
     this.choose(this.layer);
-    this.connection = new Connection({onStatus: status => this.notice(status), onLost: again => this.lose(again), onBack: () => this.back()});
+    this.connection = new Connection({onStatus: status => this.notice(status), onLost: again => this.lose(again),
+                                      onBack: () => this.back()});
   }
 
   now() { return this.layers.picture(this.layer); }
@@ -180,11 +181,12 @@ class View {
 
   textOfPixel({x, y}) {
     const now = this.now(), other = this.compare.other(), index = y * now.width + x;
-    const numbers = picture => [...picture.values.subarray(index * picture.channels, (index + 1) * picture.channels)].map(short).join("  ");
+    const valuesOf = picture => [...picture.values.subarray(index * picture.channels, (index + 1) * picture.channels)];
+    const numbers = picture => picture.show === SHOW.encoded
+      ? `${valuesOf(picture).map(v => Math.round(255 * v)).join("  ")} of 255` : valuesOf(picture).map(short).join("  ");
     const relative = now.show === SHOW.relative ? `  (${percent(relativeError(now.values, now.base, 3 * index))})` : "";
     const unit = now.unit ? ` ${now.unit.replace("^2", "\u00b2")}` : "";
-    const left = other ? `; left ${other.show === SHOW.encoded
-      ? [...other.values.subarray(3 * index, 3 * index + 3)].map(v => Math.round(255 * v)).join("  ") + " of 255" : numbers(other)}` : "";
+    const left = other ? `; left ${numbers(other)}` : "";
     return `x ${x + this.info.x0}  y ${y + this.info.y0}:  ${numbers(now)}${unit}${relative}${left}`;
   }
 
@@ -234,7 +236,8 @@ class View {
     if (event.target.closest("input:not([type=checkbox]), select, textarea, [role=slider], [role=tab]")) return;
     const names = this.info.layers.map(layer => layer.name);
     const actions = {
-      f: () => this.fullScreen(), l: () => this.choose(this.next(names, this.layer, 1)), L: () => this.choose(this.next(names, this.layer, -1)),
+      f: () => this.fullScreen(),
+      l: () => this.choose(this.next(names, this.layer, 1)), L: () => this.choose(this.next(names, this.layer, -1)),
       "[": () => this.setByHand(this.exposure - 0.25), "]": () => this.setByHand(this.exposure + 0.25),
       a: () => this.setAutomatic(!this.automatic), t: () => this.setOperator(this.next(OPERATORS, this.look.operator, 1)),
       c: () => this.compare.keepNow(), p: () => this.status.pause(), v: () => this.lab?.toggle(),

@@ -156,8 +156,8 @@ class Render:
 
     def status(self):
         fraction = 1.0 if self.state == "finished" and not self.stopped else min(1, self.done / self.options.seconds)
-        return {"render": self.render_id, "state": self.state, "phase": self.phase, "pass": min(max(1, self.step - 5), self.options.passes),
-                "passes": self.options.passes, "fraction": fraction,
+        return {"render": self.render_id, "state": self.state, "phase": self.phase,
+                "pass": min(max(1, self.step - 5), self.options.passes), "passes": self.options.passes, "fraction": fraction,
                 "seconds_left": max(0, self.options.seconds - self.done) if self.step > 1 else None, "seconds": self.elapsed,
                 "stopped": self.stopped, "version": self.version, "errors": self.errors}
 
@@ -332,7 +332,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
         render = self.render
         if self.path == "/render" and render.options.lab:
             problem = render.change(json.loads(body))
-            return self.fail(400, problem) if problem else self.reply(202, "application/json", json.dumps({"render": render.render_id}))
+            if problem:
+                return self.fail(400, problem)
+            return self.reply(202, "application/json", json.dumps({"render": render.render_id}))
         with render.changed:
             if self.path == "/pause" and render.state == "running":
                 render.state = "paused"

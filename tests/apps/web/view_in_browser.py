@@ -4,7 +4,8 @@
 no error reaches the console, a phone need not scroll sideways. Leaves screenshots.
 
 view_in_browser.py ADDRESS|mock OUT_DIR      (packages chromium chromium-driver python3-selenium)
-ADDRESS: that of a page whose render has just begun and takes 20 seconds or more; the test holds it, and ends it. mock: that of mock_server.py, which it starts and ends.
+ADDRESS: that of a page whose render has just begun and takes 20 seconds or more; the test holds it, and ends it.
+mock: that of mock_server.py, which it starts and ends.
 Exit code 77, with the reason, where there is no browser."""
 import array
 import base64
