@@ -41,7 +41,7 @@ class EstimatePanel {
     if (!estimate.hit) return this.clear("The camera ray meets no surface.");
     this.estimate = estimate;
     const select = byId("estimate-map"), before = select.value, {hit} = estimate;
-    select.replaceChildren(...estimate.maps.map(map => new Option(`${map.kind}, ${map.accepted} photons`, map.kind)));
+    select.replaceChildren(...estimate.maps.map(map => new Option(`${map.kind}: ${countText(map.accepted)} read`, map.kind)));
     if (estimate.maps.some(map => map.kind === before)) select.value = before;
     byId("estimate-note").textContent = `${hit.material || "A surface"} at ${short(hit.distance)} m.`;
     byId("estimate-body").hidden = false;
