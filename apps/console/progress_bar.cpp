@@ -1,11 +1,12 @@
 #include "apps/console/progress_bar.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "apps/console/terminal_size.h"
 
 namespace kaustik::app {
 
@@ -15,14 +16,6 @@ constexpr double kRedrawSeconds = 0.1;  // least time between redraws on a termi
 constexpr double kLineSeconds = 5;      // least time between lines in a log
 
 constexpr int kLogColumns = 200;
-
-// The width of the terminal, which is asked for each time, since it may change.
-int terminal_columns() {
-  constexpr int kUsual = 80;
-  winsize size{};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : kUsual;
-}
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<uint64_t>(std::ceil(seconds));
@@ -62,23 +55,20 @@ void ProgressBar::set_deadline(double seconds) {
 TimeLeft::Estimate ProgressBar::update(const render::Progress& progress) {
   const double now = this->now();
   const TimeLeft::Estimate estimate = time_left_.update(progress, now);
-  const double between = console_.terminal ? kRedrawSeconds : kLineSeconds;
+  const double between = console_.screen ? kRedrawSeconds : kLineSeconds;
   if (console_.quiet || (last_drawn_ >= 0 && now - last_drawn_ < between)) return estimate;
   last_drawn_ = now;
-  const std::string line = progress_line({phase_text(progress), remark_, estimate.fraction, estimate.seconds},
-                                         console_.terminal ? terminal_columns() - 1 : kLogColumns);
-  if (console_.terminal) {
-    console_.err << '\r' << line << "\x1b[K" << std::flush;
-    visible_ = true;
-  } else {
+  std::string line = progress_line({phase_text(progress), remark_, estimate.fraction, estimate.seconds},
+                                   console_.screen ? terminal_size(STDERR_FILENO).columns - 1 : kLogColumns);
+  if (console_.screen)
+    console_.screen->show_line(std::move(line));
+  else
     console_.err << line << std::endl;
-  }
   return estimate;
 }
 
 void ProgressBar::clear() {
-  if (visible_) console_.err << "\r\x1b[K" << std::flush;
-  visible_ = false;
+  if (console_.screen) console_.screen->show_line("");
 }
 
 }  // namespace kaustik::app

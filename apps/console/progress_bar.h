@@ -52,8 +52,7 @@ class ProgressBar {
   TimeLeft time_left_;
   Clock::time_point start_ = Clock::now();
   // On a terminal the first line is drawn at once; in a log it comes after kLineSeconds.
-  double last_drawn_ = console_.terminal ? -1 : 0;
-  bool visible_ = false;
+  double last_drawn_ = console_.screen ? -1 : 0;
 };
 
 }  // namespace kaustik::app

@@ -1,5 +1,6 @@
 #include "apps/live/live_options.h"
 
+#include "apps/live/terminal_preview.h"
 #include "apps/live/tev_display.h"
 
 namespace kaustik::app {
@@ -27,16 +28,23 @@ void add_display(Command& command, LiveOptions& options) {
 
 void add_live_options(Command& command, LiveOptions& options) {
   add_display(command, options);
+  command.add_flag(
+      "--preview", options.preview,
+      "Show the picture in progress in the terminal, over ssh, too: by kitty's graphics protocol or "
+      "sixels where the terminal knows them, else by coloured characters");
 }
 
 void check_live_options(const LiveOptions&) {}
 
 LiveViewers start_viewers(const LiveOptions& options, LiveRender& live,
-                          const std::vector<std::string>& layers, const Console& console) {
+                          const std::vector<std::string>& layers, const ToneChoice& tone,
+                          const Console& console) {
   LiveViewers viewers;
   if (!options.display.empty())
     viewers.push_back(std::make_unique<TevDisplay>(parse_address(options.display, kTevPort),
                                                    display_channels(layers), live, console));
+  if (options.preview)
+    if (auto preview = start_preview(live, tone, console)) viewers.push_back(std::move(preview));
   return viewers;
 }
 

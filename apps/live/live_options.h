@@ -7,6 +7,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/live/live_render.h"
+#include "apps/settings/table/settings.h"
 
 namespace kaustik::app {
 
@@ -24,8 +25,10 @@ void check_live_options(const LiveOptions& options);
 
 using LiveViewers = std::vector<std::unique_ptr<LiveViewer>>;
 
-// layers: of --aov. `live` and `console` must outlive the viewers.
+// layers: of --aov. tone: of viewers that show what PNG files would. `live` and `console` must outlive the
+// viewers.
 LiveViewers start_viewers(const LiveOptions& options, LiveRender& live,
-                          const std::vector<std::string>& layers, const Console& console);
+                          const std::vector<std::string>& layers, const ToneChoice& tone,
+                          const Console& console);
 
 }  // namespace kaustik::app

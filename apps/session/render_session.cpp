@@ -176,7 +176,8 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
     times.bvh = watch.seconds();
     const std::unique_ptr<LiveRender> live = make_live(job, session.live);
     const auto viewers =
-        live ? start_viewers(session.live, *live, job.settings.render.aov, console) : LiveViewers{};
+        live ? start_viewers(session.live, *live, job.settings.render.aov, job.settings.tone, console)
+             : LiveViewers{};
     const double seconds_after = settle_timed_denoising(job.scene.camera, console, &job.settings);
     FilledTime filled = run_trials(job, session, bvh, interrupt, live.get(), total, seconds_after, console);
     const std::optional<double> seconds = job.settings.stop.seconds;

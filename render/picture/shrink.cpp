@@ -32,7 +32,12 @@ Image shrunk(const Image& image, int longest) {
   const auto scaled = [&](int n) {
     return std::max(1, static_cast<int>(std::lround(double(n) * longest / side)));
   };
-  return shrunk_and_turned(shrunk_and_turned(image, scaled(image.width)), scaled(image.height));
+  return shrunk_to(image, scaled(image.width), scaled(image.height));
+}
+
+Image shrunk_to(const Image& image, int width, int height) {
+  if (width == image.width && height == image.height) return image;
+  return shrunk_and_turned(shrunk_and_turned(image, width), height);
 }
 
 }  // namespace kaustik::render
