@@ -23,6 +23,9 @@ find_package(nlohmann_json REQUIRED)
 find_package(draco CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)
 find_package(ZLIB REQUIRED)
+# Serves live pages. Its flags say with what the library was built, on which the layout of its classes depends.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(CPP_HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 # The report of `kaustik sweep` draws its charts with Chart.js, and contains it with its licence.
 find_file(KAUSTIK_CHART_JS NAMES chart.min.js Chart.min.js PATH_SUFFIXES share/javascript/chart.js
   DOC "Chart.js 3, minified")

@@ -83,7 +83,6 @@ void check_with_scene(RenderOptions options, const std::vector<std::string>& out
 int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
-  check_live_options(options.live);
   if (!options.checkpoint.path.empty()) check_writable(options.checkpoint.path);
   check_collisions(files_of(options), {{"the scene", options.scene}});
   const InterruptGuard interrupt;
@@ -108,7 +107,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   }
   check_passes(options, job);
   note_checkpoint(options, console);
-  return run_session(std::move(job), std::move(session), interrupt, total, console);
+  return run_session(job, std::move(session), interrupt, total, console);
 }
 
 constexpr const char* kExamples =

@@ -74,7 +74,6 @@ void check_rules(const ResumeOptions& options, const Job& job, const render::Pas
 int run_resume(const ResumeOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
-  check_live_options(options.live);
   check_writable(options.partial);
   const InterruptGuard interrupt;
   render::PartialResult part = load_partial(options.partial);
@@ -95,7 +94,7 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   console.note(fmt::format("{} holds passes {}; to render: {}", options.partial, part.sums.passes.text(),
                            open ? "as many as needed" : session.goal.without(part.sums.passes).text()));
   session.done = std::move(part.sums);
-  return run_session(std::move(job), std::move(session), interrupt, total, console);
+  return run_session(job, std::move(session), interrupt, total, console);
 }
 
 void add_resume_options(Command& command, ResumeOptions& options) {

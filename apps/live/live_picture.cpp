@@ -156,6 +156,24 @@ LivePicture::Changes LivePicture::changed_since(uint64_t version) const {
   return changes;
 }
 
+render::Film LivePicture::film() const {
+  render::Film film(range_.width(), range_.height(), range_.x0, range_.y0, full_width_, full_height_);
+  for_each_tile(range_, [&](const PixelRange& part) {
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) film.at(x - range_.x0, y - range_.y0) = value(x, y);
+  });
+  return film;
+}
+
+render::Image LivePicture::picture() const {
+  render::Image image(range_.width(), range_.height());
+  for_each_tile(range_, [&](const PixelRange& part) {
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) image.at(x - range_.x0, y - range_.y0) = all_light(x, y);
+  });
+  return image;
+}
+
 void LivePicture::read(const PixelRange& range, const std::vector<LiveChannel>& channels,
                        float* values) const {
   for_each_tile(range, [&](const PixelRange& part) {

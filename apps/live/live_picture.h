@@ -48,6 +48,9 @@ class LivePicture {
   };
   // The tiles that have changed since the picture had this version; version 0 is the empty picture.
   Changes changed_since(uint64_t version) const;
+  // All of it as it is now: the layers, and the picture of all light.
+  render::Film film() const;
+  render::Image picture() const;
   // Copies the channels of the pixels of a range, row by row, those of a pixel together. Where nothing is
   // known, they are 0.
   void read(const render::PixelRange& range, const std::vector<LiveChannel>& channels, float* values) const;

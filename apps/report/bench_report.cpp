@@ -6,7 +6,7 @@
 
 #include "apps/bench/bench_json.h"
 #include "apps/bench/bench_table.h"
-#include "apps/report/html.h"
+#include "apps/html/html.h"
 #include "report_assets.h"
 
 namespace kaustik::app {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "apps/html/html.h"
 #include "apps/import/common/scene_files.h"
-#include "apps/report/html.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "apps/sweep/sweep_files.h"
 #include "report_assets.h"

@@ -37,12 +37,9 @@ render::ProgressCallback shown_by(ProgressBar& bar, const InterruptGuard& interr
 }
 
 // The render as its followers see it; null if there are none.
-std::unique_ptr<LiveRender> make_live(const Job& job, const LiveOptions& options) {
-  if (!options.any()) return nullptr;
-  const Camera& camera = job.scene.camera;
-  const render::PixelRange range = render::rendered_range(job.settings.render.crop, camera);
-  return std::make_unique<LiveRender>(std::filesystem::path(job.path).filename().string(), range,
-                                      camera.width, camera.height);
+std::shared_ptr<LiveRender> live_of(const Job& job, const RenderSession& session) {
+  if (session.followed || !session.live.any()) return session.followed;
+  return make_live(job);
 }
 
 // Shows the mean of the passes so far, and its error.
@@ -93,18 +90,25 @@ double seconds_of(const render::RenderStatistics& s) {
   return s.photon_trace_s + s.photon_build_s + s.render_s;
 }
 
-// The message that tells what an interrupted render leaves behind.
-std::string interruption(const render::RenderResult& result) {
+// The message that tells what an interrupted render leaves behind. how: "interrupted".
+std::string interruption(const render::RenderResult& result, std::string_view how) {
   switch (result.shown) {
     case render::Shown::kPasses:
-      return fmt::format("interrupted: the picture shows passes {}", result.sums.passes.text());
+      return fmt::format("{}: the picture shows passes {}", how, result.sums.passes.text());
     case render::Shown::kTiles:
-      return "interrupted in the first pass: the picture shows the finished tiles and is black elsewhere; "
-             "there is no complete pass to resume from";
+      return fmt::format(
+          "{} in the first pass: the picture shows the finished tiles and is black elsewhere; there is no "
+          "complete pass to resume from",
+          how);
     case render::Shown::kNothing:
       break;
   }
-  return "interrupted before the first tile was finished: nothing was written";
+  return fmt::format("{} before the first tile was finished: nothing was written", how);
+}
+
+// Whether those who follow the render have ended it.
+bool was_stopped(const LiveRender* live) {
+  return live && live->status().stopped;
 }
 
 // Logs which rule ended the render, if one did.
@@ -137,8 +141,10 @@ render::PartialManifest manifest_for_outputs(const Job& job, const RenderSession
 int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, Checkpoint& checkpoint,
            const StopRule& rule, LiveRender* live, const Console& console) {
   const render::RenderResult& result = outcome.result;
-  if (result.cancelled) console.error(interruption(result));
-  if (result.shown == render::Shown::kNothing) return kInterrupted;
+  const bool stopped = was_stopped(live);
+  if (result.cancelled && stopped) console.note(interruption(result, "stopped by a viewer"));
+  if (result.cancelled && !stopped && !session.followed) console.error(interruption(result, "interrupted"));
+  if (result.shown == render::Shown::kNothing) return stopped ? kDone : kInterrupted;
   // If the checkpoint cannot be written, the pictures still are, and vice versa.
   bool checkpoint_written = false;
   std::string trouble;
@@ -154,7 +160,7 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
   if (!trouble.empty()) console.error(trouble);
   if (!written) return kFailed;
-  if (result.cancelled) return kInterrupted;
+  if (result.cancelled && !stopped) return kInterrupted;
   return trouble.empty() ? kDone : kFailed;
 }
 
@@ -165,18 +171,26 @@ bool writes_sums(const RenderSession& session) {
   return !session.checkpoint.path.empty() || std::any_of(files.begin(), files.end(), render::is_partial_name);
 }
 
-int run_session(Job job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
+std::shared_ptr<LiveRender> make_live(const Job& job) {
+  const Camera& camera = job.scene.camera;
+  const render::PixelRange range = render::rendered_range(job.settings.render.crop, camera);
+  return std::make_shared<LiveRender>(std::filesystem::path(job.path).filename().string(), range,
+                                      camera.width, camera.height);
+}
+
+int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console) {
   int code = kDone;
   if (writes_sums(session)) program_build();  // asks Embree for its version before it starts to work
   with_thread_limit(job.settings.render.threads, console, [&] {
     render::OuterTimes times{.load = job.load_seconds};
     const Stopwatch watch;
-    const accel::Bvh bvh(job.scene, job.settings.render.threads);
+    std::optional<accel::Bvh> own;
+    const accel::Bvh& bvh = session.bvh ? *session.bvh : own.emplace(job.scene, job.settings.render.threads);
     times.bvh = watch.seconds();
-    const std::unique_ptr<LiveRender> live = make_live(job, session.live);
+    const std::shared_ptr<LiveRender> live = live_of(job, session);
     const auto viewers =
-        live ? start_viewers(session.live, *live, job.settings.render.aov, job.settings.tone, console)
+        live ? start_viewers(session.live, live, job.settings.render.aov, job.settings.tone, console)
              : LiveViewers{};
     const double seconds_after = settle_timed_denoising(job.scene.camera, console, &job.settings);
     FilledTime filled = run_trials(job, session, bvh, interrupt, live.get(), total, seconds_after, console);
@@ -191,7 +205,8 @@ int run_session(Job job, RenderSession session, const InterruptGuard& interrupt,
       console.note(note);
     ProgressBar bar(console);
     const render::PassSet goal = goal_of(job, session, rule);
-    if (goal.end() < render::kMostPasses) bar.set_end(goal.without(session.done.passes).end());
+    if (!goal.empty() && goal.end() < render::kMostPasses)
+      bar.set_end(goal.without(session.done.passes).end());
     if (seconds) bar.set_deadline(*seconds - seconds_of(session.done.statistics) - total.seconds());
     const auto after_pass = [&](const render::PassSums& sums) {
       const bool enough = rule.enough(sums);

@@ -2,9 +2,9 @@
 // What `render` and `resume` share: they render passes with a progress bar and checkpoints, and write files
 // at the end or after a signal.
 
-#include "apps/live/live_options.h"
 #include "apps/session/checkpoint.h"
 #include "apps/session/interrupt.h"
+#include "apps/session/live_options.h"
 #include "apps/session/render_outputs.h"
 
 namespace kaustik::app {
@@ -13,7 +13,10 @@ struct RenderSession {
   OutputOptions outputs;
   CheckpointSettings checkpoint;
   LiveOptions live;
-  render::PassSet goal;  // empty = all passes that the settings ask for
+  // A render that is followed already, or null: `live` decides whether it is.
+  std::shared_ptr<LiveRender> followed{};
+  const accel::Bvh* bvh = nullptr;  // of the scene, if it exists already
+  render::PassSet goal;             // empty = all passes that the settings ask for
   bool bounded =
       false;  // `goal` holds even with a stop rule, which otherwise renders an open-ended number of passes
   render::PassSums done;   // finished passes, from a partial result
@@ -21,12 +24,16 @@ struct RenderSession {
   bool try_paths = false;  // choose between photon maps and paths, see settle_paths(); not with fill_time
 };
 
+// A render of the job that others may follow.
+std::shared_ptr<LiveRender> make_live(const Job& job);
+
 // Whether the session writes complete passes that can be resumed: checkpoints or partial results.
 bool writes_sums(const RenderSession& session);
 
 // Renders and writes all files, within a thread limit of its own. Returns the exit code; after an
-// interruption it writes what is finished. `total`: started with the command.
-int run_session(Job job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
+// interruption it writes what is finished. `total`: started with the command. The job's settings become those
+// that were chosen.
+int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console);
 
 // Parses the value of --checkpoint-every into seconds. Throws OptionError.

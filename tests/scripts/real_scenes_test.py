@@ -61,7 +61,7 @@ def test_script(program, folder):
                "--seconds", "0.3"]
     missing = subprocess.run([*command, kScene], capture_output=True, text=True)
     assert missing.returncode == 1 and "there is no reference" in missing.stderr, missing.stderr
-    done = subprocess.run([*command, "--make-references", "2", "--other", program, kScene], capture_output=True, text=True)
+    done = subprocess.run([*command, "--make-references", "5", "--other", program, kScene], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "relMSE of auto to mc at equal time" in done.stdout and "relMSE to that of the other program" in done.stdout, done.stdout
     check = json.loads((folder / "rough-glass-48.json").read_text())

@@ -4,8 +4,8 @@
 
 #include "apps/bench/bench_json.h"
 #include "apps/bench/bench_table.h"
+#include "apps/html/html.h"
 #include "apps/report/bench_report.h"
-#include "apps/report/html.h"
 
 namespace kaustik::app {
 namespace {

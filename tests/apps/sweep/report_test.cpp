@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/report/html.h"
+#include "apps/html/html.h"
 #include "apps/report/sweep_report.h"
 #include "apps/sweep/pictures.h"
 #include "report_assets.h"

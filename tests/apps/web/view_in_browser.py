@@ -3,7 +3,8 @@
 2D canvas; zoom, readout, comparison, pause, stop and save work, and the laboratory where there is one; nothing foreign is fetched,
 no error reaches the console, a phone need not scroll sideways. Leaves screenshots.
 
-view_in_browser.py ADDRESS|mock OUT_DIR      (packages chromium chromium-driver python3-selenium)
+view_in_browser.py KAUSTIK|ADDRESS|mock OUT_DIR      (packages chromium chromium-driver python3-selenium)
+KAUSTIK: the program, which it starts and ends.
 ADDRESS: that of a page whose render has just begun and takes 20 seconds or more; the test holds it, and ends it.
 mock: that of mock_server.py, which it starts and ends.
 Exit code 77, with the reason, where there is no browser."""
@@ -403,6 +404,23 @@ class Mock:
         self.process.wait()
 
 
+class Viewed:
+    """`kaustik view` with a render that takes long enough."""
+
+    def __init__(self, program):
+        scene = pathlib.Path(__file__).resolve().parents[3] / "scenes/cornell-spheres/square-lamp-2.pbrt"
+        self.process = subprocess.Popen([program, "view", scene, "--photons", "3M", "--spp", "400", "--passes", "40", "--width", "300",
+                                         "--threads", "1", "-q"], stdout=subprocess.PIPE, text=True)
+        self.address = self.process.stdout.readline().strip()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        assert self.process.wait(30) == 0, "the program ends well when it is told to"
+
+
 def check(browser, address, out, downloads):
     page = Page(browser, address)
     page.open()
@@ -451,6 +469,10 @@ def main():
             with Mock() as mock:
                 page, drawers = check(browser, mock.address, out, downloads)
                 check_end(page, mock)
+        elif pathlib.Path(sys.argv[1]).is_file():
+            with Viewed(sys.argv[1]) as viewed:
+                page, drawers = check(browser, viewed.address, out, downloads)
+                leave(page)
         else:
             page, drawers = check(browser, sys.argv[1], out, downloads)
     finally:

@@ -1,4 +1,4 @@
-#include "apps/report/html.h"
+#include "apps/html/html.h"
 
 #include <algorithm>
 #include <cstdint>

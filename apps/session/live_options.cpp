@@ -1,7 +1,8 @@
-#include "apps/live/live_options.h"
+#include "apps/session/live_options.h"
 
 #include "apps/live/terminal_preview.h"
 #include "apps/live/tev_display.h"
+#include "apps/web/page_options.h"
 
 namespace kaustik::app {
 
@@ -32,19 +33,26 @@ void add_live_options(Command& command, LiveOptions& options) {
       "--preview", options.preview,
       "Show the picture in progress in the terminal, over ssh, too: by kitty's graphics protocol or "
       "sixels where the terminal knows them, else by coloured characters");
+  command.add_flag(
+      "--view", options.view,
+      "Serve a page with the picture in progress to this machine's browser, and print its address");
+  add_page_options(command, options.page, "--view");
 }
 
-void check_live_options(const LiveOptions&) {}
-
-LiveViewers start_viewers(const LiveOptions& options, LiveRender& live,
+LiveViewers start_viewers(const LiveOptions& options, const std::shared_ptr<LiveRender>& live,
                           const std::vector<std::string>& layers, const ToneChoice& tone,
                           const Console& console) {
   LiveViewers viewers;
   if (!options.display.empty())
     viewers.push_back(std::make_unique<TevDisplay>(parse_address(options.display, kTevPort),
-                                                   display_channels(layers), live, console));
+                                                   display_channels(layers), *live, console));
   if (options.preview)
-    if (auto preview = start_preview(live, tone, console)) viewers.push_back(std::move(preview));
+    if (auto preview = start_preview(*live, tone, console)) viewers.push_back(std::move(preview));
+  if (options.view) {
+    PageOptions page = options.page;
+    page.tone = tone;
+    viewers.push_back(std::make_unique<PageServer>(page, live, PageExtension{}, console));
+  }
   return viewers;
 }
 

@@ -1,0 +1,144 @@
+// kaustik view: shows a render while it goes on in a page, and renders again with other settings.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "apps/commands/commands.h"
+#include "apps/console/exit_error.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/session/denoising.h"
+#include "apps/session/files/scene_loading.h"
+#include "apps/session/render_session.h"
+#include "apps/session/stopping/stop_rules.h"
+#include "apps/session/stopping/time_plan.h"
+#include "apps/settings/setting_options.h"
+#include "apps/web/laboratory.h"
+#include "apps/web/page_options.h"
+#include "apps/web/page_server.h"
+
+namespace kaustik::app {
+
+namespace {
+
+struct ViewOptions {
+  std::string scene;
+  PageOptions page;
+  SettingOverrides overrides;
+};
+
+// Renders that follow each other on one page.
+class View {
+ public:
+  View(const ViewOptions& options, Job job, const InterruptGuard& interrupt, const Console& console)
+      : options_(options),
+        console_(console),
+        interrupt_(interrupt),
+        job_(std::move(job)),
+        bvh_(job_.scene, job_.settings.render.threads),
+        laboratory_(job_.scene, bvh_) {}
+
+  int run() {
+    Settings settings = job_.settings;
+    std::optional<PageServer> page;
+    while (true) {
+      const std::shared_ptr<LiveRender> live = make_live(job_);
+      laboratory_.use(settings);
+      begin(live);
+      if (page)
+        page->show(live);
+      else
+        page.emplace(page_options(settings), live,
+                     laboratory_.extension([this](const Settings& s) { again(s); }), console_);
+      if (const int code = render(settings, live); code != kDone && code != kInterrupted) return code;
+      // --time chooses them.
+      if (job_.settings.render.photons != settings.render.photons) laboratory_.use(job_.settings);
+      if (interrupt_.requested()) return kDone;
+      const std::optional<Settings> next = wait_for_next();
+      if (!next) return kDone;
+      settings = *next;
+    }
+  }
+
+ private:
+  PageOptions page_options(const Settings& settings) const {
+    PageOptions page = options_.page;
+    page.tone = settings.tone;
+    return page;
+  }
+
+  int render(const Settings& settings, const std::shared_ptr<LiveRender>& live) {
+    const Stopwatch total;
+    job_.settings = settings;
+    settle_denoising(false, &job_.settings);
+    RenderSession session;
+    session.followed = live;
+    session.bvh = &bvh_;
+    session.fill_time = time_decides(job_.settings, options_.overrides, job_.scene.needs, false);
+    check_stop_settings(job_.settings.stop);
+    if (!session.fill_time) settle_error_settings(console_, job_.scene.needs, &job_.settings);
+    return run_session(job_, std::move(session), interrupt_, total, console_);
+  }
+
+  void begin(const std::shared_ptr<LiveRender>& live) {
+    const std::lock_guard lock(mutex_);
+    live_ = live;
+  }
+
+  // Ends the present render and asks for the next one. Called by the page's threads.
+  void again(const Settings& settings) {
+    const std::lock_guard lock(mutex_);
+    next_ = settings;
+    live_->stop();
+  }
+
+  // The settings of the next render, or nothing when the user ends the program.
+  std::optional<Settings> wait_for_next() {
+    constexpr std::chrono::milliseconds kBetweenLooks{20};
+    while (!interrupt_.requested()) {
+      {
+        const std::lock_guard lock(mutex_);
+        if (next_) return std::exchange(next_, std::nullopt);
+      }
+      std::this_thread::sleep_for(kBetweenLooks);
+    }
+    return std::nullopt;
+  }
+
+  const ViewOptions& options_;
+  const Console& console_;
+  const InterruptGuard& interrupt_;
+  Job job_;
+  const accel::Bvh bvh_;
+  Laboratory laboratory_;
+  std::mutex mutex_;  // guards what follows
+  std::shared_ptr<LiveRender> live_;
+  std::optional<Settings> next_;
+};
+
+int run_view(const ViewOptions& options, const Console& console) {
+  const InterruptGuard interrupt;
+  Job job;
+  with_thread_limit(options.overrides.alone().render.threads, console,
+                    [&] { job = load_job(options.scene, options.overrides, console); });
+  View view(options, std::move(job), interrupt, console);
+  return view.run();
+}
+
+}  // namespace
+
+Command make_view_command() {
+  Command command("view", "Show a render while it goes on, in a page of this machine's browser");
+  const auto options = std::make_shared<ViewOptions>();
+  command.add_argument("SCENE", options->scene, "Scene file: .pbrt, .gltf, .glb, .obj, .ply or .stl");
+  add_page_options(command, options->page);
+  command.add_quiet();
+  add_setting_options(command, options->overrides, SettingsCommand::kRender);
+  command.run = [options](const Console& console) { return run_view(*options, console); };
+  return command;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,125 @@
+// The HTTP server by means of cpp-httplib, in a library that programs load when they first serve a page.
+
+#include <fmt/format.h>
+#include <httplib.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <thread>
+
+#include "apps/web/http_server.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// Each stream of events keeps a thread.
+constexpr size_t kThreads = 48, kMostStreams = 32;
+constexpr size_t kLongestBody = 1 << 16;  // of a request
+
+HttpRequest request_of(const httplib::Request& from) {
+  HttpRequest request{from.method,
+                      from.path,
+                      from.body,
+                      {},
+                      from.get_header_value("Host"),
+                      from.get_header_value("Origin"),
+                      from.get_header_value("Sec-Fetch-Site")};
+  for (const auto& [name, value] : from.params) request.query.emplace(name, value);
+  return request;
+}
+
+class Server final : public HttpServer {
+ public:
+  explicit Server(HttpHandler& handler) : handler_(handler) {}
+  ~Server() override {
+    ending_ = true;
+    server_.stop();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  // Returns why it cannot serve, or an empty string.
+  std::string start(const char* address, int port) {
+    server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    server_.set_keep_alive_timeout(1);
+    server_.set_read_timeout(5);
+    server_.set_payload_max_length(kLongestBody);
+    // Not the library's default, by which two processes may share a port.
+    server_.set_socket_options([](auto socket) {
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    });
+    const auto answer = [this](const httplib::Request& from, httplib::Response& to) {
+      this->answer(from, to);
+    };
+    server_.Get(".*", answer);
+    server_.Post(".*", answer);
+    port_ = port > 0 ? (server_.bind_to_port(address, port) ? port : -1) : server_.bind_to_any_port(address);
+    if (port_ <= 0)
+      return port > 0 ? fmt::format("cannot serve a page at port {} of {}: it is taken or not allowed", port,
+                                    address)
+                      : fmt::format(
+                            "cannot serve a page at {}: no port is free, or it is no address of this machine",
+                            address);
+    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    return {};
+  }
+  int port() const override { return port_; }
+
+ private:
+  void answer(const httplib::Request& from, httplib::Response& to) {
+    HttpResponse response = handler_.answer(request_of(from));
+    to.status = response.status;
+    for (const auto& [name, value] : response.headers) to.set_header(name.c_str(), value);
+    if (response.events)
+      send_events(to);
+    else if (!response.body.empty())
+      to.set_content(response.body, response.type.c_str());
+  }
+
+  void send_events(httplib::Response& to) {
+    if (++streams_ > kMostStreams) {
+      --streams_;
+      to.status = 503;
+      return;
+    }
+    handler_.stream_begins();
+    to.set_chunked_content_provider(
+        "text/event-stream",
+        [this, reader = std::make_shared<EventReader>()](size_t, httplib::DataSink& sink) {
+          const std::string text = ending_ ? std::string() : handler_.next_event(reader.get());
+          if (!text.empty()) return sink.write(text.data(), text.size());
+          sink.done();
+          return true;
+        },
+        [this](bool) {
+          --streams_;
+          handler_.stream_ends();
+        });
+  }
+
+  HttpHandler& handler_;
+  httplib::Server server_;
+  std::thread thread_;
+  std::atomic<bool> ending_{false};
+  std::atomic<size_t> streams_{0};
+  int port_ = 0;
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) HttpServer* kaustik_start_http_server(const char* address,
+                                                                                        int port,
+                                                                                        HttpHandler& handler,
+                                                                                        std::string& error) {
+  try {
+    auto server = std::make_unique<Server>(handler);
+    error = server->start(address, port);
+    return error.empty() ? server.release() : nullptr;
+  } catch (const std::exception& problem) {
+    error = problem.what();
+    return nullptr;
+  }
+}
+
+}  // namespace kaustik::app

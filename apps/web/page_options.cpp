@@ -1,0 +1,46 @@
+#include "apps/web/page_options.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+
+#include "apps/command_line/whole_numbers.h"
+
+namespace kaustik::app {
+
+namespace {
+
+constexpr int kLastPort = 65535;
+
+std::string address_of(const std::string& text) {
+  in6_addr ignored{};
+  const bool number =
+      inet_pton(AF_INET, text.c_str(), &ignored) == 1 || inet_pton(AF_INET6, text.c_str(), &ignored) == 1;
+  if (!number)
+    throw OptionError("--listen",
+                      fmt::format("`{}`: expected an address of this machine by number, like 192.168.1.5, or "
+                                  "0.0.0.0 for all of them",
+                                  text));
+  return text;
+}
+
+}  // namespace
+
+void add_page_options(Command& command, PageOptions& options, const std::string& needs) {
+  const std::vector<std::string> all_need = needs.empty() ? std::vector<std::string>{} : std::vector{needs};
+  command
+      .add_parsed("--port", "N", "Port of the page: 0 to 65535. Default: 0, any that is free",
+                  [&options](const std::string& text) {
+                    options.port = text == "0" ? 0 : int(whole_number("--port", text, kLastPort));
+                  })
+      .needs = all_need;
+  command
+      .add_parsed(
+          "--listen", "ADDRESS",
+          "Serve the page to other machines, too, at this address of the machine; its own address then "
+          "has a token that nobody can guess, but is not encrypted. Default: this machine alone",
+          [&options](const std::string& text) { options.listen = address_of(text); })
+      .needs = all_need;
+  command.add_flag("--open", options.open, "Open the page in the browser");
+}
+
+}  // namespace kaustik::app

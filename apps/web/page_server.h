@@ -1,0 +1,69 @@
+#pragma once
+// Serves the live page of a render, by default to this machine alone.
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/console/console.h"
+#include "apps/live/live_render.h"
+#include "apps/settings/table/settings.h"
+#include "apps/web/request_check.h"
+
+namespace kaustik::app {
+
+struct PageOptions {
+  int port = 0;          // 0: any that is free
+  std::string listen{};  // the address of this machine to serve at; empty: 127.0.0.1, for this machine alone
+  bool open = false;     // opens the page in the user's browser
+  ToneChoice tone{};     // how the page shows the picture at first
+};
+
+// Answers requests that only some pages have. `describe`: members for /info.
+struct PageExtension {
+  std::function<std::optional<HttpResponse>(const HttpRequest&)> answer{};
+  std::function<nlohmann::ordered_json()> describe{};
+};
+
+class PageServer final : public LiveViewer, private HttpHandler {
+ public:
+  // Starts to serve, and prints the address as a result. Throws ExitError (failed) if that is impossible.
+  PageServer(const PageOptions& options, std::shared_ptr<LiveRender> live, PageExtension extension,
+             const Console& console);
+  // Waits a moment for the pages that are open to get the last state.
+  ~PageServer() override;
+
+  // Shows another render from now on.
+  void show(std::shared_ptr<LiveRender> live);
+  std::string url() const { return address_.url(); }
+
+ private:
+  struct Shown {
+    std::shared_ptr<LiveRender> render;
+    uint64_t number = 0;
+  };
+
+  HttpResponse answer(const HttpRequest& request) override;
+  std::string next_event(EventReader* reader) override;
+  void stream_begins() override { ++readers_; }
+  void stream_ends() override { --readers_; }
+  HttpResponse get(const HttpRequest& request);
+  HttpResponse post(const HttpRequest& request);
+  HttpResponse pixels(const HttpRequest& request);
+  HttpResponse save(const HttpRequest& request) const;
+  Shown shown() const;
+  void wait_for_readers() const;
+
+  const PageOptions options_;
+  const PageExtension extension_;
+  PageAddress address_;
+  mutable std::mutex mutex_;  // guards shown_
+  Shown shown_;
+  std::atomic<int> readers_{0}, up_to_date_{0};  // streams of events; answers with the last pixels
+  std::unique_ptr<HttpServer> server_;           // the last member: its threads use the others
+};
+
+}  // namespace kaustik::app

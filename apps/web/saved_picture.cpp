@@ -1,0 +1,76 @@
+#include "apps/web/saved_picture.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "apps/web/request_check.h"
+#include "core/files/pending_file.h"
+#include "render/picture/exposure.h"
+#include "render/picture/image_io.h"
+
+namespace kaustik::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The bytes of the file that `write` makes.
+template <class Write>
+std::string bytes_of(const std::string& extension, const Write& write) {
+  const fs::path path = unique_temporary_name(fs::temp_directory_path() / ("kaustik-picture." + extension));
+  write(path.string());
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  file.close();
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  return bytes;
+}
+
+std::optional<float> stops_of(const std::string& text) {
+  float stops = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stops);
+  const bool read = error == std::errc() && end == text.data() + text.size();
+  return read && std::abs(stops) <= float(render::kMostStops) ? std::optional(stops) : std::nullopt;
+}
+
+}  // namespace
+
+HttpResponse saved_picture(const LiveRender& live, const HttpRequest& request, const ToneChoice& tone) {
+  const std::string format = request.value("format", "exr");
+  if (format != "exr" && format != "png") return error_response(400, "format: expected exr or png");
+  const render::Film film = live.picture.film();
+  const render::Image picture = live.picture.picture();
+  render::WriteOptions options;
+  options.picture = &picture;
+  if (format == "exr") {
+    options.layers = render::layers_from_names({"all"});
+  } else {
+    const auto tonemap =
+        render::tonemap_from_name(request.value("tonemap", std::string(name_of(tone.tonemap))));
+    if (!tonemap) return error_response(400, "tonemap: expected srgb, reinhard or filmic");
+    std::optional<float> stops = tone.exposure;
+    if (const std::string text = request.value("exposure"); !text.empty() && !(stops = stops_of(text)))
+      return error_response(400, "exposure: expected a number of stops, -64 to 64");
+    if (!stops) stops = render::automatic_exposure(picture, render::lights_seen(film), *tonemap);
+    options.tone = {*stops, *tonemap};
+  }
+  HttpResponse response{
+      200, format == "exr" ? "image/x-exr" : "image/png",
+      bytes_of(format, [&](const std::string& path) { render::write_film(path, film, options); })};
+  const std::string name = fs::path(live.title()).stem().string();
+  std::string plain;
+  for (const char c : name)
+    plain += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+  response.headers.emplace_back(
+      "Content-Disposition",
+      fmt::format("attachment; filename=\"{}.{}\"", plain.empty() ? "picture" : plain, format));
+  return response;
+}
+
+}  // namespace kaustik::app
