@@ -46,10 +46,10 @@ void Screen::send(std::string_view bytes) {
   write_pending(lock);
 }
 
-size_t Screen::draw(const Place& place, std::string forget, const Paint& paint) {
+size_t Screen::draw(const Place& place, std::string forget, const Paint& paint, bool anew) {
   std::unique_lock lock(mutex_);
   idle_.wait(lock, [&] { return !writing_; });
-  const bool all = place_ != place;
+  const bool all = anew || place_ != place;
   std::string bytes(kHold);
   if (all) bytes += erased() + std::string(size_t(place.rows), '\n');
   writing_ = true;

@@ -39,9 +39,10 @@ class Screen {
   // otherwise it still shows what was drawn last. Nothing is written if there are no bytes.
   using Paint = std::function<std::string(bool all)>;
   // Draws by `paint` what is in this place, after the place is made if there is none of this size. forget:
-  // bytes by which the terminal forgets the picture where erasing its cells is not enough. Returns the number
-  // of bytes written. Waits while another thread writes.
-  size_t draw(const Place& place, std::string forget, const Paint& paint);
+  // bytes by which the terminal forgets the picture where erasing its cells is not enough. anew: makes the
+  // place again, since others may have written there, as the terminal itself does with typed keys. Returns
+  // the number of bytes written. Waits while another thread writes.
+  size_t draw(const Place& place, std::string forget, const Paint& paint, bool anew = false);
   // Leaves the picture, if there is one, as a part of the text above.
   void keep_picture();
 

@@ -43,8 +43,9 @@ class Painter {
   Painter(PictureWay way, const TerminalAnswers& answers, Screen& screen, int terminal)
       : way_(way), answers_(answers), screen_(screen), terminal_(terminal) {}
 
-  // Redraws what the terminal does not show. changed: the pixels have changed. Returns the number of bytes.
-  size_t paint(const PreviewPixels& pixels, const LivePicture& live, bool changed) {
+  // Redraws what the terminal does not show, or all of it anew. changed: the pixels have changed. Returns the
+  // number of bytes.
+  size_t paint(const PreviewPixels& pixels, const LivePicture& live, bool changed, bool anew) {
     const TerminalSize size = terminal_size(terminal_);
     const CellSize cell = cell_size(size, answers_.cell_width, answers_.cell_height);
     const PicturePlace place = picture_place(live.range().width(), live.range().height(), way_, size, cell);
@@ -52,11 +53,12 @@ class Painter {
     place_ = place;
     if (place.rows == 0) return 0;
     const std::string forget = way_ == PictureWay::kKitty ? kitty_removal(id_) : "";
-    return screen_.draw({place.rows, place.columns}, forget, [&](bool all) -> std::string {
+    const auto bytes = [&](bool all) -> std::string {
       if (!stale_ && !all) return {};
       stale_ = false;
       return bytes_of(pixels.shown(place.width, place.height), all, cell);
-    });
+    };
+    return screen_.draw({place.rows, place.columns}, forget, bytes, anew);
   }
 
  private:
@@ -168,7 +170,7 @@ void TerminalPreview::show(PictureWay way, const TerminalAnswers& answers, const
     last = stopped_after(pause);
     pace.start();
     const bool changed = pixels.update();
-    const size_t bytes = pixels.known() ? painter.paint(pixels, live_.picture, changed) : 0;
+    const size_t bytes = pixels.known() ? painter.paint(pixels, live_.picture, changed, last) : 0;
     pause = pace.pause_after(bytes);
   }
   console_.screen->keep_picture();

@@ -102,6 +102,19 @@ TEST_F(ScreenTest, AtTheLowerEdgeTheTextScrolls) {
   EXPECT_EQ(model.text(27), "10 %");
 }
 
+// The terminal shows typed keys where the cursor is.
+TEST_F(ScreenTest, APictureDrawnAnewHasNothingOfOthers) {
+  screen_.show_line("10 %");
+  screen_.draw({2, 5}, "", lines_of('a', 2));
+  stream_ << "\r\x1b[1A^C and more";
+  stream_ << "\r\x1b[1B";
+  bool was_empty = false;
+  screen_.draw(
+      {2, 5}, "", [&](bool all) { return was_empty = all, lines_of('b', 2)(all); }, true);
+  EXPECT_TRUE(was_empty);
+  EXPECT_EQ(texts(shown()), Texts({"bbbbb", "bbbbb", "10 %"}));
+}
+
 TEST_F(ScreenTest, AKeptPictureIsText) {
   screen_.draw({2, 5}, "", lines_of('a', 2));
   screen_.keep_picture();
