@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""What it costs a render to be followed: processor time and elapsed time of `kaustik render` with `--view` and a reader that
+"""What it costs a render to be followed: processor time, and elapsed time of the image phase, of `kaustik render` with `--view` and a reader that
 fetches every change, as the page does, over those without, in alternating pairs. The bits must be the same.
 
     live_view.py [--program build/release/kaustik] [--trials 7] [--options "..."] SCENE...
 """
 
 import argparse
+import json
 import pathlib
 import re
 import resource
@@ -13,7 +14,6 @@ import statistics
 import subprocess
 import tempfile
 import threading
-import time
 import urllib.request
 
 kOptions = "--width 600 --spp 16 --photons 1M --denoise off"
@@ -37,9 +37,10 @@ def follow(address, fetched):
 
 
 def render(program, scene, options, picture, followed):
-    """Processor seconds, elapsed seconds, and the bytes that the reader fetched."""
-    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-    process = subprocess.Popen([program, "render", scene, *options, "-o", picture, *(["--view"] if followed else [])],
+    """Processor seconds, seconds of the image phase, and the bytes that the reader fetched."""
+    before, statistics_file = resource.getrusage(resource.RUSAGE_CHILDREN), picture.with_suffix(".json")
+    process = subprocess.Popen([program, "render", scene, *options, "-o", picture, "--stats", statistics_file,
+                                *(["--view"] if followed else [])],
                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     fetched = []
     if followed:
@@ -48,7 +49,7 @@ def render(program, scene, options, picture, followed):
         reader.join()
     if process.wait() != 0:
         raise SystemExit(f"{scene}: the render failed")
-    elapsed, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+    elapsed, after = json.loads(statistics_file.read_text())["seconds"]["render"], resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, elapsed, sum(fetched)
 
 
@@ -71,7 +72,7 @@ def main():
     parser.add_argument("--options", default=kOptions)
     parser.add_argument("scenes", nargs="+", metavar="SCENE")
     arguments = parser.parse_args()
-    print("| scene | s alone | processor time, followed / alone | elapsed time, followed / alone | MiB fetched |\n| --- | --- | --- | --- | --- |")
+    print("| scene | s alone | processor time, followed / alone | image phase, followed / alone | MiB fetched |\n| --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as folder:
         for scene in arguments.scenes:
             compare(arguments, scene, pathlib.Path(folder))

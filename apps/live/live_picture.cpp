@@ -99,22 +99,12 @@ void LivePicture::changed(const PixelRange& tile) {
 }
 
 void LivePicture::add(const PixelRange& range, int cell, const render::FilmSums& sums) {
-  PixelResult mean;
   std::vector<PixelResult> values;
   values.reserve(range.pixels());
   for (int y = range.y0; y < range.y1; ++y)
-    for (int x = range.x0; x < range.x1; ++x) {
+    for (int x = range.x0; x < range.x1; ++x)
       values.push_back(mean_of(sums.at(x - sums.x0(), y - sums.y0())));
-      app::add(values.back(), 1 / float(range.pixels()), &mean);
-    }
-  for_each_tile(range_.in_square(range.x0 - range.x0 % cell, range.y0 - range.y0 % cell, cell),
-                [&](const PixelRange& part) {
-                  part.for_each_square(render::kRayBlock, [&](const PixelRange& block) {
-                    Block& of = blocks_[block_index(block.x0, block.y0)];
-                    if (!of.known) of.mean = mean;
-                  });
-                  changed(part);
-                });
+  if (cell > render::kRayBlock) stand_for_cell(range, cell, values);
   // A block lies in one tile.
   for_each_tile(range, [&](const PixelRange& part) {
     size_t i = 0;
@@ -123,6 +113,19 @@ void LivePicture::add(const PixelRange& range, int cell, const render::FilmSums&
     blocks_[block_index(range.x0, range.y0)].known = true;
     changed(part);
   });
+}
+
+void LivePicture::stand_for_cell(const PixelRange& range, int cell, const std::vector<PixelResult>& values) {
+  PixelResult mean;
+  for (const PixelResult& value : values) app::add(value, 1 / float(values.size()), &mean);
+  for_each_tile(range_.in_square(range.x0 - range.x0 % cell, range.y0 - range.y0 % cell, cell),
+                [&](const PixelRange& part) {
+                  part.for_each_square(render::kRayBlock, [&](const PixelRange& block) {
+                    Block& of = blocks_[block_index(block.x0, block.y0)];
+                    if (!of.known) of.mean = mean;
+                  });
+                  changed(part);
+                });
 }
 
 void LivePicture::show(const render::Film& film, const render::Image* shown) {

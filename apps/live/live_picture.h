@@ -71,6 +71,9 @@ class LivePicture {
   template <class Fn>
   void for_each_tile(const render::PixelRange& range, const Fn& fn) const;
   void changed(const render::PixelRange& tile);
+  // Lets the mean of a block's pixels stand for the unknown blocks of its cell.
+  void stand_for_cell(const render::PixelRange& range, int cell,
+                      const std::vector<render::PixelResult>& values);
 
   render::PixelRange range_;
   int full_width_, full_height_;

@@ -52,6 +52,7 @@ PageServer::PageServer(const PageOptions& options, std::shared_ptr<LiveRender> l
 
 PageServer::~PageServer() {
   wait_for_readers();
+  ending_ = true;
   server_.reset();
 }
 
@@ -140,7 +141,7 @@ HttpResponse PageServer::save(const HttpRequest& request) const {
 }
 
 std::string PageServer::next_event(EventReader* reader) {
-  for (int look = 1;; ++look) {
+  for (int look = 1; !ending_; ++look) {
     const Shown now = shown();
     const LiveStatus status = now.render->status();
     const uint64_t version = now.render->picture.changed_since(~uint64_t{0}).version;
@@ -154,6 +155,7 @@ std::string PageServer::next_event(EventReader* reader) {
     }
     std::this_thread::sleep_for(kBetweenLooks);
   }
+  return {};
 }
 
 }  // namespace kaustik::app

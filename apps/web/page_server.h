@@ -63,7 +63,8 @@ class PageServer final : public LiveViewer, private HttpHandler {
   mutable std::mutex mutex_;  // guards shown_
   Shown shown_;
   std::atomic<int> readers_{0}, up_to_date_{0};  // streams of events; answers with the last pixels
-  std::unique_ptr<HttpServer> server_;           // the last member: its threads use the others
+  std::atomic<bool> ending_{false};
+  std::unique_ptr<HttpServer> server_;  // the last member: its threads use the others
 };
 
 }  // namespace kaustik::app
