@@ -7,12 +7,8 @@
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
-#include "apps/session/denoising.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/render_session.h"
-#include "apps/session/stopping/fixed_plan.h"
-#include "apps/session/stopping/stop_rules.h"
-#include "apps/session/stopping/time_plan.h"
 #include "apps/settings/unread_settings.h"
 #include "render/plan/plan.h"
 
@@ -97,14 +93,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   session.outputs.files = outputs_of(options, job);
   check_with_scene(options, session.outputs.files, job);
   warn_of_layers(session.outputs, job.settings.render.aov, console);
-  settle_denoising(writes_sums(session), &job.settings);
-  session.fill_time = options.passes.empty() &&
-                      time_decides(job.settings, options.overrides, job.scene.needs, writes_sums(session));
-  check_stop_settings(job.settings.stop);
-  if (!session.fill_time) {
-    settle_error_settings(console, job.scene.needs, &job.settings);
-    session.try_paths = may_choose_paths(job.settings, options.overrides, job.scene.needs);
-  }
+  settle_session(options.overrides, console, &job, &session);
   check_passes(options, job);
   note_checkpoint(options, console);
   return run_session(job, std::move(session), interrupt, total, console);

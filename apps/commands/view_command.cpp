@@ -10,11 +10,8 @@
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
-#include "apps/session/denoising.h"
 #include "apps/session/files/scene_loading.h"
 #include "apps/session/render_session.h"
-#include "apps/session/stopping/stop_rules.h"
-#include "apps/session/stopping/time_plan.h"
 #include "apps/settings/setting_options.h"
 #include "apps/web/laboratory.h"
 #include "apps/web/page_options.h"
@@ -39,7 +36,8 @@ class View {
         interrupt_(interrupt),
         job_(std::move(job)),
         bvh_(job_.scene, job_.settings.render.threads),
-        laboratory_(job_.scene, bvh_) {}
+        laboratory_(job_.scene, bvh_),
+        given_(options.overrides) {}
 
   int run() {
     Settings settings = job_.settings;
@@ -52,18 +50,27 @@ class View {
         page->show(live);
       else
         page.emplace(page_options(settings), live,
-                     laboratory_.extension([this](const Settings& s) { again(s); }), console_);
+                     laboratory_.extension(
+                         [this](const SettingOverrides& more, const Settings& all) { again(more, all); }),
+                     console_);
       if (const int code = render(settings, live); code != kDone && code != kInterrupted) return code;
       // --time chooses them.
       if (job_.settings.render.photons != settings.render.photons) laboratory_.use(job_.settings);
       if (interrupt_.requested()) return kDone;
-      const std::optional<Settings> next = wait_for_next();
+      const std::optional<Next> next = wait_for_next();
       if (!next) return kDone;
-      settings = *next;
+      given_.append(next->given);
+      settings = next->settings;
     }
   }
 
  private:
+  // What a reader of the page asks for.
+  struct Next {
+    SettingOverrides given;
+    Settings settings;
+  };
+
   PageOptions page_options(const Settings& settings) const {
     PageOptions page = options_.page;
     page.tone = settings.tone;
@@ -73,13 +80,10 @@ class View {
   int render(const Settings& settings, const std::shared_ptr<LiveRender>& live) {
     const Stopwatch total;
     job_.settings = settings;
-    settle_denoising(false, &job_.settings);
     RenderSession session;
     session.followed = live;
     session.bvh = &bvh_;
-    session.fill_time = time_decides(job_.settings, options_.overrides, job_.scene.needs, false);
-    check_stop_settings(job_.settings.stop);
-    if (!session.fill_time) settle_error_settings(console_, job_.scene.needs, &job_.settings);
+    settle_session(given_, console_, &job_, &session);
     return run_session(job_, std::move(session), interrupt_, total, console_);
   }
 
@@ -89,14 +93,14 @@ class View {
   }
 
   // Ends the present render and asks for the next one. Called by the page's threads.
-  void again(const Settings& settings) {
+  void again(const SettingOverrides& given, const Settings& settings) {
     const std::lock_guard lock(mutex_);
-    next_ = settings;
+    next_ = {given, settings};
     live_->stop();
   }
 
-  // The settings of the next render, or nothing when the user ends the program.
-  std::optional<Settings> wait_for_next() {
+  // The next render, or nothing when the user ends the program.
+  std::optional<Next> wait_for_next() {
     constexpr std::chrono::milliseconds kBetweenLooks{20};
     while (!interrupt_.requested()) {
       {
@@ -114,9 +118,10 @@ class View {
   Job job_;
   const accel::Bvh bvh_;
   Laboratory laboratory_;
-  std::mutex mutex_;  // guards what follows
+  SettingOverrides given_;  // by the command line, and then by the page
+  std::mutex mutex_;        // guards what follows
   std::shared_ptr<LiveRender> live_;
-  std::optional<Settings> next_;
+  std::optional<Next> next_;
 };
 
 int run_view(const ViewOptions& options, const Console& console) {

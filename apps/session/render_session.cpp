@@ -9,6 +9,7 @@
 #include "apps/console/exit_code.h"
 #include "apps/console/progress_bar.h"
 #include "apps/machine/thread_limit.h"
+#include "apps/session/denoising.h"
 #include "apps/session/render_job.h"
 #include "apps/session/stopping/denoising_time.h"
 #include "apps/session/stopping/fixed_plan.h"
@@ -169,6 +170,17 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
 bool writes_sums(const RenderSession& session) {
   const std::vector<std::string>& files = session.outputs.files;
   return !session.checkpoint.path.empty() || std::any_of(files.begin(), files.end(), render::is_partial_name);
+}
+
+void settle_session(const SettingOverrides& given, const Console& console, Job* job, RenderSession* session) {
+  Settings& settings = job->settings;
+  settle_denoising(writes_sums(*session), &settings);
+  session->fill_time =
+      session->goal.empty() && time_decides(settings, given, job->scene.needs, writes_sums(*session));
+  check_stop_settings(settings.stop);
+  if (session->fill_time) return;
+  settle_error_settings(console, job->scene.needs, &settings);
+  session->try_paths = may_choose_paths(settings, given, job->scene.needs);
 }
 
 std::shared_ptr<LiveRender> make_live(const Job& job) {

@@ -6,6 +6,7 @@
 #include "apps/session/interrupt.h"
 #include "apps/session/live_options.h"
 #include "apps/session/render_outputs.h"
+#include "apps/settings/setting_options.h"
 
 namespace kaustik::app {
 
@@ -26,6 +27,11 @@ struct RenderSession {
 
 // A render of the job that others may follow.
 std::shared_ptr<LiveRender> make_live(const Job& job);
+
+// Decides what the settings leave open before anything is rendered: denoising, errors, and whether trials
+// choose the work or the paths. given: the settings that were asked for, in place of defaults. Throws
+// ExitError (bad command line) for rules that cannot be met.
+void settle_session(const SettingOverrides& given, const Console& console, Job* job, RenderSession* session);
 
 // Whether the session writes complete passes that can be resumed: checkpoints or partial results.
 bool writes_sums(const RenderSession& session);

@@ -133,7 +133,7 @@ HttpResponse Laboratory::render_with(const std::string& body, const RenderAgain&
   overrides.apply(settings);
   if (settings.render.passes > settings.render.photons)
     return error_response(400, "there are fewer photons than passes");
-  render_again(settings);
+  render_again(overrides, settings);
   return {202, "application/json", "{}"};
 }
 

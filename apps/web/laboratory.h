@@ -26,8 +26,8 @@ class Laboratory {
   // them.
   void use(const Settings& settings);
 
-  // Called with settings in place of those of the picture.
-  using RenderAgain = std::function<void(const Settings&)>;
+  // Called with the settings that a reader gives, and with all settings in place of those of the picture.
+  using RenderAgain = std::function<void(const SettingOverrides& given, const Settings&)>;
   PageExtension extension(RenderAgain render_again);
 
  private:
