@@ -13,26 +13,18 @@ import subprocess
 import sys
 import time
 
-SKIPPED = 77
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import headless  # noqa: E402
 
-
-def skip(why):
-    print("=" * 78)
-    print("SKIPPED: the report was NOT tested in a browser:", why)
-    print("Install chromium, chromium-driver and python3-selenium (scripts/test does, where it can).")
-    print("=" * 78)
-    sys.exit(SKIPPED)
-
-
+PAGE = "the report"
 try:
-    from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.support.ui import Select
 except ImportError as error:
-    skip(error)
+    headless.skip(PAGE, error)
 
 # The name contains markup, which must stay text.
 SCENE_NAME = "<img src=x onerror=window.hacked=1>&amp;.pbrt"
@@ -64,19 +56,6 @@ def sweep(kaustik, out):
                     "photon,mc", "--seeds", "3", "--reference-time", "2s", "-o", str(out / "sweep"), "--quiet"],
                    check=True)
     return out / "sweep"
-
-
-def open_browser():
-    browser, driver = shutil.which("chromium"), shutil.which("chromedriver")
-    if not browser or not driver:
-        skip("no " + ("chromium" if not browser else "chromedriver"))
-    options = webdriver.ChromeOptions()
-    options.binary_location = browser
-    for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1280,900",
-                     "--force-device-scale-factor=1", "--disable-gpu"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service(driver), options=options)
 
 
 def points_in(browser, chart):
@@ -292,7 +271,7 @@ def main():
     out = pathlib.Path(sys.argv[2])
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
-    browser = open_browser()
+    browser = headless.open_browser(PAGE, ["--disable-gpu"])
     try:
         folder = sweep(sys.argv[1], out)
         with open(folder / "sweep.csv", newline="") as file:

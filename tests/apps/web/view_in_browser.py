@@ -19,43 +19,23 @@ import sys
 import time
 import urllib.request
 
-SKIPPED = 77
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+import headless  # noqa: E402
 
-
-def skip(why):
-    print("=" * 78)
-    print("SKIPPED: the live page was NOT tested in a browser:", why)
-    print("Install chromium, chromium-driver and python3-selenium (scripts/test does, where it can).")
-    print("=" * 78)
-    sys.exit(SKIPPED)
-
-
+PAGE = "the live page"
 try:
-    from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.support.ui import Select
 except ImportError as error:
-    skip(error)
+    headless.skip(PAGE, error)
 
+# WebGL without a graphics card.
+GRAPHICS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 LONGEST = 60  # seconds to wait for anything, on a busy machine
-
-
-def open_browser(downloads):
-    browser, driver = shutil.which("chromium"), shutil.which("chromedriver")
-    if not browser or not driver:
-        skip("no " + ("chromium" if not browser else "chromedriver"))
-    options = webdriver.ChromeOptions()
-    options.binary_location = browser
-    for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1280,900",
-                     "--force-device-scale-factor=1", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"):
-        options.add_argument(argument)
-    options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service(driver), options=options)
 
 
 class Page:
@@ -461,7 +441,7 @@ def main():
     shutil.rmtree(out, ignore_errors=True)
     downloads = out / "downloads"
     downloads.mkdir(parents=True)
-    browser = open_browser(downloads)
+    browser = headless.open_browser(PAGE, GRAPHICS, downloads)
     try:
         if sys.argv[1] == "mock":
             with Mock("--size", "400x300", "--window", "50,30,250,170", "--no-lab") as mock:
