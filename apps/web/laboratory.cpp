@@ -22,12 +22,6 @@ constexpr std::string_view kOffered[] = {"photons",     "radius", "nearest",  "k
                                          "method",      "direct", "caustics", "indirect", "node-photons",
                                          "min-photons", "spp",    "seed"};
 
-const Setting& setting_named(std::string_view name) {
-  for (const Setting& setting : settings_table())
-    if (setting.name == name) return setting;
-  throw std::logic_error(fmt::format("there is no setting {}", name));
-}
-
 bool is_offered(const std::string& name) {
   return std::find(std::begin(kOffered), std::end(kOffered), name) != std::end(kOffered);
 }
@@ -123,7 +117,7 @@ HttpResponse Laboratory::render_with(const std::string& body, const RenderAgain&
     for (const auto& [name, value] : wanted.items()) {
       if (!is_offered(name)) return error_response(400, fmt::format("there is no setting {} here", name));
       if (const std::string text = text_of(value); !text.empty())
-        overrides.add(setting_named(name), {text});
+        overrides.add(*find_setting(name), {text});
       else
         leave_to_method(name, &settings.render);
     }
@@ -141,7 +135,7 @@ Json Laboratory::describe() const {
   const Settings now = settings();
   Json offered = Json::array();
   for (const std::string_view name : kOffered) {
-    const Setting& setting = setting_named(name);
+    const Setting& setting = *find_setting(name);
     const std::vector<std::string> texts = setting.show(now);
     offered.push_back({{"name", name},
                        {"value", texts.empty() ? std::string() : texts.front()},

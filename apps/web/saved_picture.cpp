@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
 
+#include "apps/command_line/values.h"
 #include "apps/web/request_check.h"
 #include "core/files/pending_file.h"
 #include "render/picture/exposure.h"
@@ -33,10 +33,8 @@ std::string bytes_of(const std::string& extension, const Write& write) {
 }
 
 std::optional<float> stops_of(const std::string& text) {
-  float stops = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stops);
-  const bool read = error == std::errc() && end == text.data() + text.size();
-  return read && std::abs(stops) <= float(render::kMostStops) ? std::optional(stops) : std::nullopt;
+  const std::optional<float> stops = parse_number(text);
+  return stops && std::abs(*stops) <= float(render::kMostStops) ? stops : std::nullopt;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 #include "apps/web/http_server.h"
@@ -61,7 +62,12 @@ class Server final : public HttpServer {
                       : fmt::format(
                             "cannot serve a page at {}: no port is free, or it is no address of this machine",
                             address);
-    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    thread_ = std::thread([this] {
+      server_.listen_after_bind();
+      ended_ = true;
+    });
+    // Before it runs, stop() would do nothing, and the thread would listen for ever.
+    while (!server_.is_running() && !ended_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return {};
   }
   int port() const override { return port_; }
@@ -101,7 +107,7 @@ class Server final : public HttpServer {
   HttpHandler& handler_;
   httplib::Server server_;
   std::thread thread_;
-  std::atomic<bool> ending_{false};
+  std::atomic<bool> ending_{false}, ended_{false};
   std::atomic<size_t> streams_{0};
   int port_ = 0;
 };
