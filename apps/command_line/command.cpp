@@ -42,8 +42,8 @@ Argument& Command::add_arguments(std::string argument, Texts& target, std::strin
   return arguments.back();
 }
 
-void Command::add_flag(std::string_view names, bool& target, std::string text) {
-  add_option(make_option(names, "", std::move(text), [&target](const Texts&) { target = true; }));
+Option& Command::add_flag(std::string_view names, bool& target, std::string text) {
+  return add_option(make_option(names, "", std::move(text), [&target](const Texts&) { target = true; }));
 }
 
 void Command::add_quiet(std::string text) {

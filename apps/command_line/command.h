@@ -33,7 +33,7 @@ struct Command {
 
   Argument& add_argument(std::string name, std::string& target, std::string description);
   Argument& add_arguments(std::string name, Texts& target, std::string description);
-  void add_flag(std::string_view names, bool& target, std::string description);
+  Option& add_flag(std::string_view names, bool& target, std::string description);
   void add_quiet(std::string description = "Suppress log and progress, but not warnings and errors");
   Option& add_text(std::string_view names, std::string value_name, std::string& target,
                    std::string description);

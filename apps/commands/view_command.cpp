@@ -36,31 +36,19 @@ class View {
         interrupt_(interrupt),
         job_(std::move(job)),
         bvh_(job_.scene, job_.settings.render.threads),
-        laboratory_(job_.scene, bvh_),
+        laboratory_(job_.scene, bvh_, job_.settings),
         given_(options.overrides) {}
+  ~View() { laboratory_.end(); }
 
   int run() {
-    Settings settings = job_.settings;
-    std::optional<PageServer> page;
-    while (true) {
+    for (Settings settings = job_.settings;;) {
       const std::shared_ptr<LiveRender> live = make_live(job_);
-      laboratory_.use(settings);
-      begin(live);
-      if (page)
-        page->show(live);
-      else
-        page.emplace(page_options(settings), live,
-                     laboratory_.extension(
-                         [this](const SettingOverrides& more, const Settings& all) { again(more, all); }),
-                     console_);
+      begin(live, settings);
       if (const int code = render(settings, live); code != kDone && code != kInterrupted) return code;
-      // --time chooses them.
-      if (job_.settings.render.photons != settings.render.photons) laboratory_.use(job_.settings);
-      if (interrupt_.requested()) return kDone;
-      const std::optional<Next> next = wait_for_next();
+      std::optional<Next> next = wait_for_next();
       if (!next) return kDone;
       given_.append(next->given);
-      settings = next->settings;
+      settings = std::move(next->settings);
     }
   }
 
@@ -71,10 +59,20 @@ class View {
     Settings settings;
   };
 
-  PageOptions page_options(const Settings& settings) const {
+  void begin(const std::shared_ptr<LiveRender>& live, const Settings& settings) {
+    laboratory_.begin();
+    {
+      const std::lock_guard lock(mutex_);
+      live_ = live;
+      if (next_) live->stop();  // someone has already asked for another one
+    }
+    if (page_) return page_->show(live);
     PageOptions page = options_.page;
     page.tone = settings.tone;
-    return page;
+    page_.emplace(page, live,
+                  laboratory_.extension(
+                      [this](const SettingOverrides& given, const Settings& all) { again(given, all); }),
+                  console_);
   }
 
   int render(const Settings& settings, const std::shared_ptr<LiveRender>& live) {
@@ -83,25 +81,32 @@ class View {
     RenderSession session;
     session.followed = live;
     session.bvh = &bvh_;
-    settle_session(given_, console_, &job_, &session);
-    return run_session(job_, std::move(session), interrupt_, total, console_);
-  }
-
-  void begin(const std::shared_ptr<LiveRender>& live) {
-    const std::lock_guard lock(mutex_);
-    live_ = live;
+    session.settled = [this](const Settings& settled) { laboratory_.settle(settled); };
+    try {
+      settle_session(given_, console_, &job_, &session);
+      return run_session(job_, std::move(session), interrupt_, total, console_);
+    } catch (const std::exception& error) {
+      if (!renders_again_) throw;
+      // Settings of the page that cannot be rendered: it may give others.
+      console_.error(error.what());
+      live->finish(error.what());
+      return kDone;
+    }
   }
 
   // Ends the present render and asks for the next one. Called by the page's threads.
   void again(const SettingOverrides& given, const Settings& settings) {
     const std::lock_guard lock(mutex_);
-    next_ = {given, settings};
+    if (!next_) next_.emplace();
+    next_->given.append(given);
+    next_->settings = settings;
     live_->stop();
   }
 
   // The next render, or nothing when the user ends the program.
   std::optional<Next> wait_for_next() {
     constexpr std::chrono::milliseconds kBetweenLooks{20};
+    renders_again_ = true;
     while (!interrupt_.requested()) {
       {
         const std::lock_guard lock(mutex_);
@@ -119,9 +124,11 @@ class View {
   const accel::Bvh bvh_;
   Laboratory laboratory_;
   SettingOverrides given_;  // by the command line, and then by the page
-  std::mutex mutex_;        // guards what follows
+  bool renders_again_ = false;
+  std::mutex mutex_;  // guards what follows, up to next_
   std::shared_ptr<LiveRender> live_;
   std::optional<Next> next_;
+  std::optional<PageServer> page_;  // the last member: its threads use the others
 };
 
 int run_view(const ViewOptions& options, const Console& console) {

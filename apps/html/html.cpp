@@ -1,7 +1,6 @@
 #include "apps/html/html.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <stdexcept>
 
 namespace kaustik::app {
@@ -44,20 +43,6 @@ std::string script_json(std::string_view json) {
       out += rest[2] == '\xa8' ? "\\u2028" : "\\u2029", i += 2;
     else
       out += json[i];
-  }
-  return out;
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    const size_t count = std::min<size_t>(3, bytes.size() - i);
-    uint32_t word = 0;
-    for (size_t k = 0; k < 3; ++k)
-      word = word << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) out += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
   }
   return out;
 }

@@ -15,9 +15,6 @@ std::string html_escaped(std::string_view text);
 // stays the same, and it cannot end the element.
 std::string script_json(std::string_view json);
 
-// Encodes bytes as base64 (RFC 4648) with padding.
-std::string base64(std::string_view bytes);
-
 // Replaces each {{name}} of the template by its value; values are not searched again. Throws std::logic_error
 // for a name without a value.
 std::string filled(std::string_view page,

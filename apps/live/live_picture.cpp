@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -31,10 +33,16 @@ PixelResult mean_of(const render::PixelSum& sum) {
   const render::PixelSum all = sum.completed();
   const int64_t weight = all.weight() > 0 ? all.weight() : int64_t(all.count);
   if (weight == 0) return mean;
-  for (const render::LayerRow& row : render::kLayerTable)
-    for (size_t c = 0; row.summed() && c < row.channels.size(); ++c)
-      row.in(mean)[c] = float(row.in(all)[c] / double(row.mean == render::LayerMean::kPasses ? 1 : weight));
+  for (const render::LayerRow& row : render::kLayerTable) {
+    if (!row.summed()) continue;
+    const double share = row.mean == render::LayerMean::kPasses ? 1 : 1 / double(weight);
+    for (size_t c = 0; c < row.channels.size(); ++c) row.in(mean)[c] = float(share * row.in(all)[c]);
+  }
   return mean;
+}
+
+bool is_of_all_light(const LiveChannel& channel) {
+  return channel.layer < 0;
 }
 
 void add(const PixelResult& value, float share, PixelResult* sum) {
@@ -118,14 +126,14 @@ void LivePicture::add(const PixelRange& range, int cell, const render::FilmSums&
 void LivePicture::stand_for_cell(const PixelRange& range, int cell, const std::vector<PixelResult>& values) {
   PixelResult mean;
   for (const PixelResult& value : values) app::add(value, 1 / float(values.size()), &mean);
-  for_each_tile(range_.in_square(range.x0 - range.x0 % cell, range.y0 - range.y0 % cell, cell),
-                [&](const PixelRange& part) {
-                  part.for_each_square(render::kRayBlock, [&](const PixelRange& block) {
-                    Block& of = blocks_[block_index(block.x0, block.y0)];
-                    if (!of.known) of.mean = mean;
-                  });
-                  changed(part);
-                });
+  const int x0 = range.x0 - range.x0 % render::kRayBlock, y0 = range.y0 - range.y0 % render::kRayBlock;
+  for_each_tile(range_.in_square(x0, y0, cell), [&](const PixelRange& part) {
+    part.for_each_square(render::kRayBlock, [&](const PixelRange& block) {
+      Block& of = blocks_[block_index(block.x0, block.y0)];
+      if (!of.known) of.mean = mean;
+    });
+    changed(part);
+  });
 }
 
 void LivePicture::show(const render::Film& film, const render::Image* shown) {
@@ -179,16 +187,28 @@ render::Image LivePicture::picture() const {
 
 void LivePicture::read(const PixelRange& range, const std::vector<LiveChannel>& channels,
                        float* values) const {
+  const bool wants_light = std::any_of(channels.begin(), channels.end(), is_of_all_light);
+  const auto read_pixel = [&](const PixelResult& from, const Rgb& all, float* to) {
+    for (const LiveChannel& c : channels)
+      *to++ = is_of_all_light(c) ? all[c.number] : render::kLayerTable[size_t(c.layer)].in(from)[c.number];
+  };
   for_each_tile(range, [&](const PixelRange& part) {
-    for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x) {
-        const PixelResult& from = value(x, y);
-        const Rgb all = all_light(x, y);
-        float* to =
-            values + (size_t(y - range.y0) * size_t(range.width()) + size_t(x - range.x0)) * channels.size();
-        for (const LiveChannel& c : channels)
-          *to++ = c.layer < 0 ? all[c.number] : render::kLayerTable[size_t(c.layer)].in(from)[c.number];
-      }
+    part.for_each_square(render::kRayBlock, [&](const PixelRange& square) {
+      const Block& block = blocks_[block_index(square.x0, square.y0)];
+      const Rgb mean = block.known || !wants_light ? Rgb(0) : block.mean.radiance();
+      for (int y = square.y0; y < square.y1; ++y)
+        for (int x = square.x0; x < square.x1; ++x) {
+          const size_t i = pixel_index(x, y);
+          const PixelResult& from = block.known ? pixels_[i] : block.mean;
+          const Rgb all = !wants_light      ? Rgb(0)
+                          : !shown_.empty() ? shown_[i]
+                          : block.known     ? from.radiance()
+                                            : mean;
+          read_pixel(from, all,
+                     values + (size_t(y - range.y0) * size_t(range.width()) + size_t(x - range.x0)) *
+                                  channels.size());
+        }
+    });
   });
 }
 

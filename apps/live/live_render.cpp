@@ -29,11 +29,17 @@ void LiveRender::tell(const render::Progress& progress, double fraction, std::op
 
 void LiveRender::tell_error(uint64_t passes, double error) {
   const std::lock_guard lock(mutex_);
-  status_.errors.push_back({since_.seconds(), passes, error});
+  std::vector<ErrorPoint>& errors = status_.errors;
+  if (errors.size() == kMostErrors) {
+    for (size_t i = 0; 2 * i < kMostErrors; ++i) errors[i] = errors[2 * i];
+    errors.resize(kMostErrors / 2);
+  }
+  errors.push_back({since_.seconds(), passes, error});
 }
 
-void LiveRender::finish() {
+void LiveRender::finish(std::string trouble) {
   const std::lock_guard lock(mutex_);
+  status_.trouble = std::move(trouble);
   status_.seconds = since_.seconds();
   status_.state = LiveState::kFinished;
   status_.seconds_left = 0;

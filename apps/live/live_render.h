@@ -33,13 +33,14 @@ struct ErrorPoint {
 
 struct LiveStatus {
   LiveState state = LiveState::kRunning;
-  std::string phase;  // "photons", "build", "render"; empty before the first one
+  std::string phase;  // "trials", "photons", "build", "render"; empty before the first one
   uint64_t pass = 0, passes = 0;
   double fraction = 0;                 // done of the whole render, 0 to 1
   std::optional<double> seconds_left;  // until the end of the render
   double seconds = 0;                  // since the render began
   std::vector<ErrorPoint> errors;      // of the passes so far
   bool stopped = false;                // a follower has asked for the end
+  std::string trouble{};               // why there is no picture, or no more of it
 };
 
 class LiveRender {
@@ -58,7 +59,8 @@ class LiveRender {
   bool go_on(const std::function<bool()>& cancelled);
   void tell(const render::Progress& progress, double fraction, std::optional<double> seconds_left);
   void tell_error(uint64_t passes, double error);
-  void finish();
+  // trouble: what went wrong, if something did.
+  void finish(std::string trouble = {});
   // What followers have said since the last call.
   std::vector<LiveMessage> take_messages();
 
@@ -69,6 +71,8 @@ class LiveRender {
   void say(LiveMessage message);
 
  private:
+  static constexpr size_t kMostErrors = 400;  // as many as a curve needs; those between are left out
+
   const std::string title_;
   const Stopwatch since_;
   mutable std::mutex mutex_;  // guards all that follows

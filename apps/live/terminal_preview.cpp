@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <iostream>
 #include <system_error>
 
@@ -13,8 +12,9 @@
 #include "apps/live/terminal/half_blocks.h"
 #include "apps/live/terminal/kitty.h"
 #include "apps/live/terminal/sixel.h"
-#include "apps/machine/usable_cores.h"
+#include "apps/live/viewer_pace.h"
 #include "core/stopwatch.h"
+#include "core/thread_time.h"
 
 namespace kaustik::app {
 
@@ -28,9 +28,9 @@ constexpr std::chrono::milliseconds kPatience{250}, kLastPatience{1000};
 
 constexpr double kBetweenCells = 0.2, kBetweenPictures = 0.5;  // least time between redraws, in seconds
 constexpr double kBytesPerSecond = 10e6, kBytesPerSecondBySsh = 500e3;
-// The processors and the terminal's line are also for others: the least ratios of the time between redraws to
-// that which a redraw takes, of one core (divided by the number of cores) and until it is written.
-constexpr double kCoreRatio = 20, kWriteRatio = 3;
+// The terminal's line is also for others: the least ratio of the time between redraws to that until one is
+// written.
+constexpr double kWriteRatio = 3;
 
 bool is_set(const char* variable) {
   const char* const value = std::getenv(variable);
@@ -98,12 +98,6 @@ std::optional<PictureWay> way_of(const TerminalAnswers& answers) {
   return PictureWay::kHalfBlocks;
 }
 
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
-
 // Measures a redraw, and how long to wait after it.
 class Pace {
  public:
@@ -111,16 +105,14 @@ class Pace {
       : between_(way == PictureWay::kHalfBlocks ? kBetweenCells : kBetweenPictures),
         bytes_per_second_(is_set("SSH_CONNECTION") ? kBytesPerSecondBySsh : kBytesPerSecond) {}
 
-  void start() { watch_ = Stopwatch(), processor_ = processor_seconds(); }
+  void start() { watch_ = Stopwatch(), processor_ = thread_seconds(); }
   Seconds pause_after(size_t bytes) const {
-    const double busy = processor_seconds() - processor_;
     return Seconds(std::max({between_, double(bytes) / bytes_per_second_, kWriteRatio * watch_.seconds(),
-                             kCoreRatio / cores_ * busy}));
+                             rest_after(thread_seconds() - processor_)}));
   }
 
  private:
   const double between_, bytes_per_second_;
-  const int cores_ = core_limits().usable();
   Stopwatch watch_;
   double processor_ = 0;
 };

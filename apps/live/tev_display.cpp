@@ -3,23 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <system_error>
 
 #include "apps/live/tev_protocol.h"
+#include "apps/live/viewer_pace.h"
+#include "core/thread_time.h"
 
 namespace kaustik::app {
 
 namespace {
-
-constexpr int kRestAfterWork = 9;  // times the work's duration: a tenth of a core's time
-
-// Time for which the calling thread has used a core.
-std::chrono::nanoseconds thread_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
 
 bool is_for_denoisers(const LiveChannel& channel) {
   return channel.layer >= 0 && render::kLayerTable[size_t(channel.layer)].name.starts_with("denoising_");
@@ -73,7 +65,7 @@ bool TevDisplay::too_late() const {
   return end_ && Clock::now() >= *end_;
 }
 
-void TevDisplay::rest(Clock::duration duration) {
+void TevDisplay::rest(Seconds duration) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, duration, [&] { return end_.has_value(); });
 }
@@ -81,10 +73,10 @@ void TevDisplay::rest(Clock::duration duration) {
 void TevDisplay::run() {
   while (true) {
     const bool last = ending();  // what is read from now on is the last state
-    const auto before = thread_time();
+    const double before = thread_seconds();
     const bool sent = has_viewer() && send_changes();
     if (last || too_late()) return finish(last && sent);
-    rest(sent ? std::max<Clock::duration>(kBetweenUpdates, kRestAfterWork * (thread_time() - before))
+    rest(sent ? std::max<Seconds>(kBetweenUpdates, Seconds(rest_after(thread_seconds() - before)))
               : kBetweenAttempts);
   }
 }

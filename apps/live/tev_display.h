@@ -3,8 +3,8 @@
 //
 // The viewer may be slow, die, or not be there: that costs a warning and nothing else. There is never more
 // than one message in memory, which holds the newest state at the time when the one before was sent, and at
-// most a tenth of a core's time is taken. A viewer that is lost is looked for until the end of the render,
-// and then gets the whole picture again.
+// most kViewerShare of the processors is taken. A viewer that is lost is looked for until the end of the
+// render, and then gets the whole picture again.
 
 #include <chrono>
 #include <condition_variable>
@@ -31,6 +31,7 @@ class TevDisplay : public LiveViewer {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Seconds = std::chrono::duration<double>;
   static constexpr std::chrono::milliseconds kBetweenUpdates{200};
   static constexpr std::chrono::milliseconds kBetweenAttempts{500};
   static constexpr std::chrono::seconds kAtEnd{1};
@@ -47,7 +48,7 @@ class TevDisplay : public LiveViewer {
   void say_missing(std::string_view what, std::string_view outlook);
   void say_back();
   // Waits, but not beyond the end of the render.
-  void rest(Clock::duration duration);
+  void rest(Seconds duration);
   bool ending() const;
   bool too_late() const;
 

@@ -10,6 +10,7 @@
 #include "apps/import/common/scene_files.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "apps/sweep/sweep_files.h"
+#include "core/base64.h"
 #include "report_assets.h"
 
 namespace kaustik::app {

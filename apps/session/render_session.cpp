@@ -66,9 +66,13 @@ render::PixelsCallback follow(const render::PassSums& done, LiveRender* live) {
 FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& bvh,
                       const InterruptGuard& interrupt, LiveRender* live, const Stopwatch& total,
                       double seconds_after, const Console& console) {
-  const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
-  if (session.fill_time)
+  if (session.fill_time) {
+    // Trials are no part of the render that a bar could show.
+    const auto signalled = [&] { return interrupt.requested(); };
+    const auto go_on = [&](const render::Progress&) { return live ? live->go_on(signalled) : !signalled(); };
+    if (live) live->tell({.phase = "trials"}, 0, std::nullopt);
     return settle_time(job.scene, bvh, total, seconds_after, go_on, console, &job.settings);
+  }
   FilledTime filled;
   if (!session.try_paths) return filled;
   ProgressBar bar(console);
@@ -145,7 +149,7 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   const bool stopped = was_stopped(live);
   if (result.cancelled && stopped) console.note(interruption(result, "stopped by a viewer"));
   if (result.cancelled && !stopped && !session.followed) console.error(interruption(result, "interrupted"));
-  if (result.shown == render::Shown::kNothing) return stopped ? kDone : kInterrupted;
+  if (result.shown == render::Shown::kNothing) return stopped && session.followed ? kDone : kInterrupted;
   // If the checkpoint cannot be written, the pictures still are, and vice versa.
   bool checkpoint_written = false;
   std::string trouble;
@@ -213,6 +217,7 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total, seconds_after);
+    if (session.settled) session.settled(job.settings);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
       console.note(note);
     ProgressBar bar(console);

@@ -17,7 +17,9 @@ struct RenderSession {
   // A render that is followed already, or null: `live` decides whether it is.
   std::shared_ptr<LiveRender> followed{};
   const accel::Bvh* bvh = nullptr;  // of the scene, if it exists already
-  render::PassSet goal;             // empty = all passes that the settings ask for
+  // Told the settings once nothing in them is open any more, before the render begins. May be empty.
+  std::function<void(const Settings&)> settled{};
+  render::PassSet goal;  // empty = all passes that the settings ask for
   bool bounded =
       false;  // `goal` holds even with a stop rule, which otherwise renders an open-ended number of passes
   render::PassSums done;   // finished passes, from a partial result

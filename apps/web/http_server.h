@@ -3,8 +3,12 @@
 // library brings others for encryption and compression, whose loading would slow every run down: programs
 // load it when they first serve a page.
 
+#include <charconv>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,12 +18,21 @@ namespace kaustik::app {
 struct HttpRequest {
   std::string method, path, body;
   std::map<std::string, std::string> query;
-  std::string host, origin, fetch_site;  // the headers Host, Origin and Sec-Fetch-Site; empty without them
+  // The headers Host, Origin, Sec-Fetch-Site and Sec-Fetch-Mode; empty without them.
+  std::string host, origin, fetch_site, fetch_mode{};
 
   // A value of the query, or `otherwise`.
   std::string value(const std::string& name, const std::string& otherwise = {}) const {
     const auto found = query.find(name);
     return found == query.end() ? otherwise : found->second;
+  }
+  // A value that is a whole number, and nothing for other texts.
+  std::optional<uint64_t> number(const std::string& name) const {
+    const std::string text = value(name);
+    uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    return whole ? std::optional(number) : std::nullopt;
   }
 };
 
@@ -28,6 +41,8 @@ struct HttpResponse {
   std::string type, body;  // the type of the body
   std::vector<std::pair<std::string, std::string>> headers{};
   bool events = false;  // the body follows as server-sent events, by HttpHandler::next_event()
+  // Told the processor time of the answer in seconds, once it is sent. May be empty.
+  std::function<void(double)> sent{};
 };
 
 // What one connection for events has been told so far.

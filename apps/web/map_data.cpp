@@ -7,6 +7,8 @@
 #include <deque>
 #include <nlohmann/json.hpp>
 
+#include "apps/web/json_text.h"
+
 namespace kaustik::app {
 
 namespace {
@@ -69,6 +71,11 @@ Json triple(const glm::vec3& v) {
 }
 
 std::string reason_of(const render::ProbedCell& cell) {
+  const std::string above =
+      cell.answer.climbed == 0
+          ? "The leaf"
+          : fmt::format("The cell {} levels above the leaf, the largest without shadow photons,",
+                        cell.answer.climbed);
   switch (cell.answer.outcome) {
     case photon::LectureOutcome::kPhotons:
       return "The leaf holds no shadow photon and enough direct photons: the map answers.";
@@ -76,13 +83,29 @@ std::string reason_of(const render::ProbedCell& cell) {
       return fmt::format("The leaf has too few photons or is too small; the cell {} levels above it answers.",
                          cell.answer.climbed);
     case photon::LectureOutcome::kFew:
-      return "The cell holds too few direct photons: shadow rays decide.";
+      return above + " holds too few direct photons: shadow rays decide.";
     case photon::LectureOutcome::kFace:
-      return "The point is nearer than r0 to a face of the cell: shadow rays decide.";
+      return above + " has a face nearer to the point than r0: shadow rays decide.";
     case photon::LectureOutcome::kShadow:
       break;
   }
   return "The leaf holds a shadow photon: shadow rays decide.";
+}
+
+std::string_view name_of(render::ProbeUse use) {
+  switch (use) {
+    case render::ProbeUse::kSubtracted:
+      return "subtracted";
+    case render::ProbeUse::kTested:
+      return "tested";
+    case render::ProbeUse::kRefused:
+      return "refused";
+    case render::ProbeUse::kFinalGather:
+      return "final-gather";
+    case render::ProbeUse::kAdded:
+      break;
+  }
+  return "added";
 }
 
 Json map_json(const render::ProbedMap& map) {
@@ -98,6 +121,7 @@ Json map_json(const render::ProbedMap& map) {
           {"radius", map.radius},
           {"kernel", map.kernel.row().name},
           {"radiance", triple(map.radiance)},
+          {"use", name_of(map.use)},
           {"accepted", map.photons.size()},
           {"photons", std::move(photons)}};
 }
@@ -159,7 +183,7 @@ std::string probe_json(const render::Probe& probe, const Scene& scene) {
   const Json out = {{"hit", std::move(hit)},
                     {"maps", std::move(maps)},
                     {"cell", probe.cell ? cell_json(*probe.cell) : Json(nullptr)}};
-  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(out);
 }
 
 }  // namespace kaustik::app

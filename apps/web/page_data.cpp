@@ -7,6 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "apps/web/json_text.h"
 #include "core/version.h"
 
 namespace kaustik::app {
@@ -75,25 +76,26 @@ std::string info_json(const LiveRender& live, const ToneChoice& tone, const Json
               {"exposure", tone.exposure ? Json(*tone.exposure) : Json(nullptr)},
               {"tonemap", render::name_of(tone.tonemap)}};
   out.update(more);
-  return out.dump();
+  return json_text(out);
 }
 
-std::string status_event(const LiveRender& live, uint64_t number) {
+std::string status_event(const LiveRender& live, uint64_t number, uint64_t version) {
   const LiveStatus status = live.status();
   Json errors = Json::array();
   for (const ErrorPoint& e : status.errors) errors.push_back({e.seconds, e.passes, e.error});
   const Json out = {{"render", number},
                     {"state", name_of(status.state)},
                     {"phase", status.phase},
-                    {"pass", status.pass},
+                    {"pass", status.pass + 1},
                     {"passes", status.passes},
                     {"fraction", status.fraction},
                     {"seconds_left", status.seconds_left ? Json(*status.seconds_left) : Json(nullptr)},
                     {"seconds", status.seconds},
                     {"stopped", status.stopped},
-                    {"version", live.picture.changed_since(~uint64_t{0}).version},
+                    {"trouble", status.trouble},
+                    {"version", version},
                     {"errors", std::move(errors)}};
-  return fmt::format("event: status\ndata: {}\n\n", out.dump());
+  return fmt::format("event: status\ndata: {}\n\n", json_text(out));
 }
 
 std::optional<std::string> pixels_since(const LiveRender& live, uint64_t number, const std::string& layer,

@@ -14,8 +14,9 @@ namespace kaustik::app {
 // `more`: an object whose members are added.
 std::string info_json(const LiveRender& render, const ToneChoice& tone, const nlohmann::ordered_json& more);
 
-// One event with the state of the render. number: of this render, counted from 1.
-std::string status_event(const LiveRender& render, uint64_t number);
+// One event with the state of the render. number: of this render, counted from 1. version: of the pixels that
+// the page shall show.
+std::string status_event(const LiveRender& render, uint64_t number, uint64_t version);
 
 // The tiles of a layer that changed since a version, as bytes. Nothing if there is no such layer; the empty
 // name is that of all light.

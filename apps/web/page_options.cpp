@@ -40,7 +40,7 @@ void add_page_options(Command& command, PageOptions& options, const std::string&
           "has a token that nobody can guess, but is not encrypted. Default: this machine alone",
           [&options](const std::string& text) { options.listen = address_of(text); })
       .needs = all_need;
-  command.add_flag("--open", options.open, "Open the page in the browser");
+  command.add_flag("--open", options.open, "Open the page in the browser").needs = all_need;
 }
 
 }  // namespace kaustik::app

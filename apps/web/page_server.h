@@ -2,6 +2,7 @@
 // Serves the live page of a render, by default to this machine alone.
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -41,6 +42,7 @@ class PageServer final : public LiveViewer, private HttpHandler {
   std::string url() const { return address_.url(); }
 
  private:
+  using Clock = std::chrono::steady_clock;
   struct Shown {
     std::shared_ptr<LiveRender> render;
     uint64_t number = 0;
@@ -48,6 +50,9 @@ class PageServer final : public LiveViewer, private HttpHandler {
 
   HttpResponse answer(const HttpRequest& request) override;
   std::string next_event(EventReader* reader) override;
+  // The version of the pixels that pages shall show. The newest one would keep them busy.
+  uint64_t announced(const Shown& now, const LiveStatus& status);
+  void pixels_sent(double processor_seconds);
   void stream_begins() override { ++readers_; }
   void stream_ends() override { --readers_; }
   HttpResponse get(const HttpRequest& request);
@@ -60,9 +65,11 @@ class PageServer final : public LiveViewer, private HttpHandler {
   const PageOptions options_;
   const PageExtension extension_;
   PageAddress address_;
-  mutable std::mutex mutex_;  // guards shown_
+  mutable std::mutex mutex_;  // guards what follows, up to last_sent_
   Shown shown_;
-  std::atomic<int> readers_{0}, up_to_date_{0};  // streams of events; answers with the last pixels
+  uint64_t announced_number_ = 0, announced_version_ = 0;
+  Clock::time_point next_update_{}, last_sent_{};
+  std::atomic<int> readers_{0}, in_flight_{0};  // streams of events; answers with pixels
   std::atomic<bool> ending_{false};
   std::unique_ptr<HttpServer> server_;  // the last member: its threads use the others
 };

@@ -25,8 +25,8 @@ struct PageAddress {
 std::string random_token();
 
 // An error for a request that does not come from the page itself or from a program: one for another host, one
-// from the page of another origin, or one without the token. Otherwise nothing, and request.path then begins
-// behind the token: "/pixels".
+// from the page of another origin, or one without the token; a redirection where only the last slash of the
+// page's address is missing. Otherwise nothing, and request.path then begins behind the token: "/pixels".
 std::optional<HttpResponse> refusal(HttpRequest* request, const PageAddress& address);
 
 HttpResponse error_response(int status, const std::string& text);

@@ -28,7 +28,7 @@ LectureAnswer lecture_lookup(const PhotonMap& direct, const PhotonMap& shadow, c
       return {depth == leaf ? LectureOutcome::kPhotons : LectureOutcome::kClimbed, lit[depth], depth,
               leaf - depth};
     }
-    answer.outcome = enough ? LectureOutcome::kFace : LectureOutcome::kFew;
+    answer = {enough ? LectureOutcome::kFace : LectureOutcome::kFew, lit[depth], depth, leaf - depth};
   }
   return answer;
 }

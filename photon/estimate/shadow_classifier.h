@@ -14,7 +14,7 @@ struct LectureSettings {
 };
 
 // The reason for shadow rays is that of the largest cell without a shadow photon: the next larger cell holds
-// one, or there is none.
+// one, or there is none. Where the leaf itself holds one, it is the leaf's.
 enum class LectureOutcome : uint8_t {
   kPhotons,  // the leaf answers
   kClimbed,  // an ancestor of the leaf answers
@@ -25,9 +25,9 @@ enum class LectureOutcome : uint8_t {
 
 struct LectureAnswer {
   LectureOutcome outcome = LectureOutcome::kFew;
-  PhotonRange range;  // direct photons of the cell that answered, otherwise of the leaf
-  int depth = 0;      // depth of that cell
-  int climbed = 0;    // levels between that cell and the leaf
+  PhotonRange range;                                 // direct photons of the cell that decided
+  int depth = 0;                                     // depth of that cell
+  int climbed = 0;                                   // levels between that cell and the leaf
   uint64_t photons() const { return range.size(); }  // M
   bool use_photons() const { return outcome <= LectureOutcome::kClimbed; }
 };

@@ -12,25 +12,32 @@ namespace {
 
 using photon::PhotonKind;
 
-// The same gather as that of the estimate, photon by photon. Photons behind walls are not left out.
-ProbedMap probe_map(PhotonKind kind, const photon::PhotonMap& map, const photon::EstimateSettings& estimate,
-                    const ShadingPoint& x) {
-  ProbedMap probed{kind, estimate.radius, estimate.kernel, {}, Rgb(0)};
-  if (map.empty()) return probed;
+// Adds the photons that arrived on the side of n, by the same gather as that of the estimate.
+void add_photons(const photon::PhotonMap& map, const photon::EstimateSettings& estimate,
+                 const SurfaceInteraction& si, const Normal3& n, ProbedMap* probed) {
   photon::GatherCounters counters;
-  const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
-  photon::GatherQuery query{x.si.p, n, x.si.surface_group, estimate.radius, photon::kAllPhotons};
+  photon::GatherQuery query{si.p, n, si.surface_group, estimate.radius, photon::kAllPhotons};
   if (estimate.nearest > 0) query.radius = photon::disc_of_nearest(map, query, estimate.nearest, counters);
-  if (estimate.leaf) query.within = map.find_cell(x.si.p, estimate.node_photons, query.radius).range;
-  probed.radius = query.radius;
+  if (estimate.leaf) query.within = map.find_cell(si.p, estimate.node_photons, query.radius).range;
+  probed->radius = query.radius;
   const photon::KernelTerms terms = photon::kernel_terms(estimate.kernel, query.radius);
   photon::for_each_photon(
       map, query,
       [&](const photon::Photon& p, float distance_squared) {
         const float weight = photon::kernel_value(estimate.kernel.type, terms, distance_squared);
-        probed.photons.push_back({p, std::sqrt(distance_squared), weight});
+        probed->photons.push_back({p, std::sqrt(distance_squared), weight});
       },
       counters);
+}
+
+ProbedMap probe_map(PhotonKind kind, const photon::PhotonMap& map, const photon::EstimateSettings& estimate,
+                    const ShadingPoint& x, ProbeUse use) {
+  ProbedMap probed{kind, estimate.radius, estimate.kernel, {}, Rgb(0), use};
+  if (map.empty()) return probed;
+  const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
+  if (transmits(*x.bsdf)) add_photons(map, estimate, x.si, -n, &probed);
+  add_photons(map, estimate, x.si, n, &probed);
+  photon::GatherCounters counters;
   probed.radiance = photon::estimate_radiance(map, x.si, x.wo, *x.bsdf, estimate, counters);
   return probed;
 }
@@ -50,17 +57,24 @@ ProbedCell probe_cell(const PhotonMaps& maps, const Point3& p) {
 }
 
 void probe_point(const RenderInput& input, const PhotonMaps& maps, const ShadingPoint& x, Probe* probe) {
-  const photon::KindMask kinds = kinds_needed(input.plan);
+  const EstimatorPlan& plan = input.plan;
+  const photon::KindMask kinds = kinds_needed(plan);
+  const auto add = [&](PhotonKind kind, const photon::PhotonMap& map,
+                       const photon::EstimateSettings& estimate,
+                       ProbeUse use) { probe->maps.push_back(probe_map(kind, map, estimate, x, use)); };
+  const bool lecture = plan.direct == DirectEstimator::kLecture;
+  if (lecture && !maps.direct.map.empty()) probe->cell = probe_cell(maps, x.si.p);
+  const bool refused = lecture && !(probe->cell && probe->cell->answer.use_photons());
   if (kinds.direct)
-    probe->maps.push_back(probe_map(PhotonKind::kDirect, maps.direct.map, maps.direct.estimate, x));
+    add(PhotonKind::kDirect, maps.direct.map, maps.direct.estimate,
+        refused ? ProbeUse::kRefused : ProbeUse::kAdded);
   if (kinds.shadow)
-    probe->maps.push_back(probe_map(PhotonKind::kShadow, maps.shadow, maps.direct.estimate, x));
-  if (kinds.caustic)
-    probe->maps.push_back(probe_map(PhotonKind::kCaustic, maps.caustic.map, maps.caustic.estimate, x));
+    add(PhotonKind::kShadow, maps.shadow, maps.direct.estimate,
+        lecture ? ProbeUse::kTested : ProbeUse::kSubtracted);
+  if (kinds.caustic) add(PhotonKind::kCaustic, maps.caustic.map, maps.caustic.estimate, ProbeUse::kAdded);
   if (kinds.indirect)
-    probe->maps.push_back(probe_map(PhotonKind::kIndirect, maps.indirect.map, maps.indirect.estimate, x));
-  if (input.plan.direct == DirectEstimator::kLecture && !maps.direct.map.empty())
-    probe->cell = probe_cell(maps, x.si.p);
+    add(PhotonKind::kIndirect, maps.indirect.map, maps.indirect.estimate,
+        plan.indirect == IndirectEstimator::kPhotons ? ProbeUse::kAdded : ProbeUse::kFinalGather);
 }
 
 }  // namespace

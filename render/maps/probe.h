@@ -17,13 +17,25 @@ struct ProbedPhoton {
   float weight = 0;    // of its flux: the kernel, 1/m^2
 };
 
+// What the picture makes of an estimate.
+enum class ProbeUse {
+  kAdded,
+  kSubtracted,  // that of shadow photons, by `signed`
+  kTested,      // shadow photons of `lecture` are only counted, in the cell
+  kRefused,     // the lecture's test lets shadow rays decide
+  kFinalGather  // `final-gather` corrects a disc, or lets a path take its place where it would be too wrong
+};
+
 // One gather.
 struct ProbedMap {
   photon::PhotonKind kind = photon::PhotonKind::kDirect;
   float radius = 0;  // of the disc, metres; smaller than that of the map with --nearest
   photon::KernelSpec kernel;
-  std::vector<ProbedPhoton> photons;  // that counted, in Morton order
-  Rgb radiance{0};                    // the estimate, W/(m^2 sr)
+  // In Morton order, those on the far side of a surface that transmits light first. Photons behind walls are
+  // among them, though the estimate leaves them out.
+  std::vector<ProbedPhoton> photons;
+  Rgb radiance{0};  // the estimate, W/(m^2 sr)
+  ProbeUse use = ProbeUse::kAdded;
 };
 
 // The lecture's test at the point.

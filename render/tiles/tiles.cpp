@@ -46,18 +46,18 @@ constexpr double kSecondsBetweenReports = 0.1;
 // Blocks of a square that one thread renders, 4 x 4 of them or fewer.
 struct Tile {
   PixelRange pixels;        // the part of the square in the film's window
+  int x, y;                 // the square's corner
   int stride = 1;           // blocks from one of the 4 x 4 to the next
   bool every_block = true;  // otherwise without those that a tile of twice this stride has
 
   // Calls fn(block) for the blocks' parts in the film's window.
   template <class Fn>
   void for_each_block(const Fn& fn) const {
-    const int side = kTileSize * stride, step = kRayBlock * stride;
-    const int x0 = pixels.x0 - pixels.x0 % side, y0 = pixels.y0 - pixels.y0 % side;
+    const int step = kRayBlock * stride;
     for (int j = 0; j < kTileSize / kRayBlock; ++j)
       for (int i = 0; i < kTileSize / kRayBlock; ++i) {
         if (!every_block && i % 2 == 0 && j % 2 == 0) continue;
-        const PixelRange block = pixels.in_square(x0 + i * step, y0 + j * step, kRayBlock);
+        const PixelRange block = pixels.in_square(x + i * step, y + j * step, kRayBlock);
         if (block.width() > 0 && block.height() > 0) fn(block);
       }
   }
@@ -112,23 +112,29 @@ struct TileWork {
 
 std::vector<Tile> tiles_of(const PixelRange& window) {
   std::vector<Tile> tiles;
-  window.for_each_square(kTileSize, [&](const PixelRange& pixels) { tiles.push_back({pixels}); });
+  window.for_each_square(kTileSize, [&](const PixelRange& pixels) {
+    tiles.push_back({pixels, pixels.x0 - pixels.x0 % kTileSize, pixels.y0 - pixels.y0 % kTileSize});
+  });
   return tiles;
 }
 
-// All blocks of the window, those of a wide grid first, then those of ever finer grids between them. samples:
-// of each pixel.
+// All blocks of the window, those of a wide grid first, then those of ever finer grids between them. Grids
+// begin at the window's first block, so that each of their cells has its corner in the window. samples: of
+// each pixel.
 std::vector<Tile> tiles_coarse_to_fine(const PixelRange& window, uint64_t samples) {
   constexpr double kFirstSamples = 1 << 16;  // in the widest grid: some tenths of a second
   constexpr int kUsualStride = 16, kWidestStride = 256;
+  const double all = double(window.pixels()) * double(samples);
   int stride = kUsualStride;
-  while (stride<kWidestStride&& double(window.pixels()) * double(samples)> kFirstSamples * stride * stride)
-    stride *= 2;
+  while (stride < kWidestStride && all / stride / stride > kFirstSamples) stride *= 2;
+  const int x0 = window.x0 - window.x0 % kRayBlock, y0 = window.y0 - window.y0 % kRayBlock;
   std::vector<Tile> tiles;
-  for (bool widest = true; stride >= 1; stride /= 2, widest = false)
-    window.for_each_square(kTileSize * stride, [&](const PixelRange& pixels) {
-      tiles.push_back({pixels, stride, widest});
-    });
+  for (bool widest = true; stride >= 1; stride /= 2, widest = false) {
+    const int side = kTileSize * stride;
+    for (int y = y0; y < window.y1; y += side)
+      for (int x = x0; x < window.x1; x += side)
+        tiles.push_back({window.in_square(x, y, side), x, y, stride, widest});
+  }
   return tiles;
 }
 

@@ -56,7 +56,7 @@ TEST_P(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
 }
 
 // A render that is followed takes its blocks coarse to fine, which changes neither bits nor counts. The crop
-// cuts blocks, and adaptive samples follow.
+// cuts blocks, and adaptive samples follow. The cells of the first grid cover it.
 TEST_P(Determinism, FollowedRendersHaveTheSameBits) {
   const Scene scene = cornell(40);
   RenderSettings settings = settings_of(GetParam());
@@ -67,10 +67,15 @@ TEST_P(Determinism, FollowedRendersHaveTheSameBits) {
   std::mutex mutex;
   std::vector<int> times(40 * 40);  // that a pixel was shown
   std::vector<int> cells;
+  std::vector<bool> covered(40 * 40);  // by cells of the first grid
   RenderTask task;
   task.on_pixels = [&](const PixelRange& range, int cell, const FilmSums& sums) {
     const std::lock_guard lock(mutex);
     cells.push_back(cell);
+    const int x0 = range.x0 - range.x0 % kRayBlock, y0 = range.y0 - range.y0 % kRayBlock;
+    if (cell == cells.front())
+      for (int y = y0; y < std::min(y0 + cell, 40); ++y)
+        for (int x = x0; x < std::min(x0 + cell, 40); ++x) covered[size_t(y * 40 + x)] = true;
     for (int y = range.y0; y < range.y1; ++y)
       for (int x = range.x0; x < range.x1; ++x) {
         ++times[size_t(y * 40 + x)];
@@ -83,7 +88,10 @@ TEST_P(Determinism, FollowedRendersHaveTheSameBits) {
   EXPECT_EQ(alone.statistics.gather_candidates, followed.statistics.gather_candidates);
   EXPECT_EQ(alone.statistics.rays.all(), followed.statistics.rays.all());
   for (int y = 5; y < 40; ++y)
-    for (int x = 3; x < 37; ++x) ASSERT_GE(times[size_t(y * 40 + x)], 1) << x << ' ' << y;
+    for (int x = 3; x < 37; ++x) {
+      ASSERT_GE(times[size_t(y * 40 + x)], 1) << x << ' ' << y;
+      ASSERT_TRUE(covered[size_t(y * 40 + x)]) << x << ' ' << y;
+    }
   EXPECT_GE(cells.front(), 16) << "the first blocks stand for a large part of the picture";
   EXPECT_EQ(cells.back(), kRayBlock);
 }

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "apps/web/http_server.h"
+#include "core/thread_time.h"
 
 namespace kaustik::app {
 
@@ -25,10 +26,18 @@ HttpRequest request_of(const httplib::Request& from) {
                       {},
                       from.get_header_value("Host"),
                       from.get_header_value("Origin"),
-                      from.get_header_value("Sec-Fetch-Site")};
+                      from.get_header_value("Sec-Fetch-Site"),
+                      from.get_header_value("Sec-Fetch-Mode")};
   for (const auto& [name, value] : from.params) request.query.emplace(name, value);
   return request;
 }
+
+// What a thread answers at present.
+struct Answer {
+  double began = 0;  // in the thread's processor time, seconds
+  std::function<void(double)> sent{};
+};
+thread_local Answer present;
 
 class Server final : public HttpServer {
  public:
@@ -53,6 +62,11 @@ class Server final : public HttpServer {
     const auto answer = [this](const httplib::Request& from, httplib::Response& to) {
       this->answer(from, to);
     };
+    // Called by the thread of the answer when it has been sent.
+    server_.set_logger([](const httplib::Request&, const httplib::Response&) {
+      if (present.sent) present.sent(thread_seconds() - present.began);
+      present.sent = nullptr;
+    });
     server_.Get(".*", answer);
     server_.Post(".*", answer);
     port_ = port > 0 ? (server_.bind_to_port(address, port) ? port : -1) : server_.bind_to_any_port(address);
@@ -74,13 +88,17 @@ class Server final : public HttpServer {
 
  private:
   void answer(const httplib::Request& from, httplib::Response& to) {
+    present.began = thread_seconds();
     HttpResponse response = handler_.answer(request_of(from));
+    present.sent = std::move(response.sent);
     to.status = response.status;
     for (const auto& [name, value] : response.headers) to.set_header(name.c_str(), value);
     if (response.events)
       send_events(to);
-    else if (!response.body.empty())
-      to.set_content(response.body, response.type.c_str());
+    else if (!response.body.empty()) {
+      to.set_header("Content-Type", response.type.c_str());
+      to.body = std::move(response.body);  // set_content() would copy it
+    }
   }
 
   void send_events(httplib::Response& to) {

@@ -1,6 +1,14 @@
 "use strict";
 // What the density estimates of a pixel read: their discs, photons and numbers, and the octree cell of the lecture's test.
 
+// What the picture makes of an estimate.
+const USES = {
+  added: "the picture adds it",
+  subtracted: "the picture subtracts it from the unoccluded light",
+  tested: "not gathered: the lecture\u2019s test counts these photons in its cell",
+  refused: "not used: shadow rays decide here",
+  "final-gather": "corrected by a factor learned from the picture, or replaced by a path where it would be too wrong"};
+
 const triple = v => v.map(short).join("  ");
 
 // The panel of a pixel's estimate.
@@ -63,7 +71,7 @@ class EstimatePanel {
     rows.push(["point", `${triple(hit.point)} m`], ["normal", triple(hit.normal)]);
     if (map) {
       rows.push(["radius", `${short(map.radius)} m`], ["kernel", map.kernel], ["photons", String(map.accepted)],
-                ["radiance", `${triple(map.radiance)} W/(m\u00b2 sr)`]);
+                ["radiance", `${triple(map.radiance)} W/(m\u00b2 sr)`], ["use", USES[map.use] ?? map.use]);
       this.dots = drawDisc(byId("disc"), this.estimate, map, byId("whole-cell").checked);
     }
     byId("estimate-facts").replaceChildren(...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));

@@ -5,6 +5,7 @@ class Lab {
   constructor(view) {
     this.view = view;
     this.render = null;
+    this.unsettled = true;
     for (const id of ["tabs", "settings-section", "estimate-section", "help-lab"]) byId(id).hidden = false;
     this.settings = new Settings(view.info.settings ?? [], () => this.keepLast());
     this.cloud = new Cloud(byId("cloud"));
@@ -25,15 +26,22 @@ class Lab {
     // Photons of the new render are there when it finds its way to the pixels.
     const ready = status.phase === "render" || status.state === "finished";
     if (ready && this.cloudShown() && this.cloud.loaded !== status.render) this.loadCloud();
+    if (ready && this.unsettled) this.update();
     if (ready && this.stale && this.estimate.pixel) {
       this.stale = false;
       this.estimate.query(this.estimate.pixel.x, this.estimate.pixel.y);
     }
   }
 
-  async begin() {
+  begin() {
     this.settings.begin();
-    this.stale = true;
+    this.stale = this.unsettled = true;
+    this.update();
+  }
+
+  // What the render makes of the settings is known when its pixels come.
+  async update() {
+    this.unsettled = this.unsettled && this.view.status.state !== "running";
     try {
       this.settings.update((await (await request("info")).json()).settings ?? []);
     } catch {

@@ -86,7 +86,7 @@ class Settings {
     } catch (error) {
       problem.textContent = error.message;
     }
-    for (const [name, field] of this.fields) field.setAttribute("aria-invalid", String(problem.textContent.includes(name)));
+    for (const [name, field] of this.fields) field.setAttribute("aria-invalid", String(problem.textContent.includes(`--${name}:`)));
   }
 
   // What the program has now: a setting may follow from another one.

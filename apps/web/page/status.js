@@ -3,7 +3,7 @@
 
 const RETRY_SECONDS = [1, 2, 3, 4, 5, 5, 10, 10, 20];  // after a lost connection, a minute in all
 const RETRIES_AFTER_THE_END = 2;                       // where the render had finished, the program has most likely ended
-const PHASES = {photons: "Tracing photons", build: "Building photon maps", render: "Rendering"};
+const PHASES = {trials: "Trying numbers of photons and samples", photons: "Tracing photons", build: "Building photon maps", render: "Rendering"};
 const SURE_SECONDS = 5;                                // for the second press of the button that ends the render
 
 // Follows /events. onStatus(status); onLost(whether it tries again); onBack().
@@ -116,7 +116,7 @@ class StatusPanel {
     const {status} = this;
     if (this.lost) return this.lost === "trying" ? "connection lost" : this.state === "finished" ? "ended" : "not connected";
     if (!status) return "connecting";
-    if (status.state === "finished") return status.stopped ? "stopped" : "finished";
+    if (status.state === "finished") return status.trouble ? "failed" : status.stopped ? "stopped" : "finished";
     if (status.stopped) return "stopping";
     return status.state === "paused" ? "paused" : "running";
   }
@@ -126,9 +126,10 @@ class StatusPanel {
 
   phaseText() {
     const {phase, pass, passes, state} = this.status;
+    if (state === "finished" && this.status.trouble) return `Not rendered: ${this.status.trouble}`;
     if (state === "finished") return this.status.stopped ? "Stopped with what it had" : "Finished";
     const name = PHASES[phase] ?? (phase || "Starting");
-    return passes === 1 || pass === 0 ? name : `${name}, pass ${pass}${passes ? ` of ${passes}` : ""}`;
+    return passes === 1 || phase === "trials" || !phase ? name : `${name}, pass ${pass}${passes ? ` of ${passes}` : ""}`;
   }
 
   show() {

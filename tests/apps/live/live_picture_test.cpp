@@ -79,14 +79,14 @@ TEST_F(LivePictureTest, TellsWhichTilesHaveChanged) {
   EXPECT_THAT(read(picture, 68, 4), ElementsAre(0, 0, 0));
 }
 
-// A crop whose corner lies within a block and a tile.
+// A crop whose corner lies within a block and a tile. Cells begin at its first block.
 TEST_F(LivePictureTest, CropsKeepTheCoordinatesOfThePicture) {
   LivePicture picture({70, 150, 33, 90}, 200, 100);
   add(&picture, 68, 32, 64, 1);
-  EXPECT_EQ(picture.changed_since(0).tiles.size(), 1u);
+  EXPECT_EQ(picture.changed_since(0).tiles.size(), 4u);
   EXPECT_THAT(read(picture, 70, 33), ElementsAre(1, 2, 0));
-  EXPECT_THAT(read(picture, 127, 63), ElementsAre(1, 2, 0));
-  EXPECT_THAT(read(picture, 128, 63), ElementsAre(0, 0, 0));
+  EXPECT_THAT(read(picture, 131, 89), ElementsAre(1, 2, 0));
+  EXPECT_THAT(read(picture, 132, 63), ElementsAre(0, 0, 0));
 }
 
 // Whoever reads changes by their versions misses none of those that threads make meanwhile.

@@ -24,7 +24,7 @@ using ::testing::Not;
 
 constexpr winsize kSize{24, 80, 800, 480};
 
-class TerminalPreviewTest : public test::ProgramTest {
+class TerminalPreviewTest : public test::WithTerminals<test::ProgramTest> {
  protected:
   // A picture of 48 x 30 pixels, which no terminal has to shrink.
   std::vector<std::string> render(const std::string& output,

@@ -5,6 +5,7 @@
 #include "apps/html/html.h"
 #include "apps/report/sweep_report.h"
 #include "apps/sweep/pictures.h"
+#include "core/base64.h"
 #include "report_assets.h"
 #include "tests/apps/support/program.h"
 

@@ -132,20 +132,37 @@ TEST_F(PageServerTest, TenReadersHearOfTheEnd) {
       for (std::string some = connection.receive(); !some.empty(); some = connection.receive()) all += some;
       ends += all.find("event: status") != std::string::npos && all.find("\"finished\"") != std::string::npos;
     });
-  while (began < 10) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int i = 0; began < 10 && i < 10'000; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   live_->finish();
   page_.reset();
   for (std::thread& reader : readers) reader.join();
   EXPECT_EQ(ends, 10);
 }
 
-TEST_F(PageServerTest, ReadersThatLeaveCostNothing) {
+// There are more of them than streams at a time.
+TEST_F(PageServerTest, ReadersThatLeaveMakeRoom) {
+  const std::string ask = "GET /events HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port()) + "\r\n\r\n";
   for (int i = 0; i < 40; ++i) {
     const HttpConnection connection(port());
-    connection.send("GET /events HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port()) + "\r\n\r\n");
+    connection.send(ask);
     if (i % 2 == 0) connection.receive();
   }
   EXPECT_EQ(http(port(), "GET", "/info").status, 200);
+  // A stream notices at its next event, a second later at most, that its reader has left.
+  std::string head;
+  for (int attempt = 0; attempt < 50 && !head.starts_with("HTTP/1.1 200"); ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const HttpConnection connection(port());
+    connection.send(ask);
+    head = connection.receive();
+  }
+  EXPECT_THAT(head, ::testing::StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(PageServerTest, NamesOfFilesNeedNotBeText) {
+  const auto odd = std::make_shared<LiveRender>("caf\xe9.pbrt", render::PixelRange{0, 4, 0, 4}, 4, 4);
+  page_->show(odd);
+  EXPECT_EQ(Json::parse(http(port(), "GET", "/info").body)["title"], "caf\xef\xbf\xbd.pbrt");
 }
 
 TEST_F(PageServerTest, ATakenPortIsAnError) {

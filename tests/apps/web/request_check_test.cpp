@@ -20,11 +20,12 @@ bool answers(HttpRequest r, const PageAddress& address) {
 
 TEST(RequestCheck, LocalPagesAnswerToThisMachineOnly) {
   const PageAddress local{"127.0.0.1", 4711};
-  for (const char* host : {"127.0.0.1:4711", "localhost:4711", "[::1]:4711"})
-    EXPECT_TRUE(answers(request(host), local));
-  // Names that someone lets point to 127.0.0.1, other ports, and none.
-  for (const char* host : {"evil.example:4711", "127.0.0.1.evil.example:4711", "127.0.0.1:4712", "localhost",
-                           "127.0.0.1", "", "LOCALHOST:4711@evil.example"})
+  // A tunnel may end at another port.
+  for (const char* host : {"127.0.0.1:4711", "localhost:4711", "[::1]:4711", "localhost:8080", "localhost"})
+    EXPECT_TRUE(answers(request(host), local)) << host;
+  // Names that someone lets point to 127.0.0.1, and none.
+  for (const char* host : {"evil.example:4711", "127.0.0.1.evil.example:4711", "127.0.0.12:4711",
+                           "localhostile", "", "localhost:4711@evil.example", "localhost:4711:x"})
     EXPECT_FALSE(answers(request(host), local)) << host;
 }
 
@@ -42,6 +43,19 @@ TEST(RequestCheck, PagesOfOthersGetNothing) {
   EXPECT_FALSE(from("", "same-site"));
 }
 
+// A link in a mail or a chat opens the page, and does nothing else.
+TEST(RequestCheck, LinksOfOthersOpenThePage) {
+  const PageAddress local{"127.0.0.1", 4711};
+  HttpRequest link = request("localhost:4711", "", "cross-site", "/");
+  EXPECT_FALSE(answers(link, local)) << "a script of another page";
+  link.fetch_mode = "navigate";
+  EXPECT_TRUE(answers(link, local));
+  link.method = "POST";
+  EXPECT_FALSE(answers(link, local));
+  link.method = "GET", link.path = "/save";
+  EXPECT_FALSE(answers(link, local));
+}
+
 TEST(RequestCheck, OtherMachinesNeedTheToken) {
   const PageAddress open{"192.168.1.5", 4711, random_token()};
   EXPECT_EQ(open.url(), "http://192.168.1.5:4711/" + open.token + "/");
@@ -52,6 +66,11 @@ TEST(RequestCheck, OtherMachinesNeedTheToken) {
        {std::string("/pixels"), std::string("/"), std::string(), "/" + open.token + "0/pixels",
         "/" + open.token.substr(1) + "/pixels", std::string("//pixels")})
     EXPECT_FALSE(answers(request("192.168.1.5:4711", {}, {}, path), open)) << path;
+  HttpRequest without_slash = request("192.168.1.5:4711", {}, {}, "/" + open.token);
+  const auto redirection = refusal(&without_slash, open);
+  ASSERT_TRUE(redirection);
+  EXPECT_EQ(redirection->status, 308);
+  EXPECT_EQ(redirection->headers.at(0).second, "/" + open.token + "/");
   EXPECT_FALSE(
       answers(request("192.168.1.5:4711", "http://evil.example", {}, "/" + open.token + "/pixels"), open));
 }

@@ -78,10 +78,40 @@ TEST_F(ProbeTest, TellsTheLecturesTest) {
       }
       const bool uses_photons = cell.answer.use_photons();
       EXPECT_TRUE(!uses_photons || cell.shadow == 0) << "a cell with shadow photons is not trusted";
+      EXPECT_EQ(cell.shadow > 0, cell.answer.outcome == photon::LectureOutcome::kShadow)
+          << "the cell that is shown is the one that the reason is about";
+      EXPECT_EQ(cell.direct <= settings_.min_photons && cell.shadow == 0,
+                cell.answer.outcome == photon::LectureOutcome::kFew);
       (uses_photons ? trusted : refused) += 1;
     }
   EXPECT_GT(trusted, 0);
   EXPECT_GT(refused, 0);
+}
+
+const ProbedMap* find(const Probe& probe, photon::PhotonKind kind) {
+  for (const ProbedMap& map : probe.maps)
+    if (map.kind == kind) return &map;
+  return nullptr;
+}
+
+TEST_F(ProbeTest, SaysWhatThePictureMakesOfAnEstimate) {
+  using photon::PhotonKind;
+  shoot(settings_of(Method::kHybrid, DirectEstimator::kLecture));
+  for (int x = 2; x < 64; x += 6) {
+    const Probe found = probe(x, 50);
+    if (!found.cell) continue;
+    EXPECT_EQ(find(found, PhotonKind::kDirect)->use == ProbeUse::kAdded, found.cell->answer.use_photons());
+    EXPECT_EQ(find(found, PhotonKind::kShadow)->use, ProbeUse::kTested);
+  }
+  shoot(settings_of(Method::kPhoton, DirectEstimator::kSigned));
+  const Probe subtracted = probe(32, 24);
+  EXPECT_EQ(find(subtracted, PhotonKind::kShadow)->use, ProbeUse::kSubtracted);
+  EXPECT_EQ(find(subtracted, PhotonKind::kIndirect)->use, ProbeUse::kAdded);
+  EXPECT_FALSE(find(subtracted, PhotonKind::kDirect)) << "`signed` does not gather them";
+  RenderSettings gathered = settings_of(Method::kAuto, DirectEstimator::kShadowRays);
+  gathered.indirect = IndirectEstimator::kFinalGather;
+  shoot(gathered);
+  EXPECT_EQ(find(probe(32, 24), PhotonKind::kIndirect)->use, ProbeUse::kFinalGather);
 }
 
 TEST_F(ProbeTest, FollowsMirrorsAndGlass) {

@@ -21,6 +21,23 @@
 
 namespace kaustik::test {
 
+// Whether this system has pseudo terminals: some containers lack /dev/pts.
+inline bool has_terminals() {
+  const int near = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  const bool has = near >= 0 && grantpt(near) == 0 && unlockpt(near) == 0;
+  if (near >= 0) close(near);
+  return has;
+}
+
+// For the fixture of tests with terminals.
+template <class Fixture>
+class WithTerminals : public Fixture {
+ protected:
+  void SetUp() override {
+    if (!has_terminals()) GTEST_SKIP() << "this system has no pseudo terminals: /dev/pts is not mounted";
+  }
+};
+
 class PlayedTerminal {
  public:
   // Answers the question for the device attributes, and all that were asked before, so.

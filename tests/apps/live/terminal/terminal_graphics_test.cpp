@@ -30,7 +30,7 @@ TEST(TerminalAnswers, AreReadAmongKeys) {
   EXPECT_EQ(read_answers(""), TerminalAnswers());
 }
 
-class TerminalDialogueTest : public ::testing::Test {
+class TerminalDialogueTest : public test::WithTerminals<::testing::Test> {
  protected:
   // Writes what a screen sends to the terminal.
   class ToFile : public std::stringbuf {
