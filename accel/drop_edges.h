@@ -1,11 +1,10 @@
 #pragma once
 // Drops edges by a test that takes long.
 
-#include <tbb/parallel_for.h>
-
 #include <vector>
 
 #include "core/geometry/boundary_edges.h"
+#include "core/parallel/parallel.h"
 
 namespace kaustik::accel {
 
@@ -13,7 +12,7 @@ namespace kaustik::accel {
 template <class Test>
 void drop_edges(std::vector<BoundaryEdge>* edges, const Test& drops) {
   std::vector<uint8_t> dropped(edges->size());
-  tbb::parallel_for(size_t{0}, edges->size(), [&](size_t i) { dropped[i] = drops((*edges)[i]); });
+  parallel::for_index(size_t{0}, edges->size(), [&](size_t i) { dropped[i] = drops((*edges)[i]); });
   size_t kept = 0;
   for (size_t i = 0; i < edges->size(); ++i)
     if (!dropped[i]) (*edges)[kept++] = (*edges)[i];

@@ -5,11 +5,11 @@
 
 #include "accel/edge_index.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
+
+#include "core/parallel/parallel.h"
 
 namespace kaustik::accel {
 
@@ -163,7 +163,7 @@ EdgeIndex::EdgeIndex(std::vector<BoundaryEdge> edges) : edges_(std::move(edges))
   for (const BoundaryEdge& edge : edges_) ++group_begin_[size_t(edge.surface_group) + 1];
   for (size_t g = 1; g < group_begin_.size(); ++g) group_begin_[g] += group_begin_[g - 1];
   trees_.resize(group_begin_.size() - 1);
-  tbb::parallel_for(size_t{0}, trees_.size(), [&](size_t g) {
+  parallel::for_index(size_t{0}, trees_.size(), [&](size_t g) {
     if (group_begin_[g + 1] - group_begin_[g] > kFewEdges)
       trees_[g] = std::make_unique<const Tree>(edges_, group_begin_[g], group_begin_[g + 1]);
   });

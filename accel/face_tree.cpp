@@ -1,9 +1,9 @@
 #include "accel/face_tree.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "core/parallel/parallel.h"
 
 namespace kaustik::accel {
 
@@ -62,7 +62,7 @@ void FaceTree::build(size_t at, uint32_t begin, uint32_t end) {
   const auto low = [&] { build(2 * at + 1, begin, middle); };
   const auto high = [&] { build(2 * at + 2, middle, end); };
   if (end - begin > kWorthThreads) {
-    tbb::parallel_invoke(low, high);
+    parallel::invoke(low, high);
   } else {
     low();
     high();

@@ -3,8 +3,6 @@
 #include "accel/wall_feet.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +15,7 @@
 #include "accel/face_tree.h"
 #include "core/geometry/triangle_bounds.h"
 #include "core/math/error_bounds.h"
+#include "core/parallel/parallel.h"
 
 namespace kaustik::accel {
 namespace {
@@ -166,7 +165,7 @@ std::optional<std::vector<BoundaryEdge>> feet_of(const std::vector<BoxedFace>& f
                                                  float gap) {
   tbb::enumerable_thread_specific<std::vector<BoundaryEdge>> found;
   std::atomic<uint64_t> pairs{0};
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, floors.size()), [&](const auto& range) {
+  parallel::for_range(tbb::blocked_range<size_t>(0, floors.size()), [&](const auto& range) {
     std::vector<BoundaryEdge>& feet = found.local();
     for (size_t i = range.begin(); i < range.end() && pairs <= kMostWallPairs; ++i)
       pairs += walls.for_each_bent(floors[i], [&](const Face& wall) {
@@ -228,7 +227,7 @@ struct ShapeFaces {
 std::vector<ShapeFaces> faces_of(const Scene& scene) {
   const std::vector<uint32_t> shapes = coarse_shapes(scene);
   std::vector<ShapeFaces> found(shapes.size());
-  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, shapes.size(), [&](size_t i) {
     const Shape& shape = scene.shapes[shapes[i]];
     const Material& material = scene.materials[shape.material];
     found[i].floors = material.lobes().diffuse;
@@ -238,23 +237,30 @@ std::vector<ShapeFaces> faces_of(const Scene& scene) {
   return found;
 }
 
+// The boxes of the faces of shapes of a sort, shape by shape.
+std::vector<BoxedFace> boxes_of(const std::vector<ShapeFaces>& shapes, bool ShapeFaces::*sort, float gap) {
+  std::vector<size_t> begin{0};
+  for (const ShapeFaces& shape : shapes)
+    begin.push_back(begin.back() + (shape.*sort ? shape.faces.size() : 0));
+  std::vector<BoxedFace> boxes(begin.back());
+  parallel::for_index(size_t{0}, shapes.size(), [&](size_t s) {
+    const auto of_face = [&](size_t i) { boxes[begin[s] + i] = boxed(shapes[s].faces[i], gap); };
+    parallel::for_index(size_t{0}, begin[s + 1] - begin[s], of_face);
+  });
+  return boxes;
+}
+
 }  // namespace
 
 std::vector<BoundaryEdge> find_wall_feet(const Scene& scene, const EdgeIndex& ends, float gap) {
   const std::vector<ShapeFaces> shapes = faces_of(scene);
-  std::vector<BoxedFace> floors, walls;
-  for (const ShapeFaces& shape : shapes)
-    for (const Face& face : shape.faces) {
-      const BoxedFace box = boxed(face, gap);
-      if (shape.floors) floors.push_back(box);
-      if (shape.walls) walls.push_back(box);
-    }
-  auto found = feet_of(floors, FaceTree(std::move(walls)), gap);
+  auto found = feet_of(boxes_of(shapes, &ShapeFaces::floors, gap),
+                       FaceTree(boxes_of(shapes, &ShapeFaces::walls, gap)), gap);
   if (!found) return gap > 0 ? find_wall_feet(scene, ends, 0) : std::vector<BoundaryEdge>{};
   std::vector<BoundaryEdge>& feet = *found;
   drop_edges(&feet, [&](const BoundaryEdge& foot) { return lies_on_end(foot, ends); });
-  tbb::parallel_sort(feet.begin(), feet.end(),
-                     [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+  parallel::sort(feet.begin(), feet.end(),
+                 [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
   feet.erase(std::unique(feet.begin(), feet.end(),
                          [](const auto& a, const auto& b) { return order_of(a) == order_of(b); }),
              feet.end());

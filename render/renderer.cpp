@@ -7,6 +7,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "core/parallel/work_span.h"
 #include "core/stopwatch.h"
 #include "render/adaptive/sample_counts.h"
 #include "render/camera/pixel_range.h"
@@ -95,13 +96,13 @@ class PassRenderer {
                       part,
                       pass_samples(part, input_.settings, input_.plan),
                       camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
-    const Stopwatch watch;
+    const PhaseWatch watch;
     const uint64_t samples = ctx.samples.end - ctx.samples.first;
     const auto discs = measure_discs(ctx, disc_pilot_points(ctx, samples));
     ctx.discs = discs.get();
     const bool finished = render_tiles(ctx, progress_, film, statistics, adaptive_work_, on_pixels_);
     on_pixels_ = {};  // later passes are added to a picture that is there
-    statistics->render_s += watch.seconds();
+    statistics->render_s += watch.end("render");
     statistics->passes += finished;
     return finished;
   }

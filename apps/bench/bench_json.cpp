@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "apps/bench/span.h"
 namespace kaustik::app {
 
 namespace {
@@ -44,6 +45,24 @@ Json point_json(const BenchResult& result, const BenchPoint& point) {
   out["efficiency"] = by_phase([&](Phase phase) { return efficiency(result, point, phase); });
   out["counters"] = point.counters;
   return out;
+}
+
+Json span_json(const SpanPoint& point) {
+  Json phases = Json::object();
+  for (const auto& [name, phase] : point.phases) {
+    Json places = Json::object();
+    for (const auto& [where, place] : phase.places)
+      places[where] = {
+          {"serial", place.serial}, {"work", place.work}, {"span", place.span}, {"tasks", place.tasks}};
+    Json speed_up = Json::object();
+    for (const int cores : kSpanCores) speed_up[std::to_string(cores)] = phase.speed_up(cores);
+    phases[name] = {{"seconds", phase.seconds},
+                    {"serial", phase.serial()},
+                    {"span", phase.span()},
+                    {"speed_up", std::move(speed_up)},
+                    {"places", std::move(places)}};
+  }
+  return {{"photons", point.photons}, {"phases", std::move(phases)}};
 }
 
 [[noreturn]] void refuse(std::string_view key, std::string_view expected) {
@@ -101,6 +120,19 @@ BenchPoint read_point(const Json& in) {
   return point;
 }
 
+SpanPoint read_span(const Json& in) {
+  constexpr uint64_t kMost = std::numeric_limits<uint64_t>::max();
+  SpanPoint point{whole(in, "photons", 1, kMost), {}};
+  for (const auto& [name, phase] : object_of(in, "phases").items()) {
+    PhaseSpan& to = point.phases[name];
+    to.seconds = measure_of(phase, "seconds");
+    for (const auto& [where, place] : object_of(phase, "places").items())
+      to.places[where] = {measure_of(place, "serial"), measure_of(place, "work"), measure_of(place, "span"),
+                          whole(place, "tasks", 0, kMost)};
+  }
+  return point;
+}
+
 }  // namespace
 
 std::string utf8(const std::string& text) {
@@ -129,6 +161,7 @@ std::string bench_json(const BenchResult& result) {
   out["repeat"] = result.repeat;
   out["points"] = Json::array();
   for (const BenchPoint& point : result.points) out["points"].push_back(point_json(result, point));
+  for (const SpanPoint& span : result.spans) out["spans"].push_back(span_json(span));
   return out.dump(2) + "\n";
 }
 
@@ -146,6 +179,8 @@ BenchResult bench_from_json(const std::string& text) {
   const Json& points = field(in, "points");
   if (!points.is_array() || points.empty()) refuse("points", "an array of at least one point");
   for (const Json& point : points) result.points.push_back(read_point(point));
+  if (const auto spans = in.find("spans"); spans != in.end())
+    for (const Json& span : *spans) result.spans.push_back(read_span(span));
   return result;
 }
 

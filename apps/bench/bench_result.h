@@ -3,11 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/parallel/work_span.h"
 
 namespace kaustik::app {
 
@@ -58,12 +61,19 @@ struct BenchPoint {
   const Spread& operator[](Rate rate) const { return per_second[static_cast<size_t>(rate)]; }
 };
 
+// How far the phases of a render can scale, by their names in --stats.
+struct SpanPoint {
+  uint64_t photons = 1;
+  std::map<std::string, PhaseSpan> phases;
+};
+
 struct BenchResult {
   std::string scene, version, build;  // UTF-8
   Json machine = Json::object();      // see machine_json
   Json settings = Json::object();     // of the render, without photons and threads
   uint64_t repeat = 1;
   std::vector<BenchPoint> points;  // by photon count, then by threads, in the order of the command line
+  std::vector<SpanPoint> spans{};  // by photon count, where they were asked for
 };
 
 // The first point with the same photon count; speed-ups are relative to it.

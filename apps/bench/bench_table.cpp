@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/bench/span.h"
 #include "apps/command_line/values.h"
 #include "apps/session/files/scene_loading.h"
 
@@ -155,6 +156,7 @@ std::string bench_table(const BenchResult& result) {
     }
     add_counters(table, point.counters);
   }
+  for (const SpanPoint& span : result.spans) table += span_table(span);
   return table;
 }
 

@@ -10,6 +10,7 @@
 #include "apps/bench/bench_table.h"
 #include "apps/bench/machine.h"
 #include "apps/bench/measure.h"
+#include "apps/bench/span.h"
 #include "apps/command_line/whole_numbers.h"
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
@@ -36,6 +37,7 @@ struct BenchOptions {
   std::string scene, from, json, plot;
   std::vector<std::string> photons = {"1M"}, threads;
   std::string repeat = "5";
+  bool span = false;
   SettingOverrides overrides;
 };
 
@@ -114,6 +116,20 @@ std::vector<BenchPoint> measure_job(const Job& job, const BenchPlan& plan, const
   throw ExitError(kInterrupted, "interrupted; nothing was written");
 }
 
+std::vector<SpanPoint> measure_spans(const BenchOptions& options, const BenchPlan& plan,
+                                     const InterruptGuard& interrupt, const Console& console) {
+  std::vector<SpanPoint> spans;
+  std::ostream nowhere(nullptr);
+  const Console silent{console.out, nowhere, false, true};  // the scene's messages have been shown
+  for (const uint64_t photons : plan.photons) {
+    auto span = measure_span(options.scene, options.overrides, photons, silent,
+                             [&] { return !interrupt.requested(); });
+    if (!span) throw ExitError(kInterrupted, "interrupted; nothing was written");
+    spans.push_back(std::move(*span));
+  }
+  return spans;
+}
+
 BenchResult run_scene(const BenchOptions& options, const Console& console) {
   const CoreLimits cores = core_limits();
   const BenchPlan plan = plan_of(options, cores);
@@ -136,6 +152,7 @@ BenchResult run_scene(const BenchOptions& options, const Console& console) {
                      .repeat = plan.repeat,
                      .points = {}};
   result.points = measure_job(job, plan, interrupt, console);
+  if (options.span) result.spans = measure_spans(options, plan, interrupt, console);
   return result;
 }
 
@@ -177,6 +194,9 @@ void add_options(Command& command, BenchOptions& options) {
       "--threads", "COUNTS", options.threads,
       "Thread counts, separated by commas. Speed-ups are relative to the first. Default: 1, 2, 4 ... up "
       "to the usable cores");
+  command.add_flag("--span", options.span,
+                   "Also measure work and span in one thread, and print from them how far the render can "
+                   "scale on more cores than this machine has, and what holds it up");
   command.add_text("--repeat", "COUNT", options.repeat, "Runs per point. Default: 5");
   command.add_text("--json", "FILE", options.json, "Write the result to this JSON file");
   command.add_text(

@@ -3,9 +3,6 @@
 
 #include "core/geometry/boundary_edges.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <bit>
 #include <map>
@@ -17,6 +14,7 @@
 #include "core/geometry/point_bits.h"
 #include "core/geometry/rims.h"
 #include "core/geometry/triangle_bounds.h"
+#include "core/parallel/parallel.h"
 
 namespace kaustik {
 namespace {
@@ -47,7 +45,7 @@ struct OpenSide {
 std::vector<uint32_t> weld(const std::vector<Point3>& P) {
   std::vector<uint32_t> order(P.size()), welded(P.size());
   std::iota(order.begin(), order.end(), 0u);
-  tbb::parallel_sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
+  parallel::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
     const PointBits a = bits_of(P[i]), b = bits_of(P[j]);
     return a != b ? a < b : i < j;
   });
@@ -70,7 +68,7 @@ std::vector<MeshSide> sides_of(const TriangleMesh& mesh) {
       sides.push_back({uint64_t{std::min(from, to)} << 32 | std::max(from, to), 3 * t + k, from < to});
     }
   }
-  tbb::parallel_sort(sides.begin(), sides.end(), [](const MeshSide& a, const MeshSide& b) {
+  parallel::sort(sides.begin(), sides.end(), [](const MeshSide& a, const MeshSide& b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.corner < b.corner;
   });
   return sides;
@@ -223,8 +221,8 @@ void add_group_edges(const std::vector<Shape>& shapes, std::span<const uint32_t>
   std::vector<OpenSide> open;
   for (const uint32_t i : meshes) add_open_sides(std::get<TriangleMesh>(shapes[i].geometry), i, &open, bends);
   const auto key = [](const OpenSide& s) { return std::tie(s.ends, s.shape, s.corner); };
-  tbb::parallel_sort(open.begin(), open.end(),
-                     [&](const OpenSide& a, const OpenSide& b) { return key(a) < key(b); });
+  parallel::sort(open.begin(), open.end(),
+                 [&](const OpenSide& a, const OpenSide& b) { return key(a) < key(b); });
   for (size_t begin = 0, end = 0; begin < open.size(); begin = end) {
     while (end < open.size() && open[end].ends == open[begin].ends) ++end;
     if (end - begin <= kMaxSidesOfJoint)
@@ -240,8 +238,8 @@ void add_mesh_edges(const std::vector<Shape>& shapes, std::vector<BoundaryEdge>*
     if (std::holds_alternative<TriangleMesh>(shapes[i].geometry))
       meshes[shapes[i].surface_group].push_back(i);
   std::vector<std::vector<BoundaryEdge>> of_group(meshes.size());
-  tbb::parallel_for(size_t{0}, meshes.size(),
-                    [&](size_t g) { add_group_edges(shapes, meshes[g], &of_group[g], &(*bends)[g]); });
+  parallel::for_index(size_t{0}, meshes.size(),
+                      [&](size_t g) { add_group_edges(shapes, meshes[g], &of_group[g], &(*bends)[g]); });
   size_t count = edges->size();
   for (const auto& some : of_group) count += some.size();
   edges->reserve(count);

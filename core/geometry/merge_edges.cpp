@@ -3,14 +3,13 @@
 
 #include "core/geometry/merge_edges.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <span>
 #include <tuple>
 
 #include "core/geometry/point_bits.h"
+#include "core/parallel/parallel.h"
 
 namespace kaustik {
 namespace {
@@ -165,7 +164,7 @@ std::vector<BoundaryEdge> merge_edges(std::vector<BoundaryEdge> edges) {
   sort_by_group(&edges);
   const std::vector<size_t> begins = begins_of_groups(edges);
   std::vector<std::vector<BoundaryEdge>> merged(begins.size() - 1);
-  tbb::parallel_for(size_t{0}, merged.size(), [&](size_t g) {
+  parallel::for_index(size_t{0}, merged.size(), [&](size_t g) {
     Chains(std::span(edges).subspan(begins[g], begins[g + 1] - begins[g])).merge(&merged[g]);
   });
   size_t count = 0;

@@ -3,9 +3,6 @@
 
 #include "photon/estimate/surface_areas.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <compare>
@@ -13,6 +10,7 @@
 
 #include "core/geometry/tessellate.h"
 #include "core/geometry/triangle_bounds.h"
+#include "core/parallel/parallel.h"
 #include "photon/estimate/walls.h"
 
 namespace kaustik::photon {
@@ -85,7 +83,7 @@ void drop_copies(std::vector<Facet>* facets) {
   std::vector<Footprint> order;
   order.reserve(facets->size());
   for (uint32_t i = 0; i < facets->size(); ++i) order.push_back(footprint_of((*facets)[i], i));
-  tbb::parallel_sort(order.begin(), order.end());
+  parallel::sort(order.begin(), order.end());
   std::vector<bool> copy(facets->size());
   for (size_t first = 0, i = 1; i < order.size(); ++i) {
     if (order[first].corners != order[i].corners) first = i;
@@ -155,20 +153,35 @@ class Cutter {
   Normal3 n_{0};
 };
 
+// Appends the parts in their order.
+template <class Vector>
+void append_all(const std::vector<Vector>& parts, Vector* all) {
+  std::vector<size_t> begin{all->size()};
+  for (const Vector& part : parts) begin.push_back(begin.back() + part.size());
+  all->resize(begin.back());
+  parallel::for_index(size_t{0}, parts.size(), [&](size_t i) {
+    std::copy(parts[i].begin(), parts[i].end(), all->begin() + std::ptrdiff_t(begin[i]));
+  });
+}
+
 // The pieces sorted by place; pieces of one place keep their order.
 std::vector<std::pair<Place, uint32_t>> order_of(const std::vector<Piece>& pieces) {
   std::vector<std::pair<Place, uint32_t>> order(pieces.size());
-  for (uint32_t i = 0; i < pieces.size(); ++i) order[i] = {pieces[i].place, i};
-  tbb::parallel_sort(order.begin(), order.end());
+  parallel::for_index(uint32_t{0}, uint32_t(pieces.size()), [&](uint32_t i) {
+    order[i] = {pieces[i].place, i};
+  });
+  parallel::sort(order.begin(), order.end());
   return order;
 }
 
-// Joins the pieces of one place to one photon whose flux is their area.
-PhotonBuffer joined(const std::vector<Piece>& pieces, float unit) {
-  const auto order = order_of(pieces);
-  PhotonBuffer buffer;
-  buffer.flux_unit = unit;
-  for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+using Order = std::vector<std::pair<Place, uint32_t>>;
+
+// Joins the pieces of each place to one photon whose flux is their area: the places that begin in this part
+// of the order.
+void join(const std::vector<Piece>& pieces, const Order& order, size_t begin, size_t last, float unit,
+          PhotonRecords* records) {
+  while (begin > 0 && begin < last && order[begin].first == order[begin - 1].first) ++begin;
+  for (size_t end = begin; begin < last; begin = end) {
     const Place place = order[begin].first;
     double area = 0;
     glm::dvec3 p(0), n(0);
@@ -180,8 +193,20 @@ PhotonBuffer joined(const std::vector<Piece>& pieces, float unit) {
     }
     if (!(area > 0) || n == glm::dvec3(0)) continue;
     const Normal3 normal(glm::normalize(n));
-    buffer.records.push_back(pack({Point3(p / area), normal, Rgb(float(area)), normal, place.group}, unit));
+    records->push_back(pack({Point3(p / area), normal, Rgb(float(area)), normal, place.group}, unit));
   }
+}
+
+PhotonBuffer joined(const std::vector<Piece>& pieces, float unit) {
+  constexpr size_t kPart = 4096;
+  const Order order = order_of(pieces);
+  std::vector<PhotonRecords> parts((order.size() + kPart - 1) / kPart);
+  parallel::for_index(size_t{0}, parts.size(), [&](size_t i) {
+    join(pieces, order, i * kPart, std::min((i + 1) * kPart, order.size()), unit, &parts[i]);
+  });
+  PhotonBuffer buffer;
+  buffer.flux_unit = unit;
+  append_all(parts, &buffer.records);
   return buffer;
 }
 
@@ -191,7 +216,7 @@ std::vector<Piece> pieces_of(const Scene& scene, const std::vector<bool>& chosen
   for (uint32_t i = 0; i < scene.shapes.size(); ++i)
     if (chosen[scene.shapes[i].surface_group]) shapes[scene.shapes[i].surface_group].push_back(i);
   std::vector<std::vector<Piece>> of_group(shapes.size());
-  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t g) {
+  parallel::for_index(size_t{0}, shapes.size(), [&](size_t g) {
     std::vector<Facet> facets;
     for (const uint32_t i : shapes[g]) add_facets(scene.shapes[i], &facets);
     drop_copies(&facets);
@@ -199,7 +224,7 @@ std::vector<Piece> pieces_of(const Scene& scene, const std::vector<bool>& chosen
     for (const Facet& facet : facets) cutter.cut(facet);
   });
   std::vector<Piece> pieces;
-  for (const auto& some : of_group) pieces.insert(pieces.end(), some.begin(), some.end());
+  append_all(of_group, &pieces);
   return pieces;
 }
 

@@ -1,11 +1,12 @@
 #include "photon/map/box_tree.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
 #include <limits>
+
+#include "core/parallel/parallel.h"
 
 namespace kaustik::photon {
 
@@ -64,7 +65,7 @@ template <class Fn>
 void for_each_index(size_t size, const Fn& fn) {
   constexpr size_t kGrain = 64;
   using Indices = tbb::blocked_range<size_t>;
-  tbb::parallel_for(Indices(0, size, kGrain), [&](const Indices& indices) {
+  parallel::for_range(Indices(0, size, kGrain), [&](const Indices& indices) {
     for (size_t i = indices.begin(); i < indices.end(); ++i) fn(i);
   });
 }

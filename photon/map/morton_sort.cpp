@@ -3,13 +3,13 @@
 #include "photon/map/morton_sort.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
 
 #include "core/memory/memory_pages.h"
 #include "core/memory/uninitialised_array.h"
+#include "core/parallel/parallel.h"
 #include "core/sampling/sampler.h"
 #include "photon/map/key_buckets.h"
 #include "photon/map/key_order.h"
@@ -19,9 +19,10 @@ namespace kaustik::photon {
 
 namespace {
 
-// A constant, so that the result does not depend on the number of threads.
-constexpr size_t kBlockRecords = size_t(1) << 16;
-constexpr size_t kBucketPhotons = 16384;  // on average; with their keys they take most of a megabyte
+// Blocks and buckets are tasks. Their sizes depend on the number of records alone.
+constexpr size_t kMostInBlock = size_t(1) << 16, kFewestInBlock = size_t(1) << 12, kWantedBlocks = 256;
+// Photons of a bucket on average; with their keys they take most of a megabyte at most.
+constexpr size_t kMostInBucket = size_t(1) << 14, kFewestInBucket = size_t(1) << 11, kWantedBuckets = 512;
 // Upper bound of the wanted number, to keep the pieces of a block from getting too small.
 constexpr size_t kMaxBuckets = 2048;
 constexpr size_t kSamplesPerBucket = 16;
@@ -41,10 +42,11 @@ struct Scratch {
 
 // Chooses buckets from a sample of records at hashed positions, so that no order of the records can bias it.
 KeyBuckets find_buckets(std::span<const PhotonRecord> records, const MortonCube& cube) {
-  const size_t wanted = std::min(records.size() / kBucketPhotons, kMaxBuckets);
+  const size_t each = std::clamp(records.size() / kWantedBuckets, kFewestInBucket, kMostInBucket);
+  const size_t wanted = std::min(records.size() / each, kMaxBuckets);
   if (wanted < 2) return KeyBuckets({}, 1);
   std::vector<uint64_t> keys(wanted * kSamplesPerBucket), sample(keys.size());
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, keys.size(), 256), [&](const auto& range) {
+  parallel::for_range(tbb::blocked_range<size_t>(0, keys.size(), 256), [&](const auto& range) {
     for (size_t i = range.begin(); i < range.end(); ++i) {
       const PhotonRecord& record = records[mix64(i) % records.size()];
       keys[i] = morton_key(cube.cell({record.x, record.y, record.z}));
@@ -58,15 +60,19 @@ KeyBuckets find_buckets(std::span<const PhotonRecord> records, const MortonCube&
 class MortonSort {
  public:
   MortonSort(std::span<PhotonRecord> records, const MortonCube& cube, const RecordColumns& to)
-      : records_(records), cube_(cube), to_(to), buckets_(find_buckets(records, cube)) {}
+      : records_(records),
+        in_block_(std::clamp(records.size() / kWantedBlocks, kFewestInBlock, kMostInBlock)),
+        cube_(cube),
+        to_(to),
+        buckets_(find_buckets(records, cube)) {}
 
   void arrange_blocks();
   void write_columns();
 
  private:
-  size_t blocks() const { return (records_.size() + kBlockRecords - 1) / kBlockRecords; }
+  size_t blocks() const { return (records_.size() + in_block_ - 1) / in_block_; }
   std::span<PhotonRecord> block(size_t b) const {
-    return records_.subspan(b * kBlockRecords, std::min(kBlockRecords, records_.size() - b * kBlockRecords));
+    return records_.subspan(b * in_block_, std::min(in_block_, records_.size() - b * in_block_));
   }
   // Positions in block b at which the buckets begin, followed by the end of the last one.
   std::span<uint32_t> offsets(size_t b) {
@@ -86,6 +92,7 @@ class MortonSort {
   void write_buckets(size_t begin, size_t end, std::span<const uint64_t> starts);
 
   std::span<PhotonRecord> records_;
+  size_t in_block_;
   MortonCube cube_;
   RecordColumns to_;
   KeyBuckets buckets_;
@@ -95,7 +102,7 @@ class MortonSort {
 
 void MortonSort::arrange_blocks() {
   offsets_ = UninitialisedArray<uint32_t>(blocks() * (buckets_.size() + 1));
-  tbb::parallel_for(size_t(0), blocks(), [&](size_t b) {
+  parallel::for_index(size_t(0), blocks(), [&](size_t b) {
     if (buckets_.size() > 1) return arrange_block(b, scratch_.local());
     offsets(b)[0] = 0;
     offsets(b)[1] = uint32_t(block(b).size());
@@ -158,14 +165,14 @@ void MortonSort::write_bucket(size_t bucket, uint64_t start, Scratch& scratch) {
 void MortonSort::write_single_key(size_t bucket, uint64_t start) {
   std::vector<uint64_t> place(blocks() + 1, start);
   for (size_t b = 0; b < blocks(); ++b) place[b + 1] = place[b] + piece(b, bucket, bucket + 1).size();
-  tbb::parallel_for(size_t(0), blocks(), [&](size_t b) {
+  parallel::for_index(size_t(0), blocks(), [&](size_t b) {
     uint64_t at = place[b];
     for (const PhotonRecord& record : piece(b, bucket, bucket + 1)) to_.write(at++, record);
   });
 }
 
 void MortonSort::write_buckets(size_t begin, size_t end, std::span<const uint64_t> starts) {
-  tbb::parallel_for(begin, end, [&](size_t bucket) {
+  parallel::for_index(begin, end, [&](size_t bucket) {
     if (buckets_.single_key(bucket)) return write_single_key(bucket, starts[bucket]);
     write_bucket(bucket, starts[bucket], scratch_.local());
   });

@@ -3,8 +3,8 @@
 #include "photon/map/octree.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
+#include "core/parallel/parallel.h"
 #include "photon/map/morton_lanes.h"
 
 namespace kaustik::photon {
@@ -117,8 +117,8 @@ Octree::Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_
   std::vector<Subtree> subtrees;
   const std::vector<OctreeNode> top = build_top(cube, positions, size, subtrees);
   tbb::enumerable_thread_specific<UninitialisedArray<uint64_t>> keys;
-  tbb::parallel_for(size_t(0), subtrees.size(),
-                    [&](size_t i) { build_subtree(cube, positions, subtrees[i], keys.local()); });
+  parallel::for_index(size_t(0), subtrees.size(),
+                      [&](size_t i) { build_subtree(cube, positions, subtrees[i], keys.local()); });
 
   size_t total = top.size();
   for (Subtree& subtree : subtrees) {
@@ -127,7 +127,7 @@ Octree::Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_
   }
   nodes_ = UninitialisedArray<OctreeNode>(total);
   std::ranges::copy(top, nodes_.begin());
-  tbb::parallel_for(size_t(0), subtrees.size(), [&](size_t i) {
+  parallel::for_index(size_t(0), subtrees.size(), [&](size_t i) {
     Subtree& subtree = subtrees[i];
     for (OctreeNode& node : subtree.nodes) {
       if (!node.leaf()) node.first_child += uint32_t(subtree.first - 1);

@@ -3,8 +3,6 @@
 #include "photon/map/photon_map.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_invoke.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <span>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "core/memory/memory_pages.h"
+#include "core/parallel/parallel.h"
 
 namespace kaustik::photon {
 
@@ -22,7 +21,7 @@ constexpr size_t kGrain = 1 << 14;
 
 // The result is deterministic, since minima and maxima do not depend on the order in which they are combined.
 Bounds3 bounds_of(std::span<const PhotonRecord> records) {
-  return tbb::parallel_reduce(
+  return parallel::reduce(
       IndexBlock(0, records.size(), kGrain), Bounds3{},
       [&](const IndexBlock& block, Bounds3 bounds) {
         for (size_t i = block.begin(); i < block.end(); ++i) {
@@ -52,8 +51,13 @@ RecordColumns PhotonMap::allocate(uint64_t size) {
   prefer_large_pages(storage_.data(), storage_.size() * sizeof(Line));
   const auto words = [&](uint64_t c) { return storage_[c * lines].words; };
   const auto floats = [&](uint64_t c) { return reinterpret_cast<float*>(words(c)); };
-  for (uint64_t c = 0; c < kColumns; ++c)
-    std::fill(words(c) + size, words(c) + lines * BoxTree::kBlockPhotons, c == 0 ? ~0u : 0u);
+  // In parallel, as each touches the first large page of a column.
+  parallel::for_index(
+      uint64_t{0}, kColumns,
+      [&](uint64_t c) {
+        std::fill(words(c) + size, words(c) + lines * BoxTree::kBlockPhotons, c == 0 ? ~0u : 0u);
+      },
+      parallel::Division::kEach);
   const RecordColumns to{floats(0), floats(1), floats(2), words(3), words(5), words(4)};
   columns_ = {to.x, to.y, to.z, to.direction, to.surface, to.power};
   return to;
@@ -64,11 +68,11 @@ PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
   PhotonBuffer taken = std::exchange(buffer, {});
   PhotonMap map;
   map.flux_unit_ = taken.flux_unit;
-  const MortonCube cube = MortonCube::around(settings.bounds.value_or(bounds_of(taken.records)));
+  const MortonCube cube = MortonCube::around(settings.bounds ? *settings.bounds : bounds_of(taken.records));
   sort_into_columns(taken.records, cube, map.allocate(taken.records.size()));
-  tbb::parallel_invoke([&] { map.octree_ = Octree(cube, map.positions(), map.size_); },
-                       [&] { map.boxes_ = BoxTree(map.columns_, map.size_); },
-                       [&] { PhotonRecords().swap(taken.records); });
+  parallel::invoke([&] { map.octree_ = Octree(cube, map.positions(), map.size_); },
+                   [&] { map.boxes_ = BoxTree(map.columns_, map.size_); },
+                   [&] { PhotonRecords().swap(taken.records); });
   return map;
 }
 

@@ -2,10 +2,9 @@
 
 #include "photon/shoot/guide_shoot.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "core/parallel/parallel.h"
 #include "photon/shoot/shoot.h"
 
 namespace kaustik::photon {
@@ -86,11 +85,11 @@ class GuideLearner {
 
   // Traces one round and appends the starts whose photons were useful, in the order of photon indices.
   void shoot(const TraceSettings& trace) {
-    const uint64_t blocks = (trace.photons + kShootBlock - 1) / kShootBlock;
+    const uint64_t blocks = (trace.photons + kLearnBlock - 1) / kLearnBlock;
     std::vector<std::vector<Start>> of_block(blocks);
     std::vector<TraceCounters> counters(blocks);
-    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t block) {
-      const uint64_t first = block * kShootBlock, end = std::min(trace.photons, first + kShootBlock);
+    parallel::for_index(uint64_t{0}, blocks, [&](uint64_t block) {
+      const uint64_t first = block * kLearnBlock, end = std::min(trace.photons, first + kLearnBlock);
       std::vector<double> squares(end - first);
       const auto sink = [&](PhotonKind, const Photon& photon, uint64_t index) {
         const double flux = double(photon.flux.x) + double(photon.flux.y) + double(photon.flux.z);
@@ -123,7 +122,7 @@ class GuideLearner {
   // (the balance heuristic, Veach 1997).
   std::vector<GuideHit> weighted() const {
     std::vector<GuideHit> hits(starts_.size());
-    tbb::parallel_for(size_t{0}, hits.size(), [&](size_t i) {
+    parallel::for_index(size_t{0}, hits.size(), [&](size_t i) {
       double density = 0;
       for (const Round& round : rounds_)
         density += round.photons * (round.guide.empty() ? 1 : double(round.guide.density(starts_[i].u)));

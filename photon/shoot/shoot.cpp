@@ -4,7 +4,6 @@
 #include "photon/shoot/shoot.h"
 
 #include <tbb/concurrent_queue.h>
-#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <shared_mutex>
 
 #include "core/memory/memory_pages.h"
+#include "core/parallel/parallel.h"
 #include "photon/trace/record_sink.h"
 
 namespace kaustik::photon {
@@ -127,32 +127,19 @@ ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
   const SurfaceTable surfaces(scene);
   BlockSource source(settings.photons);
   std::atomic<bool> cancelled{false};
-  const auto start = [&](tbb::flow_control& control) -> Block* {
-    Block* const block = cancelled ? nullptr : source.next();
-    if (!block) control.stop();
-    return block;
-  };
-  const auto trace = [&](Block* block) {
-    trace_block(scene, surfaces, bvh, settings, flux_unit, *block);
-    return block;
-  };
+  const auto start = [&]() -> Block* { return cancelled ? nullptr : source.next(); };
+  const auto trace = [&](Block* block) { trace_block(scene, surfaces, bvh, settings, flux_unit, *block); };
   Join join(result, settings.photons);
   const auto place = [&](Block* block) {
-    if (cancelled) return block;
+    if (cancelled) return;
     join.place(*block);
     if (progress && !progress(block->end, settings.photons)) cancelled = true;
-    return block;
   };
   const auto copy = [&](Block* block) {
     if (block->placed) join.copy(*block);
     source.give_back(block);
   };
-  using tbb::filter_mode;
-  tbb::parallel_pipeline(source.most(),
-                         tbb::make_filter<void, Block*>(filter_mode::serial_in_order, start) &
-                             tbb::make_filter<Block*, Block*>(filter_mode::parallel, trace) &
-                             tbb::make_filter<Block*, Block*>(filter_mode::serial_in_order, place) &
-                             tbb::make_filter<Block*, void>(filter_mode::parallel, copy));
+  parallel::pipeline<Block>(source.most(), start, trace, place, copy);
   return result;
 }
 

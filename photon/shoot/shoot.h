@@ -17,6 +17,8 @@ struct ShootResult {
 
 // Photons per block, chosen so that its records stay in the caches until they are joined.
 inline constexpr uint64_t kShootBlock = 1u << 12;
+// Photons per block where few are traced to learn something: as many blocks as large machines have cores.
+inline constexpr uint64_t kLearnBlock = 1u << 8;
 
 // Unit of flux in the compact records: the power of two near the mean flux of one photon.
 float flux_unit_of(const Scene& scene, uint64_t photons);

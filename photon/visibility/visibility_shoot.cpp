@@ -3,8 +3,8 @@
 #include "photon/visibility/visibility_shoot.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
+#include "core/parallel/parallel.h"
 #include "photon/shoot/shoot.h"
 
 namespace kaustik::photon {
@@ -46,11 +46,11 @@ VisibilityTree predict_visibility(const Scene& scene, const accel::Bvh& bvh,
   for (uint32_t light = 0; light < lights; ++light) {
     if (!(power(light) > 0)) continue;
     const TraceSettings trace = straight_photons(settings, light, power(light) / sum);
-    const uint64_t blocks = (trace.photons + kShootBlock - 1) / kShootBlock;
-    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t block) {
+    const uint64_t blocks = (trace.photons + kLearnBlock - 1) / kLearnBlock;
+    parallel::for_index(uint64_t{0}, blocks, [&](uint64_t block) {
       Observations& observations = by_thread.local();
       TraceCounters ignored;
-      const uint64_t first = block * kShootBlock, end = std::min(trace.photons, first + kShootBlock);
+      const uint64_t first = block * kLearnBlock, end = std::min(trace.photons, first + kLearnBlock);
       const auto sink = [&](PhotonKind kind, const Photon& photon) {
         observations.push_back(
             VisibilityTree::observation(cube, light, photon.p, photon.n, kind == PhotonKind::kDirect));

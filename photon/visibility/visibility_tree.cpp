@@ -2,9 +2,9 @@
 
 #include "photon/visibility/visibility_tree.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
+
+#include "core/parallel/parallel.h"
 
 namespace kaustik::photon {
 
@@ -43,7 +43,7 @@ uint64_t VisibilityTree::observation(const MortonCube& cube, uint32_t light, con
 
 VisibilityTree::VisibilityTree(const MortonCube& cube, std::vector<uint64_t> observations) : cube_(cube) {
   static_assert(digit_shift(kLevels - 1) == 1 && (kMostLights * kDirections) >> (64 - kTreeShift) == 0);
-  tbb::parallel_sort(observations.begin(), observations.end());
+  parallel::sort(observations.begin(), observations.end());
   const uint64_t* const end = observations.data() + observations.size();
   for (const uint64_t* at = observations.data(); at < end;) {
     const uint64_t tree = *at >> kTreeShift;

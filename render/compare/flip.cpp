@@ -3,13 +3,13 @@
 #include "render/compare/flip.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "core/parallel/parallel.h"
 #include "core/spectrum/colour_space.h"
 #include "core/spectrum/srgb.h"
 #include "render/compare/gaussian_filter.h"
@@ -103,7 +103,7 @@ Pixels seen_colours(const Pixels& colours, int width, int height, double pixels_
       if (weights[i] > 0)
         add_filtered(colours, c, width, height, rows[i], rows[i], float(weights[i] / total), &seen);
   }
-  tbb::parallel_for(size_t{0}, seen.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, seen.size(), [&](size_t i) {
     seen[i] = perceived(glm::clamp(rgb_from_opponent(seen[i]), 0.0f, 1.0f));
   });
   return seen;

@@ -1,9 +1,9 @@
 #include "render/compare/gaussian_filter.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "core/parallel/parallel.h"
 
 namespace kaustik::render {
 
@@ -33,7 +33,7 @@ void add_filtered(const std::vector<glm::vec3>& picture, int channel, int width,
   const auto index = [width](int x, int y) { return size_t(y) * size_t(width) + size_t(x); };
   const int reach_x = int(across.size() / 2), reach_y = int(down.size() / 2);
   std::vector<float> rows(picture.size());
-  tbb::parallel_for(0, height, [&](int y) {
+  parallel::for_index(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       float total = 0;
       for (int i = -reach_x; i <= reach_x; ++i)
@@ -41,7 +41,7 @@ void add_filtered(const std::vector<glm::vec3>& picture, int channel, int width,
       rows[index(x, y)] = total;
     }
   });
-  tbb::parallel_for(0, height, [&](int y) {
+  parallel::for_index(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       float total = 0;
       for (int i = -reach_y; i <= reach_y; ++i)

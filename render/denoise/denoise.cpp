@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/parallel/parallel.h"
 #include "render/denoise/regression.h"
 #include "render/picture/image_io.h"
 
@@ -90,7 +91,7 @@ void set_class(const Picture& picture, Layer layer, ClassOfLight* light) {
   ClassOfLight& out = *light;
   out.layer = layer;
   std::atomic<bool> lit{false};
-  tbb::parallel_for(0, picture.height(), [&](int y) {
+  parallel::for_index(0, picture.height(), [&](int y) {
     bool lit_row = false;
     for (int x = 0; x < picture.width(); ++x) {
       const HalfMeans& pixel = picture.halves.at(x, y);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/parallel/parallel.h"
+
 namespace kaustik::render {
 
 namespace {
@@ -24,11 +26,11 @@ void Plane::extend() {
 Plane blurred(const Plane& plane, int radius) {
   const int width = plane.width(), height = plane.height();
   Plane columns(width, height), out(width, height);
-  tbb::parallel_for(0, height, [&](int y) {
+  parallel::for_index(0, height, [&](int y) {
     for (int v = -radius; v <= radius; ++v)
       for (int x = 0; x < width; ++x) columns.at(x, y) += plane.at(x, y + v);
   });
-  tbb::parallel_for(0, height, [&](int y) {
+  parallel::for_index(0, height, [&](int y) {
     for (int u = -radius; u <= radius; ++u)
       for (int x = 0; x < width; ++x) out.at(x, y) += columns.at(x + u, y);
     for (int x = 0; x < width; ++x)

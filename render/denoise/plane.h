@@ -9,6 +9,7 @@
 
 #include "core/memory/memory_pages.h"
 #include "core/memory/uninitialised_array.h"
+#include "core/parallel/parallel.h"
 #include "render/film/for_each_pixel.h"
 
 namespace kaustik::render {
@@ -26,7 +27,7 @@ class Plane {
         stride_(size_t(width) + kBorder + kRightBorder),
         values_(stride_ * (size_t(height) + 2 * kBorder)) {
     prefer_large_pages(values_.data(), values_.size() * sizeof(float));
-    tbb::parallel_for(0, height + 2 * kBorder, [&](int row) {
+    parallel::for_index(0, height + 2 * kBorder, [&](int row) {
       std::fill_n(values_.begin() + std::ptrdiff_t(size_t(row) * stride_), stride_, 0.0f);
     });
   }

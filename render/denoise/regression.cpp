@@ -13,6 +13,8 @@
 //
 #include <hwy/contrib/math/math-inl.h>
 
+#include "core/parallel/parallel.h"
+
 #ifndef KAUSTIK_REGRESSION_BAND
 #define KAUSTIK_REGRESSION_BAND
 namespace kaustik::render {
@@ -376,14 +378,14 @@ Regression::Regression(int width, int height) {
 Regression::~Regression() = default;
 
 const Fitted& Regression::fit(const RegressionInput& in) {
-  tbb::parallel_for(
+  parallel::for_index(
       size_t(0), bands_.size(),
       [&](size_t band) {
         bands_[band].clear();
         HWY_DYNAMIC_DISPATCH(RegressBand)(in, int(band) * kTileHeight, &bands_[band]);
       },
-      tbb::simple_partitioner());
-  tbb::parallel_for(0, in.inside->height(), [&](int y) { add_up(bands_, y, in, &fitted_); });
+      parallel::Division::kEach);
+  parallel::for_index(0, in.inside->height(), [&](int y) { add_up(bands_, y, in, &fitted_); });
   return fitted_;
 }
 

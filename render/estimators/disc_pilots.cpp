@@ -1,9 +1,9 @@
 #include "render/estimators/disc_pilots.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <optional>
+
+#include "core/parallel/parallel.h"
 
 namespace kaustik::render {
 
@@ -39,7 +39,7 @@ std::unique_ptr<const DiscCorrection> compare_at(const RenderContext& ctx, uint3
   std::vector<VisiblePoint> points = visible_points(ctx, count);
   std::vector<std::optional<TwoEstimates>> found(points.size());
   const uint64_t stream = hash_combine(hash_combine(ctx.settings.seed, kPilotPaths), ctx.pass.pass);
-  tbb::parallel_for(size_t{0}, points.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, points.size(), [&](size_t i) {
     Sampler sampler(hash_combine(stream, count), i);
     found[i] = estimate_at(ctx, points[i], sampler);
   });

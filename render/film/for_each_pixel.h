@@ -1,14 +1,14 @@
 #pragma once
 // Parallel loop over the pixels of a window, which must not depend on each other.
 
-#include <tbb/parallel_for.h>
+#include "core/parallel/parallel.h"
 
 namespace kaustik::render {
 
 // Calls fn(x, y) for all pixels, with rows in parallel.
 template <class Fn>
 void for_each_pixel(int width, int height, const Fn& fn) {
-  tbb::parallel_for(0, height, [&](int y) {
+  parallel::for_index(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) fn(x, y);
   });
 }

@@ -9,6 +9,7 @@
 
 #include "accel/wall_feet.h"
 #include "core/geometry/merge_edges.h"
+#include "core/parallel/work_span.h"
 #include "core/stopwatch.h"
 #include "photon/visibility/visibility_shoot.h"
 #include "render/maps/radius.h"
@@ -197,13 +198,13 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
   photon::ShootResult shot;
   if (!shoot_kinds(input, pass, guides_, progress, &shot, statistics)) return false;
 
-  const Stopwatch watch;
+  const PhaseWatch watch;
   build_maps(input, std::move(shot));
   explore(input);
   prepare_gathers(input, pass);
   note_radii(*radii_, statistics);
   add_sizes(maps_, statistics);
-  statistics->photon_build_s += watch.seconds();
+  statistics->photon_build_s += watch.end("photon_build");
   return !progress || progress({"build", 1, 1, pass.pass, pass.shares});
 }
 
@@ -237,20 +238,20 @@ void PassPhotons::forget_radii_and_walls() {
 
 void PassPhotons::predict_visibility(const RenderInput& input, RenderStatistics* statistics) {
   if (input.plan.direct != DirectEstimator::kPredicted || visibility_) return;
-  const Stopwatch watch;
+  const PhaseWatch watch;
   const RenderSettings& settings = input.settings;
   visibility_ = std::make_unique<const photon::VisibilityTree>(photon::predict_visibility(
       input.scene, input.bvh,
       {settings.seed, visibility_photons(input.scene.camera, settings), settings.emission}));
-  statistics->photon_trace_s += watch.seconds();
+  statistics->photon_trace_s += watch.end("photon_trace");
 }
 
 void PassPhotons::learn_sky(const RenderInput& input, RenderStatistics* statistics) {
   if (input.settings.method != Method::kAuto || input.scene.infinite_lights.empty()) return;
   if (explored_->sky) return;
-  const Stopwatch watch;
+  const PhaseWatch watch;
   explored_->sky = std::make_unique<const SkyGuide>(input);
-  statistics->photon_trace_s += watch.seconds();
+  statistics->photon_trace_s += watch.end("photon_trace");
 }
 
 }  // namespace kaustik::render

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <optional>
 
-#include "core/stopwatch.h"
+#include "core/parallel/work_span.h"
 #include "render/maps/visible_density.h"
 
 namespace kaustik::render {
@@ -103,7 +103,7 @@ uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& pla
 void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics) {
   if (input.settings.guide == Guide::kOff) return;
   const photon::KindMask kinds = kinds_needed(input.plan);
-  const Stopwatch watch;
+  const PhaseWatch watch;
   const auto learn = [&](PhotonKind kind, bool beside_others, auto* guide) {
     if (!kinds[kind]) return;
     if (!*guide) *guide = learn_guide(input, kind, beside_others);
@@ -115,12 +115,12 @@ void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatisti
   learn(PhotonKind::kIndirect, false, &guides->indirect);
   const bool uniform_indirect = kinds.indirect && guides->indirect->guide.empty();
   learn(PhotonKind::kCaustic, uniform_indirect || kinds.direct || kinds.shadow, &guides->caustic);
-  statistics->photon_trace_s += watch.seconds();
+  statistics->photon_trace_s += watch.end("photon_trace");
 }
 
 bool shoot_kinds(const RenderInput& input, const PassShare& pass, const PhotonGuides& guides,
                  const ProgressCallback& progress, photon::ShootResult* shot, RenderStatistics* statistics) {
-  const Stopwatch watch;
+  const PhaseWatch watch;
   const std::vector<Shoot> shoots = plan_shoots(input, pass, guides);
   uint64_t total = 0, before = 0;
   for (const Shoot& shoot : shoots) total += shoot.trace.photons;
@@ -135,7 +135,7 @@ bool shoot_kinds(const RenderInput& input, const PassShare& pass, const PhotonGu
     if (cancelled) break;
     before += shoot.trace.photons;
   }
-  statistics->photon_trace_s += watch.seconds();
+  statistics->photon_trace_s += watch.end("photon_trace");
   return !cancelled;
 }
 

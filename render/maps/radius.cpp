@@ -2,12 +2,11 @@
 
 #include "render/maps/radius.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "core/parallel/parallel.h"
 #include "photon/gather/nearest.h"
 #include "render/maps/surroundings.h"
 #include "render/maps/visible_points.h"
@@ -49,8 +48,8 @@ std::vector<VisiblePoint> photon_points(const photon::PhotonMap& map) {
   const uint64_t looked_at = std::min(map.size(), kLookedAt);
   const auto photon = [&](uint64_t i) { return map.photon(i * map.size() / looked_at); };
   std::vector<double> light(looked_at);
-  tbb::parallel_for(uint64_t{0}, looked_at,
-                    [&](uint64_t i) { light[i] = double(max_component(photon(i).flux)); });
+  parallel::for_index(uint64_t{0}, looked_at,
+                      [&](uint64_t i) { light[i] = double(max_component(photon(i).flux)); });
   std::partial_sum(light.begin(), light.end(), light.begin());
   std::vector<VisiblePoint> points;
   const uint64_t count = std::min<uint64_t>(looked_at, kPilotPoints);
@@ -87,8 +86,8 @@ float nearest_radius(const photon::PhotonMap& map, const VisiblePoint& point, fl
 float median_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
                     uint32_t k) {
   std::vector<float> radii(points.size());
-  tbb::parallel_for(size_t(0), points.size(),
-                    [&](size_t i) { radii[i] = nearest_radius(map, points[i], reach, k); });
+  parallel::for_index(size_t(0), points.size(),
+                      [&](size_t i) { radii[i] = nearest_radius(map, points[i], reach, k); });
   radii.erase(std::remove_if(radii.begin(), radii.end(), [&](float r) { return !(r > 0 && r < reach); }),
               radii.end());
   if (radii.empty()) return 0;

@@ -2,11 +2,10 @@
 
 #include "render/maps/sky_guide.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <map>
 
+#include "core/parallel/parallel.h"
 #include "core/sampling/equal_area.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
@@ -76,7 +75,7 @@ struct OpenSky {
 SkyGuide::SkyGuide(const RenderInput& input) {
   const std::vector<VisiblePoint> points = visible_points(input, pilot_count(input));
   std::vector<ExploredPoint> explored(points.size());
-  tbb::parallel_for(size_t{0}, points.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, points.size(), [&](size_t i) {
     Sampler sampler(hash_combine(input.settings.seed, kSkyStream), i);
     explored[i] = explore(input, points[i], sampler);
   });

@@ -2,11 +2,10 @@
 
 #include "render/maps/surroundings.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel/parallel.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
 #include "render/camera/shading_point.h"
@@ -118,7 +117,7 @@ Surroundings::Surroundings(const RenderInput& input) {
     Cell front, back;
   };
   std::vector<Found> found(points.size());
-  tbb::parallel_for(size_t{0}, points.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, points.size(), [&](size_t i) {
     Sampler sampler(hash_combine(input.settings.seed, kClearanceStream), i);
     const VisiblePoint& x = points[i];
     found[i].front = explore(input, x.si, x.query.n, sampler);

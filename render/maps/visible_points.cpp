@@ -2,11 +2,10 @@
 
 #include "render/maps/visible_points.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <optional>
 
+#include "core/parallel/parallel.h"
 #include "core/sampling/sampler.h"
 #include "render/camera/shading_point.h"
 
@@ -42,7 +41,7 @@ std::optional<VisiblePoint> visible_point(const RenderInput& input, uint32_t ind
 
 std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count) {
   std::vector<std::optional<VisiblePoint>> found(count);
-  tbb::parallel_for(uint32_t{0}, count, [&](uint32_t i) { found[i] = visible_point(input, i); });
+  parallel::for_index(uint32_t{0}, count, [&](uint32_t i) { found[i] = visible_point(input, i); });
   std::vector<VisiblePoint> points;
   for (const auto& point : found)
     if (point) points.push_back(*point);

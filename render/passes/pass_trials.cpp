@@ -2,13 +2,13 @@
 
 #include "render/passes/pass_trials.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "core/parallel/parallel.h"
 #include "core/sampling/sampler.h"
 #include "core/stopwatch.h"
 #include "render/camera/camera_rays.h"
@@ -124,7 +124,7 @@ class WindowTrials {
     size_t done = 0;
     while (done < windows_.size() && (done == 0 || watch.seconds() < most)) {
       const size_t end = std::min(windows_.size(), done + together);
-      tbb::parallel_for(done, end, [&](size_t i) {
+      parallel::for_index(done, end, [&](size_t i) {
         const Stopwatch of_window;
         // Isolated, since a thread that waits within a window could render another one meanwhile.
         tbb::this_task_arena::isolate(

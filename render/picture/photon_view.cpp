@@ -3,12 +3,12 @@
 #include "render/picture/photon_view.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <atomic>
 #include <cmath>
 
+#include "core/parallel/parallel.h"
 #include "core/spectrum/srgb.h"
 #include "render/picture/tonemap.h"
 
@@ -49,7 +49,7 @@ void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons, Pho
   const Camera& camera = bvh.scene().camera;
   const photon::PhotonBuffer& buffer = *photons.buffer;
   const float mean_flux = mean_luminance(buffer);
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, buffer.records.size(), 4096), [&](const auto& range) {
+  parallel::for_range(tbb::blocked_range<size_t>(0, buffer.records.size(), 4096), [&](const auto& range) {
     for (size_t i = range.begin(); i < range.end(); ++i) {
       const photon::Photon photon = photon::unpack(buffer.records[i], buffer.flux_unit);
       Point2 raster;
@@ -74,7 +74,7 @@ void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons, Pho
 void draw_background(const accel::Bvh& bvh, Image& image) {
   constexpr float kDim = 0.06f;
   const RayGenerator camera(bvh.scene().camera);
-  tbb::parallel_for(0, image.height, [&](int y) {
+  parallel::for_index(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
       const Ray ray = camera({float(x) + 0.5f, float(y) + 0.5f});
       SurfaceInteraction si;

@@ -2,14 +2,13 @@
 
 #include "render/tiles/tiles.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <functional>
 #include <mutex>
 #include <optional>
 
+#include "core/parallel/parallel.h"
 #include "core/stopwatch.h"
 #include "render/adaptive/sample_counts.h"
 #include "render/tiles/block_samples.h"
@@ -268,7 +267,7 @@ class TilePass {
   bool each_tile(const std::vector<Tile>& tiles, BlockRenderer add_samples) {
     std::atomic<size_t> next{0};
     const uint64_t before = done_;
-    tbb::parallel_for(
+    parallel::for_index(
         size_t(0), tiles.size(),
         [&](size_t) {
           if (cancelled_) return;
@@ -279,7 +278,7 @@ class TilePass {
           ++done_;
           report();
         },
-        tbb::simple_partitioner());
+        parallel::Division::kEach);
     return done_ - before == tiles.size() && (done_ == to_do_ || !cancelled_);
   }
 

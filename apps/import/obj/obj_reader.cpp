@@ -1,13 +1,13 @@
 #include "apps/import/obj/obj_reader.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <charconv>
 #include <limits>
 
 #include "apps/import/obj/obj_text.h"
+#include "core/parallel/parallel.h"
 #include "core/spectrum/srgb.h"
 
 namespace kaustik::obj {
@@ -253,7 +253,7 @@ class PartReader {
 // The counts of all parts before each part, then those of all parts.
 std::vector<Counts> counts_before(const std::vector<std::string_view>& texts) {
   std::vector<Counts> counts(texts.size() + 1);
-  tbb::parallel_for(size_t{0}, texts.size(), [&](size_t i) { counts[i + 1] = count_lines(texts[i]); });
+  parallel::for_index(size_t{0}, texts.size(), [&](size_t i) { counts[i + 1] = count_lines(texts[i]); });
   for (size_t i = 0; i < texts.size(); ++i) {
     counts[i + 1].lines += counts[i].lines;
     counts[i + 1].v += counts[i].v;
@@ -324,7 +324,7 @@ std::optional<ObjText> read_obj(std::string_view text, uint32_t file, Diagnostic
   out.N.resize(all.vn);
   out.parts.resize(texts.size());
   std::vector<ReadError> errors(texts.size());
-  tbb::parallel_for(size_t{0}, texts.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, texts.size(), [&](size_t i) {
     errors[i] = PartReader(texts[i], file, before[i], all, out, out.parts[i]).read();
   });
   collect_colours(before, out);

@@ -1,10 +1,9 @@
 #include "apps/import/obj/obj_triangles.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "apps/import/ply/polygon.h"
+#include "core/parallel/parallel.h"
 
 namespace kaustik::obj {
 namespace {
@@ -84,7 +83,7 @@ glm::dvec3 area_vector(const ObjText& text, const Corners& corners, size_t trian
 }
 
 void cut_into_triangles(ObjText& text, const SourceLocation& file) {
-  tbb::parallel_for(size_t{0}, text.parts.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, text.parts.size(), [&](size_t i) {
     ObjPart& part = text.parts[i];
     if (is_done(text, part))
       part.sizes = {};

@@ -1,7 +1,6 @@
 #include "apps/import/ply/ply.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -13,6 +12,7 @@
 #include "apps/import/ply/ply_body.h"
 #include "apps/import/ply/polygon.h"
 #include "core/files/content_hash.h"
+#include "core/parallel/parallel.h"
 #include "core/spectrum/srgb.h"
 
 namespace kaustik::pbrt {
@@ -76,7 +76,7 @@ class MeshReader {
   template <class Fn>
   bool for_each_block(const PlyExtent& extent, const Fn& fn) {
     std::vector<std::string> errors(extent.blocks.size());
-    tbb::parallel_for(size_t{0}, extent.blocks.size(), [&](size_t i) { errors[i] = fn(extent.blocks[i]); });
+    parallel::for_index(size_t{0}, extent.blocks.size(), [&](size_t i) { errors[i] = fn(extent.blocks[i]); });
     const auto found = std::find_if(errors.begin(), errors.end(), [](const auto& e) { return !e.empty(); });
     if (found != errors.end()) error_ = std::move(*found);
     return error_.empty();

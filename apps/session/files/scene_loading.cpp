@@ -9,6 +9,7 @@
 #include "apps/machine/usable_memory.h"
 #include "apps/session/files/dark_scene.h"
 #include "apps/session/files/wide_radius.h"
+#include "core/parallel/work_span.h"
 #include "core/stopwatch.h"
 #include "render/camera/pixel_range.h"
 #include "render/film/film_totals.h"
@@ -126,7 +127,7 @@ std::vector<NamedFile> files_of(const Job& job) {
 
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console,
              bool texture_pixels) {
-  const Stopwatch watch;
+  const PhaseWatch watch;
   ImportOptions options = import_options_of(overrides.alone());
   options.texture_pixels = texture_pixels;
   Diagnostics diagnostics;
@@ -151,7 +152,7 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
   job.settings.render.width = job.scene.camera.width;
   job.settings.render.height = job.scene.camera.height;
   if (const std::string why = why_wide(job.scene, job.settings.render); !why.empty()) console.warning(why);
-  job.load_seconds = watch.seconds();
+  job.load_seconds = watch.end("load");
   console.note(fmt::format("{}: {}", path, scene_summary(job.scene)));
   for (const std::string& note : loaded->description.notes) console.note(note);
   for (const std::string& note : file.notes) console.note(note);

@@ -4,12 +4,12 @@
 #include "core/scene/build/builder.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <map>
 
 #include "core/diagnostics/nearest_name.h"
+#include "core/parallel/parallel.h"
 #include "core/scene/build/camera_builder.h"
 #include "core/scene/build/light_table.h"
 #include "core/scene/build/local_origin.h"
@@ -234,7 +234,7 @@ std::optional<ShapeSource> Builder::make_source(const Item& item, const glm::dve
 }
 
 void Builder::load_sources() {
-  tbb::parallel_for(size_t{0}, items_.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, items_.size(), [&](size_t i) {
     items_[i].source = make_source(items_[i], glm::dvec3(0), items_[i].diagnostics);
   });
   for (Item& item : items_) {
@@ -246,8 +246,9 @@ void Builder::load_sources() {
 // Bounds of each item in its own space.
 std::vector<ExactBounds> Builder::item_bounds() const {
   std::vector<ExactBounds> bounds(items_.size());
-  tbb::parallel_for(size_t{0}, items_.size(),
-                    [&](size_t i) { bounds[i] = object_bounds(*items_[i].description, *items_[i].source); });
+  parallel::for_index(size_t{0}, items_.size(), [&](size_t i) {
+    bounds[i] = object_bounds(*items_[i].description, *items_[i].source);
+  });
   return bounds;
 }
 
@@ -273,7 +274,7 @@ void Builder::move_inline_meshes(const std::vector<ExactBounds>& of_item, const 
   for (size_t i = 0; i < items_.size(); ++i)
     if (items_[i].object)
       of_object[*items_[i].object].add(mapped(items_[i].description->object_to_world, of_item[i]));
-  tbb::parallel_for(size_t{0}, items_.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, items_.size(), [&](size_t i) {
     Item& item = items_[i];
     const glm::dvec3 around = item.object ? local_origin(of_object[*item.object]) : origin;
     if (!item.description->find("P") || around == glm::dvec3(0)) return;
@@ -305,7 +306,7 @@ void Builder::build_lights(Scene& scene) {
 
 void Builder::share_meshes() {
   for (const Placement& placement : placements_) ++items_[placement.item].placements;
-  tbb::parallel_for(size_t{0}, items_.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, items_.size(), [&](size_t i) {
     Item& item = items_[i];
     if (!pays_to_share(*item.source, item.placements)) return;
     item.shared = share_mesh(std::move(*item.source), item.description->reverse_orientation);
@@ -344,7 +345,7 @@ std::string Builder::group_key(const Placement& placement) const {
 
 void Builder::place(Scene& scene) {
   std::vector<PlacedShape> placed(placements_.size());
-  tbb::parallel_for(size_t{0}, placements_.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, placements_.size(), [&](size_t i) {
     const Placement& p = placements_[i];
     Item& item = items_[p.item];
     if (item.shared) {

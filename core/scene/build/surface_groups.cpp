@@ -2,14 +2,12 @@
 
 #include "core/scene/build/surface_groups.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
 
 #include "core/geometry/point_bits.h"
+#include "core/parallel/parallel.h"
 
 namespace kaustik {
 namespace {
@@ -62,7 +60,7 @@ std::vector<BoundaryEdge> boundary_edges(const TriangleMesh& mesh, uint32_t shap
       edges.push_back({(uint64_t{low} << 32) | high, static_cast<uint32_t>(t)});
     }
   }
-  tbb::parallel_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+  parallel::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.triangle < b.triangle;
   });
   std::vector<BoundaryEdge> boundary;
@@ -87,7 +85,7 @@ std::vector<BoundaryEdge> all_boundary_edges(const std::vector<Shape>& shapes,
   for (size_t i = 0; i < shapes.size(); ++i) candidates += is_candidate(i) ? 1 : 0;
   if (candidates < 2) return {};
   std::vector<std::vector<BoundaryEdge>> of_shape(shapes.size());
-  tbb::parallel_for(size_t{0}, shapes.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, shapes.size(), [&](size_t i) {
     if (!is_candidate(i)) return;
     of_shape[i] = boundary_edges(std::get<TriangleMesh>(shapes[i].geometry), static_cast<uint32_t>(i));
   });

@@ -3,13 +3,13 @@
 #include "core/scene/build/texture_table.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <charconv>
 
 #include "core/diagnostics/nearest_name.h"
 #include "core/math/transform.h"
+#include "core/parallel/parallel.h"
 
 namespace kaustik {
 
@@ -271,7 +271,7 @@ void TextureTable::share_library() const {
 }
 
 void TextureTable::load_images(DiagnosticList& diagnostics) {
-  tbb::parallel_for(size_t{0}, requests_.size(), [&](size_t i) {
+  parallel::for_index(size_t{0}, requests_.size(), [&](size_t i) {
     ImageRequest& request = requests_[i];
     request.result = load_image(request.filename, request.where, request.encoding);
   });

@@ -201,9 +201,23 @@ TEST_F(BenchCommand, BadScenesExitWithThree) {
   EXPECT_FALSE(exists("r.json"));
 }
 
+TEST_F(BenchCommand, WorkAndSpanAreThoseOfAllPhases) {
+  const Json r = measured({"--photons", "1k,2k", "--threads", "1", "--repeat", "1", "--span"});
+  ASSERT_EQ(r["spans"].size(), 2u);
+  for (const Json& span : r["spans"])
+    for (const char* phase : {"load", "bvh", "photon_trace", "photon_build", "render"}) {
+      const Json& of = span["phases"][phase];
+      EXPECT_GT(of["seconds"], 0) << phase;
+      EXPECT_LE(of["span"], of["seconds"]) << phase;
+      EXPECT_LE(of["serial"], of["span"]) << phase;
+      EXPECT_FALSE(of["places"].empty()) << phase;
+    }
+  EXPECT_EQ(r["spans"][1]["photons"], 2000);
+}
+
 // An error in a file that was edited by hand names the field.
 TEST_F(BenchCommand, DamagedResultsAreRefusedNamingTheField) {
-  const Json good = measured({"--photons", "1k", "--threads", "1", "--repeat", "1"});
+  const Json good = measured({"--photons", "1k", "--threads", "1", "--repeat", "1", "--span"});
   const auto refused = [&](const char* pointer, const Json& value) {
     Json bad = good;
     bad[Json::json_pointer(pointer)] = value;
@@ -219,6 +233,7 @@ TEST_F(BenchCommand, DamagedResultsAreRefusedNamingTheField) {
   EXPECT_THAT(refused("/points/0/seconds/total/min", nullptr), HasSubstr("\"min\": expected"));
   EXPECT_THAT(refused("/points/0/seconds/total/max", -1), HasSubstr("\"max\": expected"));
   EXPECT_THAT(refused("/points/0/counters", 5), HasSubstr("\"counters\": expected"));
+  EXPECT_THAT(refused("/spans/0/phases/render/seconds", "long"), HasSubstr("\"seconds\": expected"));
   EXPECT_THAT(refused("/machine", "mine"), HasSubstr("\"machine\": expected"));
 }
 

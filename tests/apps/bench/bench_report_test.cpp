@@ -27,6 +27,9 @@ BenchResult some_result() {
   BenchResult r;
   r.scene = "a<b>&c.pbrt";
   r.points = {point(1000, 1, 4), point(1000, 2, 2), point(2000, 1, 8), point(2000, 2, 4)};
+  PhaseSpan render{10, {}};
+  render.places["render/tiles/tiles.cpp:270"] = {0.5, 9, 1.5, 64};
+  r.spans = {{1000, {{"render", render}}}};
   return r;
 }
 
@@ -39,6 +42,14 @@ TEST(BenchReport, HoldsEveryNumberAndNamesAreEscaped) {
   EXPECT_THAT(page, HasSubstr("&lt;img src=x"));
   EXPECT_THAT(page, HasSubstr(script_json(bench_json(result))));
   EXPECT_THAT(page, HasSubstr(html_escaped(bench_table(result))));
+}
+
+// (10 - 2) / p + 2 seconds on p cores.
+TEST(BenchTable, SaysHowFarARenderScales) {
+  const std::string table = bench_table(some_result());
+  EXPECT_THAT(table, ::testing::ContainsRegex("image +10.000 s +5.00 % +15.00 % +2.5 +4.0 +4.7 +4.9"));
+  EXPECT_THAT(table, HasSubstr("15.00 %  image: the longest of 64 tasks of render/tiles/tiles.cpp:270"));
+  EXPECT_THAT(table, HasSubstr("5.00 %  image: in one thread before render/tiles/tiles.cpp:270"));
 }
 
 TEST(BenchJson, ReadsWhatItWrites) {
