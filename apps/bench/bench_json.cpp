@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -37,6 +38,8 @@ Json point_json(const BenchResult& result, const BenchPoint& point) {
   out["seconds"] = spreads_json(point.seconds, kPhaseNames);
   out["per_second"] = spreads_json(point.per_second, kRateNames);
   out["busy_cores"] = spread_json(point.busy_cores);
+  out["waiting"] = point.waiting ? spread_json(*point.waiting) : Json(nullptr);
+  out["joules"] = point.joules ? spread_json(*point.joules) : Json(nullptr);
   out["peak_memory_bytes"] = spread_json(point.peak_memory_bytes);
   out["speed_up"] = by_phase([&](Phase phase) -> std::optional<double> {
     const std::optional<Spread> gain = speed_up(result, point, phase);
@@ -116,6 +119,13 @@ BenchPoint read_point(const Json& in) {
   point.per_second = read_spreads(object_of(in, "per_second"), kRateNames);
   point.busy_cores = read_spread(in, "busy_cores");
   point.peak_memory_bytes = read_spread(in, "peak_memory_bytes");
+  // Older results do not have them.
+  const auto read_if_known = [&](std::string_view key) -> std::optional<Spread> {
+    if (!in.contains(key) || in[std::string(key)].is_null()) return std::nullopt;
+    return read_spread(in, key);
+  };
+  point.waiting = read_if_known("waiting");
+  point.joules = read_if_known("joules");
   point.counters = object_of(in, "counters");
   return point;
 }
@@ -159,6 +169,7 @@ std::string bench_json(const BenchResult& result) {
   out["machine"] = result.machine;
   out["settings"] = result.settings;
   out["repeat"] = result.repeat;
+  out["disturbed"] = std::any_of(result.points.begin(), result.points.end(), is_disturbed);
   out["points"] = Json::array();
   for (const BenchPoint& point : result.points) out["points"].push_back(point_json(result, point));
   for (const SpanPoint& span : result.spans) out["spans"].push_back(span_json(span));

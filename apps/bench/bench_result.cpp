@@ -23,6 +23,23 @@ std::optional<Spread> speed_up(const BenchResult& result, const BenchPoint& poin
   return Spread{base / here.median, base / here.max, base / here.min};
 }
 
+std::optional<double> fitted_serial_share(const BenchResult& result, const BenchPoint& first, Phase phase) {
+  // With x = 1 / n - 1, relative to the first point: t / t1 - 1 = (1 - s) x.
+  double products = 0, squares = 0;
+  for (const BenchPoint& point : result.points) {
+    if (point.photons != first.photons || !(point[phase].median > 0) || !(first[phase].median > 0)) continue;
+    const double x = double(first.threads) / point.threads - 1;
+    products += x * (point[phase].median / first[phase].median - 1);
+    squares += x * x;
+  }
+  if (!(squares > 0)) return std::nullopt;
+  return std::clamp(1 - products / squares, 0.0, 1.0);
+}
+
+bool is_disturbed(const BenchPoint& point) {
+  return point.waiting && point.waiting->median > kMostWaiting;
+}
+
 std::optional<double> efficiency(const BenchResult& result, const BenchPoint& point, Phase phase) {
   const std::optional<Spread> gain = speed_up(result, point, phase);
   if (!gain) return std::nullopt;

@@ -54,8 +54,11 @@ struct BenchPoint {
   std::array<Spread, kPhases> seconds;    // by Phase; the total of each run is the sum of its other phases
   std::array<Spread, kRates> per_second;  // by Rate; 0 if the phase took no time
   Spread busy_cores;                      // CPU time of the process divided by the time of the run
-  Spread peak_memory_bytes;               // peak resident memory of the process
-  Json counters = Json::object();         // exact counts, equal in all runs with this photon count
+  // Share of the threads' time in which they were ready, but other programs had the cores; and the energy of
+  // all processors, in joules. Nothing where the system does not tell.
+  std::optional<Spread> waiting, joules;
+  Spread peak_memory_bytes;        // peak resident memory of the process
+  Json counters = Json::object();  // exact counts, equal in all runs with this photon count
 
   const Spread& operator[](Phase phase) const { return seconds[static_cast<size_t>(phase)]; }
   const Spread& operator[](Rate rate) const { return per_second[static_cast<size_t>(rate)]; }
@@ -81,6 +84,16 @@ const BenchPoint& baseline_of(const BenchResult& result, const BenchPoint& point
 
 // The baseline's median time divided by this point's times. Nothing if the phase took no time in one of them.
 std::optional<Spread> speed_up(const BenchResult& result, const BenchPoint& point, Phase phase);
+
+// The share of the time of the first point's number of threads that does not become shorter with more of
+// them, fitted to all points with its photon count: Amdahl's t = t1 (s + (1 - s) / n), least squares, 0 to 1.
+// Nothing for fewer than two numbers of threads.
+std::optional<double> fitted_serial_share(const BenchResult& result, const BenchPoint& first, Phase phase);
+
+// Points where threads waited for cores longer than this share of the time tell more about the other programs
+// than about this one.
+inline constexpr double kMostWaiting = 0.05;
+bool is_disturbed(const BenchPoint& point);
 
 // The speed-up divided by the ratio of thread counts; 1 is ideal.
 std::optional<double> efficiency(const BenchResult& result, const BenchPoint& point, Phase phase);

@@ -98,6 +98,14 @@ void add_columns(std::string& table, const BenchResult& result, const Points& po
     });
   }
   add_row(table, "cores busy", points, [](const BenchPoint& p) { return cell(p.busy_cores, kCounts); });
+  add_row(table, "waited for cores", points, [](const BenchPoint& p) {
+    return p.waiting ? fmt::format("{:.1f} % ({:.1f}..{:.1f})", 100 * p.waiting->median, 100 * p.waiting->min,
+                                   100 * p.waiting->max)
+                     : "not available";
+  });
+  add_row(table, "energy/1M photons", points, [](const BenchPoint& p) {
+    return p.joules ? fmt::format("{:.3g} J", p.joules->median * 1e6 / double(p.photons)) : "not available";
+  });
   add_row(table, "peak memory", points,
           [](const BenchPoint& p) { return cell(p.peak_memory_bytes, kBytes); });
   table += "  speed-up, efficiency\n";
@@ -154,8 +162,16 @@ std::string bench_table(const BenchResult& result) {
           table, result,
           Points(same.begin() + ptrdiff_t(i), same.begin() + ptrdiff_t(std::min(same.size(), i + kColumns))));
     }
+    if (const auto share = fitted_serial_share(result, point, Phase::kTotal))
+      table += fmt::format("  in one thread, by the curve  {:.1f} % of the total\n", 100 * *share);
     add_counters(table, point.counters);
   }
+  if (std::any_of(result.points.begin(), result.points.end(), is_disturbed))
+    table += fmt::format(
+        "\nOther programs ran: threads waited for cores for more than {:.0f} % of their time. The times are "
+        "the "
+        "machine's, not kaustik's.\n",
+        100 * kMostWaiting);
   for (const SpanPoint& span : result.spans) table += span_table(span);
   return table;
 }

@@ -56,25 +56,61 @@ Json caches() {
   }
 }
 
-Json cores() {
-  const CoreLimits limits = core_limits();
-  return {{"hardware", limits.hardware},
-          {"affinity", limits.affinity},
-          {"cgroup_quota", limits.quota ? Json(*limits.quota) : Json(nullptr)},
-          {"usable", limits.usable()}};
+// Highway calls AVX-512 with all that came with Skylake-X AVX3, and later additions AVX3_DL, AVX3_ZEN4 ...
+std::string instruction_set_name(std::string target) {
+  if (target.starts_with("AVX3")) target.replace(0, 4, "AVX-512");
+  return target;
 }
 
 // The Highway targets that this machine supports, best first.
 std::vector<std::string> highway_targets() {
   std::vector<std::string> names;
-  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(hwy::TargetName(target));
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets())
+    names.push_back(instruction_set_name(hwy::TargetName(target)));
   return names;
+}
+
+// The version of OpenImageIO; null where the program has come without it.
+Json image_library() {
+  try {
+    return render::image_formats().version();
+  } catch (const std::exception&) {
+    return nullptr;
+  }
+}
+
+// Processors of each NUMA node, as the kernel writes them.
+Json numa_nodes() {
+  Json out = Json::array();
+  for (int i = 0;; ++i) {
+    const std::string cpus = first_line(fmt::format("/sys/devices/system/node/node{}/cpulist", i));
+    if (cpus.empty()) return out;
+    out.push_back(cpus);
+  }
+}
+
+// The processors that this process may run on, as the kernel writes them: whoever pins threads sees it here.
+Json allowed_cpus() {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("Cpus_allowed_list:")) return line.substr(line.find_first_not_of(" \t", 18));
+  return nullptr;
+}
+
+Json cores() {
+  const CoreLimits limits = core_limits();
+  return {{"hardware", limits.hardware},
+          {"affinity", limits.affinity},
+          {"cgroup_quota", limits.quota ? Json(*limits.quota) : Json(nullptr)},
+          {"usable", limits.usable()},
+          {"allowed_cpus", allowed_cpus()},
+          {"numa_nodes", numa_nodes()}};
 }
 
 Json libraries() {
   return {{"embree", accel::embree_version()},
           {"tbb", TBB_runtime_version()},
-          {"openimageio", render::image_formats().version()},
+          {"openimageio", image_library()},
           {"highway", fmt::format("{}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH)},
           {"highway_targets", highway_targets()}};
 }

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 
+#include "apps/machine/energy.h"
 #include "apps/machine/peak_memory.h"
 #include "apps/machine/thread_limit.h"
+#include "apps/machine/waiting.h"
 #include "apps/session/render_job.h"
 #include "core/stopwatch.h"
 
@@ -17,6 +20,7 @@ struct Run {
   std::array<double, kPhases> seconds{};
   std::array<double, kRates> per_second{};
   double busy_cores = 0;
+  std::optional<double> waiting, joules;
   double peak_memory_bytes = 0;
   Json counters;
 };
@@ -59,12 +63,25 @@ std::optional<Run> run_once(const Scene& scene, render::RenderSettings settings,
   std::optional<Run> run;
   with_thread_limit(point.threads, [&] {
     restart_peak_memory();
+    EnergyMeter energy;
     const Stopwatch watch;
     const double cpu_before = cpu_seconds();
+    const std::optional<double> waited_before = waiting_seconds();
     const RenderOutcome outcome = render_job(scene, settings, go_on, {.keep_sums = false});
-    const double busy = (cpu_seconds() - cpu_before) / watch.seconds();
+    const double cpu = cpu_seconds() - cpu_before, busy = cpu / watch.seconds();
+    const std::optional<double> waited_after = waiting_seconds();
     if (outcome.result.cancelled) return;
-    run = Run{phase_seconds(outcome), rates_of(outcome.result.statistics), busy,
+    std::optional<double> waiting;
+    // Threads that have ended meanwhile took their counts with them.
+    if (waited_before && waited_after) {
+      const double waited = std::max(*waited_after - *waited_before, 0.0);
+      waiting = waited / (waited + cpu);
+    }
+    run = Run{phase_seconds(outcome),
+              rates_of(outcome.result.statistics),
+              busy,
+              waiting,
+              energy.joules(),
               static_cast<double>(render::peak_memory_bytes()),
               render::counters_json(outcome.result.statistics)};
   });
@@ -102,6 +119,13 @@ BenchPoint summarise(const PointRuns& point) {
   for (size_t i = 0; i < kRates; ++i)
     out.per_second[i] = spread([i](const Run& r) { return r.per_second[i]; });
   out.busy_cores = spread([](const Run& r) { return r.busy_cores; });
+  const auto spread_if_known = [&](std::optional<double> Run::*value) -> std::optional<Spread> {
+    for (const Run& run : point.runs)
+      if (!(run.*value)) return std::nullopt;
+    return spread([&](const Run& run) { return *(run.*value); });
+  };
+  out.waiting = spread_if_known(&Run::waiting);
+  out.joules = spread_if_known(&Run::joules);
   out.peak_memory_bytes = spread([](const Run& r) { return r.peak_memory_bytes; });
   out.counters = point.runs.front().counters;
   return out;

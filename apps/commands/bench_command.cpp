@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "apps/bench/baseline.h"
 #include "apps/bench/bench_json.h"
 #include "apps/bench/bench_table.h"
+#include "apps/bench/gbench_json.h"
 #include "apps/bench/machine.h"
 #include "apps/bench/measure.h"
 #include "apps/bench/span.h"
@@ -34,10 +37,11 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BenchOptions {
-  std::string scene, from, json, plot;
+  std::string scene, from, json, plot, baseline, format = "kaustik";
   std::vector<std::string> photons = {"1M"}, threads;
   std::string repeat = "5";
-  bool span = false;
+  bool span = false, require_idle = false;
+  std::optional<float> most_slowdown;  // percent
   SettingOverrides overrides;
 };
 
@@ -84,7 +88,9 @@ void check_options(const BenchOptions& options) {
     throw ExitError(kBadCommandLine, "give a scene to measure, or --from FILE with an earlier result");
   if (!options.json.empty()) check_writable(options.json);
   if (!options.plot.empty()) check_plot_folder(options.plot);
-  check_collisions(files_written(options), {{"the scene", options.scene}, {"--from", options.from}});
+  check_collisions(
+      files_written(options),
+      {{"the scene", options.scene}, {"--from", options.from}, {"--baseline", options.baseline}});
 }
 
 // The settings that all points have in common; each point has its own photons and threads.
@@ -174,16 +180,42 @@ void write_report(const BenchResult& result, const std::string& folder) {
   write_text_file(report_of(folder), bench_report(result));
 }
 
+// Prints the ratios to the baseline; returns what is wrong, or an empty string.
+std::string compare_with_baseline(const BenchOptions& options, const BenchResult& result,
+                                  const BenchResult& baseline, const Console& console) {
+  try {
+    console.out << baseline_table(result, baseline);
+  } catch (const std::runtime_error& error) {
+    throw ExitError(kBadCommandLine, fmt::format("{}: {}", options.baseline, error.what()));
+  }
+  if (!options.most_slowdown) return {};
+  return slow_down(result, baseline, 1 + double(*options.most_slowdown) / 100);
+}
+
 int run_bench(const BenchOptions& options, const Console& console) {
   check_options(options);
+  std::optional<BenchResult> baseline;
+  if (!options.baseline.empty()) baseline = read_result(options.baseline);
   const BenchResult result = options.from.empty() ? run_scene(options, console) : read_result(options.from);
   console.out << bench_table(result);
+  std::string trouble;
+  if (baseline) trouble = compare_with_baseline(options, result, *baseline, console);
+  if (options.require_idle && std::any_of(result.points.begin(), result.points.end(), is_disturbed))
+    trouble = "other programs ran: threads waited for cores";
   FileWriter writer(console);
-  if (!options.json.empty())
-    writer.write(options.json, [&] { write_text_file(options.json, bench_json(result)); });
+  const auto text = options.format == "gbench" ? gbench_json : bench_json;
+  if (!options.json.empty()) writer.write(options.json, [&] { write_text_file(options.json, text(result)); });
   if (!options.plot.empty())
     writer.write(report_of(options.plot), [&] { write_report(result, options.plot); });
-  return writer.report() ? kDone : kFailed;
+  if (!trouble.empty()) console.error(trouble);
+  return writer.report() && trouble.empty() ? kDone : kFailed;
+}
+
+// Whether the option does something with a result that has been measured earlier.
+bool is_of_results(const std::string& option) {
+  constexpr std::string_view kNames[] = {"--help",     "--plot",         "--json",        "--format",
+                                         "--baseline", "--max-slowdown", "--require-idle"};
+  return std::find(std::begin(kNames), std::end(kNames), option) != std::end(kNames);
 }
 
 void add_options(Command& command, BenchOptions& options) {
@@ -199,16 +231,35 @@ void add_options(Command& command, BenchOptions& options) {
                    "scale on more cores than this machine has, and what holds it up");
   command.add_text("--repeat", "COUNT", options.repeat, "Runs per point. Default: 5");
   command.add_text("--json", "FILE", options.json, "Write the result to this JSON file");
+  command
+      .add_parsed(
+          "--format", "NAME",
+          "Form of that file. kaustik: all that was measured, for --from and --baseline. gbench: that "
+          "of google-benchmark, for the dashboards that read it. Default: kaustik",
+          [&options](const std::string& text) {
+            if (text != "kaustik" && text != "gbench")
+              throw OptionError("--format", fmt::format("`{}`: expected kaustik or gbench", text));
+            options.format = text;
+          })
+      .needs = {"--json"};
+  command.add_flag("--require-idle", options.require_idle,
+                   "Exit with 1 if other programs ran, so that threads waited for cores");
   command.add_text(
       "--plot", "FOLDER", options.plot,
       "Write charts of the scaling to the page scaling.html in this folder, which is created if missing");
+  command.add_text("--baseline", "FILE", options.baseline,
+                   "Compare with the JSON of an earlier run: print the ratios of the times");
+  command
+      .add_number("--max-slowdown", "PERCENT", options.most_slowdown,
+                  "Exit with 1 if a total takes so much longer than that of the baseline, and all its runs "
+                  "longer than all of those")
+      .needs = {"--baseline"};
   const size_t place = command.options.size();
   command.add_text("--from", "FILE", options.from, "Read the JSON of an earlier run instead of measuring");
   add_setting_options(command, options.overrides, SettingsCommand::kBench);
   Option& from = command.options[place];
   for (const Option& option : command.options)
-    if (&option != &from && option.long_name() != "--help" && option.long_name() != "--plot")
-      from.excludes.push_back(option.long_name());
+    if (&option != &from && !is_of_results(option.long_name())) from.excludes.push_back(option.long_name());
 }
 
 }  // namespace

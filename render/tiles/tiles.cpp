@@ -206,25 +206,44 @@ class TilePass {
       if (!(std::min(end, all) > work_)) return true;
       work_ = std::min(end, all);
       counts_->choose_counts(samples(), work_);
-      sort_by_work();
-      to_do_ = std::max(to_do_, done_ + tiles_.size());
+      const std::vector<Tile> tiles = tiles_by_work();
+      to_do_ = std::max(to_do_, done_ + tiles.size());
       const Stopwatch watch;
-      if (!each_tile(tiles_, &TilePass::adaptive_samples)) return false;
+      if (!each_tile(tiles, &TilePass::adaptive_samples)) return false;
       if (work_ < end) return true;  // a further round would not begin where it should
       seconds = watch.seconds();
     }
   }
 
-  // Starts with the tiles that take most samples, so that no thread is left with a long one at the end.
-  void sort_by_work() {
-    const auto counts = [&](const Tile& tile) {
-      uint64_t sum = 0;
-      tile.for_each_block([&](const PixelRange& block) {
-        for (int half = 0; half < kHalves; ++half) sum += counts_->count(block.x0, block.y0, half);
+  uint64_t adaptive_samples_of(const Tile& tile) const {
+    uint64_t sum = 0;
+    tile.for_each_block([&](const PixelRange& block) {
+      for (int half = 0; half < kHalves; ++half) sum += counts_->count(block.x0, block.y0, half);
+    });
+    return sum;
+  }
+
+  // The tiles in the order of their adaptive samples, most first, and block by block where there are many, so
+  // that no thread is left with a long one at the end.
+  std::vector<Tile> tiles_by_work() const {
+    constexpr uint64_t kMany = 2;  // times the mean
+    std::vector<std::pair<uint64_t, Tile>> found;
+    uint64_t all = 0;
+    for (const Tile& tile : tiles_)
+      found.emplace_back(adaptive_samples_of(tile), tile), all += found.back().first;
+    for (size_t i = 0; i < tiles_.size(); ++i) {
+      if (found[i].first * tiles_.size() <= kMany * all) continue;
+      found[i].first = 0;  // its blocks take its place
+      tiles_[i].for_each_block([&](const PixelRange& block) {
+        const Tile part{block, tiles_[i].x, tiles_[i].y};
+        found.emplace_back(adaptive_samples_of(part), part);
       });
-      return sum;
-    };
-    std::ranges::stable_sort(tiles_, std::greater<>(), counts);
+    }
+    std::erase_if(found, [](const auto& tile) { return tile.first == 0; });
+    std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Tile> tiles;
+    for (const auto& [samples, tile] : found) tiles.push_back(tile);
+    return tiles;
   }
 
   using BlockRenderer = bool (TilePass::*)(const PixelRange&, photon::EstimateBatch*, TileWork*);

@@ -215,6 +215,74 @@ TEST_F(BenchCommand, WorkAndSpanAreThoseOfAllPhases) {
   EXPECT_EQ(r["spans"][1]["photons"], 2000);
 }
 
+// Twice as slow in all runs, or as fast: the earlier result is made from the later one.
+TEST_F(BenchCommand, TellsASlowDownFromTheBaseline) {
+  const Json now = measured({"--photons", "1k", "--threads", "1", "--repeat", "3"});
+  const auto run = [&](double factor, std::vector<std::string> more) {
+    Json before = now;
+    for (auto& [phase, seconds] : before["points"][0]["seconds"].items())
+      for (auto& [name, value] : seconds.items()) value = value.get<double>() * factor;
+    std::vector<std::string> arguments = {"bench", "--from", path("r.json"), "--baseline",
+                                          write("before.json", before.dump())};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_kaustik(arguments);
+  };
+  const Outcome same = run(1, {"--max-slowdown", "10"});
+  EXPECT_EQ(same.code, kDone) << same.err;
+  EXPECT_THAT(same.out, HasSubstr("time over that of the baseline"));
+  EXPECT_THAT(same.out, HasSubstr("1.00 ("));
+  const Outcome slower = run(1e-3, {"--max-slowdown", "10"});
+  EXPECT_EQ(slower.code, kFailed);
+  EXPECT_THAT(slower.err, HasSubstr("1k photons, 1 thread: 1e+03 times as long as before"));
+  EXPECT_EQ(run(1e-3, {}).code, kDone) << "nobody set a limit";
+  EXPECT_EQ(run(1e3, {"--max-slowdown", "10"}).code, kDone) << "faster";
+  EXPECT_EQ(run_kaustik({"bench", "--from", path("r.json"), "--max-slowdown", "10"}).code, kBadCommandLine);
+  // Other work is not compared.
+  Json other = now;
+  other["settings"]["spp"] = 99;
+  const Outcome refused =
+      run_kaustik({"bench", "--from", path("r.json"), "--baseline", write("o.json", other.dump())});
+  EXPECT_EQ(refused.code, kBadCommandLine);
+  EXPECT_THAT(refused.err, HasSubstr("spp is 1, it was 99"));
+  other = now;
+  other["points"][0]["threads"] = 7;
+  EXPECT_EQ(
+      run_kaustik({"bench", "--from", path("r.json"), "--baseline", write("o.json", other.dump())}).code,
+      kBadCommandLine);
+}
+
+TEST_F(BenchCommand, SaysThatOtherProgramsRan) {
+  Json now = measured({"--photons", "1k", "--threads", "1", "--repeat", "1"});
+  const auto run = [&](const Json& waiting) {
+    now["points"][0]["waiting"] = waiting;
+    return run_kaustik({"bench", "--from", write("w.json", now.dump()), "--require-idle"});
+  };
+  const Outcome idle = run({{"median", 0.01}, {"min", 0}, {"max", 0.9}});
+  EXPECT_EQ(idle.code, kDone);
+  EXPECT_THAT(idle.out, ::testing::Not(HasSubstr("Other programs ran")));
+  const Outcome busy = run({{"median", 0.2}, {"min", 0.1}, {"max", 0.9}});
+  EXPECT_EQ(busy.code, kFailed);
+  EXPECT_THAT(busy.out, HasSubstr("Other programs ran"));
+  EXPECT_THAT(busy.err, HasSubstr("threads waited for cores"));
+  EXPECT_THAT(run(nullptr).out, HasSubstr("not available"));
+}
+
+TEST_F(BenchCommand, WritesTheFormOfGoogleBenchmark) {
+  measured({"--photons", "1k", "--threads", "1,2", "--repeat", "1"});
+  ASSERT_EQ(
+      run_kaustik({"bench", "--from", path("r.json"), "--json", path("g.json"), "--format", "gbench"}).code,
+      kDone);
+  const Json g = result("g.json"), r = result("r.json");
+  ASSERT_EQ(g["benchmarks"].size(), 2 * r["points"][0]["seconds"].size());
+  const Json& last = g["benchmarks"].back();
+  EXPECT_EQ(last["run_name"], "small.pbrt/photons:1000/threads:2/total");
+  EXPECT_EQ(last["real_time"], 1e3 * r["points"][1]["seconds"]["total"]["median"].get<double>());
+  EXPECT_TRUE(g["context"]["num_cpus"].is_number());
+  EXPECT_EQ(
+      run_kaustik({"bench", "--from", path("r.json"), "--json", path("g.json"), "--format", "xml"}).code,
+      kBadCommandLine);
+}
+
 // An error in a file that was edited by hand names the field.
 TEST_F(BenchCommand, DamagedResultsAreRefusedNamingTheField) {
   const Json good = measured({"--photons", "1k", "--threads", "1", "--repeat", "1", "--span"});
@@ -291,6 +359,20 @@ TEST(BenchResult, SpeedUpIsRelativeToTheFirstPointWithEqualPhotons) {
   EXPECT_EQ(gain.max, 6);
   EXPECT_EQ(efficiency(r, r.points[2], Phase::kTotal), 1.5);
   EXPECT_EQ(speed_up(r, r.points[2], Phase::kBvh), std::nullopt);  // the phase took no time
+}
+
+// t = 8 (s + (1 - s) / n) with s = 1/4: 8, 5 and 3.5 s on 1, 2 and 4 threads.
+TEST(BenchResult, SerialShareIsFittedToTheCurve) {
+  BenchResult r;
+  const auto add = [&](uint64_t photons, int threads, double seconds) {
+    BenchPoint point;
+    point.photons = photons, point.threads = threads;
+    point.seconds[static_cast<size_t>(Phase::kTotal)] = {seconds, seconds, seconds};
+    r.points.push_back(point);
+  };
+  add(10, 1, 8), add(10, 2, 5), add(10, 4, 3.5), add(20, 1, 1);
+  EXPECT_NEAR(fitted_serial_share(r, r.points[0], Phase::kTotal).value(), 0.25, 1e-12);
+  EXPECT_FALSE(fitted_serial_share(r, r.points[3], Phase::kTotal)) << "one number of threads";
 }
 
 }  // namespace
