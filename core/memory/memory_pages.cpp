@@ -2,6 +2,12 @@
 
 #include "core/memory/memory_pages.h"
 
+#include <cstdlib>  // defines __GLIBC__
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #ifdef __linux__
 #include <sys/mman.h>
 #include <unistd.h>
@@ -38,5 +44,11 @@ void prefer_large_pages(void*, size_t) {}
 void give_back_pages(void*, size_t) {}
 
 #endif
+
+void give_back_freed() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 }  // namespace kaustik

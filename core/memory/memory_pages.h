@@ -13,4 +13,7 @@ void prefer_large_pages(void* data, size_t bytes);
 // afterwards. The address range remains the caller's, to be freed as usual.
 void give_back_pages(void* data, size_t bytes);
 
+// Returns to the system what the C library keeps of freed memory. It takes some milliseconds.
+void give_back_freed();
+
 }  // namespace kaustik

@@ -41,8 +41,7 @@ void trace_block(const Scene& scene, const SurfaceTable& surfaces, const accel::
 // Hands out blocks of photon indices in order, and reuses their buffers.
 class BlockSource {
  public:
-  explicit BlockSource(uint64_t photons)
-      : photons_(photons), blocks_(4 * size_t(std::max(1, tbb::this_task_arena::max_concurrency()))) {
+  explicit BlockSource(uint64_t photons) : photons_(photons), blocks_(blocks_in_flight()) {
     for (Block& block : blocks_) free_.push(&block);
   }
 
@@ -57,8 +56,22 @@ class BlockSource {
     return block;
   }
   void give_back(Block* block) { free_.push(block); }
+  // Frees the blocks. The C library would keep their memory beside the maps: a hundred megabytes with a
+  // hundred threads.
+  void free() {
+    constexpr uint64_t kMany = 1u << 20;
+    blocks_.clear();
+    if (photons_ >= kMany) give_back_freed();
+  }
 
  private:
+  // One for each thread, and some that wait for their place. Each takes some 100 kB.
+  static size_t blocks_in_flight() {
+    constexpr size_t kMostWaiting = 64;
+    const auto threads = size_t(std::max(1, tbb::this_task_arena::max_concurrency()));
+    return threads + std::min(3 * threads, kMostWaiting);
+  }
+
   uint64_t photons_, first_ = 0;
   std::vector<Block> blocks_;
   tbb::concurrent_queue<Block*> free_;
@@ -140,6 +153,7 @@ ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
     source.give_back(block);
   };
   parallel::pipeline<Block>(source.most(), start, trace, place, copy);
+  source.free();
   return result;
 }
 
