@@ -40,6 +40,11 @@ void add_page_options(Command& command, PageOptions& options, const std::string&
           "has a token that nobody can guess, but is not encrypted. Default: this machine alone",
           [&options](const std::string& text) { options.listen = address_of(text); })
       .needs = all_need;
+  command
+      .add_text("--reference", "FILE", options.reference,
+                "A picture to compare with on the page, of the size of the picture or of its crop. EXR holds "
+                "radiance; other forms are decoded from sRGB")
+      .needs = all_need;
   command.add_flag("--open", options.open, "Open the page in the browser").needs = all_need;
 }
 

@@ -5,7 +5,8 @@
 
 namespace kaustik::app {
 
-// Adds --port, --listen and --open. needs: an option without which they mean nothing; empty for none.
+// Adds --port, --listen, --reference and --open. needs: an option without which they mean nothing; empty for
+// none.
 void add_page_options(Command& command, PageOptions& options, const std::string& needs = {});
 
 }  // namespace kaustik::app

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include "apps/console/exit_error.h"
@@ -10,6 +11,7 @@
 #include "apps/live/viewer_pace.h"
 #include "apps/web/open_browser.h"
 #include "apps/web/page_data.h"
+#include "apps/web/reference_picture.h"
 #include "apps/web/saved_picture.h"
 #include "live_page_assets.h"
 
@@ -38,6 +40,10 @@ std::string page_html() {
 PageServer::PageServer(const PageOptions& options, std::shared_ptr<LiveRender> live, PageExtension extension,
                        const Console& console)
     : options_(options), extension_(std::move(extension)), shown_{std::move(live), 1} {
+  const LivePicture& picture = shown_.render->picture;
+  if (!options.reference.empty())
+    reference_ =
+        read_reference(options.reference, picture.range(), picture.full_width(), picture.full_height());
   if (!options.listen.empty()) address_.host = options.listen, address_.token = random_token();
   try {
     server_ = start_http_server(address_.host, options.port, *this);
@@ -101,13 +107,16 @@ HttpResponse PageServer::get(const HttpRequest& request) {
   const Shown now = shown();
   if (request.path == "/") return {200, "text/html; charset=utf-8", page_html()};
   if (request.path == "/info") {
-    nlohmann::ordered_json more = {{"lab", bool(extension_.answer)}};
+    nlohmann::ordered_json more = {
+        {"lab", bool(extension_.answer)},
+        {"reference", std::filesystem::path(options_.reference).filename().string()}};
     if (extension_.describe) more.update(extension_.describe());
     return {200, "application/json", info_json(*now.render, options_.tone, more)};
   }
   if (request.path == "/events") return {.type = {}, .body = {}, .events = true};
   if (request.path == "/pixels") return pixels(request);
   if (request.path == "/save") return save(request);
+  if (request.path == "/reference" && !reference_.empty()) return reference();
   if (extension_.answer)
     if (auto response = extension_.answer(request)) return std::move(*response);
   return error_response(404, "there is nothing here");
@@ -154,6 +163,11 @@ uint64_t PageServer::announced(const Shown& now, const LiveStatus& status) {
   const bool may = status.state != LiveState::kRunning || Clock::now() >= next_update_;
   if (may || announced_number_ != now.number) announced_number_ = now.number, announced_version_ = version;
   return announced_version_;
+}
+
+HttpResponse PageServer::reference() const {
+  const auto* const bytes = reinterpret_cast<const char*>(reference_.data());
+  return {200, "application/octet-stream", std::string(bytes, reference_.size() * sizeof(float))};
 }
 
 HttpResponse PageServer::save(const HttpRequest& request) const {

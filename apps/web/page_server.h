@@ -8,6 +8,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/console/console.h"
 #include "apps/live/live_render.h"
@@ -20,7 +21,8 @@ struct PageOptions {
   int port = 0;          // 0: any that is free
   std::string listen{};  // the address of this machine to serve at; empty: 127.0.0.1, for this machine alone
   bool open = false;     // opens the page in the user's browser
-  ToneChoice tone{};     // how the page shows the picture at first
+  std::string reference{};  // a picture to compare with, or empty
+  ToneChoice tone{};        // how the page shows the picture at first
 };
 
 // Answers requests that only some pages have. `describe`: members for /info.
@@ -31,7 +33,8 @@ struct PageExtension {
 
 class PageServer final : public LiveViewer, private HttpHandler {
  public:
-  // Starts to serve, and prints the address as a result. Throws ExitError (failed) if that is impossible.
+  // Starts to serve, and prints the address as a result. Throws ExitError if that is impossible, or the
+  // reference is no picture of this size.
   PageServer(const PageOptions& options, std::shared_ptr<LiveRender> live, PageExtension extension,
              const Console& console);
   // Waits a moment for the pages that are open to get the last state.
@@ -59,11 +62,13 @@ class PageServer final : public LiveViewer, private HttpHandler {
   HttpResponse post(const HttpRequest& request);
   HttpResponse pixels(const HttpRequest& request);
   HttpResponse save(const HttpRequest& request) const;
+  HttpResponse reference() const;
   Shown shown() const;
   void wait_for_readers() const;
 
   const PageOptions options_;
   const PageExtension extension_;
+  std::vector<float> reference_;  // r, g, b of the window; may be empty
   PageAddress address_;
   mutable std::mutex mutex_;  // guards what follows, up to last_sent_
   Shown shown_;

@@ -72,6 +72,14 @@ class Compare {
     }
   }
 
+  // The picture that the program was given to compare with.
+  async loadReference(name) {
+    const {info} = this.layers, {width, height} = this.layers;
+    const values = new Float32Array(await (await request("reference")).arrayBuffer());
+    const picture = new Picture(info.layers[0], width, height, values);
+    this.add({name: `reference: ${name}`, layers: new Map([[picture.name, picture]])}, true);
+  }
+
   update() {
     const select = byId("compare-with");
     select.replaceChildren(new Option("nothing", ""), ...this.entries.map(entry => new Option(entry.name, entry.id)));
@@ -89,7 +97,7 @@ class Compare {
     for (const tag of ["tag-left", "tag-right"]) byId(tag).hidden = !other || difference > 0;
     byId("tag-left").textContent = this.chosen?.name ?? "";
     byId("compare-note").textContent = this.chosen && !other
-      ? "This layer was not loaded when the picture was kept." : "";
+      ? "The picture that is compared with does not have this layer." : "";
     if (other) this.measure();
     this.place();
     this.onChange();

@@ -26,6 +26,8 @@ class View {
     this.listen();
     this.setExposure(this.exposure);
     this.choose(this.layer);
+    if (info.reference)
+      this.compare.loadReference(info.reference).catch(problem => console.info(`reference: ${problem.message}`));
     this.connection = new Connection({onStatus: status => this.notice(status), onLost: again => this.lose(again),
                                       onBack: () => this.back()});
   }

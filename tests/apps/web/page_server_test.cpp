@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 #include <thread>
 
 #include "apps/console/exit_error.h"
 #include "render/picture/exr_file.h"
+#include "render/picture/image_io.h"
 #include "tests/apps/support/http_client.h"
 #include "tests/apps/support/program.h"
 
@@ -137,6 +139,47 @@ TEST_F(PageServerTest, TenReadersHearOfTheEnd) {
   page_.reset();
   for (std::thread& reader : readers) reader.join();
   EXPECT_EQ(ends, 10);
+}
+
+// Pixel (x, y) of the reference is (x, y, 0).
+TEST_F(PageServerTest, GivesTheReference) {
+  const auto picture = [&](const std::string& name, int width, int height) {
+    render::Film film(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) film.at(x, y).direct = Rgb(float(x), float(y), 0);
+    render::write_film(path(name), film, {});
+    return path(name);
+  };
+  const auto crop = std::make_shared<LiveRender>("crop", render::PixelRange{10, 30, 5, 9}, 100, 70);
+  PageOptions options;
+  options.reference = picture("full.exr", 100, 70);
+  const auto pixel = [&](const PageServer& page, size_t i) {
+    const std::string url = page.url();
+    const int at = std::stoi(url.substr(url.rfind(':') + 1));
+    EXPECT_EQ(Json::parse(http(at, "GET", "/info").body)["reference"].get<std::string>().substr(0, 4),
+              std::filesystem::path(options.reference).filename().string().substr(0, 4));
+    const std::string bytes = http(at, "GET", "/reference").body;
+    EXPECT_EQ(bytes.size(), 20u * 4 * 3 * 4);
+    float values[3] = {};
+    std::memcpy(values, bytes.data() + 12 * i, 12);
+    return std::pair(values[0], values[1]);
+  };
+  EXPECT_EQ(pixel(PageServer(options, crop, {}, console_), 21), std::pair(11.0f, 6.0f))
+      << "of the full picture";
+  options.reference = picture("crop.exr", 20, 4);
+  EXPECT_EQ(pixel(PageServer(options, crop, {}, console_), 21), std::pair(1.0f, 1.0f)) << "of the crop";
+  EXPECT_EQ(http(port(), "GET", "/reference").status, 404) << "there is none";
+  for (const std::string& wrong :
+       {picture("other.exr", 30, 4), path("missing.exr"), write("text.exr", "text")}) {
+    options.reference = wrong;
+    try {
+      PageServer page(options, crop, {}, console_);
+      ADD_FAILURE() << wrong;
+    } catch (const ExitError& error) {
+      EXPECT_EQ(error.code(), kBadCommandLine);
+      EXPECT_THAT(error.what(), HasSubstr(wrong));
+    }
+  }
 }
 
 // There are more of them than streams at a time.

@@ -384,13 +384,14 @@ class Mock:
         self.process.wait()
 
 
-class Viewed:
-    """`kaustik view` with a render that takes long enough."""
+SCENE = pathlib.Path(__file__).resolve().parents[3] / "scenes/cornell-spheres/square-lamp-2.pbrt"
 
-    def __init__(self, program):
-        scene = pathlib.Path(__file__).resolve().parents[3] / "scenes/cornell-spheres/square-lamp-2.pbrt"
-        self.process = subprocess.Popen([program, "view", scene, "--photons", "3M", "--spp", "400", "--passes", "40", "--width", "300",
-                                         "--threads", "1", "-q"], stdout=subprocess.PIPE, text=True)
+
+class Viewed:
+    """`kaustik view`, by default with a render that takes long enough."""
+
+    def __init__(self, program, options=("--photons", "3M", "--spp", "400", "--passes", "40", "--width", "300", "--threads", "1")):
+        self.process = subprocess.Popen([program, "view", SCENE, *options, "-q"], stdout=subprocess.PIPE, text=True)
         self.address = self.process.stdout.readline().strip()
 
     def __enter__(self):
@@ -430,6 +431,26 @@ def check(browser, address, out, downloads):
     return page, drawers
 
 
+def check_reference(browser, program, out):
+    """A render whose reference has the same settings but for the seed stands beside it, with the difference in numbers."""
+    options = ["--width", "120", "--spp", "4", "--photons", "50k", "--denoise", "off"]
+    reference = out / "reference.exr"
+    subprocess.run([program, "render", SCENE, *options, "--seed", "7", "-o", reference, "-q"], check=True)
+    with Viewed(program, [*options, "--reference", reference]) as viewed:
+        page = Page(browser, viewed.address)
+        page.open()
+        page.wait("view.status.state === 'finished' && view.layers.upToDate()", "the render ends")
+        page.wait("view.compare.chosen", "the reference is there")
+        assert page.text("tag-left") == "reference: reference.exr", page.text("tag-left")
+        page.wait("document.getElementById('compare-note').textContent.includes('relMSE')", "the difference is measured")
+        given = array.array("f", page.fetch("reference"))
+        assert len(given) == 3 * page.info["full_width"] * page.info["full_height"]
+        shown = page.js("return Array.from(view.compare.other().values.slice(0, 3))")
+        assert shown == list(given[:3]), (shown, given[:3])
+        browser.save_screenshot(str(out / "reference.png"))
+        leave(page)
+
+
 def leave(page):
     """So that the end of the program is no error."""
     page.browser.get("about:blank")
@@ -453,6 +474,7 @@ def main():
             with Viewed(sys.argv[1]) as viewed:
                 page, drawers = check(browser, viewed.address, out, downloads)
                 leave(page)
+            check_reference(browser, sys.argv[1], out)
         else:
             page, drawers = check(browser, sys.argv[1], out, downloads)
     finally:
