@@ -2,7 +2,8 @@
 """Checks whether performance got worse between two revisions, by exact counts, instructions and time: see
 docs/guide/benchmarks.md.
 
-scripts/perf-gate BASE_REV [--only counters,instructions,time] [--rounds 15] [--time-limit 10]
+scripts/perf-gate BASE_REV [--only counters,instructions,time] [--rounds 15] [--time-limit 10] [--history FILE]
+scripts/perf-gate --history FILE --page PAGE.html
 scripts/perf-gate --update-baseline
 
 The head is the working tree, including local changes. Prints a table and writes it to build/perf-gate/results/table.md.
@@ -13,6 +14,7 @@ import subprocess
 import sys
 
 import counters
+import history
 import instructions
 import wall_time
 from sides import BASE, HEAD, Side, git, snapshot
@@ -35,10 +37,14 @@ def parse_arguments(arguments):
     parser.add_argument("--time-limit", type=float, default=10, metavar="PERCENT",
                         help="slow-down that fails if the U test confirms it (default: 10)")
     parser.add_argument("--update-baseline", action="store_true", help=f"count again and write {counters.BASELINE}")
+    parser.add_argument("--history", type=pathlib.Path, metavar="FILE", help="append what was found to this file, a line for each run")
+    parser.add_argument("--page", type=pathlib.Path, metavar="FILE", help="draw the history as this HTML page")
     options = parser.parse_args(arguments)
     options.only = options.only.split(",")
-    if bool(options.base) == options.update_baseline:
-        parser.error("give a revision to compare with, or --update-baseline")
+    if options.page and not options.history:
+        parser.error("--page draws the file of --history")
+    if bool(options.base) + options.update_baseline + bool(options.page and not options.base) != 1:
+        parser.error("give a revision to compare with, --update-baseline, or --history and --page")
     if not set(options.only) <= set(CHECKS):
         parser.error(f"--only takes {', '.join(CHECKS)}")
     return options
@@ -78,6 +84,8 @@ def compare(options, base, head, results):
     text = f"perf-gate {base.commit[:10]} .. {head.commit[:10]}: {verdict}\n\n{markdown(rows)}\n"
     (results / "table.md").write_text(text)
     print(text)
+    if options.history:
+        history.append(options.history, history.entry(base.commit, head.commit, rows, verdict))
     return 1 if failed(rows) else 0
 
 
@@ -86,15 +94,21 @@ def main(arguments):
     results = ROOT / "build" / "perf-gate" / "results"
     results.mkdir(parents=True, exist_ok=True)
     try:
-        base, head = make_sides(options, snapshot(ROOT))
+        code = 0
+        if options.base or options.update_baseline:
+            base, head = make_sides(options, snapshot(ROOT))
+        if options.base:
+            code = compare(options, base, head, results)
+        if options.page:
+            options.page.write_text(history.page(history.read(options.history)), encoding="utf-8")
         if not options.update_baseline:
-            return compare(options, base, head, results)
+            return code
         require(head, "kaustik")
         if not counters.update(ROOT, head):
             raise CannotTell("a render of the baseline failed")
         print(f"perf-gate: wrote {counters.BASELINE}; say why in its commit: `Counters: reason`")
         return 0
-    except (CannotTell, subprocess.CalledProcessError) as error:
+    except (CannotTell, subprocess.CalledProcessError, OSError, ValueError) as error:
         print(f"perf-gate: {error}", file=sys.stderr)
         return 2
 

@@ -5,6 +5,8 @@ import tempfile
 import unittest
 
 import counters
+import gate
+import history
 import instructions
 import wall_time
 from sides import Side, git, snapshot
@@ -34,6 +36,34 @@ class Counters(unittest.TestCase):
         for name, *given, verdict in cases:
             with self.subTest(name):
                 self.assertEqual(counters.judge_difference(*given), verdict)
+
+
+class History(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = pathlib.Path(folder.name) / "history.jsonl"
+
+    def test_lines_are_appended_and_drawn(self):
+        row = Row("time", "shoot <b>", "10 ms", "11 ms", "+10.00 %", FAIL)
+        same = Row("counters", "room", "", "all 40 as stored", "", OK)
+        history.append(self.file, history.entry("a" * 40, "b" * 40, [row, same], FAIL))
+        first = self.file.read_text()
+        history.append(self.file, history.entry("b" * 40, "c" * 40, [Row("time", "shoot <b>", "11 ms", "9.9 ms", "-10.00 %", OK)], "passed"))
+        self.assertTrue(self.file.read_text().startswith(first))
+        entries = history.read(self.file)
+        points = history.series_of(entries)[("time", "shoot <b>")]
+        self.assertEqual([(e["head"][0], round(ratio, 6), verdict) for e, ratio, verdict in points], [("b", 1.1, FAIL), ("c", 0.9, OK)])
+        page = history.page(entries)
+        self.assertIn("0.990 to 1.100 times the first base", page)  # 1.1, then 1.1 * 0.9
+        self.assertNotIn("<b>", page)
+        self.assertEqual(gate.main(["--history", str(self.file), "--page", str(self.file.with_suffix(".html"))]), 0)
+        self.assertEqual(self.file.with_suffix(".html").read_text(), page)
+
+    def test_damaged_lines_are_named(self):
+        self.file.write_text('{"date": "x", "base": "", "head": "", "verdict": "", "rows": []}\nno json\n')
+        with self.assertRaisesRegex(ValueError, "history.jsonl:2: "):
+            history.read(self.file)
 
 
 class Instructions(unittest.TestCase):
