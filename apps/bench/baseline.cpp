@@ -12,7 +12,9 @@ namespace {
 
 const BenchPoint* same_point(const BenchResult& in, const BenchPoint& point) {
   for (const BenchPoint& other : in.points)
-    if (other.photons == point.photons && other.threads == point.threads) return &other;
+    if (other.photons == point.photons && other.threads == point.threads &&
+        other.photons_per_thread == point.photons_per_thread)
+      return &other;
   return nullptr;
 }
 

@@ -35,6 +35,7 @@ Json point_json(const BenchResult& result, const BenchPoint& point) {
   Json out;
   out["photons"] = point.photons;
   out["threads"] = point.threads;
+  if (point.photons_per_thread > 0) out["photons_per_thread"] = point.photons_per_thread;
   out["seconds"] = spreads_json(point.seconds, kPhaseNames);
   out["per_second"] = spreads_json(point.per_second, kRateNames);
   out["busy_cores"] = spread_json(point.busy_cores);
@@ -119,6 +120,8 @@ BenchPoint read_point(const Json& in) {
   point.per_second = read_spreads(object_of(in, "per_second"), kRateNames);
   point.busy_cores = read_spread(in, "busy_cores");
   point.peak_memory_bytes = read_spread(in, "peak_memory_bytes");
+  if (in.contains("photons_per_thread"))
+    point.photons_per_thread = whole(in, "photons_per_thread", 1, point.photons);
   // Older results do not have them.
   const auto read_if_known = [&](std::string_view key) -> std::optional<Spread> {
     if (!in.contains(key) || in[std::string(key)].is_null()) return std::nullopt;

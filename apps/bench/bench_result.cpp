@@ -11,13 +11,17 @@ Spread spread_of(std::vector<double> values) {
 }
 
 const BenchPoint& baseline_of(const BenchResult& result, const BenchPoint& point) {
-  const auto same = [&](const BenchPoint& p) { return p.photons == point.photons; };
+  const auto same = [&](const BenchPoint& p) {
+    return p.photons_per_thread == point.photons_per_thread &&
+           (point.photons_per_thread > 0 || p.photons == point.photons);
+  };
   const auto found = std::find_if(result.points.begin(), result.points.end(), same);
   return found != result.points.end() ? *found : point;
 }
 
 std::optional<Spread> speed_up(const BenchResult& result, const BenchPoint& point, Phase phase) {
-  const double base = baseline_of(result, point)[phase].median;
+  const BenchPoint& first = baseline_of(result, point);
+  const double base = first[phase].median * (double(point.photons) / double(first.photons));
   const Spread& here = point[phase];
   if (!(base > 0) || !(here.min > 0)) return std::nullopt;
   return Spread{base / here.median, base / here.max, base / here.min};
@@ -27,7 +31,8 @@ std::optional<double> fitted_serial_share(const BenchResult& result, const Bench
   // With x = 1 / n - 1, relative to the first point: t / t1 - 1 = (1 - s) x.
   double products = 0, squares = 0;
   for (const BenchPoint& point : result.points) {
-    if (point.photons != first.photons || !(point[phase].median > 0) || !(first[phase].median > 0)) continue;
+    if (&baseline_of(result, point) != &first || !(point[phase].median > 0) || !(first[phase].median > 0))
+      continue;
     const double x = double(first.threads) / point.threads - 1;
     products += x * (point[phase].median / first[phase].median - 1);
     squares += x * x;

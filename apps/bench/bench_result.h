@@ -51,6 +51,7 @@ inline constexpr size_t kRates = kRateNames.size();
 struct BenchPoint {
   uint64_t photons = 1;
   int threads = 1;
+  uint64_t photons_per_thread = 0;        // where photons grow with the threads (weak scaling), otherwise 0
   std::array<Spread, kPhases> seconds;    // by Phase; the total of each run is the sum of its other phases
   std::array<Spread, kRates> per_second;  // by Rate; 0 if the phase took no time
   Spread busy_cores;                      // CPU time of the process divided by the time of the run
@@ -79,10 +80,12 @@ struct BenchResult {
   std::vector<SpanPoint> spans{};  // by photon count, where they were asked for
 };
 
-// The first point with the same photon count; speed-ups are relative to it.
+// The first point with the same photon count, or with as many photons per thread; speed-ups are relative to
+// it.
 const BenchPoint& baseline_of(const BenchResult& result, const BenchPoint& point);
 
-// The baseline's median time divided by this point's times. Nothing if the phase took no time in one of them.
+// The baseline's median time divided by this point's times, for as many photons. Nothing if the phase took no
+// time in one of them.
 std::optional<Spread> speed_up(const BenchResult& result, const BenchPoint& point, Phase phase);
 
 // The share of the time of the first point's number of threads that does not become shorter with more of

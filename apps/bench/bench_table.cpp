@@ -133,6 +133,27 @@ void add_counters(std::string& table, const Json& counters) {
   }
 }
 
+// Photons that grow with the threads: how many times as many are traced and stored in the same time.
+std::string weak_table(const BenchResult& result, const BenchPoint& first) {
+  constexpr std::pair<Phase, std::string_view> kGrowing[] = {{Phase::kPhotonTrace, "photon trace"},
+                                                             {Phase::kPhotonBuild, "photon map build"}};
+  std::string table = fmt::format("\n{} photons per thread\n  threads", count_text(first.photons_per_thread));
+  for (const auto& [phase, label] : kGrowing)
+    table += fmt::format("   {:<24}{:<20}", label, "times the photons");
+  table.erase(table.find_last_not_of(' ') + 1);
+  table += '\n';
+  for (const BenchPoint& point : result.points) {
+    if (&baseline_of(result, point) != &first) continue;
+    table += fmt::format("  {:>7}", point.threads);
+    for (const auto& [phase, label] : kGrowing)
+      table += fmt::format("   {:<24}{:<20}", point[phase].median > 0 ? cell(point[phase], kSeconds) : "-",
+                           speed_up_cell(result, point, phase));
+    table.erase(table.find_last_not_of(' ') + 1);
+    table += '\n';
+  }
+  return table;
+}
+
 }  // namespace
 
 std::string machine_line(const BenchResult& result) {
@@ -151,11 +172,11 @@ std::string bench_table(const BenchResult& result) {
                                   machine_line(result), result.version, result.build,
                                   result.repeat == 1 ? "1 run" : fmt::format("{} runs", result.repeat));
   for (const BenchPoint& point : result.points) {
-    if (&baseline_of(result, point) != &point) continue;
+    if (&baseline_of(result, point) != &point || point.photons_per_thread > 0) continue;
     table += fmt::format("\n{} photons\n", count_text(point.photons));
     Points same;
     for (const BenchPoint& p : result.points)
-      if (p.photons == point.photons) same.push_back(&p);
+      if (&baseline_of(result, p) == &point) same.push_back(&p);
     for (size_t i = 0; i < same.size(); i += kColumns) {
       if (i > 0) table += '\n';
       add_columns(
@@ -172,6 +193,9 @@ std::string bench_table(const BenchResult& result) {
         "the "
         "machine's, not kaustik's.\n",
         100 * kMostWaiting);
+  for (const BenchPoint& point : result.points)
+    if (point.photons_per_thread > 0 && &baseline_of(result, point) == &point)
+      table += weak_table(result, point);
   for (const SpanPoint& span : result.spans) table += span_table(span);
   return table;
 }

@@ -29,7 +29,8 @@ struct Run {
 struct PointRuns {
   uint64_t photons = 1;
   int threads = 1;
-  std::vector<Run> runs;
+  uint64_t photons_per_thread = 0;
+  std::vector<Run> runs{};
 };
 
 std::array<double, kRates> rates_of(const render::RenderStatistics& s) {
@@ -102,7 +103,9 @@ void check_counters(const std::vector<PointRuns>& all, const PointRuns& point, c
 std::vector<PointRuns> points_of(const BenchPlan& plan) {
   std::vector<PointRuns> points;
   for (const uint64_t photons : plan.photons)
-    for (const int threads : plan.threads) points.push_back({photons, threads, {}});
+    for (const int threads : plan.threads) points.push_back({photons, threads});
+  for (const uint64_t each : plan.photons_per_thread)
+    for (const int threads : plan.threads) points.push_back({each * uint64_t(threads), threads, each});
   return points;
 }
 
@@ -115,6 +118,7 @@ BenchPoint summarise(const PointRuns& point) {
   BenchPoint out;
   out.photons = point.photons;
   out.threads = point.threads;
+  out.photons_per_thread = point.photons_per_thread;
   for (size_t i = 0; i < kPhases; ++i) out.seconds[i] = spread([i](const Run& r) { return r.seconds[i]; });
   for (size_t i = 0; i < kRates; ++i)
     out.per_second[i] = spread([i](const Run& r) { return r.per_second[i]; });

@@ -11,11 +11,11 @@
 namespace kaustik::app {
 
 struct BenchPlan {
-  std::vector<uint64_t> photons;
+  std::vector<uint64_t> photons, photons_per_thread;
   std::vector<int> threads;
   uint64_t repeat = 5;
 
-  uint64_t runs() const { return photons.size() * threads.size() * repeat; }
+  uint64_t runs() const { return (photons.size() + photons_per_thread.size()) * threads.size() * repeat; }
 };
 
 // Receives the number of finished runs; returning false cancels. Called often, also from worker threads.

@@ -38,7 +38,7 @@ namespace {
 
 struct BenchOptions {
   std::string scene, from, json, plot, baseline, format = "kaustik";
-  std::vector<std::string> photons = {"1M"}, threads;
+  std::vector<std::string> photons = {"1M"}, photons_per_thread, threads;
   std::string repeat = "5";
   bool span = false, require_idle = false;
   std::optional<float> most_slowdown;  // percent
@@ -59,6 +59,7 @@ std::vector<int> doubling_threads(int usable) {
 BenchPlan plan_of(const BenchOptions& options, const CoreLimits& cores) {
   BenchPlan plan;
   plan.photons = whole_numbers("--photons", options.photons);
+  plan.photons_per_thread = whole_numbers("--photons-per-thread", options.photons_per_thread);
   if (options.threads.empty()) plan.threads = doubling_threads(cores.usable());
   for (const uint64_t threads : whole_numbers("--threads", options.threads, kMostThreads))
     plan.threads.push_back(static_cast<int>(threads));
@@ -222,6 +223,10 @@ void add_options(Command& command, BenchOptions& options) {
   command.add_argument("SCENE", options.scene, "Scene file").required = false;
   command.add_list("--photons", "COUNTS", options.photons,
                    "Photon counts, separated by commas, like 1M,10M. Default: 1M");
+  command.add_list(
+      "--photons-per-thread", "COUNTS", options.photons_per_thread,
+      "Also measure these numbers of photons for each thread, whose tracing and maps then take the "
+      "same time on any number of threads if they scale (weak scaling)");
   command.add_list(
       "--threads", "COUNTS", options.threads,
       "Thread counts, separated by commas. Speed-ups are relative to the first. Default: 1, 2, 4 ... up "

@@ -8,6 +8,8 @@ const WORTH_DRAWING = 0.01;  // of the total time
 
 const unique = values => [...new Set(values)].sort((a, b) => a - b);
 const plural = (n, noun) => `${n} ${noun}${n === 1 ? "" : "s"}`;
+// Points whose photons grow with the threads are in the table only.
+data.points = data.points.filter(p => !p.photons_per_thread);
 const of = photons => data.points.filter(p => p.photons === photons);
 const photonCounts = unique(data.points.map(p => p.photons));
 const worthDrawing = (phase, points) =>

@@ -201,6 +201,22 @@ TEST_F(BenchCommand, BadScenesExitWithThree) {
   EXPECT_FALSE(exists("r.json"));
 }
 
+// Rates are compared, so that twice the photons in the same time are a speed-up of two.
+TEST_F(BenchCommand, PhotonsMayGrowWithTheThreads) {
+  const Json r = measured({"--photons", "1k", "--photons-per-thread", "2k", "--threads", "1,2", "--repeat",
+                           "1", "--method", "photon"});
+  ASSERT_EQ(r["points"].size(), 4u);
+  const Json &one = r["points"][2], &two = r["points"][3];
+  EXPECT_EQ(one["photons"], 2000);
+  EXPECT_EQ(two["photons"], 4000);
+  EXPECT_EQ(two["photons_per_thread"], 2000);
+  EXPECT_EQ(two["counters"]["photons"]["emitted"], 4000);
+  const auto trace = [](const Json& p) { return p["seconds"]["photon_trace"]["median"].get<double>(); };
+  EXPECT_DOUBLE_EQ(two["speed_up"]["photon_trace"].get<double>(), 2 * trace(one) / trace(two));
+  const Outcome shown = run_kaustik({"bench", "--from", path("r.json")});
+  EXPECT_THAT(shown.out, HasSubstr("2k photons per thread\n"));
+}
+
 TEST_F(BenchCommand, WorkAndSpanAreThoseOfAllPhases) {
   const Json r = measured({"--photons", "1k,2k", "--threads", "1", "--repeat", "1", "--span"});
   ASSERT_EQ(r["spans"].size(), 2u);
