@@ -48,6 +48,7 @@ struct Tile {
   int x, y;                 // the square's corner
   int stride = 1;           // blocks from one of the 4 x 4 to the next
   bool every_block = true;  // otherwise without those that a tile of twice this stride has
+  bool counted = true;      // in the progress: of a tile that is rendered in parts, one is
 
   // Calls fn(block) for the blocks' parts in the film's window.
   template <class Fn>
@@ -207,7 +208,7 @@ class TilePass {
       work_ = std::min(end, all);
       counts_->choose_counts(samples(), work_);
       const std::vector<Tile> tiles = tiles_by_work();
-      to_do_ = std::max(to_do_, done_ + tiles.size());
+      to_do_ = std::max(to_do_, done_ + tiles_.size());
       const Stopwatch watch;
       if (!each_tile(tiles, &TilePass::adaptive_samples)) return false;
       if (work_ < end) return true;  // a further round would not begin where it should
@@ -229,17 +230,21 @@ class TilePass {
     constexpr uint64_t kMany = 2;  // times the mean
     std::vector<std::pair<uint64_t, Tile>> found;
     uint64_t all = 0;
-    for (const Tile& tile : tiles_)
-      found.emplace_back(adaptive_samples_of(tile), tile), all += found.back().first;
+    for (const Tile& tile : tiles_) {
+      found.emplace_back(adaptive_samples_of(tile), tile);
+      all += found.back().first;
+    }
     for (size_t i = 0; i < tiles_.size(); ++i) {
       if (found[i].first * tiles_.size() <= kMany * all) continue;
-      found[i].first = 0;  // its blocks take its place
-      tiles_[i].for_each_block([&](const PixelRange& block) {
-        const Tile part{block, tiles_[i].x, tiles_[i].y};
+      // Its blocks take its place, and an empty tile is counted for them.
+      const Tile& tile = tiles_[i];
+      found[i] = {0, {{tile.x, tile.x, tile.y, tile.y}, tile.x, tile.y}};
+      tile.for_each_block([&](const PixelRange& block) {
+        Tile part{block, tile.x, tile.y};
+        part.counted = false;
         found.emplace_back(adaptive_samples_of(part), part);
       });
     }
-    std::erase_if(found, [](const auto& tile) { return tile.first == 0; });
     std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<Tile> tiles;
     for (const auto& [samples, tile] : found) tiles.push_back(tile);
@@ -285,20 +290,22 @@ class TilePass {
   // Renders tiles in parallel. False when the progress callback cancelled.
   bool each_tile(const std::vector<Tile>& tiles, BlockRenderer add_samples) {
     std::atomic<size_t> next{0};
-    const uint64_t before = done_;
+    size_t finished = 0;
     parallel::for_index(
         size_t(0), tiles.size(),
         [&](size_t) {
           if (cancelled_) return;
-          const std::optional<TileResult> tile = render_tile(tiles[next++], add_samples);
-          if (!tile) return;
+          const Tile& tile = tiles[next++];
+          const std::optional<TileResult> result = render_tile(tile, add_samples);
+          if (!result) return;
           const std::lock_guard lock(mutex_);
-          merged_.add(*tile);
-          ++done_;
+          merged_.add(*result);
+          ++finished;
+          done_ += tile.counted;
           report();
         },
         parallel::Division::kEach);
-    return done_ - before == tiles.size() && (done_ == to_do_ || !cancelled_);
+    return finished == tiles.size() && (done_ == to_do_ || !cancelled_);
   }
 
   const RenderContext& ctx_;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "render/statistics_json.h"
+#include "render/tiles/tiles.h"
 #include "tests/render/support/image_statistics.h"
 
 namespace kaustik::render {
@@ -101,7 +102,7 @@ TEST(Render, ReportsEveryTile) {
   settings.spp = 1;
   for (const bool adaptive : {false, true}) {
     settings.adaptive = adaptive ? 0.75f : 0;
-    const uint64_t tiles = adaptive ? 18 : 9;  // 40 pixels are three tiles of 16, rendered once or twice
+    const uint64_t tiles = adaptive ? 50 : 25;  // 40 pixels are five tiles of 8, rendered once or twice
     uint64_t last = 0;
     render(scene, accel::Bvh(scene), settings, [&](const Progress& p) {
       EXPECT_EQ(p.phase, "render");
@@ -116,7 +117,7 @@ TEST(Render, ReportsEveryTile) {
 
 // The samples of the only tile would take days.
 TEST(Render, CancelsWithinATile) {
-  const Scene scene = cornell(16);
+  const Scene scene = cornell(kTileSize);
   RenderSettings settings;
   settings.method = Method::kRaytrace;
   settings.spp = 1'000'000'000;
@@ -129,7 +130,7 @@ TEST(Render, CancelsWithinATile) {
 
 // At its end the only tile of a pass completes the pass, and it is the next one that is cancelled.
 TEST(Render, CancelsBetweenPassesOfASingleTile) {
-  const Scene scene = cornell(16);
+  const Scene scene = cornell(kTileSize);
   RenderSettings settings;
   settings.method = Method::kRaytrace;
   settings.spp = settings.passes = 1000;
@@ -144,7 +145,7 @@ TEST(Render, CancelsBetweenPassesOfASingleTile) {
 
 // A tile that is cancelled among its adaptive samples keeps the first ones alone.
 TEST(Render, CancelledTileKeepsItsFirstSamples) {
-  const Scene scene = cornell(16);
+  const Scene scene = cornell(kTileSize);
   const accel::Bvh bvh(scene);
   RenderSettings settings;
   settings.method = Method::kRaytrace;
@@ -159,8 +160,8 @@ TEST(Render, CancelledTileKeepsItsFirstSamples) {
   });
   EXPECT_TRUE(cut.cancelled);
   EXPECT_EQ(cut.shown, Shown::kTiles);
-  for (int y = 0; y < 16; ++y)
-    for (int x = 0; x < 16; ++x)
+  for (int y = 0; y < kTileSize; ++y)
+    for (int x = 0; x < kTileSize; ++x)
       EXPECT_EQ(cut.film.at(x, y).radiance(), first.film.at(x, y).radiance()) << x << " " << y;
 }
 
@@ -172,7 +173,7 @@ TEST(Render, CancelledAmongAdaptiveSamplesKeepsTheFirst) {
   settings.spp = 2;
   const accel::Bvh bvh(scene);
   const auto whole = render(scene, bvh, settings);
-  for (const uint64_t at : {9u, 11u}) {
+  for (const uint64_t at : {25u, 27u}) {  // the first samples have 25 tiles
     const auto cut = render(scene, bvh, settings, [&](const Progress& p) { return p.done < at; });
     EXPECT_TRUE(cut.cancelled);
     EXPECT_EQ(cut.shown, Shown::kTiles);
