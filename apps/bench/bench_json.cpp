@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "apps/bench/span.h"
+
 namespace kaustik::app {
 
 namespace {
@@ -172,7 +172,7 @@ std::string bench_json(const BenchResult& result) {
   out["machine"] = result.machine;
   out["settings"] = result.settings;
   out["repeat"] = result.repeat;
-  out["disturbed"] = std::any_of(result.points.begin(), result.points.end(), is_disturbed);
+  out["disturbed"] = is_disturbed(result);
   out["points"] = Json::array();
   for (const BenchPoint& point : result.points) out["points"].push_back(point_json(result, point));
   for (const SpanPoint& span : result.spans) out["spans"].push_back(span_json(span));

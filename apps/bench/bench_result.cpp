@@ -41,8 +41,10 @@ std::optional<double> fitted_serial_share(const BenchResult& result, const Bench
   return std::clamp(1 - products / squares, 0.0, 1.0);
 }
 
-bool is_disturbed(const BenchPoint& point) {
-  return point.waiting && point.waiting->median > kMostWaiting;
+bool is_disturbed(const BenchResult& result) {
+  return std::any_of(result.points.begin(), result.points.end(), [](const BenchPoint& point) {
+    return point.waiting && point.waiting->median > kMostWaiting;
+  });
 }
 
 std::optional<double> efficiency(const BenchResult& result, const BenchPoint& point, Phase phase) {

@@ -96,7 +96,7 @@ std::optional<double> fitted_serial_share(const BenchResult& result, const Bench
 // Points where threads waited for cores longer than this share of the time tell more about the other programs
 // than about this one.
 inline constexpr double kMostWaiting = 0.05;
-bool is_disturbed(const BenchPoint& point);
+bool is_disturbed(const BenchResult& result);  // any point is
 
 // The speed-up divided by the ratio of thread counts; 1 is ideal.
 std::optional<double> efficiency(const BenchResult& result, const BenchPoint& point, Phase phase);

@@ -187,11 +187,11 @@ std::string bench_table(const BenchResult& result) {
       table += fmt::format("  in one thread, by the curve  {:.1f} % of the total\n", 100 * *share);
     add_counters(table, point.counters);
   }
-  if (std::any_of(result.points.begin(), result.points.end(), is_disturbed))
+  if (is_disturbed(result))
     table += fmt::format(
         "\nOther programs ran: threads waited for cores for more than {:.0f} % of their time. The times are "
-        "the "
-        "machine's, not kaustik's.\n",
+        "those "
+        "of the machine, not of kaustik.\n",
         100 * kMostWaiting);
   for (const BenchPoint& point : result.points)
     if (point.photons_per_thread > 0 && &baseline_of(result, point) == &point)

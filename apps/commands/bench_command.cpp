@@ -201,8 +201,7 @@ int run_bench(const BenchOptions& options, const Console& console) {
   console.out << bench_table(result);
   std::string trouble;
   if (baseline) trouble = compare_with_baseline(options, result, *baseline, console);
-  if (options.require_idle && std::any_of(result.points.begin(), result.points.end(), is_disturbed))
-    trouble = "other programs ran: threads waited for cores";
+  if (options.require_idle && is_disturbed(result)) trouble = "other programs ran: threads waited for cores";
   FileWriter writer(console);
   const auto text = options.format == "gbench" ? gbench_json : bench_json;
   if (!options.json.empty()) writer.write(options.json, [&] { write_text_file(options.json, text(result)); });

@@ -88,6 +88,7 @@ class View {
     } catch (const std::exception& error) {
       if (!renders_again_) throw;
       // Settings of the page that cannot be rendered: it may give others.
+      laboratory_.settle(settings);  // whoever waits for photons is told the same
       console_.error(error.what());
       live->finish(error.what());
       return kDone;

@@ -90,7 +90,11 @@ const PixelResult& LivePicture::value(int x, int y) const {
 }
 
 Rgb LivePicture::all_light(int x, int y) const {
-  return shown_.empty() ? value(x, y).radiance() : shown_[pixel_index(x, y)];
+  return light_of(pixel_index(x, y), value(x, y));
+}
+
+Rgb LivePicture::light_of(size_t pixel, const PixelResult& value) const {
+  return shown_.empty() ? value.radiance() : shown_[pixel];
 }
 
 template <class Fn>
@@ -195,16 +199,11 @@ void LivePicture::read(const PixelRange& range, const std::vector<LiveChannel>& 
   for_each_tile(range, [&](const PixelRange& part) {
     part.for_each_square(render::kRayBlock, [&](const PixelRange& square) {
       const Block& block = blocks_[block_index(square.x0, square.y0)];
-      const Rgb mean = block.known || !wants_light ? Rgb(0) : block.mean.radiance();
       for (int y = square.y0; y < square.y1; ++y)
         for (int x = square.x0; x < square.x1; ++x) {
           const size_t i = pixel_index(x, y);
           const PixelResult& from = block.known ? pixels_[i] : block.mean;
-          const Rgb all = !wants_light      ? Rgb(0)
-                          : !shown_.empty() ? shown_[i]
-                          : block.known     ? from.radiance()
-                                            : mean;
-          read_pixel(from, all,
+          read_pixel(from, wants_light ? light_of(i, from) : Rgb(0),
                      values + (size_t(y - range.y0) * size_t(range.width()) + size_t(x - range.x0)) *
                                   channels.size());
         }

@@ -67,6 +67,7 @@ class LivePicture {
   size_t tile_index(int x, int y) const;
   const render::PixelResult& value(int x, int y) const;
   Rgb all_light(int x, int y) const;
+  Rgb light_of(size_t pixel, const render::PixelResult& value) const;
   // Calls fn(part) for the parts of a range in each tile while the tile is locked.
   template <class Fn>
   void for_each_tile(const render::PixelRange& range, const Fn& fn) const;

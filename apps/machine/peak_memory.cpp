@@ -2,16 +2,12 @@
 
 #include <fstream>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
+#include "core/memory/memory_pages.h"
 
 namespace kaustik::app {
 
 bool restart_peak_memory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
+  give_back_freed();
   std::ofstream file("/proc/self/clear_refs");
   file << "5";
   file.close();

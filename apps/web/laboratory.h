@@ -58,14 +58,14 @@ class Laboratory {
 
   const Scene& scene_;
   const accel::Bvh& bvh_;
-  mutable std::mutex settings_mutex_;  // guards what follows, up to made_
+  mutable std::mutex settings_mutex_;  // guards what follows, up to ended_
   std::condition_variable changed_;
   Settings asked_;                    // by the command line, and since then by readers
   std::optional<Settings> settled_;   // of the picture that is shown; unset until they are known
   std::shared_ptr<const Maps> made_;  // null: not yet for these settings
-  std::atomic<uint64_t> turn_{0};     // grows when photons that are being shot are those of nothing any more
-  std::atomic<bool> ended_{false};
-  std::mutex shooting_;  // held while photons are shot, so that they are shot once
+  bool ended_ = false;
+  std::atomic<uint64_t> turn_{0};  // grows when photons that are being shot are those of nothing any more
+  std::mutex shooting_;            // held while photons are shot, so that they are shot once
 };
 
 }  // namespace kaustik::app

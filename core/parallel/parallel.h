@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <source_location>
 
 #include "core/parallel/work_span.h"
@@ -42,13 +43,14 @@ class RecordedLoop {
   WorkSpanRecorder& recorder_;
 };
 
-// Calls fn(begin, end) for parts of at least `grain` indices, as tasks of a loop.
+// Calls fn(begin, end) for parts, as tasks of a loop. most: tasks, where the loop leaves it open; otherwise
+// each part has `grain` indices.
 template <class Index, class Fn>
 void recorded_parts(WorkSpanRecorder& recorder, const Place& place, Index begin, Index end, size_t grain,
-                    const Fn& fn) {
+                    size_t most, const Fn& fn) {
   RecordedLoop loop(recorder, place);
   const size_t count = begin < end ? size_t(end - begin) : 0;
-  const size_t step = std::max(grain, count / kTasks);
+  const size_t step = std::max(grain, count / most);
   for (size_t at = 0; at < count; at += step)
     loop.task([&] { fn(Index(begin + Index(at)), Index(begin + Index(std::min(at + step, count)))); });
 }
@@ -61,12 +63,10 @@ template <class Index, class Fn>
 void for_index(Index begin, Index end, const Fn& fn, Division division = Division::kAuto,
                const Place& place = Place::current()) {
   if (auto* recorder = WorkSpanRecorder::present()) {
-    const size_t count = begin < end ? size_t(end - begin) : 0;
-    const size_t grain = division == Division::kEach || count <= detail::kTasks ? 1 : count / detail::kTasks;
-    return detail::recorded_parts(*recorder, place, begin, end, division == Division::kEach ? 1 : grain,
-                                  [&](Index first, Index last) {
-                                    for (Index i = first; i < last; ++i) fn(i);
-                                  });
+    const size_t most = division == Division::kEach ? std::numeric_limits<size_t>::max() : detail::kTasks;
+    return detail::recorded_parts(*recorder, place, begin, end, 1, most, [&](Index first, Index last) {
+      for (Index i = first; i < last; ++i) fn(i);
+    });
   }
   if (division == Division::kEach)
     tbb::parallel_for(begin, end, fn, tbb::simple_partitioner());
@@ -79,7 +79,7 @@ template <class Index, class Fn>
 void for_range(const tbb::blocked_range<Index>& range, const Fn& fn, const Place& place = Place::current()) {
   if (auto* recorder = WorkSpanRecorder::present())
     return detail::recorded_parts(
-        *recorder, place, range.begin(), range.end(), range.grainsize(),
+        *recorder, place, range.begin(), range.end(), range.grainsize(), detail::kTasks,
         [&](Index first, Index last) { fn(tbb::blocked_range<Index>(first, last, range.grainsize())); });
   tbb::parallel_for(range, fn);
 }
@@ -90,7 +90,7 @@ Value reduce(const tbb::blocked_range<Index>& range, const Value& zero, const Fn
              const Place& place = Place::current()) {
   if (auto* recorder = WorkSpanRecorder::present()) {
     Value sum = zero;
-    detail::recorded_parts(*recorder, place, range.begin(), range.end(), range.grainsize(),
+    detail::recorded_parts(*recorder, place, range.begin(), range.end(), range.grainsize(), detail::kTasks,
                            [&](Index first, Index last) {
                              sum = fn(tbb::blocked_range<Index>(first, last, range.grainsize()), sum);
                            });

@@ -26,7 +26,10 @@ class Lab {
     // Photons of the new render are there when it finds its way to the pixels.
     const ready = status.phase === "render" || status.state === "finished";
     if (ready && this.cloudShown() && this.cloud.loaded !== status.render) this.loadCloud();
-    if (ready && this.unsettled) this.update();
+    if (ready && this.unsettled) {
+      this.unsettled = false;
+      this.update();
+    }
     if (ready && this.stale && this.estimate.pixel) {
       this.stale = false;
       this.estimate.query(this.estimate.pixel.x, this.estimate.pixel.y);
@@ -41,7 +44,6 @@ class Lab {
 
   // What the render makes of the settings is known when its pixels come.
   async update() {
-    this.unsettled = this.unsettled && this.view.status.state !== "running";
     try {
       this.settings.update((await (await request("info")).json()).settings ?? []);
     } catch {

@@ -80,6 +80,11 @@ TEST_F(WorkSpan, ManyShortTasksAreTakenTogether) {
   const PhaseSpan found = phase([] { parallel::for_index(0, 1 << 20, [](int) { now += 1; }); });
   EXPECT_EQ(found.seconds, 1 << 20);
   EXPECT_EQ(found.span(), 1 << 10);
+  const PhaseSpan each = phase([] {
+    parallel::for_index(
+        0, 1 << 12, [](int) { now += 1; }, parallel::Division::kEach);
+  });
+  EXPECT_EQ(each.span(), 1) << "every index is a task, however many there are";
   const PhaseSpan grains = phase([] {
     parallel::for_range(tbb::blocked_range<int>(0, 100, 30),
                         [](const auto& range) { now += double(range.size()); });
