@@ -30,6 +30,7 @@ std::string exit_codes() {
 void add_commands(Program& program) {
   program.commands.push_back(make_render_command());
   program.commands.push_back(make_view_command());
+  program.commands.push_back(make_shoot_command());
   program.commands.push_back(make_resume_command());
   program.commands.push_back(make_merge_command());
   program.commands.push_back(make_photons_command());

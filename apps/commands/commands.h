@@ -7,6 +7,7 @@ namespace kaustik::app {
 
 Command make_render_command();
 Command make_view_command();
+Command make_shoot_command();
 Command make_resume_command();
 Command make_merge_command();
 Command make_photons_command();

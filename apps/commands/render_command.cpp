@@ -21,6 +21,7 @@ struct RenderOptions {
   OutputOptions outputs;
   CheckpointSettings checkpoint;
   LiveOptions live;
+  std::string map, save_map;  // map files to read and to write; empty: none
   render::PassSet passes;
   SettingOverrides overrides;
 };
@@ -64,6 +65,7 @@ void warn_of_unread(const RenderOptions& options, const Job& job, const Console&
 std::vector<NamedFile> files_of(const RenderOptions& options) {
   std::vector<NamedFile> files = named_files(options.outputs);
   files.push_back({"--checkpoint", options.checkpoint.path});
+  files.push_back({"--save-map", options.save_map});
   return files;
 }
 
@@ -80,20 +82,24 @@ int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
   if (!options.checkpoint.path.empty()) check_writable(options.checkpoint.path);
-  check_collisions(files_of(options), {{"the scene", options.scene}});
+  if (!options.save_map.empty()) check_map_output(options.save_map);
+  check_collisions(files_of(options), {{"the scene", options.scene}, {"--map", options.map}});
   const InterruptGuard interrupt;
-  const int load_threads = options.overrides.alone().render.threads;
-  Job job;
-  with_thread_limit(load_threads, console,
-                    [&] { job = load_job(options.scene, options.overrides, console); });
-  warn_of_unread(options, job, console);
   RenderSession session;
+  session.maps.save = options.save_map;
+  if (!options.map.empty()) session.maps.from = open_map_file(options.map);
+  const SettingOverrides overrides =
+      session.maps.from ? with_settings_of(*session.maps.from, options.overrides) : options.overrides;
+  Job job;
+  with_thread_limit(overrides.alone().render.threads, console,
+                    [&] { job = load_job(options.scene, overrides, console); });
+  warn_of_unread(options, job, console);
   session.outputs = options.outputs, session.checkpoint = options.checkpoint, session.goal = options.passes;
   session.live = options.live;
   session.outputs.files = outputs_of(options, job);
   check_with_scene(options, session.outputs.files, job);
   warn_of_layers(session.outputs, job.settings.render.aov, console);
-  settle_session(options.overrides, console, &job, &session);
+  settle_session(overrides, console, &job, &session);
   check_passes(options, job);
   note_checkpoint(options, console);
   return run_session(job, std::move(session), interrupt, total, console);
@@ -105,6 +111,17 @@ constexpr const char* kExamples =
     "  kaustik render room.pbrt -o room.png --quality draft --width 320\n"
     "  kaustik render room.pbrt -o room.exr --target-error 2% --time 1h\n"
     "  kaustik render room.pbrt -o caustic.exr --aov caustic --crop 100 300 200 400";
+
+void add_map_options(Command& command, RenderOptions& options) {
+  command.add_text("--save-map", "FILE", options.save_map,
+                   "Keep the photon maps in this file (.kmap), for --map");
+  command
+      .add_text(
+          "--map", "FILE", options.map,
+          "Take the photon maps from this file, which --save-map or `kaustik shoot` has written, with its "
+          "settings of the photons. Samples, radii and the camera may be others")
+      .excludes = {"--save-map"};
+}
 
 void add_pass_options(Command& command, RenderOptions& options) {
   command.add_text(
@@ -139,6 +156,7 @@ Command make_render_command() {
   add_output_options(command, options->outputs,
                      "the scene's Film \"filename\", else the scene's name with .exr");
   add_pass_options(command, *options);
+  add_map_options(command, *options);
   add_live_options(command, options->live);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kRender);

@@ -77,7 +77,7 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   check_writable(options.partial);
   const InterruptGuard interrupt;
   render::PartialResult part = load_partial(options.partial);
-  check_program(part.manifest, options.partial);
+  check_program(part.manifest.build, part.manifest.isa, options.partial, "their passes cannot be combined");
   RenderSession session;
   session.goal = goal_of(options, part);
   session.outputs = options.outputs;

@@ -91,6 +91,23 @@ render::PassSet goal_of(const Job& job, const RenderSession& session, StopRule& 
   return open ? render::PassSet(0, render::kMostPasses) : session.goal;
 }
 
+// Makes the photons of a session with kept maps. False, after an error message, if the file for them could
+// not be written: the render goes on.
+bool take_photons(const KeptMaps& maps, const Job& job, const accel::Bvh& bvh,
+                  const render::ProgressCallback& progress, std::shared_ptr<render::FirstPhotons>* photons,
+                  const Console& console) {
+  if (!maps.any()) return true;
+  try {
+    make_photons(maps, job, bvh, progress, photons);
+  } catch (const render::MapFileError& error) {
+    if (maps.from) throw;
+    console.error(error.what());
+    return false;
+  }
+  if (!maps.save.empty() && (*photons)->photons.radii()) console.note("wrote " + maps.save);
+  return true;
+}
+
 double seconds_of(const render::RenderStatistics& s) {
   return s.photon_trace_s + s.photon_build_s + s.render_s;
 }
@@ -178,13 +195,15 @@ bool writes_sums(const RenderSession& session) {
 
 void settle_session(const SettingOverrides& given, const Console& console, Job* job, RenderSession* session) {
   Settings& settings = job->settings;
+  check_stop_rules(session->maps, settings.stop);
   settle_denoising(writes_sums(*session), &settings);
   session->fill_time =
       session->goal.empty() && time_decides(settings, given, job->scene.needs, writes_sums(*session));
   check_stop_settings(settings.stop);
   if (session->fill_time) return;
   settle_error_settings(console, job->scene.needs, &settings);
-  session->try_paths = may_choose_paths(settings, given, job->scene.needs);
+  session->try_paths = !session->maps.any() && may_choose_paths(settings, given, job->scene.needs);
+  settle_kept_maps(session->maps, console, job);
 }
 
 std::shared_ptr<LiveRender> make_live(const Job& job) {
@@ -234,6 +253,10 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
       return !enough;
     };
     render::PixelsCallback on_pixels = follow(session.done, live.get());
+    const render::ProgressCallback progress = shown_by(bar, interrupt, live.get(), console);
+    std::optional<MapCheck> check;
+    if (session.maps.from) check.emplace(*session.maps.from);
+    const bool map_written = take_photons(session.maps, job, bvh, progress, &filled.work.photons, console);
     render::RenderTask task{.passes = goal,
                             .done = std::move(session.done),
                             .after_pass = after_pass,
@@ -242,14 +265,15 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
                             .on_pixels = std::move(on_pixels),
                             .photons = std::move(filled.work.photons),
                             .explored = std::move(filled.work.explored)};
-    RenderOutcome outcome{render::render(job.scene, bvh, job.settings.render,
-                                         shown_by(bar, interrupt, live.get(), console), std::move(task)),
+    RenderOutcome outcome{render::render(job.scene, bvh, job.settings.render, progress, std::move(task)),
                           times};
     bar.clear();
+    if (check) check->finish();
     if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.adaptive_work);
     if (filled_seconds > 0) report_filled(filled_seconds, job.settings.render, console);
     outcome.times.total = total.seconds();
     code = finish(job, session, std::move(outcome), checkpoint, rule, live.get(), console);
+    if (!map_written && code == kDone) code = kFailed;
     if (live) live->finish();
   });
   return code;

@@ -4,6 +4,7 @@
 
 #include "apps/session/checkpoint.h"
 #include "apps/session/interrupt.h"
+#include "apps/session/kept_maps.h"
 #include "apps/session/live_options.h"
 #include "apps/session/render_outputs.h"
 #include "apps/settings/setting_options.h"
@@ -14,6 +15,7 @@ struct RenderSession {
   OutputOptions outputs;
   CheckpointSettings checkpoint;
   LiveOptions live;
+  KeptMaps maps{};
   // A render that is followed already, or null: `live` decides whether it is.
   std::shared_ptr<LiveRender> followed{};
   const accel::Bvh* bvh = nullptr;  // of the scene, if it exists already

@@ -34,9 +34,10 @@ class CellRun {
         errors_(sweep.reference.image, sweep.compare) {
     cell_.point = point;
     cell_.flags = flags_of(point, sweep.grid, sweep.overrides);
-    key_ = folder.key({{"settings", setting_texts(settings_, true)},
-                       {"seeds", sweep.grid.seeds},
-                       {"reference", sweep.reference.hash}});
+    key_ =
+        folder.key({{"settings", setting_texts(settings_, [](const Setting& s) { return s.decides_sums; })},
+                    {"seeds", sweep.grid.seeds},
+                    {"reference", sweep.reference.hash}});
     cell_.picture = SweepFolder::picture_of(key_);
     cell_.error_map = SweepFolder::error_map_of(key_);
   }

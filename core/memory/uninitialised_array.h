@@ -31,6 +31,11 @@ class UninitialisedArray {
     data_.reset();
     size_ = 0;
   }
+  // Hands the values over.
+  std::unique_ptr<T[]> release() && {
+    size_ = 0;
+    return std::move(data_);
+  }
 
  private:
   std::unique_ptr<T[]> data_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <stdexcept>
 
 #include "core/parallel/parallel.h"
 
@@ -72,33 +73,46 @@ void for_each_index(size_t size, const Fn& fn) {
 
 }  // namespace
 
-BoxTree::BoxTree(const PhotonColumns& columns, uint64_t size) {
+void BoxTree::set_levels(uint64_t size) {
   for (uint64_t boxes = (size + kBlock - 1) / kBlock; boxes > 1 || (boxes == 1 && levels_ == 0); ++levels_) {
     boxes = (boxes + kBoxes - 1) / kBoxes;  // number of nodes at the level above
     first_[levels_ + 1] = first_[levels_] + boxes;
   }
+}
+
+BoxTree::BoxTree(uint64_t size, SharedArray<BoxNode> nodes, SharedArray<Surfaces> surfaces)
+    : nodes_(std::move(nodes)), surfaces_(std::move(surfaces)) {
+  set_levels(size);
+  if (nodes_.size() != first_[levels_] || surfaces_.size() != first_[1])
+    throw std::invalid_argument("these are not the boxes of so many photons");
+}
+
+BoxTree::BoxTree(const PhotonColumns& columns, uint64_t size) {
+  set_levels(size);
   if (levels_ == 0) return;
-  nodes_ = UninitialisedArray<BoxNode>(first_[levels_]);
-  surfaces_ = UninitialisedArray<Surfaces>(first_[1]);
+  UninitialisedArray<BoxNode> nodes(first_[levels_]);
+  UninitialisedArray<Surfaces> surfaces(first_[1]);
   for_each_index(first_[1], [&](size_t i) {
     const uint64_t begin = i * kNodePhotons, photons = std::min<uint64_t>(kNodePhotons, size - begin);
     const float* const axes[] = {columns.x + begin, columns.y + begin, columns.z + begin};
     for (int axis = 0; axis < 3; ++axis)
-      find_intervals(axes[axis], photons, nodes_[i].lo[axis], nodes_[i].hi[axis]);
+      find_intervals(axes[axis], photons, nodes[i].lo[axis], nodes[i].hi[axis]);
     for (uint64_t b = 0; b < kBoxes; ++b) {
       const uint64_t first = std::min(photons, b * kBlock);
-      surfaces_[i].of_block[b] =
+      surfaces[i].of_block[b] =
           common_surface(columns.surface + begin + first, std::min<uint64_t>(kBlock, photons - first));
     }
   });
   for (int l = 1; l < levels_; ++l) {
-    const std::span<const BoxNode> below = level(l - 1);
-    for_each_index(level(l).size(), [&](size_t i) {
+    const std::span<const BoxNode> below(nodes.data() + first_[l - 1], first_[l] - first_[l - 1]);
+    for_each_index(first_[l + 1] - first_[l], [&](size_t i) {
       const size_t count = std::min<size_t>(kBoxes, below.size() - i * kBoxes);
       for (int axis = 0; axis < 3; ++axis)
-        join_intervals(below.subspan(i * kBoxes, count), axis, nodes_[first_[l] + i]);
+        join_intervals(below.subspan(i * kBoxes, count), axis, nodes[first_[l] + i]);
     });
   }
+  nodes_ = SharedArray(std::move(nodes));
+  surfaces_ = SharedArray(std::move(surfaces));
 }
 
 bool BoxTree::Start::list(const CellRanges& ranges, int shift) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/memory/uninitialised_array.h"
+#include "core/memory/shared_array.h"
 #include "photon/map/octree.h"
 #include "photon/record/photon_columns.h"
 
@@ -22,10 +22,21 @@ class BoxTree {
  public:
   static constexpr uint32_t kBlockPhotons = 16, kNodePhotons = kBlockPhotons * BoxNode::kBoxes;
 
+  // What the photons of a block have in common: their packed surface if it is the same for all; otherwise
+  // their surface group combined with kAnyNormal; otherwise kAnySurface. Neither constant is a valid packed
+  // surface.
+  static constexpr uint32_t kAnyNormal = 0xffff, kAnySurface = 0xffffffff;
+  struct alignas(64) Surfaces {
+    uint32_t of_block[BoxNode::kBoxes];
+  };
+
   BoxTree() = default;
   // Builds the tree over the first `size` photons, fewer than 2^32. The result does not depend on the number
   // of threads.
   BoxTree(const PhotonColumns& columns, uint64_t size);
+  // The tree over `size` photons that has these boxes and surfaces. Throws std::invalid_argument for another
+  // number of them.
+  BoxTree(uint64_t size, SharedArray<BoxNode> nodes, SharedArray<Surfaces> surfaces);
 
   // Box b of node i encloses node 16 i + b of the level below, or at level 0 block 16 i + b. The last level
   // has one node; there are no levels if there are no photons.
@@ -47,24 +58,18 @@ class BoxTree {
   // Nodes that hold the photons of the ranges, at the lowest level at which there are at most Start::kMost.
   Start start_at(const CellRanges& ranges) const;
 
-  // What the photons of a block have in common: their packed surface if it is the same for all; otherwise
-  // their surface group combined with kAnyNormal; otherwise kAnySurface. Neither constant is a valid packed
-  // surface.
-  static constexpr uint32_t kAnyNormal = 0xffff, kAnySurface = 0xffffffff;
-  struct alignas(64) Surfaces {
-    uint32_t of_block[BoxNode::kBoxes];
-  };
-  std::span<const Surfaces> surfaces() const { return {surfaces_.data(), surfaces_.size()}; }
+  const SharedArray<Surfaces>& surfaces() const { return surfaces_; }  // one per node of the lowest level
+  const SharedArray<BoxNode>& nodes() const { return nodes_; }         // level by level
 
-  uint64_t memory_bytes() const {
-    return nodes_.size() * sizeof(BoxNode) + surfaces_.size() * sizeof(Surfaces);
-  }
+  uint64_t memory_bytes() const { return nodes_.bytes() + surfaces_.bytes(); }
 
  private:
   static constexpr int kMostLevels = 7;  // 16^8 photons
 
-  UninitialisedArray<BoxNode> nodes_;      // level by level
-  UninitialisedArray<Surfaces> surfaces_;  // one per node of the lowest level
+  void set_levels(uint64_t size);
+
+  SharedArray<BoxNode> nodes_;
+  SharedArray<Surfaces> surfaces_;
   uint64_t first_[kMostLevels + 1] = {};
   int levels_ = 0;
 };

@@ -4,6 +4,9 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "core/parallel/parallel.h"
 #include "photon/map/morton_lanes.h"
 
@@ -125,17 +128,42 @@ Octree::Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_
     subtree.first = total;
     total += subtree.nodes.size() - 1;
   }
-  nodes_ = UninitialisedArray<OctreeNode>(total);
-  std::ranges::copy(top, nodes_.begin());
+  UninitialisedArray<OctreeNode> nodes(total);
+  std::ranges::copy(top, nodes.begin());
   parallel::for_index(size_t(0), subtrees.size(), [&](size_t i) {
     Subtree& subtree = subtrees[i];
     for (OctreeNode& node : subtree.nodes) {
       if (!node.leaf()) node.first_child += uint32_t(subtree.first - 1);
     }
-    nodes_[subtree.root] = subtree.nodes.front();
-    std::copy(subtree.nodes.begin() + 1, subtree.nodes.end(), nodes_.begin() + subtree.first);
+    nodes[subtree.root] = subtree.nodes.front();
+    std::copy(subtree.nodes.begin() + 1, subtree.nodes.end(), nodes.begin() + subtree.first);
   });
+  nodes_ = SharedArray(std::move(nodes));
   make_entries(positions);
+}
+
+Octree::Octree(const MortonCube& cube, uint64_t size, SharedArray<OctreeNode> nodes,
+               SharedArray<uint32_t> entries)
+    : cube_(cube), nodes_(std::move(nodes)), entries_(std::move(entries)), size_(size) {
+  if (size > 0) entry_depth_ = entry_depth(size);
+  check();
+}
+
+// Every range lies within the photons, and every child behind its parent, so that a descent ends.
+void Octree::check() const {
+  const auto require = [](bool holds) {
+    if (!holds) throw std::invalid_argument("these are not the nodes of an octree");
+  };
+  require(nodes_.empty() == (size_ == 0) && entries_.size() == (size_ == 0 ? 0 : entries_of(entry_depth_)));
+  parallel::for_index(size_t(0), nodes_.size(), [&](size_t i) {
+    const OctreeNode& node = nodes_[i];
+    require(node.begin < node.end && node.end <= size_);
+    if (node.leaf()) return;
+    require(node.first_child > i && node.first_child < nodes_.size());
+    for (uint32_t o = 0; o < 8; ++o) require(!node.has_child(o) || node.child(o) < nodes_.size());
+  });
+  if (entries_.empty()) return;
+  require(entries_[entries_.size() - 1] == size_ && std::ranges::is_sorted(entries_));
 }
 
 PhotonRange Octree::child_range(const PhotonPositions& positions, PhotonRange range, uint64_t key,

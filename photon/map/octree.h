@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/memory/uninitialised_array.h"
+#include "core/memory/shared_array.h"
 #include "photon/map/morton.h"
 #include "photon/record/photon_columns.h"
 
@@ -59,13 +59,17 @@ class Octree {
   // positions: of `size` photons in ascending order of keys, fewer than 2^32. The result does not depend on
   // the number of threads.
   Octree(const MortonCube& cube, const PhotonPositions& positions, uint64_t size);
+  // The octree over `size` photons that has these nodes() and entries(). Throws std::invalid_argument where a
+  // search would leave the arrays.
+  Octree(const MortonCube& cube, uint64_t size, SharedArray<OctreeNode> nodes, SharedArray<uint32_t> entries);
 
   const MortonCube& cube() const { return cube_; }
   uint64_t size() const { return size_; }  // photons
-  std::span<const OctreeNode> nodes() const { return {nodes_.data(), nodes_.size()}; }
-  uint64_t memory_bytes() const {
-    return nodes_.size() * sizeof(OctreeNode) + entries_.size() * sizeof(uint32_t);
-  }
+  const SharedArray<OctreeNode>& nodes() const { return nodes_; }
+  // Index of the first photon of each cell at one depth, followed by the number of photons. At most a quarter
+  // of a byte per photon.
+  const SharedArray<uint32_t>& entries() const { return entries_; }
+  uint64_t memory_bytes() const { return nodes_.bytes() + entries_.bytes(); }
 
   // Ranges, in ascending order, that contain every photon of `within` that is within radius of p, and others:
   // the photons of all cells that the sphere meets, where cells are as wide as the sphere or wider.
@@ -99,14 +103,16 @@ class Octree {
  private:
   PhotonRange child_range(const PhotonPositions& positions, PhotonRange range, uint64_t key, int depth) const;
 
+  // Depth of the cells that entries() lists for `size` photons, and how many entries that are.
+  static int entry_depth(uint64_t size);
+  static size_t entries_of(int depth) { return (size_t(1) << (3 * depth)) + 1; }
   void make_entries(const PhotonPositions& positions);
+  void check() const;
 
   MortonCube cube_;
-  UninitialisedArray<OctreeNode> nodes_;
-  // Index of the first photon of each cell at entry_depth_, followed by the number of photons. At most a
-  // quarter of a byte per photon.
-  UninitialisedArray<uint32_t> entries_;
-  int entry_depth_ = 0;
+  SharedArray<OctreeNode> nodes_;
+  SharedArray<uint32_t> entries_;
+  int entry_depth_ = 0;  // of the cells of entries_
   uint64_t size_ = 0;
 };
 

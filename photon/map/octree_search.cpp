@@ -59,12 +59,18 @@ struct Cells {
 
 }  // namespace
 
+int Octree::entry_depth(uint64_t size) {
+  int depth = 0;
+  while (uint64_t(8) << (3 * depth) <= size / kPhotonsPerEntry) ++depth;
+  return depth;
+}
+
 void Octree::make_entries(const PhotonPositions& positions) {
-  while (uint64_t(8) << (3 * entry_depth_) <= size_ / kPhotonsPerEntry) ++entry_depth_;
-  entries_ = UninitialisedArray<uint32_t>((size_t(1) << (3 * entry_depth_)) + 1);
+  entry_depth_ = entry_depth(size_);
+  UninitialisedArray<uint32_t> entries(entries_of(entry_depth_));
   uint64_t next = 0;  // the first cell whose entry is not set yet
   const auto begin_cell = [&](uint64_t cell, uint32_t photon) {
-    for (; next <= cell; ++next) entries_[next] = photon;
+    for (; next <= cell; ++next) entries[next] = photon;
   };
   const auto visit = [&](const auto& self, const OctreeNode& node, uint64_t cell, int depth) -> void {
     if (depth == entry_depth_) return begin_cell(cell, node.begin);
@@ -74,7 +80,8 @@ void Octree::make_entries(const PhotonPositions& positions) {
       begin_cell(morton_key(cube_.cell(positions[i])) >> (3 * (kMortonBits - entry_depth_)), i);
   };
   visit(visit, nodes_[0], 0, 0);
-  begin_cell(entries_.size() - 1, uint32_t(size_));
+  begin_cell(entries.size() - 1, uint32_t(size_));
+  entries_ = SharedArray(std::move(entries));
 }
 
 CellRanges Octree::ranges_near(const Point3& p, float radius, PhotonRange within) const {

@@ -44,12 +44,11 @@ void check_size(uint64_t size) {
 }  // namespace
 
 RecordColumns PhotonMap::allocate(uint64_t size) {
-  constexpr uint64_t kColumns = 6;
-  const uint64_t lines = (size + kColumnPadding) / BoxTree::kBlockPhotons + 1;
+  const uint64_t lines = lines_of(size);
   size_ = size;
-  storage_ = UninitialisedArray<Line>(lines * kColumns);
-  prefer_large_pages(storage_.data(), storage_.size() * sizeof(Line));
-  const auto words = [&](uint64_t c) { return storage_[c * lines].words; };
+  UninitialisedArray<ColumnLine> storage(lines * kColumns);
+  prefer_large_pages(storage.data(), storage.size() * sizeof(ColumnLine));
+  const auto words = [&](uint64_t c) { return storage[c * lines].words; };
   const auto floats = [&](uint64_t c) { return reinterpret_cast<float*>(words(c)); };
   // In parallel, as each touches the first large page of a column.
   parallel::for_index(
@@ -59,8 +58,31 @@ RecordColumns PhotonMap::allocate(uint64_t size) {
       },
       parallel::Division::kEach);
   const RecordColumns to{floats(0), floats(1), floats(2), words(3), words(5), words(4)};
-  columns_ = {to.x, to.y, to.z, to.direction, to.surface, to.power};
+  storage_ = SharedArray(std::move(storage));
+  find_columns();
   return to;
+}
+
+void PhotonMap::find_columns() {
+  const auto words = [&](uint64_t c) { return storage_[c * lines_of(size_)].words; };
+  const auto floats = [&](uint64_t c) { return reinterpret_cast<const float*>(words(c)); };
+  columns_ = {floats(0), floats(1), floats(2), words(3), words(4), words(5)};
+}
+
+PhotonMap::PhotonMap(PhotonMapParts parts)
+    : octree_(parts.cube, parts.size, std::move(parts.nodes), std::move(parts.entries)),
+      boxes_(parts.size, std::move(parts.boxes), std::move(parts.surfaces)),
+      storage_(std::move(parts.columns)),
+      size_(parts.size),
+      flux_unit_(parts.flux_unit) {
+  if (storage_.size() != kColumns * lines_of(size_))
+    throw std::invalid_argument("these are not the columns of so many photons");
+  find_columns();
+}
+
+PhotonMapParts PhotonMap::parts() const {
+  return {size_,           flux_unit_,        octree_.cube(), storage_,
+          octree_.nodes(), octree_.entries(), boxes_.nodes(), boxes_.surfaces()};
 }
 
 PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
@@ -77,7 +99,7 @@ PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
 }
 
 uint64_t PhotonMap::memory_bytes() const {
-  return storage_.size() * sizeof(Line) + octree_.memory_bytes() + boxes_.memory_bytes();
+  return storage_.bytes() + octree_.memory_bytes() + boxes_.memory_bytes();
 }
 
 }  // namespace kaustik::photon

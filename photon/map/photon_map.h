@@ -18,6 +18,23 @@ struct MapSettings {
   std::optional<Bounds3> bounds;
 };
 
+// A cache line of a column: one block of photons.
+struct alignas(64) ColumnLine {
+  uint32_t words[BoxTree::kBlockPhotons];
+};
+
+// All that a map consists of, for files.
+struct PhotonMapParts {
+  uint64_t size = 0;
+  float flux_unit = 1;
+  MortonCube cube{};
+  SharedArray<ColumnLine> columns{};  // x, y, z, direction, surface, power, consecutively
+  SharedArray<OctreeNode> nodes{};
+  SharedArray<uint32_t> entries{};
+  SharedArray<BoxNode> boxes{};
+  SharedArray<BoxTree::Surfaces> surfaces{};
+};
+
 // Immutable after construction; const members may be called from any thread. Structure of arrays, 24 bytes
 // per photon plus at most a tenth of that for octree and boxes.
 class PhotonMap {
@@ -28,6 +45,11 @@ class PhotonMap {
   // threads. Peak memory: 51 bytes per photon including the buffer, plus a few megabytes per thread. At most
   // 2^32 - 1 photons (std::length_error beyond).
   static PhotonMap build(PhotonBuffer&& buffer, const MapSettings& settings = {});
+
+  // The map that has these parts; they may lie in a mapped file. Throws std::invalid_argument for parts of no
+  // map, with which a search would leave the arrays.
+  explicit PhotonMap(PhotonMapParts parts);
+  PhotonMapParts parts() const;
 
   uint64_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -49,16 +71,17 @@ class PhotonMap {
   PhotonPositions positions() const { return {columns_.x, columns_.y, columns_.z}; }
 
  private:
+  static constexpr uint64_t kColumns = 6;
+  // Number of lines of one column.
+  static uint64_t lines_of(uint64_t size) { return (size + kColumnPadding) / BoxTree::kBlockPhotons + 1; }
   // Allocates the columns and returns where to write them.
   RecordColumns allocate(uint64_t size);
+  // Sets columns_ to those of storage_.
+  void find_columns();
 
   Octree octree_;
   BoxTree boxes_;
-  // One block of a column, which is a cache line.
-  struct alignas(64) Line {
-    uint32_t words[BoxTree::kBlockPhotons];
-  };
-  UninitialisedArray<Line> storage_;  // all columns, consecutively
+  SharedArray<ColumnLine> storage_;  // all columns, consecutively
   PhotonColumns columns_;
   uint64_t size_ = 0;
   float flux_unit_ = 1;

@@ -16,7 +16,7 @@
 
 #include "render/estimators/disc_pilots.h"
 #include "render/estimators/glossy_tails.h"
-#include "render/maps/surroundings.h"
+#include "render/explore/surroundings.h"
 
 namespace kaustik::render {
 

@@ -3,9 +3,9 @@
 
 #include "photon/visibility/visibility_tree.h"
 #include "render/camera/ray_cone.h"
+#include "render/explore/sky_guide.h"
 #include "render/maps/disc_correction.h"
 #include "render/maps/photon_maps.h"
-#include "render/maps/sky_guide.h"
 #include "render/plan/pass_share.h"
 #include "render/plan/render_input.h"
 #include "render/statistics/statistics.h"

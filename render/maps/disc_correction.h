@@ -12,7 +12,7 @@
 #include <unordered_map>
 
 #include "core/math/vec.h"
-#include "render/maps/place_grid.h"
+#include "render/explore/place_grid.h"
 
 namespace kaustik::render {
 

@@ -2,7 +2,14 @@
 
 #include "render/maps/gather_radii.h"
 
+#include <algorithm>
+
 namespace kaustik::render {
+
+void note_radii(const GatherRadii& radii, RenderStatistics* s) {
+  s->direct_radius = radii.direct, s->caustic_radius = radii.caustic, s->indirect_radius = radii.indirect;
+  s->radius = std::max({radii.direct, radii.caustic, radii.indirect});
+}
 
 double RadiusShrink::squared(uint64_t pass, float alpha) {
   if (alpha == 1) return 1;

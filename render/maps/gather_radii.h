@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "render/statistics/statistics.h"
+
 namespace kaustik::render {
 
 // Gather radii r0 of the first pass, in metres; 0 for maps that are not used.
@@ -13,6 +15,9 @@ struct GatherRadii {
   uint32_t caustic_nearest = 0, direct_nearest = 0;
   bool operator==(const GatherRadii&) const = default;
 };
+
+// Sets the radii of the statistics.
+void note_radii(const GatherRadii& radii, RenderStatistics* statistics);
 
 // Computes r_i^2 / r_1^2 for pass i = pass + 1 under r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1) (Knaus and
 // Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach"). For alpha in (0, 1), bias and

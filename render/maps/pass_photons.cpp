@@ -67,11 +67,6 @@ float at_least(float radius) {
                     exponent);
 }
 
-void note_radii(const GatherRadii& radii, RenderStatistics* s) {
-  s->direct_radius = radii.direct, s->caustic_radius = radii.caustic, s->indirect_radius = radii.indirect;
-  s->radius = std::max({radii.direct, radii.caustic, radii.indirect});
-}
-
 void add_sizes(const PhotonMaps& maps, RenderStatistics* s) {
   uint64_t bytes = 0;
   for (const photon::PhotonMap* map :
@@ -206,6 +201,32 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
   add_sizes(maps_, statistics);
   statistics->photon_build_s += watch.end("photon_build");
   return !progress || progress({"build", 1, 1, pass.pass, pass.shares});
+}
+
+void PassPhotons::adopt(const RenderInput& input, KeptPhotons&& kept, bool radii_known,
+                        RenderStatistics* statistics) {
+  const PhaseWatch watch;
+  const RenderSettings& settings = input.settings;
+  maps_.direct.map = std::move(kept.maps[size_t(PhotonKind::kDirect)]);
+  maps_.caustic.map = std::move(kept.maps[size_t(PhotonKind::kCaustic)]);
+  maps_.indirect.map = std::move(kept.maps[size_t(PhotonKind::kIndirect)]);
+  maps_.shadow = std::move(kept.maps[size_t(PhotonKind::kShadow)]);
+  if (radii_known) radii_ = kept.radii;
+  explore(input);
+  prepare_gathers(input, pass_share(0, 1, settings.photons, settings.spp));
+  *statistics = kept.statistics;
+  note_radii(*radii_, statistics);
+  statistics->photon_build_s += watch.end("photon_build");
+}
+
+KeptPhotons PassPhotons::keep(const RenderStatistics& statistics) const {
+  KeptPhotons kept{.radii = *radii_, .statistics = statistics};
+  kept.statistics.photon_trace_s = kept.statistics.photon_build_s = 0;  // equal photons give equal files
+  kept.maps[size_t(PhotonKind::kDirect)] = maps_.direct.map;
+  kept.maps[size_t(PhotonKind::kCaustic)] = maps_.caustic.map;
+  kept.maps[size_t(PhotonKind::kIndirect)] = maps_.indirect.map;
+  kept.maps[size_t(PhotonKind::kShadow)] = maps_.shadow;
+  return kept;
 }
 
 // Chooses r0 unless it is known, and sets how the maps are gathered.

@@ -7,11 +7,12 @@
 
 #include "accel/edge_index.h"
 #include "photon/visibility/visibility_tree.h"
+#include "render/explore/sky_guide.h"
+#include "render/explore/surroundings.h"
 #include "render/maps/gather_radii.h"
+#include "render/maps/kept_photons.h"
 #include "render/maps/photon_maps.h"
 #include "render/maps/photon_shoots.h"
-#include "render/maps/sky_guide.h"
-#include "render/maps/surroundings.h"
 
 namespace kaustik::render {
 
@@ -47,6 +48,11 @@ class PassPhotons {
   bool make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
             RenderStatistics* statistics);
 
+  // Takes photons that were shot before, in place of make(). They must be what make() would shoot for the
+  // only pass, and have the same bits then. radii_known: whether their r0 is that of the settings; if not, it
+  // is chosen from these maps. Adds the counts of the photons to statistics.
+  void adopt(const RenderInput& input, KeptPhotons&& kept, bool radii_known, RenderStatistics* statistics);
+
   // Finds what make() needs to know about the scene and does not know yet, except the feet of walls.
   void explore(const RenderInput& input);
   // Makes the visibility tree for `predicted`, unless it exists. It depends on scene and settings but not on
@@ -65,6 +71,9 @@ class PassPhotons {
   void forget_radii();
   // The tree depends on the number of samples: call this before they change.
   void forget_visibility() { visibility_.reset(); }
+
+  // The present maps, which make() has built for the only pass. They share the photons with this object.
+  KeptPhotons keep(const RenderStatistics& statistics) const;
 
   // Valid until the next make().
   const PhotonMaps& maps() const { return maps_; }

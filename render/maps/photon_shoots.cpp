@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/parallel/work_span.h"
-#include "render/maps/visible_density.h"
+#include "render/explore/visible_density.h"
 
 namespace kaustik::render {
 

@@ -8,8 +8,8 @@
 
 #include "core/parallel/parallel.h"
 #include "photon/gather/nearest.h"
-#include "render/maps/surroundings.h"
-#include "render/maps/visible_points.h"
+#include "render/explore/surroundings.h"
+#include "render/explore/visible_points.h"
 
 namespace kaustik::render {
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <array>
 #include <bit>
@@ -15,6 +14,7 @@
 #include <memory>
 
 #include "core/files/content_hash.h"
+#include "core/files/disk_file.h"
 #include "core/files/pending_file.h"
 #include "render/passes/partial_manifest.h"
 
@@ -39,47 +39,36 @@ struct Closer {
 };
 using File = std::unique_ptr<std::FILE, Closer>;
 
-File open(const std::string& path, const std::string& shown, const char* mode) {
-  File file(std::fopen(path.c_str(), mode));
-  if (!file) throw PartialError(shown, std::strerror(errno));
-  return file;
-}
-
 // Writes bytes to a file and to the hash that ends the file.
 class Writer {
  public:
-  Writer(const std::string& path, std::string shown)
-      : shown_(std::move(shown)), file_(open(path, shown_, "wb")) {}
+  explicit Writer(const std::string& path) : file_(path) {}
   void put(const void* bytes, size_t size) {
     hash_.add(bytes, size);
-    raw(bytes, size);
+    file_.put(bytes, size);
   }
   void put(uint64_t word) { put(&word, sizeof word); }
   // Writes the hash and waits until the file is on the disk.
   void finish() {
     const auto words = hash_.words();
-    raw(words.data(), sizeof words);
-    if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0) fail();
-    if (std::fclose(file_.release()) != 0) fail();
+    file_.put(words.data(), sizeof words);
+    file_.finish();
   }
 
  private:
-  void raw(const void* bytes, size_t size) {
-    if (std::fwrite(bytes, 1, size, file_.get()) != size) fail();
-  }
-  [[noreturn]] void fail() const { throw PartialError(shown_, std::strerror(errno)); }
-
-  std::string shown_;
-  File file_;
+  DiskFile file_;
   ContentHash hash_;
 };
 
-// Checks the file's type before opening it, since opening a pipe would wait for a writer.
 File open_regular(const std::string& path) {
-  std::error_code error;
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    throw PartialError(path, "not a regular file");
-  return open(path, path, "rb");
+  try {
+    check_regular(path);
+  } catch (const FileError& error) {
+    throw PartialError(path, error.what());
+  }
+  File file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw PartialError(path, std::strerror(errno));
+  return file;
 }
 
 class Reader {
@@ -188,15 +177,19 @@ bool is_partial_name(const std::string& path) {
 void write_partial(const std::string& path, const PartialManifest& manifest, const PassSums& sums) {
   const fs::path name(path);
   PendingFile pending(name, name.parent_path() / fmt::format(".{}.partial", name.filename().string()));
-  Writer out(pending.temporary(), path);
   const std::string json = checked_manifest_text(manifest, sums, path);
-  out.put(kMagic.data(), kMagic.size());
-  out.put(kVersion);
-  out.put(json.size());
-  out.put(json.data(), json.size());
-  put(sums.totals.pixels(), &out);
-  put(sums.totals.half_pixels(), &out);
-  out.finish();
+  try {
+    Writer out(pending.temporary());
+    out.put(kMagic.data(), kMagic.size());
+    out.put(kVersion);
+    out.put(json.size());
+    out.put(json.data(), json.size());
+    put(sums.totals.pixels(), &out);
+    put(sums.totals.half_pixels(), &out);
+    out.finish();
+  } catch (const FileError& error) {
+    throw PartialError(path, error.what());
+  }
   if (const std::string error = pending.commit(); !error.empty()) throw PartialError(path, error);
 }
 

@@ -21,6 +21,7 @@ inline constexpr auto kKernelNames = photon::kKernelNames;
 inline constexpr std::array<std::string_view, 2> kLookupNames = {"exact", "leaf"};
 inline constexpr std::array<std::string_view, 2> kEmissionNames = {"cosine", "uniform-angle"};
 inline constexpr std::array<std::string_view, 2> kGuideNames = {"off", "on"};
+inline constexpr std::array<std::string_view, 2> kForCameraNames = {"this", "all"};
 
 inline std::string_view name_of(Method m) {
   return kMethodNames[size_t(m)];
@@ -45,6 +46,9 @@ inline std::string_view name_of(EmissionMode m) {
 }
 inline std::string_view name_of(Guide g) {
   return kGuideNames[size_t(g)];
+}
+inline std::string_view name_of(ForCamera f) {
+  return kForCameraNames[size_t(f)];
 }
 
 // The enumerator of this name, or nothing.

@@ -19,6 +19,8 @@ enum class IndirectEstimator { kPaths, kPhotons, kFinalGather, kOff };
 using Kernel = photon::KernelType;
 enum class Lookup { kExact, kLeaf };
 enum class Guide { kOff, kOn };  // whether caustic and indirect photons are guided
+// The cameras for which photons are guided and radii chosen: the one of the render, or any in the scene.
+enum class ForCamera { kThis, kAll };
 
 struct CropWindow {
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  // pixels, half open; empty = whole image
@@ -46,6 +48,7 @@ struct RenderSettings {
   Lookup lookup = Lookup::kExact;
   EmissionMode emission = EmissionMode::kCosine;
   Guide guide = Guide::kOn;
+  ForCamera for_camera = ForCamera::kThis;
   int max_bounces = 16;
   int spp = 16;  // samples per pixel, before adaptive ones
   // Work that adaptive samples may add, as a fraction of that of the first spp; 0: none. The default was

@@ -9,6 +9,7 @@
 
 #include "apps/console/exit_error.h"
 #include "core/files/pending_file.h"
+#include "render/map_files/map_file.h"
 #include "render/picture/image_io.h"
 
 namespace kaustik::app {
@@ -49,6 +50,11 @@ void check_image_output(const std::string& path) {
   }
   check_writable(path);
   if (!render::is_exr(path)) render::image_formats();
+}
+
+void check_map_output(const std::string& path) {
+  if (!render::is_map_name(path)) refuse(path, "a file of photon maps must end in .kmap");
+  check_writable(path);
 }
 
 void write_text_file(const std::string& path, const std::string& text) {

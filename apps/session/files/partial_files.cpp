@@ -17,10 +17,6 @@ namespace kaustik::app {
 
 namespace {
 
-std::string absolute(const std::string& path) {
-  return std::filesystem::absolute(path).lexically_normal().string();
-}
-
 std::string program_and_libraries() {
   std::string build = fmt::format("{} ({}), Embree {}, OpenImageIO {}", version(), build_id(),
                                   accel::embree_version(), render::image_formats().version());
@@ -32,16 +28,21 @@ std::string program_and_libraries() {
 
 }  // namespace
 
+std::string absolute_path(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
 std::string program_build() {
   static const std::string build = program_and_libraries();
   return build;
 }
 
-render::SettingTexts setting_texts(const Settings& settings, bool that_decide_sums) {
+render::SettingTexts setting_texts(const Settings& settings,
+                                   const std::function<bool(const Setting&)>& listed) {
   render::SettingTexts out;
   for (const Setting& setting : settings_table()) {
-    std::vector<std::string> texts = setting.show(settings);
-    if (setting.decides_sums == that_decide_sums && !texts.empty())
+    if (!listed(setting)) continue;
+    if (std::vector<std::string> texts = setting.show(settings); !texts.empty())
       out.emplace_back(setting.name, std::move(texts));
   }
   return out;
@@ -55,11 +56,11 @@ render::PartialManifest manifest_of(const Job& job, const std::vector<std::strin
   render::PartialManifest manifest;
   manifest.build = program_build();
   manifest.isa = instruction_set();
-  manifest.scene_path = absolute(job.path);
+  manifest.scene_path = absolute_path(job.path);
   manifest.scene_hash = job.content_hash;
-  manifest.settings = setting_texts(settings, true);
-  manifest.presentation = setting_texts(settings, false);
-  for (const std::string& output : outputs) manifest.outputs.push_back(absolute(output));
+  manifest.settings = setting_texts(settings, [](const Setting& s) { return s.decides_sums; });
+  manifest.presentation = setting_texts(settings, [](const Setting& s) { return !s.decides_sums; });
+  for (const std::string& output : outputs) manifest.outputs.push_back(absolute_path(output));
   manifest.goal = goal.empty() ? render::PassSet(0, sums.shares) : goal;
   if (!stopped_by.empty()) manifest.goal = sums.passes;
   manifest.stopped_by = stopped_by;
@@ -75,32 +76,36 @@ render::PartialResult load_partial(const std::string& path) {
   }
 }
 
-SettingOverrides settings_of(const render::PartialManifest& manifest, const std::string& path) {
+SettingOverrides overrides_from(const render::SettingTexts& settings, const std::string& path) {
   SettingOverrides overrides;
-  for (const render::SettingTexts* settings : {&manifest.settings, &manifest.presentation}) {
-    for (const auto& [name, texts] : *settings) {
-      const Setting* setting = find_setting(name);
-      if (!setting)
-        throw ExitError(kBadCommandLine, fmt::format("{}: it contains an unknown setting `{}`", path, name));
-      try {
-        overrides.add(*setting, texts);
-      } catch (const OptionError& error) {
-        throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, error.what()));
-      }
+  for (const auto& [name, texts] : settings) {
+    const Setting* setting = find_setting(name);
+    if (!setting)
+      throw ExitError(kBadCommandLine, fmt::format("{}: it contains an unknown setting `{}`", path, name));
+    try {
+      overrides.add(*setting, texts);
+    } catch (const OptionError& error) {
+      throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, error.what()));
     }
   }
   return overrides;
 }
 
-void check_program(const render::PartialManifest& manifest, const std::string& path) {
+SettingOverrides settings_of(const render::PartialManifest& manifest, const std::string& path) {
+  SettingOverrides overrides = overrides_from(manifest.settings, path);
+  overrides.append(overrides_from(manifest.presentation, path));
+  return overrides;
+}
+
+void check_program(const std::string& build, const std::string& isa, const std::string& path,
+                   std::string_view why) {
   const auto require = [&](const std::string& there, const std::string& here, std::string_view what) {
     if (there == here) return;
-    throw ExitError(kBadCommandLine,
-                    fmt::format("{}: it was made with {} {}, but this is {}: their passes cannot be combined",
-                                path, what, there, here));
+    throw ExitError(kBadCommandLine, fmt::format("{}: it was made with {} {}, but this is {}: {}", path, what,
+                                                 there, here, why));
   };
-  require(manifest.build, program_build(), "kaustik");
-  require(manifest.isa, instruction_set(), "the instruction set");
+  require(build, program_build(), "kaustik");
+  require(isa, instruction_set(), "the instruction set");
 }
 
 }  // namespace kaustik::app

@@ -1,6 +1,7 @@
 #pragma once
 // Builds the manifest of a partial result from a render job, and the settings of a job from a manifest.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,14 +10,16 @@
 
 namespace kaustik::app {
 
+std::string absolute_path(const std::string& path);
+
 // For example "0.1.0 (c9c1c43), Embree 3.13.5, OpenImageIO 2.4.7, C library 2.36": the program and the
 // libraries that affect its results. The first call creates an Embree device to ask for its version, so make
 // it before rendering, and loads OpenImageIO.
 std::string program_build();
 
-// Settings by the names of their options, as texts that set them to the same values. Returns the settings
-// that affect the sums over samples, or all others.
-render::SettingTexts setting_texts(const Settings& settings, bool that_decide_sums);
+// The settings that `listed` picks, by the names of their options, as texts that set them to the same values.
+render::SettingTexts setting_texts(const Settings& settings,
+                                   const std::function<bool(const Setting&)>& listed);
 
 // The manifest for the sums of a job. `outputs`: the file names as given. An empty `goal` means all passes
 // that the settings ask for.
@@ -27,12 +30,17 @@ render::PartialManifest manifest_of(const Job& job, const std::vector<std::strin
 // Calls read_partial. Throws ExitError (bad command line) for a file that cannot be used.
 render::PartialResult load_partial(const std::string& path);
 
-// All settings of a manifest, as if given on the command line. Throws ExitError (bad command line), which
-// names `path`, when a setting is unknown or has a bad value.
+// Settings of the file `path`, as if given on the command line. Throws ExitError (bad command line), which
+// names the file, when a setting is unknown or has a bad value.
+SettingOverrides overrides_from(const render::SettingTexts& settings, const std::string& path);
+
+// All settings of a manifest.
 SettingOverrides settings_of(const render::PartialManifest& manifest, const std::string& path);
 
-// Throws ExitError (bad command line) unless this program on this machine can continue the sums: it must be
-// the same build with the same instruction set.
-void check_program(const render::PartialManifest& manifest, const std::string& path);
+// Throws ExitError (bad command line) unless this program on this machine computes the same bits as the one
+// that wrote the file `path`: it must be the same build with the same instruction set. why: "their passes
+// cannot be combined".
+void check_program(const std::string& build, const std::string& isa, const std::string& path,
+                   std::string_view why);
 
 }  // namespace kaustik::app

@@ -256,6 +256,11 @@ void add_photons(std::vector<Setting>& table) {
                          "surfaces. off: all kinds "
                          "come from the same photons."));
   table.back().reader = SettingReader::kGuidedEmission;
+  table.push_back(
+      choice("for-camera", kRenderingCommands, &RenderSettings::for_camera, render::kForCameraNames,
+             "Cameras for which indirect photons are guided and gather radii are chosen. this: the camera of "
+             "the render. all: any camera in the scene, for photon maps that several cameras share."));
+  table.back().reader = SettingReader::kEmission;
   table.push_back(count("max-bounces", kAllThatTrace, "bounces", &RenderSettings::max_bounces, 1, 65535, {},
                         "Most reflections and refractions of a photon or path."));
 }
@@ -289,6 +294,26 @@ constexpr std::array<std::string_view, 16> kEveryday = {
     "quality", "time", "target-error", "method", "photons", "spp",     "denoise", "width",
     "height",  "crop", "exposure",     "aov",    "camera",  "look-at", "sky",     "threads"};
 
+// What kept photon maps depend on. Estimators are not among it: they decide which kinds of photons are
+// stored.
+constexpr std::array<std::string_view, 10> kOfPhotons = {
+    "photons", "emission", "guide", "for-camera", "max-bounces", "seed", "at", "light-unit", "sky", "floor"};
+constexpr std::array<std::string_view, 5> kOfCamera = {"width", "height", "camera", "look-at", "fov"};
+
+// What `kaustik shoot` takes besides.
+constexpr std::array<std::string_view, 7> kShooting = {"method",  "direct",  "caustics", "indirect",
+                                                       "quality", "threads", "frame"};
+
+bool among_names(std::span<const std::string_view> names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+MapPart map_part_of(std::string_view name) {
+  if (among_names(kOfPhotons, name)) return MapPart::kPhotons;
+  if (among_names(kOfCamera, name)) return MapPart::kCamera;
+  return name == "radius" ? MapPart::kRadii : MapPart::kNone;
+}
+
 std::vector<Setting> make_table() {
   std::vector<Setting> table = {quality_setting()};
   add_methods(table);
@@ -298,8 +323,13 @@ std::vector<Setting> make_table() {
   add_image(table);
   for (std::vector<Setting> rows : {import_rows(), view_rows()})
     std::move(rows.begin(), rows.end(), std::back_inserter(table));
-  for (Setting& setting : table)
-    setting.for_everyday = std::find(kEveryday.begin(), kEveryday.end(), setting.name) != kEveryday.end();
+  for (Setting& setting : table) {
+    setting.for_everyday = among_names(kEveryday, setting.name);
+    setting.map_part = map_part_of(setting.name);
+    const bool shoots = setting.map_part != MapPart::kNone || among_names(kShooting, setting.name);
+    if (setting.commands.has(kRender) && shoots)
+      setting.commands = setting.commands | SettingsCommand::kShoot;
+  }
   return table;
 }
 

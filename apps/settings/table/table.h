@@ -25,7 +25,8 @@ enum class SettingsCommand : unsigned {
   kSweep,
   kInfo,
   kConvert,
-  kDenoise
+  kDenoise,
+  kShoot
 };
 
 // A set of them. There is no empty one: a row of the table that names no command does not compile.
@@ -60,6 +61,10 @@ enum class SettingReader {
   kAdaptiveSamples,  // renders that trace no paths from the camera
 };
 
+// What of kept photon maps a setting decides: the photons themselves, the gather radii that were chosen from
+// them, or the camera for which both were made.
+enum class MapPart { kNone, kPhotons, kRadii, kCamera };
+
 enum class ValueKind { kCount, kInteger, kNumber, kChoice, kNames, kText };
 
 struct Setting {
@@ -80,6 +85,7 @@ struct Setting {
   std::function<std::vector<std::string>(const Settings&)> show{};
   // Whether the setting affects the sums over samples, and not only the files written from them or the speed.
   bool decides_sums = true;
+  MapPart map_part = MapPart::kNone;
   bool in_scene_files = true;  // as a parameter of Integrator "photonmap"
   SettingReader reader = SettingReader::kEveryRender;
   bool for_everyday = false;  // the help shows it before the settings for experts

@@ -160,7 +160,7 @@ std::vector<uint32_t> contents(const PhotonMap& map) {
                            static_cast<const void*>(c.surface), static_cast<const void*>(c.power)}) {
     add(data, column);
   }
-  add(map.octree().nodes().data(), map.octree().nodes().size_bytes());
+  add(map.octree().nodes().data(), map.octree().nodes().bytes());
   add(map.boxes().level(0).data(), map.boxes().level(0).size_bytes());
   return words;
 }
@@ -176,6 +176,63 @@ TEST(PhotonMap, HasTheSameBytesForAnyNumberOfThreads) {
     else
       EXPECT_TRUE(bytes == one_thread) << threads << " threads";
   }
+}
+
+// Copies of a map's arrays, to be changed and put together again.
+struct ChangedParts {
+  explicit ChangedParts(const PhotonMap& map)
+      : parts(map.parts()),
+        nodes(parts.nodes.begin(), parts.nodes.end()),
+        entries(parts.entries.begin(), parts.entries.end()) {}
+  PhotonMap map() {
+    parts.nodes = SharedArray<OctreeNode>(nodes, nullptr);
+    parts.entries = SharedArray<uint32_t>(entries, nullptr);
+    return PhotonMap(parts);
+  }
+  PhotonMapParts parts;
+  std::vector<OctreeNode> nodes;
+  std::vector<uint32_t> entries;
+};
+
+TEST(PhotonMap, IsThatOfItsParts) {
+  for (const int size : {0, 1, 300, 20000}) {
+    const PhotonMap map = PhotonMap::build(make_buffer(wall_photons(size)), {Bounds3({0, 0, 0}, {4, 3, 2})});
+    ChangedParts parts(map);
+    const PhotonMap again = parts.map();
+    EXPECT_EQ(again.size(), map.size());
+    EXPECT_EQ(again.cube(), map.cube());
+    EXPECT_EQ(again.memory_bytes(), map.memory_bytes());
+    GatherCounters counters, counters_again;
+    for (const GatherQuery& query : queries_for({"walls", wall_photons(size)}, 100)) {
+      const KernelSpec kernel{KernelType::kCone, 1.5f};
+      EXPECT_EQ(gather_flux(again, query, kernel, counters_again), gather_flux(map, query, kernel, counters));
+    }
+    EXPECT_EQ(counters_again.candidates, counters.candidates);
+  }
+}
+
+// Each change would let a search read beyond the arrays, or never end.
+TEST(PhotonMap, RefusesPartsThatASearchWouldLeave) {
+  const PhotonMap map = PhotonMap::build(make_buffer(wall_photons(20000)));
+  const auto refuses = [&](const auto& change) {
+    ChangedParts changed(map);
+    change(changed);
+    EXPECT_THROW(changed.map(), std::invalid_argument);
+  };
+  const auto last_node = map.octree().nodes().size() - 1;
+  refuses([](ChangedParts& c) { c.nodes[0].first_child = 0; });
+  refuses([&](ChangedParts& c) { c.nodes[0].first_child = uint32_t(last_node); });
+  refuses([](ChangedParts& c) { c.nodes[0].first_child = ~0u; });
+  refuses([&](ChangedParts& c) { c.nodes[last_node].end = 20001; });
+  refuses([&](ChangedParts& c) { c.nodes[last_node].begin = c.nodes[last_node].end; });
+  refuses([](ChangedParts& c) { c.nodes.clear(); });
+  refuses([](ChangedParts& c) { c.entries.back() = 20001; });
+  refuses([](ChangedParts& c) { c.entries[1] = 20001; });
+  refuses([](ChangedParts& c) { c.entries.pop_back(); });
+  refuses([](ChangedParts& c) { c.parts.size = 10000; });
+  refuses([](ChangedParts& c) { c.parts.boxes = {}; });
+  refuses([](ChangedParts& c) { c.parts.surfaces = {}; });
+  refuses([](ChangedParts& c) { c.parts.columns = {}; });
 }
 
 TEST(PhotonMap, ScalingByAPowerOfTwoScalesTheGatherExactly) {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "render/explore/surroundings.h"
 #include "render/maps/pass_photons.h"
-#include "render/maps/surroundings.h"
 #include "tests/photon/support/photon_sets.h"
 #include "tests/photon/support/trace_scenes.h"
 #include "tests/render/support/test_scenes.h"

@@ -1,6 +1,6 @@
 // Explores the open directions by rays over the cosine-weighted hemisphere and by samples of the lights.
 
-#include "render/maps/sky_guide.h"
+#include "render/explore/sky_guide.h"
 
 #include <algorithm>
 #include <map>

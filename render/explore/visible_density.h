@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "photon/record/photon.h"
-#include "render/maps/place_grid.h"
+#include "render/explore/place_grid.h"
 
 namespace kaustik::render {
 

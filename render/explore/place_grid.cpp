@@ -1,4 +1,4 @@
-#include "render/maps/place_grid.h"
+#include "render/explore/place_grid.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #pragma once
 // Cells of space, for each side of the surfaces in them.
 
-#include "render/maps/visible_points.h"
+#include "render/explore/visible_points.h"
 
 namespace kaustik::render {
 

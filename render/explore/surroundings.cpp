@@ -1,6 +1,6 @@
 // Explores surroundings by cosine-weighted rays, and samples the direct light where they end.
 
-#include "render/maps/surroundings.h"
+#include "render/explore/surroundings.h"
 
 #include <algorithm>
 #include <cmath>

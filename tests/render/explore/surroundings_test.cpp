@@ -1,6 +1,6 @@
 // Tests clearances between two planes, where they have a closed form, and below a bright patch.
 
-#include "render/maps/surroundings.h"
+#include "render/explore/surroundings.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "core/sampling/discrete.h"
-#include "render/maps/place_grid.h"
+#include "render/explore/place_grid.h"
 
 namespace kaustik::render {
 

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "core/sampling/sampler.h"
-#include "render/maps/place_grid.h"
+#include "render/explore/place_grid.h"
 
 namespace kaustik::render {
 

@@ -1,5 +1,6 @@
 #pragma once
-// Points where light is gathered: the first points with diffuse lobes that camera rays meet.
+// Points where light is gathered: the first points with diffuse lobes that camera rays meet, or that some
+// camera could.
 
 #include <vector>
 
@@ -15,11 +16,13 @@ struct VisiblePoint {
   Vector3 wo{0};  // unit, to the viewer
 };
 
-// Traces `count` camera rays and returns the points of those that meet one. A function of scene and settings.
+// Traces `count` camera rays and returns the points of those that meet one. With settings.for_camera = kAll,
+// the points do not depend on the camera: they lie where light falls. A function of scene and settings.
 std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count);
 
 // Number of visible points from which the surroundings are explored: one for every second pixel, within the
-// range that is useful. Independent of the number of samples, which may be settled later.
+// range that is useful; the most for any camera. Independent of the number of samples, which may be settled
+// later.
 uint32_t pilot_count(const RenderInput& input);
 
 }  // namespace kaustik::render

@@ -1,0 +1,89 @@
+// Traces pilot camera rays to the points where light is gathered.
+
+#include "render/explore/visible_points.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/parallel/parallel.h"
+#include "core/sampling/sampler.h"
+#include "core/sampling/warp.h"
+#include "photon/emission/emission.h"
+#include "render/camera/shading_point.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// Separates the random numbers of these rays from those of the image.
+constexpr uint64_t kPilotStream = 0x9117;
+
+// The first point on the ray, or behind mirrors and glass, whose BSDF has diffuse lobes.
+std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, Sampler& sampler) {
+  const Scene& scene = input.scene;
+  for (int events = 0; events <= input.settings.max_bounces; ++events) {
+    SurfaceInteraction si;
+    if (!input.bvh.intersect(ray, &si)) return {};
+    const ShadingPoint x(scene, si, -ray.d);
+    if (!x.specular()) {
+      const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;
+      return VisiblePoint{{si.p, n, si.surface_group}, transmits(*x.bsdf), si, x.wo};
+    }
+    const auto s = scatter(x, sampler);
+    if (!s) return {};
+    ray = si.spawn(s->wi);
+  }
+  return {};
+}
+
+std::optional<VisiblePoint> seen_by_camera(const RenderInput& input, Sampler& sampler) {
+  const Camera& camera = input.scene.camera;
+  const Point2 u = sampler.next_2d();
+  return first_diffuse(input, camera.generate_ray({u.x * float(camera.width), u.y * float(camera.height)}),
+                       sampler);
+}
+
+// What some camera may see: where light arrives from the lights, and where it does after up to `reflections`
+// diffuse ones.
+std::optional<VisiblePoint> lit_point(const RenderInput& input, uint32_t reflections, Sampler& sampler) {
+  const photon::EmissionNumbers u = photon::emission_numbers(input.scene, sampler);
+  const auto start = photon::emit_photon(input.scene, u, 1, input.settings.emission);
+  if (!start) return {};
+  std::optional<VisiblePoint> point = first_diffuse(input, start->ray, sampler);
+  for (uint32_t i = 0; point && i < reflections; ++i) {
+    const Frame frame = Frame::from_z(point->query.n);
+    const Vector3 wi = frame.to_world(sample_cosine_hemisphere(sampler.next_2d()));
+    const auto next = first_diffuse(input, point->si.spawn(wi), sampler);
+    if (!next) break;
+    point = next;
+  }
+  return point;
+}
+
+std::optional<VisiblePoint> visible_point(const RenderInput& input, uint32_t index) {
+  constexpr uint32_t kReflections = 4;
+  Sampler sampler(hash_combine(input.settings.seed, kPilotStream), index);
+  if (input.settings.for_camera == ForCamera::kAll) return lit_point(input, index % kReflections, sampler);
+  return seen_by_camera(input, sampler);
+}
+
+}  // namespace
+
+std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count) {
+  std::vector<std::optional<VisiblePoint>> found(count);
+  parallel::for_index(uint32_t{0}, count, [&](uint32_t i) { found[i] = visible_point(input, i); });
+  std::vector<VisiblePoint> points;
+  for (const auto& point : found)
+    if (point) points.push_back(*point);
+  return points;
+}
+
+uint32_t pilot_count(const RenderInput& input) {
+  constexpr uint64_t kFewest = 1u << 12, kMost = 1u << 14, kPixelsEach = 2;
+  if (input.settings.for_camera == ForCamera::kAll) return kMost;
+  const Camera& camera = input.scene.camera;
+  const uint64_t pixels = static_cast<uint64_t>(camera.width) * static_cast<uint64_t>(camera.height);
+  return static_cast<uint32_t>(std::clamp(pixels / kPixelsEach, kFewest, kMost));
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,129 @@
+// Each group of values has one list of names for both directions.
+
+#include "render/passes/manifest_values.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace kaustik::render {
+
+using Json = ManifestJson;
+
+namespace {
+
+// Calls f(name, count) for every count; used both for writing and for reading.
+template <class Statistics, class F>
+void for_each_count(Statistics& s, F&& f) {
+  f("emitted", s.photons.emitted);
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k)
+    f(fmt::format("stored_{}", photon::kPhotonKindNames[k]), s.photons.stored[k]);
+  f("photon_rays", s.photons.rays), f("photon_shadow_rays", s.photons.shadow_rays);
+  f("dropped_photons", s.photons.dropped_invalid);
+  f("guided_emitted", s.guided.emitted);
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k)
+    f(fmt::format("guided_stored_{}", photon::kPhotonKindNames[k]), s.guided.stored[k]);
+  f("guided_rays", s.guided.rays), f("guided_dropped", s.guided.dropped_invalid);
+  f("guide_photons", s.guide_photons), f("guide_hits", s.guide_hits), f("guide_boxes", s.guide_boxes);
+  f("camera_rays", s.rays.camera), f("specular_rays", s.rays.specular);
+  f("shadow_rays", s.rays.shadow), f("bounce_rays", s.rays.bounce);
+  f("lecture_from_photons", s.lecture.from_photons), f("lecture_climbed", s.lecture.climbed);
+  f("lecture_few", s.lecture.fallback_few), f("lecture_shadow", s.lecture.fallback_shadow);
+  f("lecture_face", s.lecture.fallback_face);
+  f("gather_queries", s.gather_queries), f("gather_candidates", s.gather_candidates);
+  f("gather_accepted", s.gather_accepted);
+  f("dropped_samples", s.dropped_samples), f("clamped_sums", s.clamped_sums);
+  f("photon_bytes", s.photon_bytes), f("octree_nodes", s.octree_nodes);
+}
+
+template <class Ledger, class F>
+void for_each_energy(Ledger& e, F&& f) {
+  f("emitted", e.emitted), f("absorbed", e.absorbed), f("escaped", e.escaped);
+  f("terminated", e.terminated), f("roulette", e.roulette), f("invalid", e.invalid);
+}
+
+template <class Statistics, class F>
+void for_each_time(Statistics& s, F&& f) {
+  f("photon_trace", s.photon_trace_s), f("photon_build", s.photon_build_s), f("render", s.render_s);
+}
+
+}  // namespace
+
+std::string hex_text(float value) {
+  return fmt::format("{:a}", value);
+}
+
+float finite_from_hex(const Json& json) {
+  const std::string text = json.get<std::string>();
+  char* end = nullptr;
+  const float value = std::strtof(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw std::runtime_error(fmt::format("`{}` is not a number", text));
+  return value;
+}
+
+int exponent_from(const Json& json) {
+  const int exponent = json.get<int>();
+  if (exponent < -1000 || exponent > 1000)
+    throw std::runtime_error(fmt::format("2^{} is not a valid unit", exponent));
+  return exponent;
+}
+
+Json settings_json(const SettingTexts& settings) {
+  Json out = Json::object();
+  for (const auto& [name, texts] : settings) out[name] = texts;
+  return out;
+}
+
+SettingTexts settings_from(const Json& json) {
+  SettingTexts out;
+  for (const auto& [name, texts] : json.items())
+    out.emplace_back(name, texts.get<std::vector<std::string>>());
+  return out;
+}
+
+Json radii_json(const std::optional<GatherRadii>& radii) {
+  if (!radii) return nullptr;
+  return {{"direct", hex_text(radii->direct)},
+          {"caustic", hex_text(radii->caustic)},
+          {"indirect", hex_text(radii->indirect)},
+          {"caustic_nearest", radii->caustic_nearest},
+          {"direct_nearest", radii->direct_nearest}};
+}
+
+std::optional<GatherRadii> radii_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  const auto radius = [&](const char* name) {
+    const float r = finite_from_hex(json.at(name));
+    if (!(r >= 0)) throw std::runtime_error(fmt::format("`{}` is not a radius", r));
+    return r;
+  };
+  return GatherRadii{radius("direct"), radius("caustic"), radius("indirect"),
+                     json.at("caustic_nearest").get<uint32_t>(), json.at("direct_nearest").get<uint32_t>()};
+}
+
+Json statistics_values(const RenderStatistics& s) {
+  Json counts, seconds, energy, examples = Json::array();
+  for_each_count(s, [&](const std::string& name, const uint64_t& n) { counts[name] = n; });
+  for_each_time(s, [&](const std::string& name, const double& t) { seconds[name] = t; });
+  for_each_energy(s.photons.energy, [&](const std::string& name, const int64_t& n) { energy[name] = n; });
+  energy["unit_exponent"] = s.photons.energy.unit_exponent;
+  for (const DroppedSample& d : s.dropped_examples) examples.push_back({d.y, d.x, d.sample});
+  return {{"counts", counts}, {"seconds", seconds}, {"energy", energy}, {"dropped_examples", examples}};
+}
+
+RenderStatistics statistics_from(const Json& json) {
+  RenderStatistics s;
+  for_each_count(s, [&](const std::string& name, uint64_t& n) { json.at("counts").at(name).get_to(n); });
+  for_each_time(s, [&](const std::string& name, double& t) { json.at("seconds").at(name).get_to(t); });
+  photon::EnergyLedger& e = s.photons.energy;
+  for_each_energy(e, [&](const std::string& name, int64_t& n) { json.at("energy").at(name).get_to(n); });
+  e.unit_exponent = exponent_from(json.at("energy").at("unit_exponent"));
+  for (const Json& d : json.at("dropped_examples"))
+    s.dropped_examples.push_back({d.at(0).get<int>(), d.at(1).get<int>(), d.at(2).get<uint64_t>()});
+  return s;
+}
+
+}  // namespace kaustik::render
