@@ -218,7 +218,7 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   RenderResult result;
   result.plan = make_plan(settings, scene.needs);
   const uint64_t shares = choose_passes(scene, bvh, settings, &result.plan);
-  const RenderInput input{scene, bvh, settings, result.plan};
+  const RenderInput input{scene, bvh, settings, result.plan, task.views};
   const PassSet goal = task.passes.empty() ? PassSet(0, shares) : task.passes;
   const PassSet missing = goal.without(task.done.passes);
   const bool goes_on = !task.done.passes.empty();

@@ -31,6 +31,8 @@ struct RenderTask {
   std::function<double(double done, double seconds)> adaptive_work{};
   // Follows the first pass that is rendered; render/tiles/tiles.h. Changes neither bits nor counts.
   PixelsCallback on_pixels{};
+  // RenderInput::views; empty: the scene's camera.
+  std::vector<Camera> views{};
   // Photons of a single-pass render that were shot in advance, with the same settings except for the number
   // of samples; they are moved from here.
   std::shared_ptr<FirstPhotons> photons{};

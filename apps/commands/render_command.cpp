@@ -7,6 +7,7 @@
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
+#include "apps/sequence/sequence.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/render_session.h"
 #include "apps/settings/unread_settings.h"
@@ -21,6 +22,7 @@ struct RenderOptions {
   OutputOptions outputs;
   CheckpointSettings checkpoint;
   LiveOptions live;
+  SequenceOptions sequence;
   std::string map, save_map;  // map files to read and to write; empty: none
   render::PassSet passes;
   SettingOverrides overrides;
@@ -80,7 +82,7 @@ void check_with_scene(RenderOptions options, const std::vector<std::string>& out
 
 int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
-  check_outputs(options.outputs);
+  if (!options.sequence.any()) check_outputs(options.outputs);
   if (!options.checkpoint.path.empty()) check_writable(options.checkpoint.path);
   if (!options.save_map.empty()) check_map_output(options.save_map);
   check_collisions(files_of(options), {{"the scene", options.scene}, {"--map", options.map}});
@@ -96,6 +98,12 @@ int run_render(const RenderOptions& options, const Console& console) {
   warn_of_unread(options, job, console);
   session.outputs = options.outputs, session.checkpoint = options.checkpoint, session.goal = options.passes;
   session.live = options.live;
+  if (options.sequence.any()) {
+    const Sequence sequence = make_sequence(options.sequence, session, job, console);
+    settle_session(overrides, console, &job, &session);
+    check_passes(options, job);
+    return run_sequence(options.sequence, sequence, overrides, job, std::move(session), interrupt, console);
+  }
   session.outputs.files = outputs_of(options, job);
   check_with_scene(options, session.outputs.files, job);
   warn_of_layers(session.outputs, job.settings.render.aov, console);
@@ -110,6 +118,7 @@ constexpr const char* kExamples =
     "  kaustik render model.glb -o model.png --time 2m      the best picture of two minutes\n"
     "  kaustik render room.pbrt -o room.png --quality draft --width 320\n"
     "  kaustik render room.pbrt -o room.exr --target-error 2% --time 1h\n"
+    "  kaustik render room.pbrt --camera-path path.json --frames 0:48 -o out/frame.%04d.png\n"
     "  kaustik render room.pbrt -o caustic.exr --aov caustic --crop 100 300 200 400";
 
 void add_map_options(Command& command, RenderOptions& options) {
@@ -121,6 +130,23 @@ void add_map_options(Command& command, RenderOptions& options) {
           "Take the photon maps from this file, which --save-map or `kaustik shoot` has written, with its "
           "settings of the photons. Samples, radii and the camera may be others")
       .excludes = {"--save-map"};
+}
+
+void add_sequence_options(Command& command, RenderOptions& options) {
+  command.add_text(
+      "--camera-path", "FILE", options.sequence.camera_path,
+      "Render a sequence along the camera path of this JSON file, to -o frame.%04d.exr. Photons of "
+      "a world that stands still are shot once, and frames whose files exist are left as they are");
+  command.add_parsed(
+      "--frames", "A:B",
+      "Frames A to B - 1 of the camera path, or of an animated glTF file at 24 frames a second. "
+      "Default: all",
+      [&options](const std::string& text) {
+        options.sequence.frames = render::PassSet::parse(text);
+        if (!options.sequence.frames)
+          throw OptionError("--frames", fmt::format("`{}`: expected frames BEGIN:END, like 0:240", text));
+      });
+  command.add_flag("--overwrite", options.sequence.overwrite, "Render frames whose files exist again");
 }
 
 void add_pass_options(Command& command, RenderOptions& options) {
@@ -157,6 +183,7 @@ Command make_render_command() {
                      "the scene's Film \"filename\", else the scene's name with .exr");
   add_pass_options(command, *options);
   add_map_options(command, *options);
+  add_sequence_options(command, *options);
   add_live_options(command, options->live);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kRender);

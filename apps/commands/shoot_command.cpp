@@ -34,7 +34,7 @@ int shoot_maps(const KeptMaps& kept, const Job& job, const InterruptGuard& inter
     ProgressBar bar(console);
     std::mutex mutex;  // progress comes from worker threads
     make_photons(
-        kept, job, bvh,
+        kept, job, bvh, {},
         [&](const render::Progress& progress) {
           const std::lock_guard lock(mutex);
           bar.update(progress);

@@ -98,15 +98,24 @@ std::optional<SceneDescription> import_format(const std::filesystem::path& path,
   return scene;
 }
 
+Convention convention_of(const std::filesystem::path& path) {
+  const bool is_pbrt = !gltf::is_gltf(path) && !is_obj(path) && !is_lone_mesh(path);
+  return is_pbrt ? Convention::kPbrt : Convention::kRightHanded;
+}
+
 }  // namespace
 
 std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
                                              const ImportOptions& options) {
   auto scene = import_format(path, diagnostics, options);
   if (!scene) return std::nullopt;
-  const bool is_pbrt = !gltf::is_gltf(path) && !is_obj(path) && !is_lone_mesh(path);
-  apply_view(*scene, options.view, is_pbrt ? Convention::kPbrt : Convention::kRightHanded, diagnostics);
+  apply_view(*scene, options.view, convention_of(path), diagnostics);
   return scene;
+}
+
+void place_camera(const std::filesystem::path& path, const ViewOptions& options, SceneDescription* scene,
+                  Diagnostics& diagnostics) {
+  apply_camera(*scene, options, convention_of(path), diagnostics);
 }
 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics,

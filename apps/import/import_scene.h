@@ -20,6 +20,11 @@ namespace kaustik::pbrt {
 std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
                                              const ImportOptions& options = {});
 
+// Applies --look-at and --fov to a description of the file `path`, of which only camera and film need be
+// there.
+void place_camera(const std::filesystem::path& path, const ViewOptions& options, SceneDescription* scene,
+                  Diagnostics& diagnostics);
+
 struct LoadedScene {
   Scene scene;
   // The film, sampler and integrator directives are left for the caller to interpret (apps/settings). Their

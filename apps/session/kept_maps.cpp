@@ -162,18 +162,22 @@ void settle_kept_maps(const KeptMaps& kept, const Console& console, Job* job) {
   check_file(*kept.from, console, *job);
 }
 
-void make_photons(const KeptMaps& kept, const Job& job, const accel::Bvh& bvh,
+void make_photons(const KeptMaps& kept, const Job& job, const accel::Bvh& bvh, std::span<const Camera> views,
                   const render::ProgressCallback& progress, std::shared_ptr<render::FirstPhotons>* photons) {
   const render::RenderSettings& settings = job.settings.render;
   const render::EstimatorPlan plan = render::make_plan(settings, job.scene.needs);
-  const render::RenderInput input{job.scene, bvh, settings, plan};
-  *photons = std::make_shared<render::FirstPhotons>();
+  const render::RenderInput input{job.scene, bvh, settings, plan, views};
+  const auto explored = kept.explored ? kept.explored : std::make_shared<render::ExploredScene>();
+  *photons =
+      std::make_shared<render::FirstPhotons>(render::PassPhotons(explored), render::RenderStatistics());
   render::FirstPhotons& first = **photons;
-  if (kept.from)
+  if (kept.photons)
+    first.photons.adopt(input, render::KeptPhotons(*kept.photons), true, &first.statistics);
+  else if (kept.from)
     first.photons.adopt(input, kept.from->open(), radii_are_known(*kept.from, job), &first.statistics);
   else
-    first = render::shoot_first(input, progress);
-  if (kept.save.empty() || !first.photons.radii()) return;
+    first = render::shoot_first(input, progress, explored);
+  if (kept.save.empty() || kept.photons || !first.photons.radii()) return;
   render::write_map_file(kept.save, manifest_of(job), first.photons.keep(first.statistics));
 }
 

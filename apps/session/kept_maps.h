@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "apps/console/console.h"
@@ -14,9 +15,13 @@
 namespace kaustik::app {
 
 struct KeptMaps {
-  std::string save;                     // file to write; empty: none
-  std::optional<render::MapFile> from;  // in place of photons that are shot
-  bool any() const { return from || !save.empty(); }
+  std::string save;                       // file to write; empty: none
+  std::optional<render::MapFile> from{};  // in place of photons that are shot
+  // Photons that were shot for an earlier picture of the sequence, in place of both, and what was found out
+  // about the scene.
+  std::shared_ptr<const render::KeptPhotons> photons{};
+  std::shared_ptr<render::ExploredScene> explored{};
+  bool any() const { return from || !save.empty() || photons; }
 };
 
 // Opens a map file. Throws ExitError (bad command line) for one that is damaged, or of another build or
@@ -34,10 +39,10 @@ void check_stop_rules(const KeptMaps& kept, const StopSettings& stop);
 // camera. Throws ExitError (bad command line), which names what differs.
 void settle_kept_maps(const KeptMaps& kept, const Console& console, Job* job);
 
-// The photons of the job, from the file or shot, which are then written to the other file. Without radii if
-// the progress callback cancelled. Throws render::MapFileError, for a file that cannot be written with
-// *photons set.
-void make_photons(const KeptMaps& kept, const Job& job, const accel::Bvh& bvh,
+// The photons of the job, from an earlier picture, from the file or shot, which are then written to the other
+// file. Without radii if the progress callback cancelled. Throws render::MapFileError, for a file that cannot
+// be written with *photons set.
+void make_photons(const KeptMaps& kept, const Job& job, const accel::Bvh& bvh, std::span<const Camera> views,
                   const render::ProgressCallback& progress, std::shared_ptr<render::FirstPhotons>* photons);
 
 // Checks the columns of a map file while they are used.

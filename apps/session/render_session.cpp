@@ -93,12 +93,13 @@ render::PassSet goal_of(const Job& job, const RenderSession& session, StopRule& 
 
 // Makes the photons of a session with kept maps. False, after an error message, if the file for them could
 // not be written: the render goes on.
-bool take_photons(const KeptMaps& maps, const Job& job, const accel::Bvh& bvh,
+bool take_photons(const RenderSession& session, const Job& job, const accel::Bvh& bvh,
                   const render::ProgressCallback& progress, std::shared_ptr<render::FirstPhotons>* photons,
                   const Console& console) {
+  const KeptMaps& maps = session.maps;
   if (!maps.any()) return true;
   try {
-    make_photons(maps, job, bvh, progress, photons);
+    make_photons(maps, job, bvh, session.views, progress, photons);
   } catch (const render::MapFileError& error) {
     if (maps.from) throw;
     console.error(error.what());
@@ -166,6 +167,7 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   const bool stopped = was_stopped(live);
   if (result.cancelled && stopped) console.note(interruption(result, "stopped by a viewer"));
   if (result.cancelled && !stopped && !session.followed) console.error(interruption(result, "interrupted"));
+  if (result.cancelled && session.only_complete) return kInterrupted;
   if (result.shown == render::Shown::kNothing) return stopped && session.followed ? kDone : kInterrupted;
   // If the checkpoint cannot be written, the pictures still are, and vice versa.
   bool checkpoint_written = false;
@@ -255,14 +257,15 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     render::PixelsCallback on_pixels = follow(session.done, live.get());
     const render::ProgressCallback progress = shown_by(bar, interrupt, live.get(), console);
     std::optional<MapCheck> check;
-    if (session.maps.from) check.emplace(*session.maps.from);
-    const bool map_written = take_photons(session.maps, job, bvh, progress, &filled.work.photons, console);
+    if (session.maps.from && !session.maps.photons) check.emplace(*session.maps.from);
+    const bool map_written = take_photons(session, job, bvh, progress, &filled.work.photons, console);
     render::RenderTask task{.passes = goal,
                             .done = std::move(session.done),
                             .after_pass = after_pass,
                             .keep_sums = writes_sums(session),
                             .adaptive_work = std::move(filled.adaptive_work),
                             .on_pixels = std::move(on_pixels),
+                            .views = std::move(session.views),
                             .photons = std::move(filled.work.photons),
                             .explored = std::move(filled.work.explored)};
     RenderOutcome outcome{render::render(job.scene, bvh, job.settings.render, progress, std::move(task)),

@@ -16,6 +16,9 @@ struct RenderSession {
   CheckpointSettings checkpoint;
   LiveOptions live;
   KeptMaps maps{};
+  std::vector<Camera> views{};  // RenderInput::views
+  // Whether files are written only if the render is complete.
+  bool only_complete = false;
   // A render that is followed already, or null: `live` decides whether it is.
   std::shared_ptr<LiveRender> followed{};
   const accel::Bvh* bvh = nullptr;  // of the scene, if it exists already

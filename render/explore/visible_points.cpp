@@ -36,8 +36,7 @@ std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, Sam
   return {};
 }
 
-std::optional<VisiblePoint> seen_by_camera(const RenderInput& input, Sampler& sampler) {
-  const Camera& camera = input.scene.camera;
+std::optional<VisiblePoint> seen_by(const Camera& camera, const RenderInput& input, Sampler& sampler) {
   const Point2 u = sampler.next_2d();
   return first_diffuse(input, camera.generate_ray({u.x * float(camera.width), u.y * float(camera.height)}),
                        sampler);
@@ -60,18 +59,21 @@ std::optional<VisiblePoint> lit_point(const RenderInput& input, uint32_t reflect
   return point;
 }
 
-std::optional<VisiblePoint> visible_point(const RenderInput& input, uint32_t index) {
+// Point `index` of `count`, which are divided evenly among the views.
+std::optional<VisiblePoint> visible_point(const RenderInput& input, uint64_t index, uint64_t count) {
   constexpr uint32_t kReflections = 4;
   Sampler sampler(hash_combine(input.settings.seed, kPilotStream), index);
-  if (input.settings.for_camera == ForCamera::kAll) return lit_point(input, index % kReflections, sampler);
-  return seen_by_camera(input, sampler);
+  if (input.settings.for_camera == ForCamera::kAll)
+    return lit_point(input, uint32_t(index % kReflections), sampler);
+  if (input.views.empty()) return seen_by(input.scene.camera, input, sampler);
+  return seen_by(input.views[index * input.views.size() / count], input, sampler);
 }
 
 }  // namespace
 
 std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count) {
   std::vector<std::optional<VisiblePoint>> found(count);
-  parallel::for_index(uint32_t{0}, count, [&](uint32_t i) { found[i] = visible_point(input, i); });
+  parallel::for_index(uint32_t{0}, count, [&](uint32_t i) { found[i] = visible_point(input, i, count); });
   std::vector<VisiblePoint> points;
   for (const auto& point : found)
     if (point) points.push_back(*point);

@@ -16,8 +16,8 @@ struct VisiblePoint {
   Vector3 wo{0};  // unit, to the viewer
 };
 
-// Traces `count` camera rays and returns the points of those that meet one. With settings.for_camera = kAll,
-// the points do not depend on the camera: they lie where light falls. A function of scene and settings.
+// Traces `count` rays of the views and returns the points of those that meet one. With settings.for_camera =
+// kAll, the points do not depend on the camera: they lie where light falls. A function of scene and settings.
 std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count);
 
 // Number of visible points from which the surroundings are explored: one for every second pixel, within the

@@ -1,6 +1,8 @@
 #pragma once
 // The inputs that every part of a render reads.
 
+#include <span>
+
 #include "accel/bvh.h"
 #include "core/scene/scene.h"
 #include "render/plan/plan.h"
@@ -13,6 +15,9 @@ struct RenderInput {
   const accel::Bvh& bvh;
   const RenderSettings& settings;
   const EstimatorPlan& plan;
+  // Cameras for which photons are guided, radii chosen and surroundings explored, such as those of a
+  // sequence, all of the same size; empty: the scene's.
+  std::span<const Camera> views{};
 };
 
 }  // namespace kaustik::render

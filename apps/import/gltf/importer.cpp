@@ -44,6 +44,7 @@ class Importer {
     }
     choose_camera();
     for (const PlacedNode& n : nodes_) add_node(n);
+    if (pose_.animated()) scene_.animation = {pose_.duration(), moves_world()};
     if (pose_.animated())
       scene_.notes.push_back(
           fmt::format("the file is animated, up to {:.3g} s: it is shown at {:.3g} s (--at)",
@@ -52,6 +53,14 @@ class Importer {
   }
 
  private:
+  bool moves_world() const {
+    return std::any_of(nodes_.begin(), nodes_.end(), [&](const PlacedNode& n) {
+      const View node = document_.item("nodes", n.node);
+      const bool shown = node.has("mesh") || node["extensions"].has("KHR_lights_punctual");
+      return node.has("skin") || (n.animated && shown);
+    });
+  }
+
   // A camera's name is that of its node, as modelling programs show it, or else its own.
   void choose_camera() {
     std::vector<std::string> names;

@@ -72,13 +72,13 @@ std::vector<PlacedNode> placed_nodes(const Document& document, const Pose& pose,
   const uint64_t nodes = document.size("nodes");
   std::vector<bool> met(nodes, false);
   std::vector<PlacedNode> out, waiting;
-  const auto push = [&](uint64_t n, const glm::dmat4& parent) {
+  const auto push = [&](uint64_t n, const glm::dmat4& parent, bool animated) {
     if (met[n]) document.item("nodes", n).fail("has two parents or is its own ancestor");
     met[n] = true;
-    waiting.push_back({n, parent});
+    waiting.push_back({n, parent, animated || pose.of(n) != nullptr});
   };
   const std::vector<uint64_t> roots = roots_of(document);
-  for (size_t i = roots.size(); i-- > 0;) push(roots[i], glm::dmat4(1));
+  for (size_t i = roots.size(); i-- > 0;) push(roots[i], glm::dmat4(1), false);
   while (!waiting.empty()) {
     PlacedNode at = waiting.back();
     waiting.pop_back();
@@ -87,7 +87,7 @@ std::vector<PlacedNode> placed_nodes(const Document& document, const Pose& pose,
     at.to_world = at.to_world * local_transform(node, pose.of(at.node), warnings);
     out.push_back(at);
     const View children = node["children"];
-    for (uint64_t i = children.size(); i-- > 0;) push(*children.at(i).index(nodes), at.to_world);
+    for (uint64_t i = children.size(); i-- > 0;) push(*children.at(i).index(nodes), at.to_world, at.animated);
   }
   return out;
 }

@@ -11,6 +11,7 @@ namespace kaustik::gltf {
 struct PlacedNode {
   uint64_t node = 0;
   glm::dmat4 to_world{1};
+  bool animated = false;  // whether an animation changes it, or an ancestor
 };
 
 // All visible nodes of the file's scene in this pose, parents before children, in the order of the file.

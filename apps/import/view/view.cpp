@@ -35,6 +35,10 @@ class ViewMaker {
       complain("--floor on is for glTF and OBJ files: a pbrt file says itself where its ground is");
     }
     if (sky_given && options_.sky != "off") add_sky();
+    place_camera();
+  }
+
+  void place_camera() {
     if (options_.look_at) look_at();
     if (options_.fov) set_fov();
   }
@@ -146,6 +150,11 @@ class ViewMaker {
 void apply_view(SceneDescription& scene, const ViewOptions& options, Convention convention,
                 Diagnostics& diagnostics) {
   ViewMaker(scene, options, convention, diagnostics).apply();
+}
+
+void apply_camera(SceneDescription& scene, const ViewOptions& options, Convention convention,
+                  Diagnostics& diagnostics) {
+  ViewMaker(scene, options, convention, diagnostics).place_camera();
 }
 
 }  // namespace kaustik

@@ -14,6 +14,10 @@ enum class Convention {
   kRightHanded  // +y up; a model without camera or light gets a stand-in for what it lacks (studio.h)
 };
 
+// Applies --look-at and --fov alone.
+void apply_camera(SceneDescription& scene, const ViewOptions& options, Convention convention,
+                  Diagnostics& diagnostics);
+
 // Applies --look-at, --fov, --sky and --floor. Then, for right-handed formats, each with a warning: a model
 // that has neither a camera nor light that reaches its surfaces is shown in a studio, and one that lacks only
 // one of them gets a camera that it fills, or a white sky. Reports an error for an option that the scene has

@@ -89,6 +89,16 @@ ImportOptions import_options_of(const Settings& settings) {
   return options;
 }
 
+SceneDescription view_of(const SceneDescription& scene) {
+  SceneDescription view;
+  view.location = scene.location;
+  view.camera = scene.camera;
+  view.film = scene.film, view.filter = scene.filter;
+  view.options = scene.options;
+  view.animation = scene.animation;
+  return view;
+}
+
 // Bytes that the film of a pass, the totals and the final picture take.
 uint64_t film_of(const Job& job) {
   const uint64_t pixels = render::rendered_range(job.settings.render.crop, job.scene.camera).pixels();
@@ -144,6 +154,8 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
           .path = path,
           .content_hash = std::move(loaded->content_hash),
           .scene_output = file.output,
+          .view = view_of(loaded->description),
+          .fixed_screen_window = file.fixed_screen_window,
           .files = std::move(loaded->files)};
   overrides.apply(job.settings);
   resolve_size(file, job.settings.render, job.scene.camera);

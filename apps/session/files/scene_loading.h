@@ -18,6 +18,9 @@ struct Job {
   std::string path;
   std::string content_hash;  // of the scene's files, see pbrt::LoadedScene
   std::string scene_output;  // output name in the scene file; empty when it has none
+  // What the file says of its camera, film and animations; without shapes, materials and lights.
+  SceneDescription view;
+  bool fixed_screen_window = false;  // see SceneSettings
   double load_seconds = 0;
   std::vector<std::string> files;  // every file that was read
 };

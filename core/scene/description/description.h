@@ -113,6 +113,12 @@ struct InstanceDescription {
   glm::dmat4 instance_to_world{1};
 };
 
+// What the animations of a file change.
+struct SceneAnimation {
+  double seconds = 0;        // time of the last key
+  bool moves_world = false;  // more than the camera: shapes or lights
+};
+
 // A complete scene. Matrices apply to column vectors; the order is that of the files.
 struct SceneDescription {
   SourceLocation location;  // the main file
@@ -126,6 +132,7 @@ struct SceneDescription {
   std::vector<LightDescription> lights;
   std::vector<ObjectDescription> objects;
   std::vector<InstanceDescription> instances;
+  std::optional<SceneAnimation> animation;  // unset for scenes without animations
   // Images of textures that cannot be read give a warning, and grey in their place, instead of an error.
   bool grey_for_unreadable_images = false;
   // What became of the file that a user may want to know, one sentence each, for the log.

@@ -1,0 +1,280 @@
+#include "apps/sequence/sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "apps/console/exit_error.h"
+#include "apps/console/progress_bar.h"
+#include "apps/import/import_scene.h"
+#include "apps/machine/thread_limit.h"
+#include "apps/sequence/frame_names.h"
+#include "apps/session/stopping/fixed_plan.h"
+#include "apps/session/tone.h"
+#include "core/scene/build/camera_builder.h"
+#include "render/passes/passes.h"
+#include "render/picture/exposure.h"
+#include "render/picture/image_io.h"
+
+namespace kaustik::app {
+
+namespace {
+
+constexpr double kFramesPerSecond = 24;  // as --frame
+// Cameras for which the photons of a sequence are shot: so many of its frames, evenly spread.
+constexpr uint64_t kMostViews = 32;
+
+// Finds the cameras of frames in a world that stands still.
+class FrameCameras {
+ public:
+  FrameCameras(const Sequence& sequence, const Job& job)
+      : sequence_(sequence), job_(job), options_(job.settings.import_options) {}
+
+  // What a render of this frame alone would be asked for.
+  ImportOptions options_at(uint64_t frame) const {
+    ImportOptions options = options_;
+    if (sequence_.animated) options.seconds = float(double(frame) / kFramesPerSecond);
+    if (!sequence_.path) return options;
+    const FrameView placed = sequence_.path->at(frame, job_.view.camera);
+    options.view.look_at = placed.look_at;
+    if (placed.fov) options.view.fov = placed.fov;
+    return options;
+  }
+
+  Camera at(uint64_t frame) const {
+    Diagnostics diagnostics;
+    SceneDescription view = view_at(frame, diagnostics);
+    if (sequence_.path) pbrt::place_camera(job_.path, options_at(frame).view, &view, diagnostics);
+    WarnedOnce warned;
+    if (view.camera) view.camera->camera_to_world[3] -= glm::dvec4(job_.scene.origin, 0);
+    Camera camera = build_camera(view, warned, diagnostics);
+    if (diagnostics.has_errors()) refuse(fmt::format("frame {}: {}", frame, diagnostics.format_all()));
+    camera.width = job_.scene.camera.width, camera.height = job_.scene.camera.height;
+    if (!job_.fixed_screen_window) camera.set_default_screen_window();
+    return camera;
+  }
+
+ private:
+  SceneDescription view_at(uint64_t frame, Diagnostics& diagnostics) const {
+    if (!sequence_.animated || sequence_.path) return job_.view;
+    ImportOptions options = options_at(frame);
+    options.texture_pixels = false;
+    auto scene = pbrt::import_scene(job_.path, diagnostics, options);
+    if (!scene) refuse(fmt::format("frame {}: the scene cannot be read any more", frame));
+    SceneDescription view = job_.view;
+    view.camera = scene->camera;
+    return view;
+  }
+
+  const Sequence& sequence_;
+  const Job& job_;
+  const ImportOptions options_;
+};
+
+std::vector<Camera> views_of(const Sequence& sequence, const FrameCameras& cameras) {
+  std::vector<Camera> views;
+  const uint64_t count = std::min(sequence.frames, kMostViews);
+  for (uint64_t i = 0; i < count; ++i)
+    views.push_back(cameras.at(count == 1 ? 0 : i * (sequence.frames - 1) / (count - 1)));
+  return views;
+}
+
+OutputOptions outputs_of(const OutputOptions& patterns, uint64_t frame) {
+  OutputOptions outputs = patterns;
+  for (std::string& file : outputs.files) file = frame_name(file, frame);
+  if (!outputs.statistics.empty()) outputs.statistics = frame_name(outputs.statistics, frame);
+  return outputs;
+}
+
+bool all_exist(const OutputOptions& outputs) {
+  std::error_code ignored;
+  return std::ranges::all_of(outputs.files,
+                             [&](const std::string& file) { return std::filesystem::exists(file, ignored); });
+}
+
+// The frames to render.
+std::vector<uint64_t> missing_frames(const SequenceOptions& options, const Sequence& sequence,
+                                     const RenderSession& session) {
+  std::vector<uint64_t> missing;
+  const render::PassSet wanted = options.frames.value_or(render::PassSet(0, sequence.frames));
+  for (const render::PassSet::Range& range : wanted.ranges())
+    for (uint64_t frame = range.begin; frame < range.end; ++frame)
+      if (options.overwrite || !all_exist(outputs_of(session.outputs, frame))) missing.push_back(frame);
+  return missing;
+}
+
+// Exposure of a small picture of few samples by the job's camera, so that all frames are shown alike.
+float common_exposure(Job& job, const RenderSession& session, const accel::Bvh& bvh) {
+  constexpr int kWidth = 160, kSamples = 8;
+  const render::RenderSettings settings = job.settings.render;
+  const Camera camera = job.scene.camera;
+  job.scene.camera.height = std::max(1, camera.height * std::min(kWidth, camera.width) / camera.width);
+  job.scene.camera.width = std::min(kWidth, camera.width);
+  render::RenderSettings& few = job.settings.render;
+  few.crop = {}, few.spp = kSamples, few.adaptive = 0, few.denoise = false;
+  render::RenderTask task{.keep_sums = false, .views = session.views};
+  KeptMaps maps = session.maps;
+  maps.explored = nullptr;  // what a small picture finds out about the scene is not for the frames
+  if (maps.photons) make_photons(maps, job, bvh, session.views, {}, &task.photons);
+  const render::Film film = render::render(job.scene, bvh, few, {}, std::move(task)).film;
+  job.settings.render = settings;
+  job.scene.camera = camera;
+  return render::automatic_exposure(render::image_of(film), render::lights_seen(film),
+                                    job.settings.tone.tonemap);
+}
+
+// What the frames of a world that stands still share: its BVH and photons. Everything is settled for the
+// first frame of the sequence, and for the views of all, so that the frames that are rendered do not matter.
+class StandingWorld {
+ public:
+  StandingWorld(const Sequence& sequence, Job& job, RenderSession& session, const InterruptGuard& interrupt,
+                const Console& console)
+      : job_(job), session_(session), cameras_(sequence, job) {
+    session.views = views_of(sequence, cameras_);
+    job.scene.camera = session.views.front();
+    with_thread_limit(job.settings.render.threads, console, [&] {
+      bvh_.emplace(job.scene, job.settings.render.threads);
+      session.bvh = &*bvh_;
+      shoot(interrupt, console);
+      const bool tones = std::ranges::any_of(session.outputs.files, shows_tones);
+      if (tones && !job.settings.tone.exposure && !interrupt.requested()) {
+        job.settings.tone.exposure = common_exposure(job, session, *bvh_);
+        console.note(
+            fmt::format("exposure: --exposure {} (automatic, for all frames)", *job.settings.tone.exposure));
+      }
+    });
+  }
+
+  void show(uint64_t frame) {
+    job_.scene.camera = cameras_.at(frame);
+    job_.settings.import_options = cameras_.options_at(frame);
+  }
+
+ private:
+  // Chooses paths or photon maps, and shoots the photons of a single pass. Photons of several passes are shot
+  // by each frame.
+  void shoot(const InterruptGuard& interrupt, const Console& console) {
+    ProgressBar bar(console);
+    const auto progress = [&](const render::Progress& p) {
+      bar.update(p);
+      return !interrupt.requested();
+    };
+    if (std::exchange(session_.try_paths, false)) settle_paths(job_.scene, *bvh_, progress, &job_.settings);
+    const render::RenderSettings& settings = job_.settings.render;
+    render::EstimatorPlan plan = render::make_plan(settings, job_.scene.needs);
+    if (!render::kinds_needed(plan).any() || render::choose_passes(job_.scene, *bvh_, settings, &plan) > 1)
+      return;
+    KeptMaps& maps = session_.maps;
+    if (maps.from) maps.from->check_columns();
+    maps.explored = std::make_shared<render::ExploredScene>();
+    std::shared_ptr<render::FirstPhotons> first;
+    make_photons(maps, job_, *bvh_, session_.views, progress, &first);
+    if (!first->photons.radii()) return;  // interrupted
+    maps.photons = std::make_shared<const render::KeptPhotons>(first->photons.keep(first->statistics));
+    job_.settings.render.passes = 1;
+  }
+
+  Job& job_;
+  RenderSession& session_;
+  FrameCameras cameras_;
+  std::optional<accel::Bvh> bvh_;
+};
+
+// The job of a frame of a world that moves, with the settings that were settled for the first one.
+Job moved_job(const Sequence& sequence, uint64_t frame, const SettingOverrides& given, const Job& first,
+              const Console& console) {
+  SettingOverrides overrides = given;
+  overrides.add(*find_setting("frame"), {fmt::format("{}", frame)});
+  if (sequence.path) {
+    const FrameView view = sequence.path->at(frame, first.view.camera);
+    std::vector<std::string> numbers;
+    for (const double v : view.look_at) numbers.push_back(fmt::format("{}", float(v)));
+    overrides.add(*find_setting("look-at"), numbers);
+    if (view.fov) overrides.add(*find_setting("fov"), {fmt::format("{}", float(*view.fov))});
+  }
+  Job job;
+  with_thread_limit(first.settings.render.threads, console,
+                    [&] { job = load_job(first.path, overrides, console); });
+  const ImportOptions options = job.settings.import_options;
+  job.settings = first.settings;
+  job.settings.import_options = options;
+  return job;
+}
+
+// Settles for the first frame what all frames of a world that moves share.
+void settle_moving_world(const Sequence& sequence, const SettingOverrides& given, Job& job,
+                         RenderSession& session, const Console& console) {
+  job = moved_job(sequence, 0, given, job, console);
+  with_thread_limit(job.settings.render.threads, console, [&] {
+    const accel::Bvh bvh(job.scene, job.settings.render.threads);
+    if (std::exchange(session.try_paths, false)) settle_paths(job.scene, bvh, {}, &job.settings);
+    const bool tones = std::ranges::any_of(session.outputs.files, shows_tones);
+    if (tones && !job.settings.tone.exposure) job.settings.tone.exposure = common_exposure(job, session, bvh);
+  });
+}
+
+}  // namespace
+
+Sequence make_sequence(const SequenceOptions& options, const RenderSession& session, const Job& job,
+                       const Console& console) {
+  Sequence sequence;
+  if (!options.camera_path.empty()) sequence.path = CameraPath::read(options.camera_path, console.err);
+  if (const auto& animation = job.view.animation) {
+    sequence.animated = true, sequence.moves_world = animation->moves_world;
+    sequence.frames = uint64_t(std::floor(animation->seconds * kFramesPerSecond)) + 1;
+  }
+  if (sequence.path) sequence.frames = sequence.path->frames();
+  if (sequence.frames == 0)
+    refuse(fmt::format("--frames needs --camera-path, since {} is not animated", job.path));
+  if (options.frames && options.frames->end() > sequence.frames)
+    refuse(fmt::format("--frames {}: the sequence has frames 0:{}", options.frames->text(), sequence.frames));
+  if (job.settings.stop.any()) refuse("--time and --target-error cannot be combined with a sequence");
+  if (!session.checkpoint.path.empty() || !session.goal.empty() || session.live.any())
+    refuse("a sequence cannot be combined with --checkpoint, --pass-range, --view, --preview or --display");
+  if (session.maps.any() && sequence.moves_world)
+    refuse("--map and --save-map cannot be combined with a scene whose shapes or lights move");
+  if (session.outputs.files.empty()) refuse("a sequence needs -o with a pattern such as frame.%04d.exr");
+  try {
+    const OutputOptions first = outputs_of(session.outputs, 0);
+    check_outputs(first);
+    check_collisions(named_files(first), files_of(job));
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
+  }
+  return sequence;
+}
+
+int run_sequence(const SequenceOptions& options, const Sequence& sequence, const SettingOverrides& given,
+                 Job& job, RenderSession session, const InterruptGuard& interrupt, const Console& console) {
+  const std::vector<uint64_t> missing = missing_frames(options, sequence, session);
+  if (missing.empty()) {
+    console.note("every frame exists; --overwrite renders them again");
+    return kDone;
+  }
+  session.only_complete = true;
+  std::optional<StandingWorld> world;
+  if (sequence.static_world())
+    world.emplace(sequence, job, session, interrupt, console);
+  else
+    settle_moving_world(sequence, given, job, session, console);
+  for (const uint64_t frame : missing) {
+    if (interrupt.requested()) return kInterrupted;
+    const std::string place = sequence.path ? ": " + sequence.path->at(frame, job.view.camera).options() : "";
+    console.note(fmt::format("frame {} of {}{}", frame, sequence.frames, place));
+    const Stopwatch total;
+    RenderSession of_frame = session;
+    of_frame.outputs = outputs_of(session.outputs, frame);
+    std::optional<Job> moved;
+    if (world)
+      world->show(frame);
+    else
+      moved = moved_job(sequence, frame, given, job, console);
+    const int code = run_session(moved ? *moved : job, std::move(of_frame), interrupt, total, console);
+    if (code != kDone) return code;
+  }
+  return kDone;
+}
+
+}  // namespace kaustik::app
