@@ -33,6 +33,8 @@ void add_commands(Program& program) {
   program.commands.push_back(make_shoot_command());
   program.commands.push_back(make_resume_command());
   program.commands.push_back(make_merge_command());
+  program.commands.push_back(make_split_command());
+  program.commands.push_back(make_status_command());
   program.commands.push_back(make_photons_command());
   program.commands.push_back(make_compare_command());
   program.commands.push_back(make_denoise_command());

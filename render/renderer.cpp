@@ -211,6 +211,20 @@ void show_passes(RenderResult* result) {
   result->shown = Shown::kPasses;
 }
 
+std::optional<PassSums> begin_passes(const Scene& scene, const accel::Bvh& bvh,
+                                     const RenderSettings& settings, const ProgressCallback& progress) {
+  check_settings(settings, scene.camera);
+  EstimatorPlan plan = make_plan(settings, scene.needs);
+  const uint64_t shares = choose_passes(scene, bvh, settings, &plan);
+  const RenderInput input{scene, bvh, settings, plan};
+  RenderTask task;
+  PassRenderer renderer(input, shares, task, {}, serialised(progress, shares));
+  if (!renderer.settle_radii()) return std::nullopt;
+  PassSums sums = nothing_yet(input, shares, true);
+  sums.radii = renderer.radii();
+  return sums;
+}
+
 RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                     const ProgressCallback& callback, RenderTask task) {
   check_settings(settings, scene.camera);
@@ -223,7 +237,9 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   const PassSet missing = goal.without(task.done.passes);
   const bool goes_on = !task.done.passes.empty();
   task.keep_sums |= goes_on || missing.count() != 1;
+  const std::optional<GatherRadii> radii = task.done.radii;
   result.sums = goes_on ? std::move(task.done) : nothing_yet(input, shares, task.keep_sums);
+  result.sums.radii = radii;
   require(result.sums.shares == shares && result.sums.totals.units() == units_of(input, shares),
           "the passes rendered before belong to another scene or to other settings");
 

@@ -20,7 +20,8 @@ struct FirstPhotons;
 struct RenderTask {
   // Passes that the result must contain; empty: all passes of the settings.
   PassSet passes{};
-  // Complete passes of an earlier render with the same settings, which are not rendered again.
+  // Complete passes of an earlier render with the same settings, which are not rendered again. Its radii
+  // count even if it has no passes.
   PassSums done{};
   // Called after each pass with the sums of all complete passes; returning false ends the render.
   std::function<bool(const PassSums&)> after_pass{};
@@ -60,6 +61,11 @@ struct RenderResult {
 
 // Sets film, halves, error and statistics from result->sums, which must have totals.
 void show_passes(RenderResult* result);
+
+// The sums of no pass of these settings, with the radii that its first pass has, so that each part of a
+// render need not find them again. Empty if the progress callback cancelled.
+std::optional<PassSums> begin_passes(const Scene& scene, const accel::Bvh& bvh,
+                                     const RenderSettings& settings, const ProgressCallback& progress);
 
 // Renders within the calling task arena. The caller has already applied settings.width and height to
 // scene.camera; settings.crop selects the film's window. The result has the same bits for any number of

@@ -10,6 +10,8 @@ Command make_view_command();
 Command make_shoot_command();
 Command make_resume_command();
 Command make_merge_command();
+Command make_split_command();
+Command make_status_command();
 Command make_photons_command();
 Command make_compare_command();
 Command make_denoise_command();

@@ -59,6 +59,7 @@ void check_gaps(const MergeOptions& options, const render::PartialResult& total,
   const uint64_t end = std::max(total.manifest.stopped_by.empty() ? sums.shares : 0, sums.passes.end());
   const render::PassSet missing = render::PassSet(0, end).without(sums.passes);
   if (missing.empty()) return;
+  if (sums.passes.empty()) refuse("no part holds any pass");
   const std::string message = fmt::format("passes {} of {} are missing", missing.text(), end);
   if (!options.allow_gaps) refuse(message + "; --allow-gaps merges the others");
   console.note(message);

@@ -142,9 +142,7 @@ void add_sequence_options(Command& command, RenderOptions& options) {
       "Frames A to B - 1 of the camera path, or of an animated glTF file at 24 frames a second. "
       "Default: all",
       [&options](const std::string& text) {
-        options.sequence.frames = render::PassSet::parse(text);
-        if (!options.sequence.frames)
-          throw OptionError("--frames", fmt::format("`{}`: expected frames BEGIN:END, like 0:240", text));
+        options.sequence.frames = parse_ranges("--frames", "frames", text);
       });
   command.add_flag("--overwrite", options.sequence.overwrite, "Render frames whose files exist again");
 }
@@ -164,13 +162,7 @@ void add_pass_options(Command& command, RenderOptions& options) {
   command.add_parsed(
       "--pass-range", "A:B",
       "Render only passes A to B - 1; needs --passes. `kaustik merge` combines the parts. Default: all",
-      [&options](const std::string& text) {
-        const auto passes = render::PassSet::parse(text);
-        if (!passes)
-          throw OptionError("--pass-range",
-                            fmt::format("`{}`: expected passes BEGIN:END, like 0:16 or 0:4,8:12", text));
-        options.passes = *passes;
-      });
+      [&options](const std::string& text) { options.passes = parse_ranges("--pass-range", "passes", text); });
 }
 
 }  // namespace

@@ -20,13 +20,21 @@ struct ResumeOptions {
   OutputOptions outputs;
   LiveOptions live;
   double checkpoint_every = CheckpointSettings{}.every;
-  uint64_t passes = 0;  // total number at the end; 0 = as the partial result's settings say
+  uint64_t passes = 0;     // total number at the end; 0 = as the partial result's settings say
+  render::PassSet only;    // the passes to render, into a checkpoint of their own; empty: all
+  std::string checkpoint;  // of `only`
   SettingOverrides overrides;
 };
 
 // The passes that exist at the end.
 render::PassSet goal_of(const ResumeOptions& options, const render::PartialResult& part) {
   const render::PassSet& goal = part.manifest.goal;
+  if (!options.only.empty()) {
+    if (const render::PassSet others = options.only.without(goal); !others.empty())
+      throw ExitError(kBadCommandLine, fmt::format("--pass-range {}: {} asks for passes {}",
+                                                   options.only.text(), options.partial, goal.text()));
+    return options.only;
+  }
   if (options.passes == 0) return goal;
   if (options.passes < part.sums.passes.end())
     throw ExitError(kBadCommandLine, fmt::format("--passes {}: {} already holds passes {}", options.passes,
@@ -74,7 +82,8 @@ void check_rules(const ResumeOptions& options, const Job& job, const render::Pas
 int run_resume(const ResumeOptions& options, const Console& console) {
   const Stopwatch total;
   check_outputs(options.outputs);
-  check_writable(options.partial);
+  const std::string& checkpoint = options.checkpoint.empty() ? options.partial : options.checkpoint;
+  check_writable(checkpoint);
   const InterruptGuard interrupt;
   render::PartialResult part = load_partial(options.partial);
   check_program(part.manifest.build, part.manifest.isa, options.partial, "their passes cannot be combined");
@@ -82,10 +91,12 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   session.goal = goal_of(options, part);
   session.outputs = options.outputs;
   session.live = options.live;
-  if (session.outputs.files.empty()) session.outputs.files = part.manifest.outputs;
+  if (session.outputs.files.empty() && options.only.empty()) session.outputs.files = part.manifest.outputs;
   check_outputs(session.outputs);
-  check_collisions(named_files(session.outputs), {{"the checkpoint", options.partial}});
-  session.checkpoint = {options.partial, options.checkpoint_every};
+  check_collisions(named_files(session.outputs),
+                   {{"the checkpoint", checkpoint}, {"the partial result", options.partial}});
+  session.checkpoint = {checkpoint, options.checkpoint_every};
+  if (!options.only.empty()) part.sums.passes = {};  // only its radii
   Job job = load_again(options, part.manifest, console);
   check_collisions(named_files(session.outputs), files_of(job));
   session.bounded = options.passes > 0;
@@ -95,6 +106,22 @@ int run_resume(const ResumeOptions& options, const Console& console) {
                            open ? "as many as needed" : session.goal.without(part.sums.passes).text()));
   session.done = std::move(part.sums);
   return run_session(job, std::move(session), interrupt, total, console);
+}
+
+void add_part_options(Command& command, ResumeOptions& options) {
+  Option& range = command.add_parsed(
+      "--pass-range", "A:B",
+      "Render only passes A to B - 1, into a partial result of their own, with the settings and radii of "
+      "PART, "
+      "which stays as it is. `kaustik merge` combines the parts",
+      [&options](const std::string& text) { options.only = parse_ranges("--pass-range", "passes", text); });
+  range.needs = {"--checkpoint"};
+  range.excludes = {"--passes"};
+  command
+      .add_text(
+          "--checkpoint", "FILE", options.checkpoint,
+          "Partial result (.kpart) of the passes of --pass-range, written from time to time and at the end")
+      .needs = {"--pass-range"};
 }
 
 void add_resume_options(Command& command, ResumeOptions& options) {
@@ -123,6 +150,7 @@ Command make_resume_command() {
   add_output_options(command, options->outputs, "the files of the interrupted render");
   add_live_options(command, options->live);
   add_resume_options(command, *options);
+  add_part_options(command, *options);
   command.add_text("--scene", "FILE", options->scene,
                    "Path of the scene if it has moved; its contents must be the same. Default: the path "
                    "stored in PART");

@@ -282,6 +282,14 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
   return code;
 }
 
+render::PassSet parse_ranges(std::string_view option, std::string_view what, const std::string& text) {
+  const std::optional<render::PassSet> ranges = render::PassSet::parse(text);
+  if (!ranges)
+    throw OptionError(std::string(option),
+                      fmt::format("`{}`: expected {} BEGIN:END, like 0:16 or 0:4,8:12", text, what));
+  return *ranges;
+}
+
 double checkpoint_interval(const std::string& text) {
   if (const std::optional<double> seconds = parse_duration(text)) return *seconds;
   throw OptionError("--checkpoint-every",

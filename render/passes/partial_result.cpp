@@ -184,8 +184,10 @@ void write_partial(const std::string& path, const PartialManifest& manifest, con
     out.put(kVersion);
     out.put(json.size());
     out.put(json.data(), json.size());
-    put(sums.totals.pixels(), &out);
-    put(sums.totals.half_pixels(), &out);
+    if (!sums.passes.empty()) {
+      put(sums.totals.pixels(), &out);
+      put(sums.totals.half_pixels(), &out);
+    }
     out.finish();
   } catch (const FileError& error) {
     throw PartialError(path, error.what());
@@ -199,17 +201,21 @@ PartialResult read_partial(const std::string& path) {
   check_hash(in);
   in.rewind();
   ReadManifest read = read_manifest(in);
-  const uint64_t pixel_bytes = uint64_t(read.width) * uint64_t(read.height) *
-                               (sizeof(PixelTotals) + (read.halves ? sizeof(HalfTotals) : 0));
+  const bool any = !read.result.sums.passes.empty();
+  const uint64_t pixel_bytes = any ? uint64_t(read.width) * uint64_t(read.height) *
+                                         (sizeof(PixelTotals) + (read.halves ? sizeof(HalfTotals) : 0))
+                                   : 0;
   if (kHeadBytes + manifest_bytes + pixel_bytes + kHashBytes != in.size())
     in.fail("the file's size does not match its image");
   FilmTotals& totals = read.result.sums.totals;
   totals = FilmTotals(
       PixelWindow<PixelTotals>(read.width, read.height, read.x0, read.y0, read.full_width, read.full_height),
       read.units);
-  get(&totals.pixels(), &in);
   if (read.halves) totals.keep_halves();
-  get(&totals.half_pixels(), &in);
+  if (any) {
+    get(&totals.pixels(), &in);
+    get(&totals.half_pixels(), &in);
+  }
   return std::move(read.result);
 }
 

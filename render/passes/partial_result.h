@@ -5,8 +5,8 @@
 //   8 bytes   "KPART\r\n\x1a"
 //   8 bytes   version of the format, 3
 //   8 bytes   size of the manifest, which follows: JSON, UTF-8
-//   a PixelTotals for each pixel of the window (640 bytes), rows from the top
-//   if the samples are kept in halves, a HalfTotals for each pixel (416 bytes), likewise
+//   if it holds any pass, a PixelTotals for each pixel of the window (640 bytes), rows from the top
+//   and, if the samples are kept in halves, a HalfTotals for each pixel (416 bytes), likewise
 //   16 bytes  ContentHash of everything before
 //
 // Integers are little-endian, sums in two's complement.
