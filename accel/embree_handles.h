@@ -2,6 +2,7 @@
 // Owns an Embree device and scene.
 
 #include "accel/embree_error.h"
+#include "accel/embree_isa.h"
 
 namespace kaustik::accel {
 
@@ -21,7 +22,8 @@ struct EmbreeHandles {
 
   // Throws std::runtime_error when Embree provides no device.
   void open_device() {
-    device = rtcNewDevice(nullptr);
+    const std::string& isa = embree_isa_limit();
+    device = rtcNewDevice(isa.empty() ? nullptr : ("isa=" + isa).c_str());
     if (!device) throw_embree(rtcGetDeviceError(nullptr), "opening the device");
   }
 };

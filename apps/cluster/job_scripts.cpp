@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "apps/machine/instruction_set.h"
+
 namespace kaustik::app {
 
 namespace {
@@ -12,7 +14,9 @@ namespace {
 std::string program() {
   std::error_code error;
   const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
-  return fmt::format("kaustik=${{KAUSTIK:-{}}}\n", quoted(error ? "kaustik" : path.string()));
+  const std::string isa = pinned_instruction_set();
+  return fmt::format("kaustik=${{KAUSTIK:-{}}}\nisa=({})\n", quoted(error ? "kaustik" : path.string()),
+                     isa.empty() ? "" : "--isa " + isa);
 }
 
 constexpr const char* kInFolder =
@@ -49,7 +53,7 @@ std::string task_script(const JobFolder& job) {
              "threads=()\n"
              "[ -z \"${{SLURM_CPUS_PER_TASK:-}}\" ] || threads=(--threads \"$SLURM_CPUS_PER_TASK\")\n"
              "\"$kaustik\" \"${{work[@]}}\" --checkpoint-every \"${{CHECKPOINT_EVERY:-60s}}\" "
-             "\"${{threads[@]}}\" "
+             "\"${{threads[@]}}\" \"${{isa[@]}}\" "
              "-q &\n"
              "child=$!\n"
              "stopped=\n"
@@ -82,7 +86,7 @@ std::string merge_script(const JobFolder& job, const std::vector<std::string>& p
              "for ((task = 0; task < {}; ++task)); do\n"
              "  [ ! -e \"parts/$task.kpart\" ] || parts+=(\"parts/$task.kpart\")\n"
              "done\n"
-             "\"$kaustik\" merge \"${{parts[@]:-start.kpart}}\" \"$@\" && exit\n"
+             "\"$kaustik\" merge \"${{parts[@]:-start.kpart}}\" \"${{isa[@]}}\" \"$@\" && exit\n"
              "code=$?\n"
              "\"$kaustik\" status .\n"
              "exit \"$code\"\n",

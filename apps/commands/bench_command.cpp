@@ -27,6 +27,7 @@
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/scene_loading.h"
 #include "apps/session/interrupt.h"
+#include "apps/session/isa_option.h"
 #include "apps/settings/settings_json.h"
 #include "core/version.h"
 
@@ -272,6 +273,7 @@ Command make_bench_command() {
   Command command("bench", "Measure speed, memory and scaling on a scene");
   const auto options = std::make_shared<BenchOptions>();
   add_options(command, *options);
+  add_isa_option(command);
   command.add_quiet();
   command.run = [options](const Console& console) { return run_bench(*options, console); };
   return command;

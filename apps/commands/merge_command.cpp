@@ -5,6 +5,7 @@
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/session/files/partial_files.h"
+#include "apps/session/isa_option.h"
 #include "apps/session/render_outputs.h"
 #include "core/stopwatch.h"
 
@@ -94,6 +95,7 @@ Command make_merge_command() {
   command.add_arguments("PARTS", options->parts, "Partial results (.kpart) of one render, in any order");
   add_output_options(command, options->outputs, "none");
   command.add_flag("--allow-gaps", options->allow_gaps, "Merge even if passes are missing");
+  add_isa_option(command);
   command.add_quiet("Suppress the log, but not warnings and errors");
   add_setting_options(command, options->overrides, SettingsCommand::kMerge);
   command.run = [options](const Console& console) { return run_merge(*options, console); };

@@ -13,6 +13,7 @@
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/scene_loading.h"
 #include "apps/session/interrupt.h"
+#include "apps/session/isa_option.h"
 #include "core/diagnostics/nearest_name.h"
 #include "photon/record/ply_export.h"
 #include "photon/shoot/memory_estimate.h"
@@ -159,6 +160,7 @@ Command make_photons_command() {
       .add_list("--kinds", "NAMES", options->kinds,
                 "Kinds of photons, separated by commas: direct, shadow, caustic, indirect. Default: all")
       .choices = choices_of(photon::kPhotonKindNames);
+  add_isa_option(command);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kPhotons);
   command.run = [options](const Console& console) { return run_photons(*options, console); };

@@ -9,6 +9,7 @@
 #include "apps/machine/thread_limit.h"
 #include "apps/sequence/sequence.h"
 #include "apps/session/files/output_files.h"
+#include "apps/session/isa_option.h"
 #include "apps/session/render_session.h"
 #include "apps/settings/unread_settings.h"
 #include "render/plan/plan.h"
@@ -177,6 +178,7 @@ Command make_render_command() {
   add_map_options(command, *options);
   add_sequence_options(command, *options);
   add_live_options(command, options->live);
+  add_isa_option(command);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kRender);
   command.examples = kExamples;

@@ -7,6 +7,7 @@
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/session/files/output_files.h"
+#include "apps/session/isa_option.h"
 #include "apps/session/render_session.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "render/plan/plan.h"
@@ -154,6 +155,7 @@ Command make_resume_command() {
   command.add_text("--scene", "FILE", options->scene,
                    "Path of the scene if it has moved; its contents must be the same. Default: the path "
                    "stored in PART");
+  add_isa_option(command);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kResume);
   command.run = [options](const Console& console) { return run_resume(*options, console); };

@@ -11,6 +11,7 @@
 #include "apps/session/files/collisions.h"
 #include "apps/session/files/output_files.h"
 #include "apps/session/interrupt.h"
+#include "apps/session/isa_option.h"
 #include "apps/session/kept_maps.h"
 #include "render/passes/passes.h"
 
@@ -78,6 +79,7 @@ Command make_shoot_command() {
   const auto options = std::make_shared<ShootOptions>();
   command.add_argument("SCENE", options->scene, "Scene file: .pbrt, .gltf, .glb, .obj, .ply or .stl");
   command.add_text("-o,--output", "FILE", options->map, "File of photon maps (.kmap) to write");
+  add_isa_option(command);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kShoot);
   command.examples =

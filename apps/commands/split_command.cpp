@@ -10,6 +10,7 @@
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
 #include "apps/machine/thread_limit.h"
+#include "apps/session/isa_option.h"
 #include "apps/session/render_session.h"
 #include "apps/session/stopping/fixed_plan.h"
 
@@ -108,6 +109,7 @@ Command make_split_command() {
                                         options->engine = *found;
                                       });
   engine.choices = choices_of(kEngineNames);
+  add_isa_option(command);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kRender);
   command.examples =

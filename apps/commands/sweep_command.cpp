@@ -19,6 +19,7 @@
 #include "apps/session/files/output_files.h"
 #include "apps/session/files/partial_files.h"
 #include "apps/session/interrupt.h"
+#include "apps/session/isa_option.h"
 #include "apps/sweep/reference.h"
 #include "apps/sweep/run_cells.h"
 #include "apps/sweep/sweep_files.h"
@@ -271,6 +272,7 @@ Command make_sweep_command() {
   add_grid_options(command, options->grid);
   add_reference_options(command, *options);
   add_setting_options(command, options->overrides, SettingsCommand::kSweep);
+  add_isa_option(command);
   command.add_quiet();
   command.run = [options](const Console& console) { return run_sweep(*options, console); };
   return command;

@@ -11,6 +11,7 @@
 #include "apps/console/exit_error.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/session/files/scene_loading.h"
+#include "apps/session/isa_option.h"
 #include "apps/session/render_session.h"
 #include "apps/settings/setting_options.h"
 #include "apps/web/laboratory.h"
@@ -148,6 +149,7 @@ Command make_view_command() {
   const auto options = std::make_shared<ViewOptions>();
   command.add_argument("SCENE", options->scene, "Scene file: .pbrt, .gltf, .glb, .obj, .ply or .stl");
   add_page_options(command, options->page);
+  add_isa_option(command);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kRender);
   command.run = [options](const Console& console) { return run_view(*options, console); };
