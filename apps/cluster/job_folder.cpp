@@ -9,6 +9,7 @@
 #include "apps/cluster/job_scripts.h"
 #include "apps/console/exit_error.h"
 #include "apps/session/files/output_files.h"
+#include "core/files/disk_file.h"
 #include "render/settings/names.h"
 
 namespace kaustik::app {
@@ -34,14 +35,18 @@ std::string JobFolder::part(uint64_t task) const {
   return fmt::format("{}/parts/{}.kpart", path, task);
 }
 
-void write_job_folder(const JobFolder& job, const std::vector<std::string>& pictures) {
+void make_job_folder(const std::string& path) {
   std::error_code error;
-  if (fs::exists(job.path, error) && !fs::is_empty(job.path, error))
-    refuse(fmt::format("{}: the folder exists and is not empty", job.path));
-  for (const char* folder : {"", "/parts", "/logs"}) {
-    fs::create_directories(job.path + folder, error);
-    if (error) refuse(fmt::format("cannot create the folder {}{}: {}", job.path, folder, error.message()));
-  }
+  if (fs::exists(path, error) && !fs::is_empty(path, error))
+    refuse(fmt::format("{}: the folder exists and is not empty", path));
+  fs::create_directories(path, error);
+  if (error) refuse(fmt::format("cannot create the folder {}: {}", path, error.message()));
+  check_writable(path + "/job.json");
+}
+
+void write_job(const JobFolder& job, const std::vector<std::string>& pictures) {
+  fs::create_directories(job.path + "/parts");
+  fs::create_directories(job.path + "/logs");
   const nlohmann::ordered_json json = {
       {"tasks", job.tasks}, {"passes", job.passes}, {"engine", kEngineNames[size_t(job.engine)]}};
   write_text_file(job.path + "/job.json", json.dump(1) + "\n");
@@ -53,9 +58,14 @@ void write_job_folder(const JobFolder& job, const std::vector<std::string>& pict
 
 JobFolder read_job_folder(const std::string& path) {
   try {
+    check_regular(path + "/job.json");
     std::ifstream file(path + "/job.json");
     const auto json = nlohmann::json::parse(file);
-    JobFolder job{path, json.at("tasks").get<uint64_t>(), json.at("passes").get<uint64_t>()};
+    const auto count = [&](const char* name) {
+      if (!json.at(name).is_number_unsigned()) throw std::runtime_error("a number is not a count");
+      return json.at(name).get<uint64_t>();
+    };
+    JobFolder job{path, count("tasks"), count("passes")};
     const auto engine = render::from_name<Engine>(kEngineNames, json.at("engine").get<std::string>());
     if (!engine || job.tasks < 1 || job.tasks > job.passes || job.passes > render::kMostPasses)
       throw std::runtime_error("a value is out of range");

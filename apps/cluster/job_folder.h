@@ -9,6 +9,7 @@
 //   submit.sh     submits both to Slurm; or run.sh, which runs them one after the other
 //   parts, logs   folders
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -33,10 +34,13 @@ struct JobFolder {
   std::string part(uint64_t task) const;
 };
 
-// Creates the folder with all but start.kpart. picture: the files that merge.sh writes by default. Throws
-// ExitError (bad command line) for a folder that exists and is not empty, std::runtime_error for a file that
+// Creates the folder. Throws ExitError (bad command line) for one that exists and is not empty, or that
 // cannot be written.
-void write_job_folder(const JobFolder& job, const std::vector<std::string>& pictures);
+void make_job_folder(const std::string& path);
+
+// Writes all but start.kpart into the folder. pictures: the files that merge.sh writes by default. Throws
+// std::runtime_error for a file that cannot be written.
+void write_job(const JobFolder& job, const std::vector<std::string>& pictures);
 
 // Throws ExitError (bad command line) for a folder that `kaustik split` has not written.
 JobFolder read_job_folder(const std::string& path);

@@ -20,8 +20,8 @@ std::string program() {
 }
 
 constexpr const char* kInFolder =
-    "# Slurm runs a copy of this script in the job's folder.\n"
-    "[ -n \"${SLURM_JOB_ID:-}\" ] || cd \"$(dirname \"$0\")\" || exit\n";
+    "# Slurm runs a copy of this script, slurm_script, in the job's folder.\n"
+    "[ \"${0##*/}\" = slurm_script ] || cd \"$(dirname \"$0\")\" || exit\n";
 
 }  // namespace
 

@@ -84,6 +84,8 @@ void check_with_scene(RenderOptions options, const std::vector<std::string>& out
 int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
   if (!options.sequence.any()) check_outputs(options.outputs);
+  if (options.sequence.overwrite && !options.sequence.any())
+    throw ExitError(kBadCommandLine, "--overwrite needs --camera-path or --frames");
   if (!options.checkpoint.path.empty()) check_writable(options.checkpoint.path);
   if (!options.save_map.empty()) check_map_output(options.save_map);
   check_collisions(files_of(options), {{"the scene", options.scene}, {"--map", options.map}});

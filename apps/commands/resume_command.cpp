@@ -66,6 +66,9 @@ void check_rules(const ResumeOptions& options, const Job& job, const render::Pas
   const StopSettings& stop = job.settings.stop;
   check_stop_settings(stop);
   if (!stop.any()) return;
+  if (!options.only.empty())
+    throw ExitError(kBadCommandLine,
+                    "--pass-range cannot be combined with --target-error or --time, given or stored");
   if (goal.first() > 0)
     throw ExitError(
         kBadCommandLine,
@@ -85,6 +88,9 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   check_outputs(options.outputs);
   const std::string& checkpoint = options.checkpoint.empty() ? options.partial : options.checkpoint;
   check_writable(checkpoint);
+  if (!options.checkpoint.empty())
+    check_collisions({{"--checkpoint", checkpoint}},
+                     {{"the partial result", options.partial}, {"the scene", options.scene}});
   const InterruptGuard interrupt;
   render::PartialResult part = load_partial(options.partial);
   check_program(part.manifest.build, part.manifest.isa, options.partial, "their passes cannot be combined");
@@ -100,6 +106,7 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   if (!options.only.empty()) part.sums.passes = {};  // only its radii
   Job job = load_again(options, part.manifest, console);
   check_collisions(named_files(session.outputs), files_of(job));
+  check_collisions({{"--checkpoint", checkpoint}}, files_of(job));
   session.bounded = options.passes > 0;
   check_rules(options, job, session.goal, console);
   const bool open = job.settings.stop.any() && !session.bounded;
@@ -138,7 +145,7 @@ void add_resume_options(Command& command, ResumeOptions& options) {
       });
   command.add_parsed(
       "--checkpoint-every", "TIME",
-      "Least time between checkpoints, which replace PART at the end of a pass. Default: 60s",
+      "Least time between checkpoints, which are written at the end of a pass. Default: 60s",
       [&options](const std::string& text) { options.checkpoint_every = checkpoint_interval(text); });
 }
 

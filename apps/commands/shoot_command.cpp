@@ -66,6 +66,8 @@ int run_shoot(const ShootOptions& options, const Console& console) {
     job = load_job(options.scene, options.overrides, console);
     check_collisions({{"-o", options.map}}, files_of(job));
     const KeptMaps kept{options.map, {}};
+    if (std::exchange(job.settings.render.passes, 1) > 1)
+      console.note("all photons are shot in one pass, whatever the settings say of passes");
     settle_kept_maps(kept, console, &job);
     code = shoot_maps(kept, job, interrupt, console);
   });

@@ -62,6 +62,7 @@ int run_split(const SplitOptions& options, const Console& console) {
                     [&] { job = load_job(options.scene, options.overrides, console); });
   if (job.settings.stop.any()) refuse("--time and --target-error cannot be divided among tasks");
   settle_passes(options, &job.settings.render);
+  make_job_folder(options.folder);
   RenderSession session;
   settle_session(options.overrides, console, &job, &session);
   std::optional<render::PassSums> sums;
@@ -73,8 +74,8 @@ int run_split(const SplitOptions& options, const Console& console) {
   }
   const std::string stem = std::filesystem::path(options.scene).stem().string();
   const JobFolder folder{options.folder, options.tasks, sums->shares, options.engine};
-  write_job_folder(folder, {stem + ".exr", stem + ".png"});
   render::write_partial(folder.start(), manifest_of(job, {}, {}, *sums), *sums);
+  write_job(folder, {stem + ".exr", stem + ".png"});
   console.note(fmt::format("{}: {} passes in {}; {}/{} starts them", options.folder, grouped(folder.passes),
                            counted(folder.tasks, "task"), options.folder,
                            options.engine == Engine::kSlurm ? "submit.sh" : "run.sh"));
@@ -87,7 +88,7 @@ Command make_split_command() {
   Command command("split", "Divide a render among the tasks of a cluster");
   const auto options = std::make_shared<SplitOptions>();
   command.add_argument("SCENE", options->scene, "Scene file, which all machines must see under this path");
-  command.add_parsed("--tasks", "COUNT", "Number of tasks, each of which renders as many passes",
+  command.add_parsed("--tasks", "COUNT", "Number of tasks, among which the passes are divided",
                      [options](const std::string& text) {
                        const std::optional<uint64_t> tasks = parse_count(text);
                        if (!tasks || *tasks < 1 || *tasks > render::kMostPasses)

@@ -46,6 +46,7 @@ std::string command_for(const JobFolder& job, const std::vector<uint64_t>& tasks
 int run_status(const std::string& path, const Console& console) {
   const JobFolder job = read_job_folder(path);
   const render::PartialResult start = load_partial(job.start());
+  if (start.sums.shares != job.passes) refuse(fmt::format("{}: job.json is not that of start.kpart", path));
   render::PassSet done, missing;
   std::vector<uint64_t> unfinished;
   for (uint64_t task = 0; task < job.tasks; ++task) {
@@ -55,7 +56,7 @@ int run_status(const std::string& path, const Console& console) {
     unfinished.push_back(task);
     console.out << fmt::format("task {}: {} of {} passes done, missing {}{}\n", task, state.done.count(),
                                job.passes_of(task).count(), state.missing.text(),
-                               state.trouble.empty() ? "" : "; " + state.trouble);
+                               state.trouble.empty() ? "" : fmt::format("; remove it: {}", state.trouble));
   }
   console.out << fmt::format("{} of {} passes done in {} of {} tasks\n", done.count(), job.passes,
                              job.tasks - unfinished.size(), job.tasks);

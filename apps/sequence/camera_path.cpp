@@ -15,7 +15,7 @@
 #include "apps/import/gltf/file/json_view.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/diagnostics/nearest_name.h"
-#include "render/passes/pass_set.h"
+#include "core/files/disk_file.h"
 
 namespace kaustik::app {
 
@@ -24,6 +24,11 @@ namespace {
 using View = gltf::View;  // checked access to JSON
 
 std::string read_text(const std::string& file) {
+  try {
+    check_regular(file);  // a pipe would wait for a writer
+  } catch (const FileError& error) {
+    refuse(fmt::format("cannot read the camera path {}: {}", file, error.what()));
+  }
   std::ifstream in(file, std::ios::binary);
   std::stringstream text;
   if (!in || !(text << in.rdbuf())) refuse(fmt::format("cannot read the camera path {}", file));
@@ -60,7 +65,7 @@ void check_names(const View& object, const std::vector<std::string_view>& known)
 
 uint64_t frame_count(const View& number) {
   const uint64_t frames = number.count();
-  if (frames < 1 || frames > render::kMostPasses) number.fail("must be 1 to 2147483647");
+  if (frames < 1 || frames > kMostFrames) number.fail(fmt::format("must be 1 to {}", kMostFrames));
   return frames;
 }
 
@@ -107,7 +112,7 @@ class PathReader {
   static void read_key(const View& json, CameraPath* path) {
     check_names(json, {"frame", "eye", "target", "up", "fov"});
     CameraPath::Key key{double(json["frame"].count())};
-    if (key.frame >= double(render::kMostPasses)) json["frame"].fail("must be below 2147483647");
+    if (!(key.frame < double(kMostFrames))) json["frame"].fail(fmt::format("must be below {}", kMostFrames));
     if (!path->keys_.empty() && !(key.frame > path->keys_.back().frame))
       json["frame"].fail("must be greater than that of the key before");
     size_t at = 0;
@@ -125,6 +130,7 @@ class PathReader {
 
 CameraPath CameraPath::read(const std::string& file, std::ostream& err) {
   const nlohmann::json json = parse(file, read_text(file), err);
+  if (!json.is_object()) refuse(fmt::format("{}: expected an object with `keys` or `turntable`", file));
   try {
     return PathReader::read(View(json, ""));
   } catch (const gltf::FormatError& error) {
@@ -171,7 +177,8 @@ FrameView CameraPath::at(uint64_t frame, const std::optional<CameraDescription>&
     numbers = {e.x, e.y, e.z, t.x, t.y, t.z, u.x, u.y, u.z, 0};
   }
   for (size_t k = 0; k < view.look_at.size(); ++k) view.look_at[k] = double(float(numbers[k]));
-  if (has_fov_) view.fov = double(float(numbers[kNumbers - 1]));
+  // A curve may run beyond its keys.
+  if (has_fov_) view.fov = double(float(std::clamp(numbers[kNumbers - 1], 0.01, 179.9)));
   return view;
 }
 

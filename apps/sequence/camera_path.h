@@ -11,6 +11,8 @@
 
 namespace kaustik::app {
 
+inline constexpr uint64_t kMostFrames = 1'000'000;  // of a sequence
+
 // Values of --look-at and --fov. All numbers are floats, so that the options give them again exactly.
 struct FrameView {
   std::array<double, 9> look_at{};  // eye, target, up

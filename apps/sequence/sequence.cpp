@@ -105,24 +105,40 @@ std::vector<uint64_t> missing_frames(const SequenceOptions& options, const Seque
   return missing;
 }
 
-// Exposure of a small picture of few samples by the job's camera, so that all frames are shown alike.
-float common_exposure(Job& job, const RenderSession& session, const accel::Bvh& bvh) {
+// Exposure of a small picture of few samples by the job's camera, so that all frames are shown alike. Its
+// photons are those of the frames, or few.
+float common_exposure(Job& job, const RenderSession& session, const accel::Bvh& bvh,
+                      const render::ProgressCallback& progress) {
   constexpr int kWidth = 160, kSamples = 8;
+  constexpr uint64_t kPhotons = 200'000;
   const render::RenderSettings settings = job.settings.render;
   const Camera camera = job.scene.camera;
   job.scene.camera.height = std::max(1, camera.height * std::min(kWidth, camera.width) / camera.width);
   job.scene.camera.width = std::min(kWidth, camera.width);
   render::RenderSettings& few = job.settings.render;
-  few.crop = {}, few.spp = kSamples, few.adaptive = 0, few.denoise = false;
+  few.crop = {}, few.spp = kSamples, few.adaptive = 0, few.denoise = false, few.estimate_bias = false;
+  few.passes = 1;
+  if (!session.maps.photons) few.photons = std::min(few.photons, kPhotons);
   render::RenderTask task{.keep_sums = false, .views = session.views};
   KeptMaps maps = session.maps;
   maps.explored = nullptr;  // what a small picture finds out about the scene is not for the frames
   if (maps.photons) make_photons(maps, job, bvh, session.views, {}, &task.photons);
-  const render::Film film = render::render(job.scene, bvh, few, {}, std::move(task)).film;
+  const render::Film film = render::render(job.scene, bvh, few, progress, std::move(task)).film;
   job.settings.render = settings;
   job.scene.camera = camera;
   return render::automatic_exposure(render::image_of(film), render::lights_seen(film),
                                     job.settings.tone.tonemap);
+}
+
+// Sets the exposure of all frames, if files show it and the settings leave it open.
+void settle_exposure(Job& job, const RenderSession& session, const accel::Bvh& bvh,
+                     const InterruptGuard& interrupt, const Console& console) {
+  const bool tones = std::ranges::any_of(session.outputs.files, shows_tones);
+  if (!tones || job.settings.tone.exposure || interrupt.requested()) return;
+  const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
+  job.settings.tone.exposure = common_exposure(job, session, bvh, go_on);
+  console.note(
+      fmt::format("exposure: --exposure {} (automatic, for all frames)", *job.settings.tone.exposure));
 }
 
 // What the frames of a world that stands still share: its BVH and photons. Everything is settled for the
@@ -138,14 +154,12 @@ class StandingWorld {
       bvh_.emplace(job.scene, job.settings.render.threads);
       session.bvh = &*bvh_;
       shoot(interrupt, console);
-      const bool tones = std::ranges::any_of(session.outputs.files, shows_tones);
-      if (tones && !job.settings.tone.exposure && !interrupt.requested()) {
-        job.settings.tone.exposure = common_exposure(job, session, *bvh_);
-        console.note(
-            fmt::format("exposure: --exposure {} (automatic, for all frames)", *job.settings.tone.exposure));
-      }
+      settle_exposure(job, session, *bvh_, interrupt, console);
     });
   }
+
+  // Whether the file of the maps could not be written.
+  bool failed() const { return failed_; }
 
   void show(uint64_t frame) {
     job_.scene.camera = cameras_.at(frame);
@@ -169,9 +183,17 @@ class StandingWorld {
     KeptMaps& maps = session_.maps;
     if (maps.from) maps.from->check_columns();
     maps.explored = std::make_shared<render::ExploredScene>();
+    note_cameras(maps, job_, session_.views, false, console);
     std::shared_ptr<render::FirstPhotons> first;
-    make_photons(maps, job_, *bvh_, session_.views, progress, &first);
+    try {
+      make_photons(maps, job_, *bvh_, session_.views, progress, &first);
+    } catch (const render::MapFileError& error) {
+      if (maps.from) throw;
+      console.error(error.what());  // the frames are rendered all the same
+      failed_ = true;
+    }
     if (!first->photons.radii()) return;  // interrupted
+    if (!maps.save.empty() && !failed_) console.note("wrote " + maps.save);
     maps.photons = std::make_shared<const render::KeptPhotons>(first->photons.keep(first->statistics));
     job_.settings.render.passes = 1;
   }
@@ -180,6 +202,7 @@ class StandingWorld {
   RenderSession& session_;
   FrameCameras cameras_;
   std::optional<accel::Bvh> bvh_;
+  bool failed_ = false;
 };
 
 // The job of a frame of a world that moves, with the settings that were settled for the first one.
@@ -205,14 +228,20 @@ Job moved_job(const Sequence& sequence, uint64_t frame, const SettingOverrides& 
 
 // Settles for the first frame what all frames of a world that moves share.
 void settle_moving_world(const Sequence& sequence, const SettingOverrides& given, Job& job,
-                         RenderSession& session, const Console& console) {
+                         RenderSession& session, const InterruptGuard& interrupt, const Console& console) {
   job = moved_job(sequence, 0, given, job, console);
   with_thread_limit(job.settings.render.threads, console, [&] {
     const accel::Bvh bvh(job.scene, job.settings.render.threads);
-    if (std::exchange(session.try_paths, false)) settle_paths(job.scene, bvh, {}, &job.settings);
-    const bool tones = std::ranges::any_of(session.outputs.files, shows_tones);
-    if (tones && !job.settings.tone.exposure) job.settings.tone.exposure = common_exposure(job, session, bvh);
+    const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
+    if (std::exchange(session.try_paths, false)) settle_paths(job.scene, bvh, go_on, &job.settings);
+    settle_exposure(job, session, bvh, interrupt, console);
   });
+}
+
+// No two files of a frame may have one name, at any number of digits.
+void check_patterns(const OutputOptions& patterns, uint64_t frames) {
+  for (uint64_t frame = 1; frame < frames; frame *= 10)
+    check_collisions(named_files(outputs_of(patterns, frame)), {});
 }
 
 }  // namespace
@@ -223,7 +252,11 @@ Sequence make_sequence(const SequenceOptions& options, const RenderSession& sess
   if (!options.camera_path.empty()) sequence.path = CameraPath::read(options.camera_path, console.err);
   if (const auto& animation = job.view.animation) {
     sequence.animated = true, sequence.moves_world = animation->moves_world;
-    sequence.frames = uint64_t(std::floor(animation->seconds * kFramesPerSecond)) + 1;
+    const double last = std::floor(animation->seconds * kFramesPerSecond);
+    if (!(last < double(kMostFrames)))
+      refuse(fmt::format("{} is animated for {:.3g} s: a sequence has at most {} frames", job.path,
+                         animation->seconds, kMostFrames));
+    sequence.frames = uint64_t(last) + 1;
   }
   if (sequence.path) sequence.frames = sequence.path->frames();
   if (sequence.frames == 0)
@@ -235,11 +268,15 @@ Sequence make_sequence(const SequenceOptions& options, const RenderSession& sess
     refuse("a sequence cannot be combined with --checkpoint, --pass-range, --view, --preview or --display");
   if (session.maps.any() && sequence.moves_world)
     refuse("--map and --save-map cannot be combined with a scene whose shapes or lights move");
+  if (std::ranges::any_of(session.outputs.files, render::is_partial_name))
+    refuse("frames of a sequence cannot be partial results: their photons are those of all frames");
   if (session.outputs.files.empty()) refuse("a sequence needs -o with a pattern such as frame.%04d.exr");
   try {
     const OutputOptions first = outputs_of(session.outputs, 0);
     check_outputs(first);
     check_collisions(named_files(first), files_of(job));
+    check_patterns(session.outputs, sequence.frames);
+    warn_of_layers(first, job.settings.render.aov, console);
   } catch (const std::invalid_argument& error) {
     refuse(error.what());
   }
@@ -258,7 +295,7 @@ int run_sequence(const SequenceOptions& options, const Sequence& sequence, const
   if (sequence.static_world())
     world.emplace(sequence, job, session, interrupt, console);
   else
-    settle_moving_world(sequence, given, job, session, console);
+    settle_moving_world(sequence, given, job, session, interrupt, console);
   for (const uint64_t frame : missing) {
     if (interrupt.requested()) return kInterrupted;
     const std::string place = sequence.path ? ": " + sequence.path->at(frame, job.view.camera).options() : "";
@@ -266,6 +303,7 @@ int run_sequence(const SequenceOptions& options, const Sequence& sequence, const
     const Stopwatch total;
     RenderSession of_frame = session;
     of_frame.outputs = outputs_of(session.outputs, frame);
+    check_collisions(named_files(of_frame.outputs), files_of(job));
     std::optional<Job> moved;
     if (world)
       world->show(frame);
@@ -274,7 +312,7 @@ int run_sequence(const SequenceOptions& options, const Sequence& sequence, const
     const int code = run_session(moved ? *moved : job, std::move(of_frame), interrupt, total, console);
     if (code != kDone) return code;
   }
-  return kDone;
+  return world && world->failed() ? kFailed : kDone;
 }
 
 }  // namespace kaustik::app

@@ -11,9 +11,11 @@
 #include "apps/console/exit_error.h"
 #include "apps/machine/instruction_set.h"
 #include "apps/session/files/partial_files.h"
+#include "core/files/content_hash.h"
 #include "render/maps/photon_shoots.h"
 #include "render/passes/pass_trials.h"
 #include "render/plan/pass_share.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 
@@ -80,9 +82,32 @@ void check_kinds(const render::MapFile& file, const Job& job) {
     refuse(fmt::format("{}: its photons were shot for other estimators", file.path()));
 }
 
+// The estimators on which r0 depends.
+std::string estimators_of(const Job& job) {
+  const render::EstimatorPlan plan = render::make_plan(job.settings.render, job.scene.needs);
+  return fmt::format("{} {}", render::name_of(plan.direct), render::name_of(plan.indirect));
+}
+
 // r0 that was chosen from the photons holds for the same requests only.
 bool radii_are_known(const render::MapFile& file, const Job& job) {
-  return texts_of(file.manifest(), MapPart::kRadii) == texts_of(job.settings, MapPart::kRadii);
+  return file.manifest().estimators == estimators_of(job) &&
+         texts_of(file.manifest(), MapPart::kRadii) == texts_of(job.settings, MapPart::kRadii);
+}
+
+// Tells cameras apart by some of their rays.
+std::string hash_of(const Job& job, std::span<const Camera> views) {
+  if (job.settings.render.for_camera == render::ForCamera::kAll) return "all";
+  if (views.empty()) views = {&job.scene.camera, 1};
+  ContentHash hash;
+  for (const Camera& camera : views) {
+    for (const glm::vec2 at : {glm::vec2(0, 0), glm::vec2(0.5f, 0.5f), glm::vec2(1, 0.25f)}) {
+      const Ray ray = camera.generate_ray({at.x * float(camera.width), at.y * float(camera.height)});
+      hash.add(&ray.o, sizeof ray.o);
+      hash.add(&ray.d, sizeof ray.d);
+    }
+    for (const int side : {camera.width, camera.height}) hash.add(&side, sizeof side);
+  }
+  return hash.text();
 }
 
 void check_file(const render::MapFile& file, const Console& console, const Job& job) {
@@ -92,16 +117,9 @@ void check_file(const render::MapFile& file, const Console& console, const Job& 
   check_settings(file, job);
   check_kinds(file, job);
   console.note(fmt::format("{}: {}", file.path(), counted(file.photons(), "photon")));
-  const bool same_camera =
-      texts_of(file.manifest(), MapPart::kCamera) == texts_of(job.settings, MapPart::kCamera);
-  if (same_camera || job.settings.render.for_camera == render::ForCamera::kAll) return;
-  console.note(
-      fmt::format("{} was shot for another camera, which decided where photons are dense{}; "
-                  "--for-camera all shoots for any camera",
-                  file.path(), radii_are_known(file, job) ? " and how far they are gathered" : ""));
 }
 
-render::MapManifest manifest_of(const Job& job) {
+render::MapManifest manifest_of(const Job& job, std::span<const Camera> views) {
   render::MapManifest manifest;
   manifest.build = program_build();
   manifest.isa = instruction_set();
@@ -110,6 +128,8 @@ render::MapManifest manifest_of(const Job& job) {
   manifest.settings = setting_texts(job.settings, [](const Setting& s) {
     return s.map_part != MapPart::kNone || chooses_estimators(std::string(s.name));
   });
+  manifest.cameras = hash_of(job, views);
+  manifest.estimators = estimators_of(job);
   const photon::TraceSettings trace = traced(job);
   manifest.kinds = trace.kinds;
   manifest.under_glossy = trace.under_glossy;
@@ -162,6 +182,21 @@ void settle_kept_maps(const KeptMaps& kept, const Console& console, Job* job) {
   check_file(*kept.from, console, *job);
 }
 
+void note_cameras(const KeptMaps& kept, const Job& job, std::span<const Camera> views, bool writes_sums,
+                  const Console& console) {
+  if (!kept.from || kept.photons || kept.from->manifest().cameras == hash_of(job, views)) return;
+  const std::string& path = kept.from->path();
+  if (writes_sums)
+    refuse(
+        fmt::format("{} was shot for other cameras: partial results would not belong to those of other "
+                    "passes",
+                    path));
+  console.note(
+      fmt::format("{} was shot for another camera, which decided where photons are dense{}; "
+                  "--for-camera all shoots for any camera",
+                  path, radii_are_known(*kept.from, job) ? " and how far they are gathered" : ""));
+}
+
 void make_photons(const KeptMaps& kept, const Job& job, const accel::Bvh& bvh, std::span<const Camera> views,
                   const render::ProgressCallback& progress, std::shared_ptr<render::FirstPhotons>* photons) {
   const render::RenderSettings& settings = job.settings.render;
@@ -178,7 +213,7 @@ void make_photons(const KeptMaps& kept, const Job& job, const accel::Bvh& bvh, s
   else
     first = render::shoot_first(input, progress, explored);
   if (kept.save.empty() || kept.photons || !first.photons.radii()) return;
-  render::write_map_file(kept.save, manifest_of(job), first.photons.keep(first.statistics));
+  render::write_map_file(kept.save, manifest_of(job, views), first.photons.keep(first.statistics));
 }
 
 struct MapCheck::Work {

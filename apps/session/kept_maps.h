@@ -35,9 +35,14 @@ SettingOverrides with_settings_of(const render::MapFile& file, const SettingOver
 // Throws ExitError (bad command line) for rules that would need photons beside the maps.
 void check_stop_rules(const KeptMaps& kept, const StopSettings& stop);
 
-// Checks that the maps can serve the job, and asks for a single pass. Logs what the maps settle for another
-// camera. Throws ExitError (bad command line), which names what differs.
+// Checks that the maps can serve the job, and asks for a single pass. Throws ExitError (bad command line),
+// which names what differs.
 void settle_kept_maps(const KeptMaps& kept, const Console& console, Job* job);
+
+// Logs what a file settles for other cameras than those of the job (views, or the scene's camera). Throws
+// ExitError (bad command line) if the job writes sums, which would then depend on the file.
+void note_cameras(const KeptMaps& kept, const Job& job, std::span<const Camera> views, bool writes_sums,
+                  const Console& console);
 
 // The photons of the job, from an earlier picture, from the file or shot, which are then written to the other
 // file. Without radii if the progress callback cancelled. Throws render::MapFileError, for a file that cannot

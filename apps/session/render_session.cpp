@@ -98,6 +98,7 @@ bool take_photons(const RenderSession& session, const Job& job, const accel::Bvh
                   const Console& console) {
   const KeptMaps& maps = session.maps;
   if (!maps.any()) return true;
+  note_cameras(maps, job, session.views, writes_sums(session), console);
   try {
     make_photons(maps, job, bvh, session.views, progress, photons);
   } catch (const render::MapFileError& error) {
@@ -105,7 +106,7 @@ bool take_photons(const RenderSession& session, const Job& job, const accel::Bvh
     console.error(error.what());
     return false;
   }
-  if (!maps.save.empty() && (*photons)->photons.radii()) console.note("wrote " + maps.save);
+  if (!maps.save.empty() && !maps.photons && (*photons)->photons.radii()) console.note("wrote " + maps.save);
   return true;
 }
 
@@ -206,6 +207,9 @@ void settle_session(const SettingOverrides& given, const Console& console, Job* 
   settle_error_settings(console, job->scene.needs, &settings);
   session->try_paths = !session->maps.any() && may_choose_paths(settings, given, job->scene.needs);
   settle_kept_maps(session->maps, console, job);
+  if (session->maps.any() && !session->goal.empty() && session->goal != render::PassSet(0, 1))
+    throw ExitError(kBadCommandLine,
+                    fmt::format("--pass-range {}: kept photon maps hold pass 0 alone", session->goal.text()));
 }
 
 std::shared_ptr<LiveRender> make_live(const Job& job) {
@@ -246,7 +250,9 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     if (!goal.empty() && goal.end() < render::kMostPasses)
       bar.set_end(goal.without(session.done.passes).end());
     if (seconds) bar.set_deadline(*seconds - seconds_of(session.done.statistics) - total.seconds());
+    std::optional<MapCheck> check;
     const auto after_pass = [&](const render::PassSums& sums) {
+      if (check) check->finish();  // before anything is written
       const bool enough = rule.enough(sums);
       bar.remark(rule.progress());
       if (const auto passes = rule.passes_needed(sums)) bar.set_end(*passes);
@@ -256,7 +262,6 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     };
     render::PixelsCallback on_pixels = follow(session.done, live.get());
     const render::ProgressCallback progress = shown_by(bar, interrupt, live.get(), console);
-    std::optional<MapCheck> check;
     if (session.maps.from && !session.maps.photons) check.emplace(*session.maps.from);
     const bool map_written = take_photons(session, job, bvh, progress, &filled.work.photons, console);
     render::RenderTask task{.passes = goal,

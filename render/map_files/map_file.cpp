@@ -90,6 +90,8 @@ void MapFile::read_manifest(std::string_view text) {
   json.at("scene").at("path").get_to(m.scene_path);
   json.at("scene").at("hash").get_to(m.scene_hash);
   m.settings = settings_from(json.at("settings"));
+  json.at("cameras").get_to(m.cameras);
+  json.at("estimators").get_to(m.estimators);
   json.at("under_glossy").get_to(m.under_glossy);
   json.at("shadow_behind_specular").get_to(m.shadow_behind_specular);
   const std::optional<GatherRadii> radii = radii_from(json.at("radii"));

@@ -55,6 +55,8 @@ std::string manifest_text(const MapManifest& m, const KeptPhotons& photons,
   out["isa"] = m.isa;
   out["scene"] = {{"path", m.scene_path}, {"hash", m.scene_hash}};
   out["settings"] = settings_json(m.settings);
+  out["cameras"] = m.cameras;
+  out["estimators"] = m.estimators;
   out["under_glossy"] = m.under_glossy;
   out["shadow_behind_specular"] = m.shadow_behind_specular;
   out["radii"] = radii_json(photons.radii);

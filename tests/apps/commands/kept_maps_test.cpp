@@ -128,6 +128,22 @@ TEST_F(KeptMapFiles, OfOtherPhotonsAreRefused) {
   expect_refused(refused({"--time", "1s"}), "--time and --target-error shoot further photons");
   expect_refused(refused({"--aov", "error"}), "kept photon maps hold one pass");
   expect_refused(refused({"--save-map", path("b.kmap")}), "--save-map");
+  expect_refused(refused({"--passes", "1", "--pass-range", "1:2"}), "kept photon maps hold pass 0 alone");
+  expect_refused(refused({"--fov", "50", "--checkpoint", path("a.kpart")}), "was shot for other cameras");
+}
+
+// The radius depends on how indirect light is estimated, although the photons do not.
+TEST_F(KeptMapFiles, ChooseRadiiAnewForOtherEstimators) {
+  scene_ = KAUSTIK_SCENES_DIR "/cornell-spheres/square-lamp-2.pbrt";  // in small_scene() nothing is near
+  expect_done(shoot("a.kmap", {"--indirect", "photons", "--width", "40"}));
+  const auto radii = [&](Arguments more) {
+    more.insert(more.end(), {"-o", path("a.exr"), "--stats", path("a.json"), "--width", "40"});
+    expect_done(render(more));
+    return nlohmann::json::parse(read("a.json"))["radii"];
+  };
+  const auto own = radii({"--photons", "20k", "--save-map", path("own.kmap")});
+  EXPECT_EQ(radii({"--map", path("a.kmap"), "--indirect", "final-gather"}), own);
+  EXPECT_NE(radii({"--map", path("a.kmap")}), own);
 }
 
 TEST_F(KeptMapFiles, OfAnotherSceneAreRefused) {
@@ -153,6 +169,8 @@ TEST_F(KeptMapFiles, ThatAreDamagedAreRefused) {
   EXPECT_EQ(columns.code, kFailed);
   EXPECT_THAT(columns.err, HasSubstr("the file is damaged: bytes"));
   EXPECT_FALSE(exists("refused.exr"));
+  EXPECT_EQ(refused({"--checkpoint", path("refused.kpart"), "--checkpoint-every", "0s"}).code, kFailed);
+  EXPECT_FALSE(exists("refused.kpart"));
   write("a.kmap", "nothing");
   expect_refused(refused({}), "not a photon map of kaustik");
 }
@@ -162,6 +180,7 @@ TEST_F(KeptMapFiles, ThatCannotBeWrittenDoNotCostThePicture) {
   expect_refused(render({"--save-map", path("none/a.kmap"), "-o", path("refused.exr")}),
                  "there is no folder");
   expect_refused(run("shoot", {}, scene_), "nothing to write: give -o");
+  EXPECT_THAT(shoot("b.kmap", {"--quality", "reference"}).err, HasSubstr("all photons are shot in one pass"));
   const test::FileSizeLimit limit(100000);  // more than the picture, less than the maps
   const Outcome outcome =
       render({"--save-map", path("a.kmap"), "--photons", "200k", "-o", path("a.exr"), "-q"});

@@ -63,6 +63,9 @@ TEST_F(DividedRenders, GoOnWithTasksThatAreMissing) {
   render_whole();
   EXPECT_EQ(split().code, kDone);
   EXPECT_EQ(run("task.sh 1"), 0) << read("log.txt");
+  setenv("SLURM_JOB_ID", "5", 1);  // as within another job
+  EXPECT_EQ(run("task.sh 1"), 0) << read("log.txt");
+  unsetenv("SLURM_JOB_ID");
   EXPECT_EQ(run("merge.sh"), kBadCommandLine);
   EXPECT_THAT(read("log.txt"), HasSubstr("passes 0:2,5:8 of 8 are missing"));
   EXPECT_THAT(read("log.txt"), HasSubstr("task 2: 0 of 3 passes done, missing 5:8"));
@@ -97,6 +100,11 @@ TEST_F(DividedRenders, SettleTheRadiiOnce) {
   EXPECT_TRUE(part.radii);
   EXPECT_EQ(part.passes.text(), "4:6");
   expect_refused(resume("4:9", "other.kpart"), "asks for passes 0:8");
+  expect_refused(resume("4:5", "the job/start.kpart"), "start.kpart");
+  expect_refused(resume("4:5", "small.pbrt"), "small.pbrt");
+  expect_refused(run_kaustik({"resume", path("the job/start.kpart"), "--pass-range", "4:5", "--checkpoint",
+                              path("x.kpart"), "--time", "1s"}),
+                 "--pass-range cannot be combined with");
   expect_refused(run_kaustik({"resume", path("the job/start.kpart"), "--pass-range", "4:6"}), "--checkpoint");
 }
 

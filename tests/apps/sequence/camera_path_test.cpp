@@ -82,7 +82,7 @@ TEST_F(CameraPaths, TurntablesTurnTheScenesCamera) {
 
 TEST_F(CameraPaths, ThatCannotBeReadAreRefused) {
   EXPECT_THAT(complaint("{\n  \"keys\": [\n  }"), HasSubstr("path.json:3:3: error: this is not JSON"));
-  EXPECT_THAT(complaint("[]"), HasSubstr("must be an object"));
+  EXPECT_THAT(complaint("[]"), HasSubstr("expected an object with `keys` or `turntable`"));
   EXPECT_THAT(complaint("{}"), HasSubstr("expected either `keys` or `turntable`"));
   EXPECT_THAT(complaint(R"({"keys": []})"), HasSubstr("`keys` must have at least one key"));
   EXPECT_THAT(complaint(R"({"keyz": []})"), HasSubstr("unknown member `keyz`; did you mean"));

@@ -155,6 +155,8 @@ TEST_F(Sequences, ShareTheirExposure) {
 TEST_F(Sequences, TakeAndKeepMaps) {
   expect_done(render(scene_, along("own.%d.exr", {"--save-map", path("a.kmap")})));
   expect_done(render(scene_, along("kept.%d.exr", {"--map", path("a.kmap"), "--frames", "3:5"})));
+  EXPECT_THAT(render(scene_, {"--map", path("a.kmap"), "-o", path("one.exr")}).err,
+              HasSubstr("was shot for another camera"));
   EXPECT_TRUE(read("kept.3.exr") == read("own.3.exr"));
   EXPECT_TRUE(read("kept.4.exr") == read("own.4.exr"));
 }
@@ -238,6 +240,9 @@ TEST_F(Sequences, WithoutMeaningAreRefused) {
   expect_refused(along("f.%d.exr", {"--time", "3s"}), "cannot be combined with a sequence");
   expect_refused(along("f.%d.exr", {"--checkpoint", path("a.kpart")}),
                  "cannot be combined with --checkpoint");
+  expect_refused(along("f.%d.kpart"), "cannot be partial results");
+  expect_refused(along("f.%d.exr", {"-o", path("f.%01d.exr")}), "-o");
+  expect_refused({"--overwrite", "-o", path("f.exr")}, "--overwrite needs --camera-path");
   expect_refused({"--camera-path", path("none.json"), "-o", path("f.%d.exr")}, "cannot read the camera path");
   EXPECT_THAT(files(), ElementsAre("path.json", "small.pbrt"));
 }
