@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
-
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
@@ -20,6 +18,7 @@
 #include "photon/shoot/shoot.h"
 #include "render/picture/image_io.h"
 #include "render/picture/photon_view.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 
@@ -37,26 +36,23 @@ struct PhotonsOptions {
 photon::KindMask mask_of(const std::vector<std::string>& kinds) {
   if (kinds.empty()) return {true, true, true, true};
   photon::KindMask mask;
-  const std::array<bool*, photon::kPhotonKinds> fields = {&mask.direct, &mask.shadow, &mask.caustic,
-                                                          &mask.indirect};
-  for (const std::string& kind : kinds) {
+  for (const std::string& name : kinds) {
     const auto& names = photon::kPhotonKindNames;
-    const auto found = std::find(names.begin(), names.end(), kind);
-    if (found == names.end()) {
+    const auto kind = render::from_name<PhotonKind>(names, name);
+    if (!kind)
       throw ExitError(kBadCommandLine,
-                      fmt::format("--kinds: unknown kind of photon `{}`{}", kind, name_hint(kind, names)));
-    }
-    *fields[static_cast<size_t>(found - names.begin())] = true;
+                      fmt::format("--kinds: unknown kind of photon `{}`{}", name, name_hint(name, names)));
+    mask[*kind] = true;
   }
   return mask;
 }
 
 render::PhotonColours colours_named(const std::string& name) {
   const auto& names = render::kPhotonColoursNames;
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
+  const auto colours = render::from_name<render::PhotonColours>(names, name);
+  if (!colours)
     throw OptionError("--colours", fmt::format("`{}`: expected one of {}", name, fmt::join(names, ", ")));
-  return static_cast<render::PhotonColours>(found - names.begin());
+  return *colours;
 }
 
 void check_outputs(const PhotonsOptions& options) {
@@ -99,11 +95,9 @@ int shoot_and_write(const PhotonsOptions& options, const photon::KindMask& mask,
   photon::ShootResult shot;
   {
     ProgressBar bar(console);
-    std::mutex mutex;  // shoot() reports progress from its worker threads
+    const render::ProgressCallback progress = shown_in(bar, interrupt);
     shot = photon::shoot(job.scene, bvh, trace, [&](uint64_t done, uint64_t total) {
-      const std::lock_guard lock(mutex);
-      bar.update({"photons", done, total});
-      return !interrupt.requested();
+      return progress({"photons", done, total});
     });
   }
   if (interrupt.requested()) {

@@ -40,11 +40,7 @@ std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job
 }
 
 void check_passes(const RenderOptions& options, const Job& job) {
-  const render::RenderSettings& settings = job.settings.render;
-  if (settings.passes > settings.photons && render::needs_photons(settings, job.scene.needs))
-    throw ExitError(kBadCommandLine,
-                    fmt::format("--passes {}: {} photons cannot be divided among so many passes",
-                                settings.passes, settings.photons));
+  check_photons_of_passes(job);
   if (!options.passes.empty() && job.settings.render.passes == 0)
     throw ExitError(
         kBadCommandLine,

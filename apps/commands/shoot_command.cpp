@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <mutex>
-
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
 #include "apps/console/progress_bar.h"
@@ -33,15 +31,7 @@ int shoot_maps(const KeptMaps& kept, const Job& job, const InterruptGuard& inter
   std::shared_ptr<render::FirstPhotons> photons;
   {
     ProgressBar bar(console);
-    std::mutex mutex;  // progress comes from worker threads
-    make_photons(
-        kept, job, bvh, {},
-        [&](const render::Progress& progress) {
-          const std::lock_guard lock(mutex);
-          bar.update(progress);
-          return !interrupt.requested();
-        },
-        &photons);
+    make_photons(kept, job, bvh, {}, shown_in(bar, interrupt), &photons);
   }
   if (!photons->photons.radii()) {
     console.error("interrupted; nothing was written");

@@ -36,8 +36,6 @@ void settle_passes(const SplitOptions& options, render::RenderSettings* settings
   if (settings->passes < options.tasks)
     refuse(fmt::format("--tasks {}: there are only {} passes to divide; --passes asks for more",
                        options.tasks, settings->passes));
-  if (settings->passes > settings->photons)
-    refuse(fmt::format("{} photons cannot be divided among {} passes", settings->photons, settings->passes));
 }
 
 // Settles all that the tasks share, radii included. Nothing if a signal arrived.
@@ -45,10 +43,7 @@ std::optional<render::PassSums> settle(const InterruptGuard& interrupt, const Re
                                        Job& job, const Console& console) {
   const accel::Bvh bvh(job.scene, job.settings.render.threads);
   ProgressBar bar(console);
-  const auto progress = [&](const render::Progress& p) {
-    bar.update(p);
-    return !interrupt.requested();
-  };
+  const render::ProgressCallback progress = shown_in(bar, interrupt);
   if (session.try_paths) settle_paths(job.scene, bvh, progress, &job.settings);
   return render::begin_passes(job.scene, bvh, job.settings.render, progress);
 }
@@ -62,6 +57,7 @@ int run_split(const SplitOptions& options, const Console& console) {
                     [&] { job = load_job(options.scene, options.overrides, console); });
   if (job.settings.stop.any()) refuse("--time and --target-error cannot be divided among tasks");
   settle_passes(options, &job.settings.render);
+  check_photons_of_passes(job);
   make_job_folder(options.folder);
   RenderSession session;
   settle_session(options.overrides, console, &job, &session);

@@ -182,11 +182,19 @@ FrameView CameraPath::at(uint64_t frame, const std::optional<CameraDescription>&
   return view;
 }
 
+std::vector<std::string> FrameView::look_at_texts() const {
+  std::vector<std::string> texts;
+  for (const double v : look_at) texts.push_back(fmt::format("{}", float(v)));
+  return texts;
+}
+
+std::vector<std::string> FrameView::fov_texts() const {
+  return fov ? std::vector{fmt::format("{}", float(*fov))} : std::vector<std::string>{};
+}
+
 std::string FrameView::options() const {
-  std::array<float, 9> numbers{};
-  std::ranges::transform(look_at, numbers.begin(), [](double v) { return float(v); });
-  return fmt::format("--look-at {}{}", fmt::join(numbers, " "),
-                     fov ? fmt::format(" --fov {}", float(*fov)) : std::string());
+  return fmt::format("--look-at {}{}{}", fmt::join(look_at_texts(), " "), fov ? " --fov " : "",
+                     fmt::join(fov_texts(), ""));
 }
 
 }  // namespace kaustik::app

@@ -17,7 +17,10 @@ inline constexpr uint64_t kMostFrames = 1'000'000;  // of a sequence
 struct FrameView {
   std::array<double, 9> look_at{};  // eye, target, up
   std::optional<double> fov{};      // degrees; unset: the scene's
-  std::string options() const;      // "--look-at ... --fov ..."
+  // The values as texts.
+  std::vector<std::string> look_at_texts() const;
+  std::vector<std::string> fov_texts() const;  // empty if unset
+  std::string options() const;                 // "--look-at ... --fov ..."
 };
 
 // Either keys, between which cubic curves run (Catmull and Rom 1974) or straight lines, or a turntable, which

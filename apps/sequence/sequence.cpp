@@ -22,25 +22,31 @@ namespace kaustik::app {
 
 namespace {
 
-constexpr double kFramesPerSecond = 24;  // as --frame
 // Cameras for which the photons of a sequence are shot: so many of its frames, evenly spread.
 constexpr uint64_t kMostViews = 32;
+
+// The options that a render of this frame alone would be given. camera: the scene's.
+SettingOverrides options_of(const Sequence& sequence, uint64_t frame,
+                            const std::optional<CameraDescription>& camera) {
+  SettingOverrides options;
+  if (sequence.animated) options.add(*find_setting("frame"), {fmt::format("{}", frame)});
+  if (!sequence.path) return options;
+  const FrameView view = sequence.path->at(frame, camera);
+  options.add(*find_setting("look-at"), view.look_at_texts());
+  if (view.fov) options.add(*find_setting("fov"), view.fov_texts());
+  return options;
+}
 
 // Finds the cameras of frames in a world that stands still.
 class FrameCameras {
  public:
   FrameCameras(const Sequence& sequence, const Job& job)
-      : sequence_(sequence), job_(job), options_(job.settings.import_options) {}
+      : sequence_(sequence), job_(job), settings_(job.settings) {}
 
-  // What a render of this frame alone would be asked for.
   ImportOptions options_at(uint64_t frame) const {
-    ImportOptions options = options_;
-    if (sequence_.animated) options.seconds = float(double(frame) / kFramesPerSecond);
-    if (!sequence_.path) return options;
-    const FrameView placed = sequence_.path->at(frame, job_.view.camera);
-    options.view.look_at = placed.look_at;
-    if (placed.fov) options.view.fov = placed.fov;
-    return options;
+    Settings settings = settings_;
+    options_of(sequence_, frame, job_.view.camera).apply(settings);
+    return settings.import_options;
   }
 
   Camera at(uint64_t frame) const {
@@ -70,7 +76,7 @@ class FrameCameras {
 
   const Sequence& sequence_;
   const Job& job_;
-  const ImportOptions options_;
+  const Settings settings_;  // before any frame's options
 };
 
 std::vector<Camera> views_of(const Sequence& sequence, const FrameCameras& cameras) {
@@ -171,10 +177,7 @@ class StandingWorld {
   // by each frame.
   void shoot(const InterruptGuard& interrupt, const Console& console) {
     ProgressBar bar(console);
-    const auto progress = [&](const render::Progress& p) {
-      bar.update(p);
-      return !interrupt.requested();
-    };
+    const render::ProgressCallback progress = shown_in(bar, interrupt);
     if (std::exchange(session_.try_paths, false)) settle_paths(job_.scene, *bvh_, progress, &job_.settings);
     const render::RenderSettings& settings = job_.settings.render;
     render::EstimatorPlan plan = render::make_plan(settings, job_.scene.needs);
@@ -209,14 +212,7 @@ class StandingWorld {
 Job moved_job(const Sequence& sequence, uint64_t frame, const SettingOverrides& given, const Job& first,
               const Console& console) {
   SettingOverrides overrides = given;
-  overrides.add(*find_setting("frame"), {fmt::format("{}", frame)});
-  if (sequence.path) {
-    const FrameView view = sequence.path->at(frame, first.view.camera);
-    std::vector<std::string> numbers;
-    for (const double v : view.look_at) numbers.push_back(fmt::format("{}", float(v)));
-    overrides.add(*find_setting("look-at"), numbers);
-    if (view.fov) overrides.add(*find_setting("fov"), {fmt::format("{}", float(*view.fov))});
-  }
+  overrides.append(options_of(sequence, frame, first.view.camera));
   Job job;
   with_thread_limit(first.settings.render.threads, console,
                     [&] { job = load_job(first.path, overrides, console); });
@@ -252,7 +248,7 @@ Sequence make_sequence(const SequenceOptions& options, const RenderSession& sess
   if (!options.camera_path.empty()) sequence.path = CameraPath::read(options.camera_path, console.err);
   if (const auto& animation = job.view.animation) {
     sequence.animated = true, sequence.moves_world = animation->moves_world;
-    const double last = std::floor(animation->seconds * kFramesPerSecond);
+    const double last = std::floor(animation->seconds * double(kFramesPerSecond));
     if (!(last < double(kMostFrames)))
       refuse(fmt::format("{} is animated for {:.3g} s: a sequence has at most {} frames", job.path,
                          animation->seconds, kMostFrames));
@@ -292,7 +288,7 @@ int run_sequence(const SequenceOptions& options, const Sequence& sequence, const
   }
   session.only_complete = true;
   std::optional<StandingWorld> world;
-  if (sequence.static_world())
+  if (!sequence.moves_world)
     world.emplace(sequence, job, session, interrupt, console);
   else
     settle_moving_world(sequence, given, job, session, interrupt, console);

@@ -23,7 +23,6 @@ struct Sequence {
   bool animated = false;     // the scene is, at 24 frames a second
   bool moves_world = false;  // animations move more than the camera
   uint64_t frames = 0;
-  bool static_world() const { return !moves_world; }
 };
 
 // Reads the camera path, and counts the frames of the scene. Throws ExitError (bad command line) for a scene

@@ -33,4 +33,11 @@ bool InterruptGuard::requested() const {
   return interrupted;
 }
 
+render::ProgressCallback shown_in(ProgressBar& bar, const InterruptGuard& interrupt) {
+  return [&bar, &interrupt](const render::Progress& progress) {
+    bar.update(progress);
+    return !interrupt.requested();
+  };
+}
+
 }  // namespace kaustik::app

@@ -5,7 +5,6 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "apps/console/exit_error.h"
@@ -20,12 +19,6 @@
 namespace kaustik::app {
 
 namespace {
-
-constexpr std::array<std::string_view, 4> kEstimators = {"method", "direct", "caustics", "indirect"};
-
-bool chooses_estimators(const std::string& name) {
-  return std::ranges::find(kEstimators, name) != kEstimators.end();
-}
 
 render::SettingTexts texts_of(const Settings& settings, MapPart part) {
   return setting_texts(settings, [&](const Setting& s) { return s.map_part == part; });
@@ -125,9 +118,8 @@ render::MapManifest manifest_of(const Job& job, std::span<const Camera> views) {
   manifest.isa = instruction_set();
   manifest.scene_path = absolute_path(job.path);
   manifest.scene_hash = job.content_hash;
-  manifest.settings = setting_texts(job.settings, [](const Setting& s) {
-    return s.map_part != MapPart::kNone || chooses_estimators(std::string(s.name));
-  });
+  manifest.settings =
+      setting_texts(job.settings, [](const Setting& s) { return s.map_part != MapPart::kNone; });
   manifest.cameras = hash_of(job, views);
   manifest.estimators = estimators_of(job);
   const photon::TraceSettings trace = traced(job);
@@ -150,14 +142,12 @@ render::MapFile open_map_file(const std::string& path) {
 }
 
 SettingOverrides with_settings_of(const render::MapFile& file, const SettingOverrides& given) {
-  const bool estimators = std::ranges::any_of(kEstimators, [&](auto name) { return given.sets(name); });
-  render::SettingTexts texts;
-  for (const auto& entry : file.manifest().settings) {
-    const Setting* setting = find_setting(entry.first);
-    const bool of_photons = setting && setting->map_part == MapPart::kPhotons;
-    if (of_photons || (chooses_estimators(entry.first) && !estimators)) texts.push_back(entry);
-  }
-  SettingOverrides overrides = overrides_from(texts, file.path());
+  const bool own_estimators = std::ranges::any_of(settings_table(), [&](const Setting& s) {
+    return s.map_part == MapPart::kEstimators && given.sets(s.name);
+  });
+  SettingOverrides overrides = overrides_from(texts_of(file.manifest(), MapPart::kPhotons), file.path());
+  if (!own_estimators)
+    overrides.append(overrides_from(texts_of(file.manifest(), MapPart::kEstimators), file.path()));
   overrides.append(given);
   return overrides;
 }

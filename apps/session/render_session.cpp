@@ -114,6 +114,13 @@ double seconds_of(const render::RenderStatistics& s) {
   return s.photon_trace_s + s.photon_build_s + s.render_s;
 }
 
+// Tells the bar when the render ends, as far as that is known. seconds: of --time.
+void set_ends(ProgressBar& bar, const render::PassSet& goal, const render::PassSums& done,
+              std::optional<double> seconds, const Stopwatch& total) {
+  if (!goal.empty() && goal.end() < render::kMostPasses) bar.set_end(goal.without(done.passes).end());
+  if (seconds) bar.set_deadline(*seconds - seconds_of(done.statistics) - total.seconds());
+}
+
 // The message that tells what an interrupted render leaves behind. how: "interrupted".
 std::string interruption(const render::RenderResult& result, std::string_view how) {
   switch (result.shown) {
@@ -245,11 +252,9 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     if (session.settled) session.settled(job.settings);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
       console.note(note);
-    ProgressBar bar(console);
     const render::PassSet goal = goal_of(job, session, rule);
-    if (!goal.empty() && goal.end() < render::kMostPasses)
-      bar.set_end(goal.without(session.done.passes).end());
-    if (seconds) bar.set_deadline(*seconds - seconds_of(session.done.statistics) - total.seconds());
+    ProgressBar bar(console);
+    set_ends(bar, goal, session.done, seconds, total);
     std::optional<MapCheck> check;
     const auto after_pass = [&](const render::PassSums& sums) {
       if (check) check->finish();  // before anything is written
@@ -285,6 +290,13 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     if (live) live->finish();
   });
   return code;
+}
+
+void check_photons_of_passes(const Job& job) {
+  const render::RenderSettings& settings = job.settings.render;
+  if (settings.passes > settings.photons && render::needs_photons(settings, job.scene.needs))
+    refuse(fmt::format("--passes {}: {} photons cannot be divided among so many passes", settings.passes,
+                       settings.photons));
 }
 
 render::PassSet parse_ranges(std::string_view option, std::string_view what, const std::string& text) {

@@ -49,6 +49,9 @@ bool writes_sums(const RenderSession& session);
 int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console);
 
+// Throws ExitError (bad command line) for more passes than photons.
+void check_photons_of_passes(const Job& job);
+
 // Parses the value of an option for passes or frames, such as "0:16" or "0:4,8:12". Throws OptionError.
 render::PassSet parse_ranges(std::string_view option, std::string_view what, const std::string& text);
 

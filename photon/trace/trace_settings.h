@@ -15,10 +15,11 @@ class EmissionGuide;
 
 struct KindMask {
   bool direct = false, shadow = false, caustic = false, indirect = false;
-  bool operator[](PhotonKind k) const {
-    const bool kinds[] = {direct, shadow, caustic, indirect};
-    return kinds[static_cast<int>(k)];
+  bool& operator[](PhotonKind k) {
+    bool* const kinds[] = {&direct, &shadow, &caustic, &indirect};
+    return *kinds[static_cast<int>(k)];
   }
+  bool operator[](PhotonKind k) const { return const_cast<KindMask&>(*this)[k]; }
   bool any() const { return direct || shadow || caustic || indirect; }
 };
 

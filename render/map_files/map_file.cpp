@@ -12,6 +12,7 @@
 #include "core/parallel/parallel.h"
 #include "render/map_files/map_layout.h"
 #include "render/passes/manifest_values.h"
+#include "render/settings/names.h"
 
 namespace kaustik::render {
 
@@ -34,15 +35,9 @@ uint64_t word_at(const std::byte* bytes, size_t index) {
 }
 
 photon::PhotonKind kind_named(const std::string& name) {
-  const auto& names = photon::kPhotonKindNames;
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw std::runtime_error(fmt::format("`{}` is no kind of photon", name));
-  return static_cast<photon::PhotonKind>(found - names.begin());
-}
-
-bool& kind_of(photon::KindMask& mask, photon::PhotonKind kind) {
-  bool* const kinds[] = {&mask.direct, &mask.shadow, &mask.caustic, &mask.indirect};
-  return *kinds[size_t(kind)];
+  const auto kind = from_name<photon::PhotonKind>(photon::kPhotonKindNames, name);
+  if (!kind) throw std::runtime_error(fmt::format("`{}` is no kind of photon", name));
+  return *kind;
 }
 
 photon::MortonCube cube_from(const Json& json) {
@@ -104,7 +99,7 @@ void MapFile::read_manifest(std::string_view text) {
     map.flux_unit = finite_from_hex(entry.at("flux_unit"));
     map.cube = cube_from(entry.at("cube"));
     for (size_t a = 0; a < kArrays; ++a) entry.at("bytes").at(a).get_to(map.arrays[a].bytes);
-    kind_of(m.kinds, map.kind) = true;
+    m.kinds[map.kind] = true;
     maps_.push_back(map);
   }
   if (maps_.empty()) throw std::runtime_error("it has no maps");
@@ -126,15 +121,14 @@ void MapFile::place_arrays(uint64_t begin) {
 }
 
 void MapFile::check(const Array& array) const {
+  const std::span<const std::byte> bytes = file_->bytes().subspan(array.begin, array.bytes);
   parallel::for_index(uint64_t{0}, chunks_of(array.bytes), [&](uint64_t i) {
-    const uint64_t begin = i * kHashedChunk;
-    ContentHash hash;
-    hash.add(file_->bytes().data() + array.begin + begin, std::min(kHashedChunk, array.bytes - begin));
+    const std::span<const std::byte> chunk = chunk_of(bytes, i);
     const std::byte* stored = hashes_ + (array.first_hash + i) * kHashBytes;
-    if (hash.words() == std::array{word_at(stored, 0), word_at(stored, 1)}) return;
+    if (hash_of(chunk) == std::array{word_at(stored, 0), word_at(stored, 1)}) return;
+    const uint64_t begin = array.begin + i * kHashedChunk;
     throw MapFileError(path_, fmt::format("the file is damaged: bytes {} to {} do not match their checksum",
-                                          array.begin + begin,
-                                          array.begin + std::min(begin + kHashedChunk, array.bytes) - 1));
+                                          begin, begin + chunk.size() - 1));
   });
 }
 

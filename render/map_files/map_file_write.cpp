@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <span>
 
-#include "core/files/content_hash.h"
 #include "core/files/pending_file.h"
 #include "core/parallel/parallel.h"
 #include "render/map_files/map_file.h"
@@ -73,13 +72,8 @@ std::string manifest_text(const MapManifest& m, const KeptPhotons& photons,
 void add_hashes(Bytes array, std::vector<std::array<uint64_t, 2>>* table) {
   const size_t first = table->size();
   table->resize(first + chunks_of(array.size()));
-  parallel::for_index(first, table->size(), [&](size_t i) {
-    const size_t begin = (i - first) * kHashedChunk;
-    const Bytes chunk = array.subspan(begin, std::min<size_t>(kHashedChunk, array.size() - begin));
-    ContentHash hash;
-    hash.add(chunk.data(), chunk.size());
-    (*table)[i] = hash.words();
-  });
+  parallel::for_index(first, table->size(),
+                      [&](size_t i) { (*table)[i] = hash_of(chunk_of(array, i - first)); });
 }
 
 // Writes bytes and counts them.

@@ -1,8 +1,13 @@
 #pragma once
 // Where the parts of a map file lie. Shared by the code that writes and that reads it.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
+
+#include "core/files/content_hash.h"
 
 namespace kaustik::render {
 
@@ -18,6 +23,17 @@ constexpr uint64_t aligned(uint64_t offset) {
 }
 constexpr uint64_t chunks_of(uint64_t bytes) {
   return (bytes + kHashedChunk - 1) / kHashedChunk;
+}
+
+// Chunk i of an array.
+inline std::span<const std::byte> chunk_of(std::span<const std::byte> array, uint64_t i) {
+  const uint64_t begin = i * kHashedChunk;
+  return array.subspan(begin, std::min<uint64_t>(kHashedChunk, array.size() - begin));
+}
+inline std::array<uint64_t, 2> hash_of(std::span<const std::byte> bytes) {
+  ContentHash hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.words();
 }
 
 }  // namespace kaustik::render

@@ -69,10 +69,10 @@ float at_least(float radius) {
 
 void add_sizes(const PhotonMaps& maps, RenderStatistics* s) {
   uint64_t bytes = 0;
-  for (const photon::PhotonMap* map :
-       {&maps.direct.map, &maps.caustic.map, &maps.indirect.map, &maps.shadow}) {
-    bytes += map->memory_bytes();
-    s->octree_nodes += map->octree().nodes().size();
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k) {
+    const photon::PhotonMap& map = maps.of(PhotonKind(k));
+    bytes += map.memory_bytes();
+    s->octree_nodes += map.octree().nodes().size();
   }
   s->photon_bytes = std::max(s->photon_bytes, bytes);
 }
@@ -91,18 +91,12 @@ uint64_t visibility_photons(const Camera& camera, const RenderSettings& settings
 // Builds all maps in one cube, since the lecture's test compares direct and shadow photons of the same cell.
 void PassPhotons::build_maps(const RenderInput& input, photon::ShootResult&& shot) {
   const photon::MapSettings in_scene{input.scene.bounds};
-  const auto build = [&](PhotonKind kind) {
-    return photon::PhotonMap::build(std::move(shot.buffers[size_t(kind)]), in_scene);
-  };
-  maps_.direct.map = build(PhotonKind::kDirect);
-  maps_.caustic.map = build(PhotonKind::kCaustic);
-  maps_.indirect.map = build(PhotonKind::kIndirect);
-  maps_.shadow = build(PhotonKind::kShadow);
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k)
+    maps_.of(PhotonKind(k)) = photon::PhotonMap::build(std::move(shot.buffers[k]), in_scene);
 }
 
 void PassPhotons::free_maps() {
-  for (GatherMap* gather : gather_maps(maps_)) gather->map = {};
-  maps_.shadow = {};
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k) maps_.of(PhotonKind(k)) = {};
 }
 
 void PassPhotons::explore(const RenderInput& input) {
@@ -207,10 +201,7 @@ void PassPhotons::adopt(const RenderInput& input, KeptPhotons&& kept, bool radii
                         RenderStatistics* statistics) {
   const PhaseWatch watch;
   const RenderSettings& settings = input.settings;
-  maps_.direct.map = std::move(kept.maps[size_t(PhotonKind::kDirect)]);
-  maps_.caustic.map = std::move(kept.maps[size_t(PhotonKind::kCaustic)]);
-  maps_.indirect.map = std::move(kept.maps[size_t(PhotonKind::kIndirect)]);
-  maps_.shadow = std::move(kept.maps[size_t(PhotonKind::kShadow)]);
+  for (size_t k = 0; k < kept.maps.size(); ++k) maps_.of(PhotonKind(k)) = std::move(kept.maps[k]);
   if (radii_known) radii_ = kept.radii;
   explore(input);
   prepare_gathers(input, pass_share(0, 1, settings.photons, settings.spp));
@@ -222,10 +213,7 @@ void PassPhotons::adopt(const RenderInput& input, KeptPhotons&& kept, bool radii
 KeptPhotons PassPhotons::keep(const RenderStatistics& statistics) const {
   KeptPhotons kept{.radii = *radii_, .statistics = statistics};
   kept.statistics.photon_trace_s = kept.statistics.photon_build_s = 0;  // equal photons give equal files
-  kept.maps[size_t(PhotonKind::kDirect)] = maps_.direct.map;
-  kept.maps[size_t(PhotonKind::kCaustic)] = maps_.caustic.map;
-  kept.maps[size_t(PhotonKind::kIndirect)] = maps_.indirect.map;
-  kept.maps[size_t(PhotonKind::kShadow)] = maps_.shadow;
+  for (size_t k = 0; k < kept.maps.size(); ++k) kept.maps[k] = maps_.of(PhotonKind(k));
   return kept;
 }
 

@@ -24,6 +24,14 @@ struct PhotonMaps {
   photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which gathers from it with direct.estimate
   photon::LectureSettings lecture;
   const Surroundings* surroundings = nullptr;  // for `final-gather`; null for other estimators
+
+  photon::PhotonMap& of(photon::PhotonKind kind) {
+    photon::PhotonMap* const maps[] = {&direct.map, &shadow, &caustic.map, &indirect.map};
+    return *maps[size_t(kind)];
+  }
+  const photon::PhotonMap& of(photon::PhotonKind kind) const {
+    return const_cast<PhotonMaps&>(*this).of(kind);
+  }
 };
 
 }  // namespace kaustik::render

@@ -43,8 +43,8 @@ struct Shoot {
 
 // Moves a kind from one shoot to another.
 void take(PhotonKind kind, Shoot* from, Shoot* to) {
-  (kind == PhotonKind::kCaustic ? from->trace.kinds.caustic : from->trace.kinds.indirect) = false;
-  (kind == PhotonKind::kCaustic ? to->trace.kinds.caustic : to->trace.kinds.indirect) = true;
+  from->trace.kinds[kind] = false;
+  to->trace.kinds[kind] = true;
 }
 
 // One shoot for each guided kind, and one for all others.

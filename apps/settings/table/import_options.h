@@ -8,6 +8,9 @@
 
 namespace kaustik {
 
+// Of an animated file: glTF has seconds, and most of its files come from films.
+inline constexpr float kFramesPerSecond = 24;
+
 // What the numbers of a file's punctual lights mean. Photometric: candela and lux, as glTF says. Watt: the
 // power of point and spot lights, and W/m^2 of directional ones, as older exporters wrote.
 enum class LightUnit { kPhotometric, kWatt };

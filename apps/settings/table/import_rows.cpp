@@ -7,8 +7,6 @@ namespace kaustik::app {
 
 namespace {
 
-constexpr float kFramesPerSecond = 24;
-
 Setting light_unit_row() {
   const auto unit = [](auto& settings) -> auto& {
     return settings.import_options.light_unit;

@@ -294,15 +294,14 @@ constexpr std::array<std::string_view, 16> kEveryday = {
     "quality", "time", "target-error", "method", "photons", "spp",     "denoise", "width",
     "height",  "crop", "exposure",     "aov",    "camera",  "look-at", "sky",     "threads"};
 
-// What kept photon maps depend on. Estimators are not among it: they decide which kinds of photons are
-// stored.
+// What kept photon maps depend on.
 constexpr std::array<std::string_view, 10> kOfPhotons = {
     "photons", "emission", "guide", "for-camera", "max-bounces", "seed", "at", "light-unit", "sky", "floor"};
-constexpr std::array<std::string_view, 5> kOfCamera = {"width", "height", "camera", "look-at", "fov"};
+constexpr std::array<std::string_view, 4> kOfEstimators = {"method", "direct", "caustics", "indirect"};
 
-// What `kaustik shoot` takes besides.
-constexpr std::array<std::string_view, 7> kShooting = {"method",  "direct",  "caustics", "indirect",
-                                                       "quality", "threads", "frame"};
+// What `kaustik shoot` takes besides: the camera, for which photons are guided, among others.
+constexpr std::array<std::string_view, 8> kShooting = {"width", "height",  "camera",  "look-at",
+                                                       "fov",   "quality", "threads", "frame"};
 
 bool among_names(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
@@ -310,7 +309,7 @@ bool among_names(std::span<const std::string_view> names, std::string_view name)
 
 MapPart map_part_of(std::string_view name) {
   if (among_names(kOfPhotons, name)) return MapPart::kPhotons;
-  if (among_names(kOfCamera, name)) return MapPart::kCamera;
+  if (among_names(kOfEstimators, name)) return MapPart::kEstimators;
   return name == "radius" ? MapPart::kRadii : MapPart::kNone;
 }
 

@@ -62,8 +62,8 @@ enum class SettingReader {
 };
 
 // What of kept photon maps a setting decides: the photons themselves, the gather radii that were chosen from
-// them, or the camera for which both were made.
-enum class MapPart { kNone, kPhotons, kRadii, kCamera };
+// them, or the estimators, and so the kinds of photons.
+enum class MapPart { kNone, kPhotons, kRadii, kEstimators };
 
 enum class ValueKind { kCount, kInteger, kNumber, kChoice, kNames, kText };
 
