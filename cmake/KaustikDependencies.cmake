@@ -26,6 +26,12 @@ find_package(ZLIB REQUIRED)
 # Serves live pages. Its flags say with what the library was built, on which the layout of its classes depends.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CPP_HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
+# Optional: renders that `mpirun` starts on several machines (Debian: libopenmpi-dev).
+option(KAUSTIK_MPI "Build the MPI module, if MPI is found" ON)
+if(KAUSTIK_MPI)
+  set(MPI_CXX_SKIP_MPICXX ON)
+  find_package(MPI QUIET COMPONENTS CXX)
+endif()
 # The report of `kaustik sweep` draws its charts with Chart.js, and contains it with its licence.
 find_file(KAUSTIK_CHART_JS NAMES chart.min.js Chart.min.js PATH_SUFFIXES share/javascript/chart.js
   DOC "Chart.js 3, minified")

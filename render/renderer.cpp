@@ -85,10 +85,13 @@ class PassRenderer {
     return pass_share(pass, shares_, input_.settings.photons, input_.settings.spp);
   }
 
-  // Renders one pass into a film of zeros. False when the progress callback cancelled.
-  bool render(uint64_t pass, PassFilm* film, RenderStatistics* statistics) {
+  // Renders one pass into a film of zeros. has_maps: called before the tiles. False when the progress
+  // callback cancelled.
+  bool render(uint64_t pass, const std::function<void()>& has_maps, PassFilm* film,
+              RenderStatistics* statistics) {
     const PassShare part = share(pass);
     if (!make_maps(part, statistics)) return false;
+    has_maps();
     RenderContext ctx{input_,
                       photons_.maps(),
                       photons_.visibility(),
@@ -161,27 +164,38 @@ uint64_t add_pass(const PassShare& pass, const PassFilm& film, PassSums* sums) {
   return half ? sums->totals.add_as_half(film.sums) : sums->totals.add(film.sums);
 }
 
-// Renders the passes of `missing` one after the other and adds them to result->sums. False when the progress
-// callback cancelled; then tiles and result->statistics are those of the unfinished pass. tiles must be zero
-// at first.
-bool render_passes(PassRenderer& renderer, const PassSet& missing, const RenderTask& task, PassFilm* tiles,
-                   RenderResult* result) {
+// The passes of a set in ascending order, then nothing.
+std::function<std::optional<uint64_t>()> one_by_one(const PassSet& passes) {
+  return [left = passes]() mutable -> std::optional<uint64_t> {
+    if (left.empty()) return std::nullopt;
+    const uint64_t pass = left.first();
+    left = left.without(PassSet(pass, pass + 1));
+    return pass;
+  };
+}
+
+// Renders one pass after the other and adds them to result->sums. False when the progress callback cancelled;
+// then tiles and result->statistics are those of the unfinished pass. tiles must be zero at first.
+// empty_sums(): makes those of no pass.
+template <class EmptySums>
+bool render_passes(PassRenderer& renderer, const RenderTask& task, const EmptySums& empty_sums,
+                   PassFilm* tiles, RenderResult* result) {
   PassSums& sums = result->sums;
-  const bool settled = missing.first() == 0 || renderer.settle_radii();
-  sums.radii = renderer.radii();
-  if (!settled) return false;
-  for (const PassSet::Range& range : missing.ranges()) {
-    for (uint64_t pass = range.begin; pass < range.end; ++pass) {
-      if (pass != missing.first()) tiles->clear();
-      result->statistics = {};
-      const bool finished = renderer.render(pass, tiles, &result->statistics);
-      sums.radii = renderer.radii();
-      if (!finished) return false;
-      if (task.keep_sums) result->statistics.clamped_sums = add_pass(renderer.share(pass), *tiles, &sums);
-      sums.passes.add(PassSet(pass, pass + 1));
-      sums.statistics += result->statistics;
-      if (task.after_pass && !task.after_pass(sums)) return true;
-    }
+  bool first = true;
+  const auto has_maps = [&] {
+    sums.radii = renderer.radii();
+    if (first && task.begun) task.begun(sums);
+  };
+  for (auto pass = task.next_pass(); pass; pass = task.next_pass(), first = false) {
+    if (first && *pass > 0 && !renderer.settle_radii()) return false;
+    if (!first) tiles->clear();
+    result->statistics = {};
+    if (!renderer.render(*pass, has_maps, tiles, &result->statistics)) return false;
+    if (task.keep_sums) result->statistics.clamped_sums = add_pass(renderer.share(*pass), *tiles, &sums);
+    sums.passes.add(PassSet(*pass, *pass + 1));
+    sums.statistics += result->statistics;
+    if (task.after_pass && !task.after_pass(sums)) return true;
+    if (sums.passes.empty()) sums = empty_sums();
   }
   return true;
 }
@@ -236,7 +250,7 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   const PassSet goal = task.passes.empty() ? PassSet(0, shares) : task.passes;
   const PassSet missing = goal.without(task.done.passes);
   const bool goes_on = !task.done.passes.empty();
-  task.keep_sums |= goes_on || missing.count() != 1;
+  task.keep_sums |= goes_on || missing.count() != 1 || task.next_pass != nullptr;
   const std::optional<GatherRadii> radii = task.done.radii;
   result.sums = goes_on ? std::move(task.done) : nothing_yet(input, shares, task.keep_sums);
   result.sums.radii = radii;
@@ -251,7 +265,9 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
   const bool halved = task.keep_sums ? result.sums.totals.has_halves() : keeps_halves(settings);
   // Several planned passes are halved by passes, which the totals do.
   if (halved && shares == 1) tiles.half = make_window<HalfSum>(settings.crop, scene.camera);
-  result.cancelled = !render_passes(renderer, missing, task, &tiles, &result);
+  const auto empty_sums = [&] { return nothing_yet(input, shares, task.keep_sums); };
+  if (!task.next_pass) task.next_pass = one_by_one(missing);
+  result.cancelled = !render_passes(renderer, task, empty_sums, &tiles, &result);
   show(tiles, task.keep_sums, &result);
   return result;
 }

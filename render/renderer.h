@@ -23,8 +23,14 @@ struct RenderTask {
   // Complete passes of an earlier render with the same settings, which are not rendered again. Its radii
   // count even if it has no passes.
   PassSums done{};
-  // Called after each pass with the sums of all complete passes; returning false ends the render.
-  std::function<bool(const PassSums&)> after_pass{};
+  // The passes one after the other in place of `passes`, which then only bounds them; nothing ends the
+  // render. It may wait. Each pass may be rendered once.
+  std::function<std::optional<uint64_t>()> next_pass{};
+  // Called before the tiles of the first pass that is rendered, with the sums so far and the radii.
+  std::function<void(const PassSums&)> begun{};
+  // Called after each pass with the sums of all complete passes, which it may move away: later passes then
+  // begin new sums. Returning false ends the render.
+  std::function<bool(PassSums&)> after_pass{};
   // If false, a render of a single pass returns no totals in result.sums, which halves the memory for pixels.
   bool keep_sums = true;
   // Decides about the adaptive samples of a single-pass render in place of settings.adaptive, which must not

@@ -6,6 +6,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
+#include "apps/machine/launched.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/sequence/sequence.h"
 #include "apps/session/files/output_files.h"
@@ -26,6 +27,7 @@ struct RenderOptions {
   SequenceOptions sequence;
   std::string map, save_map;  // map files to read and to write; empty: none
   render::PassSet passes;
+  double rank_timeout = kRankTimeout;
   SettingOverrides overrides;
 };
 
@@ -77,8 +79,28 @@ void check_with_scene(RenderOptions options, const std::vector<std::string>& out
   check_collisions(files, files_of(job));
 }
 
+// The ranks that an MPI launcher has started; null if there are none. Sequences and kept maps have no passes
+// to share.
+std::unique_ptr<Ranks> ranks_of(const RenderOptions& options, const Console& console) {
+  std::unique_ptr<Ranks> ranks = join_ranks(options.rank_timeout, console);
+  if (ranks && (options.sequence.any() || !options.map.empty() || !options.save_map.empty()))
+    throw ExitError(kBadCommandLine,
+                    ranks->leads() ? "several ranks share the passes of one picture: sequences and kept "
+                                     "maps take one process each"
+                                   : "");
+  return ranks;
+}
+
+int serve_render(const RenderOptions& options, Ranks& ranks, const Console& console) {
+  const InterruptGuard interrupt;
+  const auto load = [&](const Console& quiet) { return load_job(options.scene, options.overrides, quiet); };
+  return serve_passes(ranks, load, options.overrides.alone().render.threads, interrupt, console);
+}
+
 int run_render(const RenderOptions& options, const Console& console) {
   const Stopwatch total;
+  const std::unique_ptr<Ranks> ranks = ranks_of(options, console);
+  if (ranks && !ranks->leads()) return serve_render(options, *ranks, console);
   if (!options.sequence.any()) check_outputs(options.outputs);
   if (options.sequence.overwrite && !options.sequence.any())
     throw ExitError(kBadCommandLine, "--overwrite needs --camera-path or --frames");
@@ -87,6 +109,8 @@ int run_render(const RenderOptions& options, const Console& console) {
   check_collisions(files_of(options), {{"the scene", options.scene}, {"--map", options.map}});
   const InterruptGuard interrupt;
   RenderSession session;
+  session.launched = launched().ranks > 0;
+  session.ranks = ranks.get();
   session.maps.save = options.save_map;
   if (!options.map.empty()) session.maps.from = open_map_file(options.map);
   const SettingOverrides overrides =
@@ -177,6 +201,7 @@ Command make_render_command() {
   add_sequence_options(command, *options);
   add_live_options(command, options->live);
   add_isa_option(command);
+  add_rank_options(command, options->rank_timeout);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kRender);
   command.examples = kExamples;

@@ -24,6 +24,7 @@ struct ResumeOptions {
   uint64_t passes = 0;     // total number at the end; 0 = as the partial result's settings say
   render::PassSet only;    // the passes to render, into a checkpoint of their own; empty: all
   std::string checkpoint;  // of `only`
+  double rank_timeout = kRankTimeout;
   SettingOverrides overrides;
 };
 
@@ -85,16 +86,20 @@ void check_rules(const ResumeOptions& options, const Job& job, const render::Pas
 
 int run_resume(const ResumeOptions& options, const Console& console) {
   const Stopwatch total;
+  const std::unique_ptr<Ranks> ranks = join_ranks(options.rank_timeout, console);
+  const InterruptGuard interrupt;
+  if (ranks && !ranks->leads())
+    return serve_passes(*ranks, {}, options.overrides.alone().render.threads, interrupt, console);
   check_outputs(options.outputs);
   const std::string& checkpoint = options.checkpoint.empty() ? options.partial : options.checkpoint;
   check_writable(checkpoint);
   if (!options.checkpoint.empty())
     check_collisions({{"--checkpoint", checkpoint}},
                      {{"the partial result", options.partial}, {"the scene", options.scene}});
-  const InterruptGuard interrupt;
   render::PartialResult part = load_partial(options.partial);
   check_program(part.manifest.build, part.manifest.isa, options.partial, "their passes cannot be combined");
   RenderSession session;
+  session.ranks = ranks.get();
   session.goal = goal_of(options, part);
   session.outputs = options.outputs;
   session.live = options.live;
@@ -163,6 +168,7 @@ Command make_resume_command() {
                    "Path of the scene if it has moved; its contents must be the same. Default: the path "
                    "stored in PART");
   add_isa_option(command);
+  add_rank_options(command, options->rank_timeout);
   command.add_quiet();
   add_setting_options(command, options->overrides, SettingsCommand::kResume);
   command.run = [options](const Console& console) { return run_resume(*options, console); };

@@ -14,6 +14,7 @@
 
 #include "apps/command_line/values.h"
 #include "apps/machine/control_groups.h"
+#include "apps/machine/launched.h"
 
 namespace kaustik::app {
 
@@ -73,6 +74,7 @@ std::optional<double> parse_cpu_max(std::string_view text) {
 int CoreLimits::usable() const {
   int cores = std::min(hardware, affinity);
   if (quota && *quota < cores) cores = static_cast<int>(std::ceil(*quota));
+  if (affinity >= hardware) cores /= ranks;
   return std::max(1, cores);
 }
 
@@ -81,6 +83,7 @@ CoreLimits core_limits(const std::string& root) {
   limits.hardware = static_cast<int>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
   limits.affinity = cores_by_affinity(limits.hardware);
   limits.quota = least_quota(root);
+  limits.ranks = launched().on_machine;
   return limits;
 }
 

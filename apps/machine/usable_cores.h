@@ -1,6 +1,6 @@
 #pragma once
 // How many threads the process can keep busy: the minimum of the machine's cores, the process's affinity mask
-// and the CPU quota of its control groups.
+// and the CPU quota of its control groups, shared with other ranks.
 
 #include <optional>
 #include <string>
@@ -17,8 +17,10 @@ struct CoreLimits {
   int affinity = 1;             // the calling thread may run on
   std::optional<double> quota;  // the least quota of the cgroup (v2 or v1) and its ancestors, in cores
 
+  int ranks = 1;  // processes of the same render on this machine (launched())
+
   // The least of the three, at least 1. A fraction of a core counts as a whole one, so that it is not left
-  // idle.
+  // idle. Ranks that no launcher has bound to cores of their own share them.
   int usable() const;
 };
 

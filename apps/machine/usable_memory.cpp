@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "apps/machine/control_groups.h"
+#include "apps/machine/launched.h"
 
 namespace kaustik::app {
 
@@ -41,8 +42,10 @@ uint64_t least_limit(CgroupVersion version, const char* file, const std::string&
 }  // namespace
 
 uint64_t usable_memory(const std::string& root) {
-  return std::min({available_in_machine(root), least_limit(CgroupVersion::kV2, "memory.max", root),
-                   least_limit(CgroupVersion::kV1, "memory.limit_in_bytes", root)});
+  const uint64_t bytes =
+      std::min({available_in_machine(root), least_limit(CgroupVersion::kV2, "memory.max", root),
+                least_limit(CgroupVersion::kV1, "memory.limit_in_bytes", root)});
+  return bytes / uint64_t(launched().on_machine);
 }
 
 }  // namespace kaustik::app

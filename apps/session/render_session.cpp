@@ -88,7 +88,9 @@ FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& 
 render::PassSet goal_of(const Job& job, const RenderSession& session, StopRule& rule) {
   if (rule.met_by(session.done)) return session.done.passes;
   const bool open = job.settings.stop.any() && !session.bounded;
-  return open ? render::PassSet(0, render::kMostPasses) : session.goal;
+  if (open) return {0, render::kMostPasses};
+  const bool all = session.ranks && session.goal.empty();
+  return all ? render::PassSet(0, job.settings.render.passes) : session.goal;
 }
 
 // Makes the photons of a session with kept maps. False, after an error message, if the file for them could
@@ -196,6 +198,27 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   return trouble.empty() ? kDone : kFailed;
 }
 
+// Renders on all ranks, or here if this process is alone or no pass is missing.
+render::RenderResult render_task(const RenderSession& session, const Job& job, const accel::Bvh& bvh,
+                                 const render::ProgressCallback& progress, StopRule& rule,
+                                 render::RenderTask task, const Console& console) {
+  if (!session.ranks || task.passes.without(task.done.passes).empty())
+    return render::render(job.scene, bvh, job.settings.render, progress, std::move(task));
+  const std::string& checkpoint = session.checkpoint.path;
+  if (checkpoint.empty())
+    console.note(
+        "without --checkpoint, nothing is left if the launcher ends all ranks because one is killed");
+  const auto has_time_for = [&](double seconds) { return rule.has_time_for(seconds); };
+  render::RenderResult result = render_on_ranks(session.ranks->coordinator(), job, bvh, progress,
+                                                has_time_for, std::move(task), console);
+  if (result.cancelled && !checkpoint.empty())
+    console.warning(fmt::format(
+        "if the launcher ends this process before the checkpoint is written, `kaustik resume {}` goes "
+        "on after the last one",
+        checkpoint));
+  return result;
+}
+
 }  // namespace
 
 bool writes_sums(const RenderSession& session) {
@@ -206,9 +229,10 @@ bool writes_sums(const RenderSession& session) {
 void settle_session(const SettingOverrides& given, const Console& console, Job* job, RenderSession* session) {
   Settings& settings = job->settings;
   check_stop_rules(session->maps, settings.stop);
-  settle_denoising(writes_sums(*session), &settings);
-  session->fill_time =
-      session->goal.empty() && time_decides(settings, given, job->scene.needs, writes_sums(*session));
+  const bool in_passes = writes_sums(*session) || session->launched;
+  if (session->launched) settle_rank_passes(console, &settings);
+  settle_denoising(in_passes, &settings);
+  session->fill_time = session->goal.empty() && time_decides(settings, given, job->scene.needs, in_passes);
   check_stop_settings(settings.stop);
   if (session->fill_time) return;
   settle_error_settings(console, job->scene.needs, &settings);
@@ -229,7 +253,8 @@ std::shared_ptr<LiveRender> make_live(const Job& job) {
 int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console) {
   int code = kDone;
-  if (writes_sums(session)) program_build();  // asks Embree for its version before it starts to work
+  if (writes_sums(session) || session.ranks)
+    program_build();  // asks Embree for its version before it starts to work
   with_thread_limit(job.settings.render.threads, console, [&] {
     render::OuterTimes times{.load = job.load_seconds};
     const Stopwatch watch;
@@ -258,7 +283,7 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     std::optional<MapCheck> check;
     const auto after_pass = [&](const render::PassSums& sums) {
       if (check) check->finish();  // before anything is written
-      const bool enough = rule.enough(sums);
+      const bool enough = session.ranks ? rule.reaches_target(sums) : rule.enough(sums);
       bar.remark(rule.progress());
       if (const auto passes = rule.passes_needed(sums)) bar.set_end(*passes);
       if (live && sums.totals.pixels().width() > 0) show_passes(sums, *live);
@@ -272,14 +297,13 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     render::RenderTask task{.passes = goal,
                             .done = std::move(session.done),
                             .after_pass = after_pass,
-                            .keep_sums = writes_sums(session),
+                            .keep_sums = writes_sums(session) || session.ranks,
                             .adaptive_work = std::move(filled.adaptive_work),
                             .on_pixels = std::move(on_pixels),
                             .views = std::move(session.views),
                             .photons = std::move(filled.work.photons),
                             .explored = std::move(filled.work.explored)};
-    RenderOutcome outcome{render::render(job.scene, bvh, job.settings.render, progress, std::move(task)),
-                          times};
+    RenderOutcome outcome{render_task(session, job, bvh, progress, rule, std::move(task), console), times};
     bar.clear();
     if (check) check->finish();
     if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.adaptive_work);

@@ -6,6 +6,7 @@
 #include "apps/session/interrupt.h"
 #include "apps/session/kept_maps.h"
 #include "apps/session/live_options.h"
+#include "apps/session/rank_session.h"
 #include "apps/session/render_outputs.h"
 #include "apps/settings/setting_options.h"
 
@@ -17,6 +18,10 @@ struct RenderSession {
   LiveOptions live;
   KeptMaps maps{};
   std::vector<Camera> views{};  // RenderInput::views
+  // Whether an MPI launcher has started the render; the ranks that share its passes, null if this process is
+  // alone.
+  bool launched = false;
+  Ranks* ranks = nullptr;
   // Whether files are written only if the render is complete.
   bool only_complete = false;
   // A render that is followed already, or null: `live` decides whether it is.

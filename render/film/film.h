@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -212,6 +213,9 @@ class PixelWindow {
   int full_height() const { return full_height_; }
   Pixel& at(int x, int y) { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
   const Pixel& at(int x, int y) const { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
+  // All pixels as they lie in memory, rows from the top.
+  std::span<Pixel> all() { return pixels_; }
+  std::span<const Pixel> all() const { return pixels_; }
   // Done in parallel, since a large film touches many pages.
   void clear() {
     for_each_pixel(width_, height_, [&](int x, int y) { at(x, y) = Pixel{}; });

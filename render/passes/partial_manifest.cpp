@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+#include <type_traits>
+
 #include "render/passes/manifest_values.h"
 
 namespace kaustik::render {
@@ -11,6 +14,13 @@ namespace kaustik::render {
 namespace {
 
 using Json = ManifestJson;
+
+// Pixels are written as they are laid out in memory, without padding: the sums of the layers, two times three
+// sums of squares, weight and passes.
+static_assert(sizeof(PixelTotals) == 16 * (kSumChannels + 6) + 16);
+static_assert(std::endian::native == std::endian::little);
+static_assert(std::is_trivially_copyable_v<PixelTotals> && std::is_trivially_copyable_v<HalfTotals>);
+static_assert(sizeof(HalfTotals) == 16 * (kHalfChannels + kHalfMapChannels) + 16);
 
 template <class Needs, class F>
 void for_each_need(Needs& n, F&& f) {
@@ -66,6 +76,24 @@ Json manifest_json(const PartialManifest& m, const PassSums& sums) {
 }
 
 }  // namespace
+
+FilmTotals ReadManifest::empty_totals() const {
+  FilmTotals totals(PixelWindow<PixelTotals>(width, height, x0, y0, full_width, full_height), units);
+  if (halves) totals.keep_halves();
+  return totals;
+}
+
+uint64_t ReadManifest::pixel_bytes() const {
+  return uint64_t(width) * uint64_t(height) * (sizeof(PixelTotals) + (halves ? sizeof(HalfTotals) : 0));
+}
+
+std::array<std::span<std::byte>, 2> bytes_of(FilmTotals& totals) {
+  return {std::as_writable_bytes(totals.pixels().all()), std::as_writable_bytes(totals.half_pixels().all())};
+}
+
+std::array<std::span<const std::byte>, 2> bytes_of(const FilmTotals& totals) {
+  return {std::as_bytes(totals.pixels().all()), std::as_bytes(totals.half_pixels().all())};
+}
 
 std::string manifest_text(const PartialManifest& manifest, const PassSums& sums) {
   try {

@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <bit>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -27,13 +26,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kMagic{"KPART\r\n\x1a", 8};
 constexpr uint64_t kVersion = 3;
 constexpr uint64_t kHeadBytes = 24, kHashBytes = 16;
-// Pixels are written as they are laid out in memory.
-// Without padding: the sums of the layers, two times three sums of squares, weight and passes.
-static_assert(sizeof(PixelTotals) == 16 * (kSumChannels + 6) + 16);
-static_assert(std::endian::native == std::endian::little);
-static_assert(std::is_trivially_copyable_v<PixelTotals> && std::is_trivially_copyable_v<HalfTotals>);
-static_assert(sizeof(HalfTotals) == 16 * (kHalfChannels + kHalfMapChannels) + 16);
-
 struct Closer {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -95,17 +87,6 @@ class Reader {
   File file_;
   uint64_t size_ = 0;
 };
-
-template <class Pixel>
-void put(const PixelWindow<Pixel>& pixels, Writer* out) {
-  for (int y = 0; y < pixels.height(); ++y)
-    out->put(&pixels.at(0, y), sizeof(Pixel) * size_t(pixels.width()));
-}
-template <class Pixel>
-void get(PixelWindow<Pixel>* pixels, Reader* in) {
-  for (int y = 0; y < pixels->height(); ++y)
-    in->get(&pixels->at(0, y), sizeof(Pixel) * size_t(pixels->width()));
-}
 
 // Reads the header and returns the size of the manifest.
 uint64_t read_head(Reader& in) {
@@ -184,10 +165,9 @@ void write_partial(const std::string& path, const PartialManifest& manifest, con
     out.put(kVersion);
     out.put(json.size());
     out.put(json.data(), json.size());
-    if (!sums.passes.empty()) {
-      put(sums.totals.pixels(), &out);
-      put(sums.totals.half_pixels(), &out);
-    }
+    if (!sums.passes.empty())
+      for (const std::span<const std::byte> pixels : bytes_of(sums.totals))
+        out.put(pixels.data(), pixels.size());
     out.finish();
   } catch (const FileError& error) {
     throw PartialError(path, error.what());
@@ -201,21 +181,14 @@ PartialResult read_partial(const std::string& path) {
   check_hash(in);
   in.rewind();
   ReadManifest read = read_manifest(in);
-  const bool any = !read.result.sums.passes.empty();
-  const uint64_t pixel_bytes = any ? uint64_t(read.width) * uint64_t(read.height) *
-                                         (sizeof(PixelTotals) + (read.halves ? sizeof(HalfTotals) : 0))
-                                   : 0;
+  PassSums& sums = read.result.sums;
+  const bool any = !sums.passes.empty();
+  const uint64_t pixel_bytes = any ? read.pixel_bytes() : 0;
   if (kHeadBytes + manifest_bytes + pixel_bytes + kHashBytes != in.size())
     in.fail("the file's size does not match its image");
-  FilmTotals& totals = read.result.sums.totals;
-  totals = FilmTotals(
-      PixelWindow<PixelTotals>(read.width, read.height, read.x0, read.y0, read.full_width, read.full_height),
-      read.units);
-  if (read.halves) totals.keep_halves();
-  if (any) {
-    get(&totals.pixels(), &in);
-    get(&totals.half_pixels(), &in);
-  }
+  sums.totals = read.empty_totals();
+  if (any)
+    for (const std::span<std::byte> pixels : bytes_of(sums.totals)) in.get(pixels.data(), pixels.size());
   return std::move(read.result);
 }
 

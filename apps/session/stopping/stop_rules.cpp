@@ -74,9 +74,13 @@ bool StopRule::met_by(const render::PassSums& sums) {
 bool StopRule::enough(const render::PassSums& sums) {
   const double now = seconds(), pass = now - last_;
   last_ = now;
-  if (!reaches_target(sums) && settings_.seconds && now + pass + seconds_after_ > *settings_.seconds)
-    reason_ = fmt::format("time {}s", *settings_.seconds);
-  return !reason_.empty();
+  return reaches_target(sums) || !has_time_for(pass);
+}
+
+bool StopRule::has_time_for(double pass) {
+  if (!settings_.seconds || seconds() + pass + seconds_after_ <= *settings_.seconds) return true;
+  reason_ = fmt::format("time {}s", *settings_.seconds);
+  return false;
 }
 
 std::optional<uint64_t> StopRule::passes_needed(const render::PassSums& sums) const {

@@ -49,6 +49,10 @@ class StopRule {
   // Whether these passes suffice; call it after each pass. Also stops when another pass as long as the last
   // would exceed the time.
   bool enough(const render::PassSums& sums);
+  // The two rules alone, for passes that are rendered side by side: whether the sums reach the target error,
+  // and whether a further pass that takes so many seconds would end in time.
+  bool reaches_target(const render::PassSums& sums);
+  bool has_time_for(double pass);
   // How many passes the target error takes in all, by the noise of those checked last; unset without a
   // target. Noise falls with the square root of the number of passes.
   std::optional<uint64_t> passes_needed(const render::PassSums& sums) const;
@@ -58,7 +62,6 @@ class StopRule {
   const std::string& reason() const { return reason_; }
 
  private:
-  bool reaches_target(const render::PassSums& sums);
   double seconds() const { return seconds_before_ + total_.seconds(); }
 
   StopSettings settings_;

@@ -1,0 +1,267 @@
+#include "apps/ranks/coordinator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kaustik::app {
+
+namespace {
+
+// Seconds between two polls after which a rank's silence may be this rank's own.
+constexpr double kLatePoll = 1;
+
+}  // namespace
+
+Coordinator::Coordinator(int ranks, double timeout) : timeout_(timeout), peers_(size_t(ranks)) {
+  for (Peer& peer : peers_) peer.heard = RankClock::now();
+  peers_[0].left = true;  // itself
+}
+
+void Coordinator::start(const render::PassSet& missing, render::PassSums done, RankRules rules) {
+  const std::lock_guard lock(mutex_);
+  board_ = PassBoard(missing, rules.in_order);
+  total_ = std::move(done);
+  rules_ = std::move(rules);
+  started_ = true;
+  for (const std::string& text : std::exchange(warnings_, {})) warn(text);
+}
+
+void Coordinator::begin(std::string manifest) {
+  const std::lock_guard lock(mutex_);
+  const std::string body = BeginText{rules_.in_order, std::move(manifest)}.body();
+  for (size_t rank = 1; rank < peers_.size(); ++rank) orders_.push_back({int(rank), RankCall::kBegin, body});
+}
+
+std::optional<uint64_t> Coordinator::hand_out(int rank) {
+  Peer& peer = peers_[size_t(rank)];
+  if (stopped_ || out_of_time_) return std::nullopt;
+  // At least one pass is rendered, however short the time is.
+  if (any_out_ && rules_.has_time_for && !rules_.has_time_for(peer.seconds)) {
+    out_of_time_ = true;
+    update();
+    return std::nullopt;
+  }
+  const std::optional<uint64_t> pass = board_.hand_out(rank);
+  if (pass) any_out_ = true, peer.since = RankClock::now(), peer.share = 0;
+  return pass;
+}
+
+std::optional<uint64_t> Coordinator::next(const std::function<bool()>& go_on) {
+  std::unique_lock lock(mutex_);
+  here_ = 0;
+  while (!over_) {
+    if (held_.size() < kMostHeld)
+      if (const auto pass = hand_out(0)) return pass;
+    if (over_) break;
+    changed_.wait_for(lock, kRankWake);
+    lock.unlock();  // go_on() may ask for the progress
+    const bool goes_on = go_on();
+    lock.lock();
+    if (!goes_on) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool Coordinator::deliver(render::PassSums& sums) {
+  const std::lock_guard lock(mutex_);
+  const uint64_t pass = sums.passes.first();
+  rendered(0, pass);
+  here_ = 0;
+  if (rules_.in_order) {
+    held_.push_back(std::exchange(sums, {}));
+    fetch();
+  } else {
+    add(std::exchange(sums, {}));
+  }
+  return !over_;
+}
+
+render::PassSums Coordinator::end() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  update();
+  if (error_) std::rethrow_exception(error_);
+  return std::exchange(total_, {});
+}
+
+void Coordinator::rendered(int rank, uint64_t pass) {
+  Peer& peer = peers_[size_t(rank)];
+  peer.seconds = seconds_since(peer.since);
+  peer.share = 1;
+  board_.rendered(rank, pass);
+}
+
+void Coordinator::add(render::PassSums sums) {
+  if (over_) return;
+  const render::PassSet passes = sums.passes;
+  if (total_.passes.empty())
+    total_ = std::move(sums);
+  else
+    total_.add(sums);
+  board_.added(passes);
+  added_ += passes.count();
+  if (rules_.after_pass && !rules_.after_pass(total_)) stopped_ = true;
+  update();
+}
+
+// Notices the end of the render.
+void Coordinator::update() {
+  const bool done = started_ && (board_.complete() || (out_of_time_ && board_.idle()));
+  if (stopped_ || done) over_ = true;
+  changed_.notify_all();
+}
+
+void Coordinator::lose(int rank, const std::string& why) {
+  Peer& peer = peers_[size_t(rank)];
+  if (peer.lost) return;
+  peer.lost = true;
+  peer.incoming.reset();
+  if (fetching_ == rank) fetching_.reset();
+  const render::PassSet passes = over_ ? render::PassSet() : board_.lose(rank);
+  if (!over_)
+    warn(fmt::format("rank {} takes no part any more: {}{}", rank, why,
+                     passes.empty() ? "" : fmt::format("; its passes {} go to others", passes.text())));
+  update();
+}
+
+void Coordinator::warn(const std::string& text) {
+  if (!started_)
+    warnings_.push_back(text);
+  else if (rules_.warn)
+    rules_.warn(text);
+}
+
+// Ranks say twice a second that they are alive.
+void Coordinator::check_silence() {
+  const bool late = seconds_since(polled_) > kLatePoll;  // what has arrived meanwhile may be older
+  polled_ = RankClock::now();
+  for (size_t rank = 1; rank < peers_.size(); ++rank) {
+    Peer& peer = peers_[rank];
+    if (late) peer.heard = polled_;
+    if (!peer.lost && !peer.left && seconds_since(peer.heard) > timeout_)
+      lose(int(rank), fmt::format("it has been silent for {:g} s", timeout_));
+  }
+}
+
+void Coordinator::finish_incoming(Peer& peer) {
+  if (!peer.incoming->complete()) return;
+  render::PassSums sums = peer.incoming->take();
+  peer.incoming.reset();
+  fetching_.reset();
+  add(std::move(sums));
+}
+
+void Coordinator::handle(const RankMessage& message) {
+  Peer& peer = peers_[size_t(message.rank)];
+  if (peer.lost) return;
+  peer.heard = RankClock::now();
+  switch (RankCall(message.kind)) {
+    case RankCall::kAlive:
+      peer.share = double(number_of(message.body)) / 1000;
+      break;
+    case RankCall::kWants:
+      peer.wants = true;
+      break;
+    case RankCall::kRendered:
+      rendered(message.rank, number_of(message.body));
+      break;
+    case RankCall::kSums:
+      peer.incoming = std::make_unique<IncomingSums>(message.body);
+      finish_incoming(peer);
+      break;
+    case RankCall::kPixels:
+      if (!peer.incoming) break;
+      peer.incoming->add(message.body);
+      finish_incoming(peer);
+      break;
+    case RankCall::kFailed:
+      lose(message.rank, message.body);
+      peer.lost = false, peer.left = true;  // it waits for the end, as others do
+      break;
+    case RankCall::kBye:
+      peer.left = true;
+      break;
+    default:
+      break;
+  }
+}
+
+// Asks for the sums that are needed next; those that are here are added at once.
+void Coordinator::fetch() {
+  while (!over_ && !fetching_) {
+    const std::optional<PassBoard::Fetch> wanted = board_.next_fetch();
+    if (!wanted) return;
+    if (wanted->rank != 0) {
+      fetching_ = wanted->rank;
+      orders_.push_back({wanted->rank, RankCall::kSend, wanted->passes.text()});
+      return;
+    }
+    const auto found = std::find_if(held_.begin(), held_.end(), [&](const render::PassSums& sums) {
+      return sums.passes == wanted->passes;
+    });
+    render::PassSums sums = std::move(*found);
+    held_.erase(found);
+    add(std::move(sums));
+  }
+}
+
+// Gives passes to the ranks that wait for one, and tells all when there are no more.
+void Coordinator::serve() {
+  bool told = seconds_since(told_) < kAliveEvery;
+  if (!told) told_ = RankClock::now();
+  double at_work = here_;
+  for (size_t rank = 1; rank < peers_.size(); ++rank) {
+    Peer& peer = peers_[rank];
+    if (!over_ && !board_.held_by(int(rank)).empty()) at_work += peer.share;
+    if (over_ && !peer.told_end) {  // a lost rank may live
+      peer.told_end = true;
+      peer.left = false;
+      orders_.push_back({int(rank), RankCall::kEnd});
+    }
+    if (peer.lost) continue;
+    if (!told) orders_.push_back({int(rank), RankCall::kAlive});
+    if (!peer.wants || over_ || peer.left) continue;
+    if (const auto pass = hand_out(int(rank))) {
+      peer.wants = false;
+      orders_.push_back({int(rank), RankCall::kRender, number_body(*pass)});
+    }
+  }
+  at_work_ = at_work;
+  closing_ = over_;
+}
+
+void Coordinator::send_orders(RankLink& link) {
+  for (RankOrder& order : std::exchange(orders_, {}))
+    link.send(order.rank, int(order.call), std::move(order.body));
+}
+
+bool Coordinator::poll(RankLink& link) {
+  const std::lock_guard lock(mutex_);
+  try {
+    for (RankMessage message; link.receive(&message);) handle(message);
+    check_silence();
+    fetch();
+    serve();
+  } catch (...) {
+    if (!error_) error_ = std::current_exception();
+    stopped_ = true;
+    fetching_.reset();
+    update();
+  }
+  send_orders(link);
+  const auto gone = [](const Peer& peer) { return peer.lost || peer.left; };
+  if (!closing_ || !std::all_of(peers_.begin(), peers_.end(), gone)) return true;
+  const bool orderly = std::none_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.lost; });
+  for (size_t rank = 1; rank < peers_.size(); ++rank)
+    orders_.push_back({int(rank), RankCall::kClose, orderly ? "orderly" : ""});
+  send_orders(link);
+  return false;
+}
+
+bool Coordinator::orderly() const {
+  const std::lock_guard lock(mutex_);
+  return std::none_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.lost; });
+}
+
+}  // namespace kaustik::app

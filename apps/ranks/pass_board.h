@@ -1,0 +1,50 @@
+#pragma once
+// Which rank renders which pass of a render, and whose sums are needed next.
+
+#include <map>
+#include <optional>
+
+#include "render/passes/pass_set.h"
+
+namespace kaustik::app {
+
+class PassBoard {
+ public:
+  PassBoard() = default;
+  // in_order: the sums are needed by ascending pass, so that what is decided after each does not depend on
+  // the ranks.
+  PassBoard(render::PassSet passes, bool in_order) : free_(std::move(passes)), in_order_(in_order) {}
+
+  // Gives a rank the lowest pass that nobody has; nothing if none is left.
+  std::optional<uint64_t> hand_out(int rank);
+  // The rank holds the sums of a pass that it was given.
+  void rendered(int rank, uint64_t pass);
+  // Sums to ask for: in order, those of the lowest pass that is missing; otherwise all of the rank that has
+  // held some for the longest time. Nothing if there are none yet.
+  struct Fetch {
+    int rank = 0;
+    render::PassSet passes;
+  };
+  std::optional<Fetch> next_fetch() const;
+  // The sums of these passes have arrived.
+  void added(const render::PassSet& passes);
+  // Takes back all passes of a rank that has not sent them; returns them.
+  render::PassSet lose(int rank);
+
+  // The passes that a rank has been given and whose sums have not arrived.
+  render::PassSet held_by(int rank) const;
+  bool idle() const { return given_.empty(); }  // nobody has a pass
+  bool complete() const { return given_.empty() && free_.empty(); }
+
+ private:
+  struct Given {
+    int rank = 0;
+    uint64_t rendered = 0;  // counts the passes in the order in which they were finished; 0: not yet
+  };
+  render::PassSet free_;
+  std::map<uint64_t, Given> given_;  // by pass
+  bool in_order_ = false;
+  uint64_t finished_ = 0;
+};
+
+}  // namespace kaustik::app

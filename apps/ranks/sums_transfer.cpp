@@ -1,0 +1,42 @@
+#include "apps/ranks/sums_transfer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "apps/ranks/rank_calls.h"
+
+namespace kaustik::app {
+
+bool OutgoingSums::has_more() const {
+  const auto blocks = render::bytes_of(sums_.totals);
+  return block_ < blocks.size() && begin_ < blocks[block_].size();
+}
+
+std::string OutgoingSums::next_piece() {
+  const auto blocks = render::bytes_of(std::as_const(sums_.totals));
+  const std::span<const std::byte> left = blocks[block_].subspan(begin_);
+  const size_t size = std::min(left.size(), kPixelBytes);
+  begin_ += size;
+  if (size == left.size()) ++block_, begin_ = 0;
+  return {reinterpret_cast<const char*>(left.data()), size};
+}
+
+IncomingSums::IncomingSums(const std::string& head) {
+  render::ReadManifest read = render::manifest_from_text(head);
+  missing_ = read.pixel_bytes();
+  sums_ = std::move(read.result.sums);
+  sums_.totals = read.empty_totals();
+}
+
+void IncomingSums::add(const std::string& piece) {
+  const auto blocks = render::bytes_of(sums_.totals);
+  if (piece.size() > missing_ || begin_ + piece.size() > blocks[block_].size())
+    throw std::runtime_error("a rank has sent more pixels than the picture has");
+  std::memcpy(blocks[block_].data() + begin_, piece.data(), piece.size());
+  begin_ += piece.size();
+  missing_ -= piece.size();
+  if (begin_ == blocks[block_].size()) ++block_, begin_ = 0;
+}
+
+}  // namespace kaustik::app
