@@ -195,7 +195,7 @@ bool render_passes(PassRenderer& renderer, const RenderTask& task, const EmptySu
     sums.passes.add(PassSet(*pass, *pass + 1));
     sums.statistics += result->statistics;
     if (task.after_pass && !task.after_pass(sums)) return true;
-    if (sums.passes.empty()) sums = empty_sums();
+    if (task.keep_sums && sums.totals.pixels().width() == 0) sums = empty_sums();  // they were moved away
   }
   return true;
 }

@@ -28,8 +28,8 @@ struct RenderTask {
   std::function<std::optional<uint64_t>()> next_pass{};
   // Called before the tiles of the first pass that is rendered, with the sums so far and the radii.
   std::function<void(const PassSums&)> begun{};
-  // Called after each pass with the sums of all complete passes, which it may move away: later passes then
-  // begin new sums. Returning false ends the render.
+  // Called after each pass with the sums of all complete passes, which it may move away or clear: later
+  // passes then begin new sums. Returning false ends the render.
   std::function<bool(PassSums&)> after_pass{};
   // If false, a render of a single pass returns no totals in result.sums, which halves the memory for pixels.
   bool keep_sums = true;

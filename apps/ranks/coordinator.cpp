@@ -10,6 +10,8 @@ namespace {
 
 // Seconds between two polls after which a rank's silence may be this rank's own.
 constexpr double kLatePoll = 1;
+// Exchanges of messages in a poll, while any arrive.
+constexpr int kMostRounds = 64;
 
 }  // namespace
 
@@ -69,10 +71,11 @@ bool Coordinator::deliver(render::PassSums& sums) {
   rendered(0, pass);
   here_ = 0;
   if (rules_.in_order) {
-    held_.push_back(std::exchange(sums, {}));
+    held_.push_back(std::exchange(sums, std::exchange(spare_, {})));
+    sums.clear();
     fetch();
   } else {
-    add(std::exchange(sums, {}));
+    add(sums);
   }
   return !over_;
 }
@@ -92,13 +95,15 @@ void Coordinator::rendered(int rank, uint64_t pass) {
   board_.rendered(rank, pass);
 }
 
-void Coordinator::add(render::PassSums sums) {
-  if (over_) return;
+// Leaves sums of no pass.
+void Coordinator::add(render::PassSums& sums) {
+  if (over_) return sums.clear();
   const render::PassSet passes = sums.passes;
   if (total_.passes.empty())
-    total_ = std::move(sums);
+    total_ = std::exchange(sums, {});
   else
     total_.add(sums);
+  sums.clear();
   board_.added(passes);
   added_ += passes.count();
   if (rules_.after_pass && !rules_.after_pass(total_)) stopped_ = true;
@@ -148,8 +153,10 @@ void Coordinator::finish_incoming(Peer& peer) {
   if (!peer.incoming->complete()) return;
   render::PassSums sums = peer.incoming->take();
   peer.incoming.reset();
+  peer.share = 0;
   fetching_.reset();
-  add(std::move(sums));
+  add(sums);
+  spare_ = std::move(sums);
 }
 
 void Coordinator::handle(const RankMessage& message) {
@@ -167,7 +174,7 @@ void Coordinator::handle(const RankMessage& message) {
       rendered(message.rank, number_of(message.body));
       break;
     case RankCall::kSums:
-      peer.incoming = std::make_unique<IncomingSums>(message.body);
+      peer.incoming = std::make_unique<IncomingSums>(message.body, std::exchange(spare_, {}));
       finish_incoming(peer);
       break;
     case RankCall::kPixels:
@@ -202,7 +209,8 @@ void Coordinator::fetch() {
     });
     render::PassSums sums = std::move(*found);
     held_.erase(found);
-    add(std::move(sums));
+    add(sums);
+    spare_ = std::move(sums);
   }
 }
 
@@ -213,7 +221,7 @@ void Coordinator::serve() {
   double at_work = here_;
   for (size_t rank = 1; rank < peers_.size(); ++rank) {
     Peer& peer = peers_[rank];
-    if (!over_ && !board_.held_by(int(rank)).empty()) at_work += peer.share;
+    if (!peer.lost) at_work += peer.share;
     if (over_ && !peer.told_end) {  // a lost rank may live
       peer.told_end = true;
       peer.left = false;
@@ -236,10 +244,11 @@ void Coordinator::send_orders(RankLink& link) {
     link.send(order.rank, int(order.call), std::move(order.body));
 }
 
-bool Coordinator::poll(RankLink& link) {
+bool Coordinator::exchange(RankLink& link) {
   const std::lock_guard lock(mutex_);
+  bool heard = false;
   try {
-    for (RankMessage message; link.receive(&message);) handle(message);
+    for (RankMessage message; link.receive(&message); heard = true) handle(message);
     check_silence();
     fetch();
     serve();
@@ -250,18 +259,27 @@ bool Coordinator::poll(RankLink& link) {
     update();
   }
   send_orders(link);
+  return heard;
+}
+
+bool Coordinator::poll(RankLink& link) {
+  for (int round = 0; round < kMostRounds && exchange(link); ++round) continue;
+  const std::lock_guard lock(mutex_);
   const auto gone = [](const Peer& peer) { return peer.lost || peer.left; };
   if (!closing_ || !std::all_of(peers_.begin(), peers_.end(), gone)) return true;
-  const bool orderly = std::none_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.lost; });
-  for (size_t rank = 1; rank < peers_.size(); ++rank)
-    orders_.push_back({int(rank), RankCall::kClose, orderly ? "orderly" : ""});
+  const std::string how = any_lost() ? "" : "orderly";
+  for (size_t rank = 1; rank < peers_.size(); ++rank) orders_.push_back({int(rank), RankCall::kClose, how});
   send_orders(link);
   return false;
 }
 
+bool Coordinator::any_lost() const {
+  return std::any_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.lost; });
+}
+
 bool Coordinator::orderly() const {
   const std::lock_guard lock(mutex_);
-  return std::none_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.lost; });
+  return !any_lost();
 }
 
 }  // namespace kaustik::app

@@ -66,8 +66,10 @@ class Coordinator {
     std::unique_ptr<IncomingSums> incoming{};
   };
 
+  bool exchange(RankLink& link);  // whether anything has arrived
+  bool any_lost() const;
   std::optional<uint64_t> hand_out(int rank);
-  void add(render::PassSums sums);
+  void add(render::PassSums& sums);
   void rendered(int rank, uint64_t pass);
   void handle(const RankMessage& message);
   void finish_incoming(Peer& peer);
@@ -88,7 +90,9 @@ class Coordinator {
   RankRules rules_;
   render::PassSums total_;
   std::vector<render::PassSums> held_;  // rendered here, in order, but not yet added
-  std::optional<int> fetching_;         // the rank whose sums are under way
+  render::PassSums
+      spare_;  // memory that has been added: to allocate it anew would take longer than to add to it
+  std::optional<int> fetching_;  // the rank whose sums are under way
   std::exception_ptr error_;
   std::vector<std::string> warnings_;  // until there are rules
   RankClock::time_point polled_ = RankClock::now(), told_ = RankClock::now();

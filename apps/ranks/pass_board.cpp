@@ -14,46 +14,52 @@ std::optional<uint64_t> PassBoard::hand_out(int rank) {
   if (free_.empty()) return std::nullopt;
   const uint64_t pass = free_.first();
   free_ = free_.without(single(pass));
-  given_[pass] = {rank, 0};
+  given_[pass] = rank;
   return pass;
 }
 
 void PassBoard::rendered(int rank, uint64_t pass) {
   const auto found = given_.find(pass);
-  if (found != given_.end() && found->second.rank == rank) found->second.rendered = ++finished_;
+  if (found == given_.end() || found->second != rank) return;
+  render::PassSet& passes = rendered_[rank];
+  if (passes.empty()) waiting_.push_back(rank);
+  passes.add(single(pass));
 }
 
 std::optional<PassBoard::Fetch> PassBoard::next_fetch() const {
-  if (given_.empty()) return std::nullopt;
-  if (in_order_) {
-    const auto& [pass, given] = *given_.begin();
-    const bool lowest = free_.empty() || pass < free_.first();
-    return lowest && given.rendered > 0 ? std::optional(Fetch{given.rank, single(pass)}) : std::nullopt;
-  }
-  std::optional<Given> longest;
-  for (const auto& [pass, given] : given_)
-    if (given.rendered > 0 && (!longest || given.rendered < longest->rendered)) longest = given;
-  if (!longest) return std::nullopt;
-  Fetch fetch{longest->rank, {}};
-  for (const auto& [pass, given] : given_)
-    if (given.rank == fetch.rank && given.rendered > 0) fetch.passes.add(single(pass));
-  return fetch;
+  if (waiting_.empty()) return std::nullopt;
+  if (!in_order_) return Fetch{waiting_.front(), rendered_.at(waiting_.front())};
+  const auto& [pass, rank] = *given_.begin();
+  const auto found = rendered_.find(rank);
+  const bool lowest = free_.empty() || pass < free_.first();
+  const bool finished = found != rendered_.end() && !found->second.common(single(pass)).empty();
+  return lowest && finished ? std::optional(Fetch{rank, single(pass)}) : std::nullopt;
+}
+
+void PassBoard::forget(int rank, const render::PassSet& passes) {
+  const auto found = rendered_.find(rank);
+  if (found == rendered_.end()) return;
+  found->second = found->second.without(passes);
+  if (!found->second.empty()) return;
+  rendered_.erase(found);
+  std::erase(waiting_, rank);
 }
 
 void PassBoard::added(const render::PassSet& passes) {
-  std::erase_if(given_, [&](const auto& item) { return !passes.common(single(item.first)).empty(); });
-}
-
-render::PassSet PassBoard::held_by(int rank) const {
-  render::PassSet passes;
-  for (const auto& [pass, given] : given_)
-    if (given.rank == rank) passes.add(single(pass));
-  return passes;
+  for (const render::PassSet::Range& range : passes.ranges()) {
+    for (auto at = given_.lower_bound(range.begin); at != given_.end() && at->first < range.end;) {
+      forget(at->second, single(at->first));
+      at = given_.erase(at);
+    }
+  }
 }
 
 render::PassSet PassBoard::lose(int rank) {
-  const render::PassSet passes = held_by(rank);
-  std::erase_if(given_, [&](const auto& item) { return item.second.rank == rank; });
+  render::PassSet passes;
+  for (const auto& [pass, holder] : given_)
+    if (holder == rank) passes.add(single(pass));
+  std::erase_if(given_, [&](const auto& item) { return item.second == rank; });
+  forget(rank, passes);
   free_.add(passes);
   return passes;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Which rank renders which pass of a render, and whose sums are needed next.
 
+#include <deque>
 #include <map>
 #include <optional>
 
@@ -31,20 +32,17 @@ class PassBoard {
   // Takes back all passes of a rank that has not sent them; returns them.
   render::PassSet lose(int rank);
 
-  // The passes that a rank has been given and whose sums have not arrived.
-  render::PassSet held_by(int rank) const;
   bool idle() const { return given_.empty(); }  // nobody has a pass
   bool complete() const { return given_.empty() && free_.empty(); }
 
  private:
-  struct Given {
-    int rank = 0;
-    uint64_t rendered = 0;  // counts the passes in the order in which they were finished; 0: not yet
-  };
+  void forget(int rank, const render::PassSet& passes);  // among those that are finished
+
   render::PassSet free_;
-  std::map<uint64_t, Given> given_;  // by pass
+  std::map<uint64_t, int> given_;            // the rank that has a pass
+  std::map<int, render::PassSet> rendered_;  // of them, by rank, those that are finished
+  std::deque<int> waiting_;  // the ranks in rendered_, the one that has waited for the longest time first
   bool in_order_ = false;
-  uint64_t finished_ = 0;
 };
 
 }  // namespace kaustik::app

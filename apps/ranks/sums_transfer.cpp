@@ -22,11 +22,15 @@ std::string OutgoingSums::next_piece() {
   return {reinterpret_cast<const char*>(left.data()), size};
 }
 
-IncomingSums::IncomingSums(const std::string& head) {
+IncomingSums::IncomingSums(const std::string& head, render::PassSums spare) {
   render::ReadManifest read = render::manifest_from_text(head);
   missing_ = read.pixel_bytes();
   sums_ = std::move(read.result.sums);
-  sums_.totals = read.empty_totals();
+  const render::PixelWindow<render::PixelTotals>& pixels = spare.totals.pixels();
+  const bool fits = pixels.width() == read.width && pixels.height() == read.height &&
+                    pixels.x0() == read.x0 && pixels.y0() == read.y0 && spare.totals.units() == read.units &&
+                    spare.totals.has_halves() == read.halves;
+  sums_.totals = fits ? std::move(spare.totals) : read.empty_totals();
 }
 
 void IncomingSums::add(const std::string& piece) {

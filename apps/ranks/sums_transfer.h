@@ -13,6 +13,7 @@ class OutgoingSums {
   std::string head() const { return render::manifest_text({}, sums_); }
   bool has_more() const;
   std::string next_piece();  // requires has_more()
+  render::PassSums take() { return std::move(sums_); }
 
  private:
   render::PassSums sums_;
@@ -21,8 +22,8 @@ class OutgoingSums {
 
 class IncomingSums {
  public:
-  // Throws as manifest_from_text() does.
-  explicit IncomingSums(const std::string& head);
+  // spare: sums whose memory may be used again. Throws as manifest_from_text() does.
+  IncomingSums(const std::string& head, render::PassSums spare);
   // Throws std::runtime_error for bytes beyond the last pixel.
   void add(const std::string& piece);
   bool complete() const { return missing_ == 0; }

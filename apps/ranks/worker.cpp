@@ -40,10 +40,12 @@ std::optional<uint64_t> Worker::next(const std::function<bool()>& go_on) {
 bool Worker::deliver(render::PassSums& sums) {
   const std::lock_guard lock(mutex_);
   const uint64_t pass = sums.passes.first();
-  if (in_order_ || held_.empty())
-    held_.push_back(std::exchange(sums, {}));
-  else
-    held_.back().add(std::exchange(sums, {}));
+  if (in_order_ || held_.empty()) {
+    held_.push_back(std::exchange(sums, std::exchange(spare_, {})));
+  } else {
+    held_.back().add(sums);
+  }
+  sums.clear();
   order(RankCall::kRendered, number_body(pass));
   return !over_;
 }
@@ -101,6 +103,7 @@ void Worker::handle(const RankMessage& message) {
 void Worker::send_pixels(RankLink& link) {
   while (outgoing_ && link.unsent(0) < kMostUnsent) {
     if (!outgoing_->has_more()) {
+      spare_ = outgoing_->take();
       outgoing_.reset();
       return;
     }

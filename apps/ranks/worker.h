@@ -58,6 +58,7 @@ class Worker {
   std::optional<uint64_t> pass_;        // to be rendered
   std::vector<render::PassSums> held_;  // one for each pass if they are fetched in order, else at most one
   std::optional<OutgoingSums> outgoing_;
+  render::PassSums spare_;  // memory that was sent: to allocate it anew would take longer than to add to it
   RankClock::time_point heard_ = RankClock::now(), told_ = RankClock::now();
   bool in_order_ = false, ended_ = false, finished_ = false, said_bye_ = false, closed_ = false;
   std::atomic<bool> over_ = false, deserted_ = false, orderly_ = false;

@@ -62,6 +62,8 @@ class FilmTotals {
   FilmTotals(PixelWindow<PixelTotals> zero, const ExactUnits& units)
       : units_(units), pixels_(std::move(zero)) {}
 
+  // Sets all sums to zero.
+  void clear() { pixels_.clear(), halves_.clear(); }
   // Keeps the sums of one half from now on; before the first pass.
   void keep_halves();
   bool has_halves() const { return halves_.width() > 0; }

@@ -18,4 +18,10 @@ void PassSums::add(const PassSums& other) {
   statistics += other.statistics;
 }
 
+void PassSums::clear() {
+  passes = {};
+  totals.clear();
+  statistics = {};
+}
+
 }  // namespace kaustik::render

@@ -21,6 +21,8 @@ struct PassSums {
   // Throws std::invalid_argument if a pass is in both, or if shares, window, units or radii differ; then
   // nothing is changed.
   void add(const PassSums& other);
+  // Makes them the sums of no pass; keeps the memory of the pixels.
+  void clear();
 };
 
 }  // namespace kaustik::render

@@ -15,7 +15,6 @@ TEST(PassBoard, HandsOutEachPassOnceInAscendingOrder) {
   EXPECT_EQ(board.hand_out(0), 3u);
   EXPECT_EQ(board.hand_out(1), 4u);
   EXPECT_EQ(board.hand_out(0), std::nullopt);
-  EXPECT_EQ(board.held_by(1), PassSet::parse("2:3,4:5"));
   EXPECT_FALSE(board.complete());
   board.added(PassSet(2, 5));
   EXPECT_TRUE(board.complete());
