@@ -84,7 +84,7 @@ void check_with_scene(RenderOptions options, const std::vector<std::string>& out
 std::unique_ptr<Ranks> ranks_of(const RenderOptions& options, const Console& console) {
   std::unique_ptr<Ranks> ranks = join_ranks(options.rank_timeout, console);
   if (ranks && (options.sequence.any() || !options.map.empty() || !options.save_map.empty()))
-    throw ExitError(kBadCommandLine,
+    throw ExitError(ranks->leads() ? kBadCommandLine : kDone,
                     ranks->leads() ? "several ranks share the passes of one picture: sequences and kept "
                                      "maps take one process each"
                                    : "");
@@ -109,7 +109,8 @@ int run_render(const RenderOptions& options, const Console& console) {
   check_collisions(files_of(options), {{"the scene", options.scene}, {"--map", options.map}});
   const InterruptGuard interrupt;
   RenderSession session;
-  session.launched = launched().ranks > 0;
+  const bool kept = !options.map.empty() || !options.save_map.empty();
+  session.launched = launched().ranks > 0 && !kept && !options.sequence.any();
   session.ranks = ranks.get();
   session.maps.save = options.save_map;
   if (!options.map.empty()) session.maps.from = open_map_file(options.map);

@@ -22,9 +22,11 @@ int number_in(const char* name) {
 }  // namespace
 
 Launched launched() {
-  const int by_mpirun = number_in("OMPI_COMM_WORLD_SIZE"), by_pmi = number_in("PMI_SIZE");
+  Launched launched{number_in("OMPI_COMM_WORLD_SIZE")};
+  // What else sets these starts single processes, too, which have nothing to do with MPI.
   const int by_srun = std::getenv("PMIX_RANK") ? number_in("SLURM_STEP_NUM_TASKS") : 0;
-  Launched launched{std::max({by_mpirun, by_pmi, by_srun})};
+  for (const int ranks : {number_in("PMI_SIZE"), by_srun})
+    if (ranks > 1) launched.ranks = std::max(launched.ranks, ranks);
   for (const char* const name : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"})
     launched.on_machine = std::max(launched.on_machine, number_in(name));
   return launched;

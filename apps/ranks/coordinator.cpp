@@ -8,8 +8,8 @@ namespace kaustik::app {
 
 namespace {
 
-// Seconds between two polls after which a rank's silence may be this rank's own.
-constexpr double kLatePoll = 1;
+// Longer delays between two polls, such as for a checkpoint, do not count as silence of the others.
+constexpr auto kLatePoll = std::chrono::seconds(1);
 // Exchanges of messages in a poll, while any arrive.
 constexpr int kMostRounds = 64;
 
@@ -29,21 +29,31 @@ void Coordinator::start(const render::PassSet& missing, render::PassSums done, R
   for (const std::string& text : std::exchange(warnings_, {})) warn(text);
 }
 
-void Coordinator::begin(std::string manifest) {
+void Coordinator::begin(std::string command_line, std::string manifest) {
   const std::lock_guard lock(mutex_);
-  const std::string body = BeginText{rules_.in_order, std::move(manifest)}.body();
+  const std::string body = BeginText{rules_.in_order, std::move(command_line), std::move(manifest)}.body();
   for (size_t rank = 1; rank < peers_.size(); ++rank) orders_.push_back({int(rank), RankCall::kBegin, body});
+}
+
+// Whether a pass of this rank would end in time. Without any in time, the time is over.
+bool Coordinator::has_time(const Peer& peer) {
+  if (!rules_.has_time_for || !any_out_) return true;  // one pass is rendered, however short the time is
+  double shortest = 0, longest = 0;                    // of the passes that ranks have finished
+  for (const Peer& other : peers_) {
+    if (other.seconds > 0) shortest = shortest > 0 ? std::min(shortest, other.seconds) : other.seconds;
+    longest = std::max(longest, other.seconds);
+  }
+  if (rules_.has_time_for(peer.seconds > 0 ? peer.seconds : longest)) return true;
+  if (rules_.has_time_for(shortest)) return false;
+  board_.close();
+  if (rules_.out_of_time) rules_.out_of_time();
+  update();
+  return false;
 }
 
 std::optional<uint64_t> Coordinator::hand_out(int rank) {
   Peer& peer = peers_[size_t(rank)];
-  if (stopped_ || out_of_time_) return std::nullopt;
-  // At least one pass is rendered, however short the time is.
-  if (any_out_ && rules_.has_time_for && !rules_.has_time_for(peer.seconds)) {
-    out_of_time_ = true;
-    update();
-    return std::nullopt;
-  }
+  if (stopped_ || !board_.has_free() || !has_time(peer)) return std::nullopt;
   const std::optional<uint64_t> pass = board_.hand_out(rank);
   if (pass) any_out_ = true, peer.since = RankClock::now(), peer.share = 0;
   return pass;
@@ -53,8 +63,7 @@ std::optional<uint64_t> Coordinator::next(const std::function<bool()>& go_on) {
   std::unique_lock lock(mutex_);
   here_ = 0;
   while (!over_) {
-    if (held_.size() < kMostHeld)
-      if (const auto pass = hand_out(0)) return pass;
+    if (const auto pass = hand_out(0)) return pass;
     if (over_) break;
     changed_.wait_for(lock, kRankWake);
     lock.unlock();  // go_on() may ask for the progress
@@ -80,12 +89,24 @@ bool Coordinator::deliver(render::PassSums& sums) {
   return !over_;
 }
 
-render::PassSums Coordinator::end() {
+void Coordinator::stop() {
   const std::lock_guard lock(mutex_);
   stopped_ = true;
+  rules_ = {};
   update();
+}
+
+render::PassSums Coordinator::end() {
+  stop();
+  const std::lock_guard lock(mutex_);
   if (error_) std::rethrow_exception(error_);
   return std::exchange(total_, {});
+}
+
+void Coordinator::finish() {
+  stop();
+  const std::lock_guard lock(mutex_);
+  finished_ = true;
 }
 
 void Coordinator::rendered(int rank, uint64_t pass) {
@@ -99,6 +120,10 @@ void Coordinator::rendered(int rank, uint64_t pass) {
 void Coordinator::add(render::PassSums& sums) {
   if (over_) return sums.clear();
   const render::PassSet passes = sums.passes;
+  // Ranks render side by side: so the seconds of all add up to those that have passed.
+  render::RenderStatistics& statistics = sums.statistics;
+  for (double* const seconds : {&statistics.photon_trace_s, &statistics.photon_build_s, &statistics.render_s})
+    *seconds /= double(peers_.size());
   if (total_.passes.empty())
     total_ = std::exchange(sums, {});
   else
@@ -112,7 +137,7 @@ void Coordinator::add(render::PassSums& sums) {
 
 // Notices the end of the render.
 void Coordinator::update() {
-  const bool done = started_ && (board_.complete() || (out_of_time_ && board_.idle()));
+  const bool done = started_ && board_.complete();
   if (stopped_ || done) over_ = true;
   changed_.notify_all();
 }
@@ -139,11 +164,11 @@ void Coordinator::warn(const std::string& text) {
 
 // Ranks say twice a second that they are alive.
 void Coordinator::check_silence() {
-  const bool late = seconds_since(polled_) > kLatePoll;  // what has arrived meanwhile may be older
-  polled_ = RankClock::now();
+  const auto now = RankClock::now();
+  const auto delay = now - std::exchange(polled_, now);
   for (size_t rank = 1; rank < peers_.size(); ++rank) {
     Peer& peer = peers_[rank];
-    if (late) peer.heard = polled_;
+    if (delay > kLatePoll) peer.heard += delay;
     if (!peer.lost && !peer.left && seconds_since(peer.heard) > timeout_)
       lose(int(rank), fmt::format("it has been silent for {:g} s", timeout_));
   }
@@ -161,8 +186,8 @@ void Coordinator::finish_incoming(Peer& peer) {
 
 void Coordinator::handle(const RankMessage& message) {
   Peer& peer = peers_[size_t(message.rank)];
-  if (peer.lost) return;
   peer.heard = RankClock::now();
+  if (peer.lost && RankCall(message.kind) != RankCall::kBye) return;  // its passes are rendered by others
   switch (RankCall(message.kind)) {
     case RankCall::kAlive:
       peer.share = double(number_of(message.body)) / 1000;
@@ -184,7 +209,7 @@ void Coordinator::handle(const RankMessage& message) {
       break;
     case RankCall::kFailed:
       lose(message.rank, message.body);
-      peer.lost = false, peer.left = true;  // it waits for the end, as others do
+      peer.lost = false, peer.left = !peer.told_end;  // it waits for the end, as others do
       break;
     case RankCall::kBye:
       peer.left = true;
@@ -227,9 +252,8 @@ void Coordinator::serve() {
       peer.left = false;
       orders_.push_back({int(rank), RankCall::kEnd});
     }
-    if (peer.lost) continue;
     if (!told) orders_.push_back({int(rank), RankCall::kAlive});
-    if (!peer.wants || over_ || peer.left) continue;
+    if (!peer.wants || over_ || peer.left || peer.lost) continue;
     if (const auto pass = hand_out(int(rank))) {
       peer.wants = false;
       orders_.push_back({int(rank), RankCall::kRender, number_body(*pass)});
@@ -252,34 +276,34 @@ bool Coordinator::exchange(RankLink& link) {
     check_silence();
     fetch();
     serve();
+    send_orders(link);
   } catch (...) {
     if (!error_) error_ = std::current_exception();
     stopped_ = true;
     fetching_.reset();
     update();
   }
-  send_orders(link);
   return heard;
 }
 
 bool Coordinator::poll(RankLink& link) {
   for (int round = 0; round < kMostRounds && exchange(link); ++round) continue;
   const std::lock_guard lock(mutex_);
-  const auto gone = [](const Peer& peer) { return peer.lost || peer.left; };
-  if (!closing_ || !std::all_of(peers_.begin(), peers_.end(), gone)) return true;
-  const std::string how = any_lost() ? "" : "orderly";
+  const auto gone = [&](const Peer& peer) { return peer.left || seconds_since(peer.heard) > timeout_; };
+  if (!closing_ || !finished_ || !std::all_of(peers_.begin(), peers_.end(), gone)) return true;
+  const std::string how = all_left() ? "orderly" : "";
   for (size_t rank = 1; rank < peers_.size(); ++rank) orders_.push_back({int(rank), RankCall::kClose, how});
   send_orders(link);
   return false;
 }
 
-bool Coordinator::any_lost() const {
-  return std::any_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.lost; });
+bool Coordinator::all_left() const {
+  return std::all_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.left; });
 }
 
 bool Coordinator::orderly() const {
   const std::lock_guard lock(mutex_);
-  return !any_lost();
+  return all_left();
 }
 
 }  // namespace kaustik::app

@@ -23,14 +23,16 @@ namespace kaustik::app {
 struct RankRules {
   // After passes have been added, with the sums of all. False ends the render.
   std::function<bool(render::PassSums&)> after_pass{};
-  // Whether a further pass that takes so many seconds ends in time.
+  // Whether a further pass that takes so many seconds ends in time; called when the time is over for all
+  // ranks.
   std::function<bool(double seconds)> has_time_for{};
+  std::function<void()> out_of_time{};
   std::function<void(const std::string&)> warn{};
   // Passes are added one by one by their index, so that after_pass decides as in a single process.
   bool in_order = false;
 };
 
-// Thread-safe: one thread renders, another one has the link.
+// Thread-safe: one thread renders, another one exchanges messages.
 class Coordinator {
  public:
   // timeout: a rank that is silent for so many seconds is lost, and others render its passes.
@@ -38,17 +40,21 @@ class Coordinator {
 
   // The thread that renders. First start(), then begin(), which lets the other ranks start.
   void start(const render::PassSet& missing, render::PassSums done, RankRules rules);
-  void begin(std::string manifest);
+  void begin(std::string command_line, std::string manifest);
   // The next pass to render here; waits for one that a lost rank gives back. Nothing if all is done, or once
   // go_on returns false, which is called from time to time.
   std::optional<uint64_t> next(const std::function<bool()>& go_on);
   // Takes the sums of a pass; false if no more is to be rendered.
   bool deliver(render::PassSums& sums);
+  // Ends the render; no rule is called any more.
+  void stop();
   // Ends the render and returns the sums of all passes. Rethrows what a rule threw on the other thread.
   render::PassSums end();
+  // Lets the other ranks leave, once this one has nothing more to do.
+  void finish();
 
   bool over() const { return over_; }
-  // Passes that were added, and the sum of what is done of those at work.
+  // Passes that were added, and the shares that are done of the passes at work, summed.
   uint64_t added() const { return added_; }
   double at_work() const { return at_work_; }
   void here(double share) { here_ = share; }  // of the pass that is rendered here
@@ -67,7 +73,8 @@ class Coordinator {
   };
 
   bool exchange(RankLink& link);  // whether anything has arrived
-  bool any_lost() const;
+  bool all_left() const;
+  bool has_time(const Peer& peer);
   std::optional<uint64_t> hand_out(int rank);
   void add(render::PassSums& sums);
   void rendered(int rank, uint64_t pass);
@@ -96,7 +103,7 @@ class Coordinator {
   std::exception_ptr error_;
   std::vector<std::string> warnings_;  // until there are rules
   RankClock::time_point polled_ = RankClock::now(), told_ = RankClock::now();
-  bool started_ = false, any_out_ = false, stopped_ = false, out_of_time_ = false, closing_ = false;
+  bool started_ = false, any_out_ = false, stopped_ = false, closing_ = false, finished_ = false;
   std::atomic<bool> over_ = false;
   std::atomic<uint64_t> added_ = 0;
   std::atomic<double> at_work_ = 0, here_ = 0;

@@ -13,6 +13,9 @@ render::PassSet single(uint64_t pass) {
 std::optional<uint64_t> PassBoard::hand_out(int rank) {
   if (free_.empty()) return std::nullopt;
   const uint64_t pass = free_.first();
+  const auto kept = rendered_.find(rank);
+  const bool full = in_order_ && kept != rendered_.end() && kept->second.count() >= kMostKept;
+  if (full && pass > given_.begin()->first) return std::nullopt;
   free_ = free_.without(single(pass));
   given_[pass] = rank;
   return pass;
@@ -60,7 +63,7 @@ render::PassSet PassBoard::lose(int rank) {
     if (holder == rank) passes.add(single(pass));
   std::erase_if(given_, [&](const auto& item) { return item.second == rank; });
   forget(rank, passes);
-  free_.add(passes);
+  if (!closed_) free_.add(passes);
   return passes;
 }
 

@@ -9,6 +9,8 @@
 
 namespace kaustik::app {
 
+inline constexpr uint64_t kMostKept = 2;
+
 class PassBoard {
  public:
   PassBoard() = default;
@@ -16,7 +18,8 @@ class PassBoard {
   // the ranks.
   PassBoard(render::PassSet passes, bool in_order) : free_(std::move(passes)), in_order_(in_order) {}
 
-  // Gives a rank the lowest pass that nobody has; nothing if none is left.
+  // Gives a rank the lowest pass that nobody has; nothing if none is left. In order, a rank that already
+  // keeps kMostKept finished passes only gets one that all those wait for.
   std::optional<uint64_t> hand_out(int rank);
   // The rank holds the sums of a pass that it was given.
   void rendered(int rank, uint64_t pass);
@@ -29,10 +32,12 @@ class PassBoard {
   std::optional<Fetch> next_fetch() const;
   // The sums of these passes have arrived.
   void added(const render::PassSet& passes);
-  // Takes back all passes of a rank that has not sent them; returns them.
+  // Takes back all passes of a rank that has not sent them, for others, and returns them.
   render::PassSet lose(int rank);
 
-  bool idle() const { return given_.empty(); }  // nobody has a pass
+  // Hands out no more: only passes that somebody has are still to come.
+  void close() { free_ = {}, closed_ = true; }
+  bool has_free() const { return !free_.empty(); }
   bool complete() const { return given_.empty() && free_.empty(); }
 
  private:
@@ -42,7 +47,7 @@ class PassBoard {
   std::map<uint64_t, int> given_;            // the rank that has a pass
   std::map<int, render::PassSet> rendered_;  // of them, by rank, those that are finished
   std::deque<int> waiting_;  // the ranks in rendered_, the one that has waited for the longest time first
-  bool in_order_ = false;
+  bool in_order_ = false, closed_ = false;
 };
 
 }  // namespace kaustik::app

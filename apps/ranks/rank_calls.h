@@ -43,15 +43,20 @@ inline uint64_t number_of(const std::string& body) {
   return number;
 }
 
-// The body of kBegin: whether sums are fetched in order, and manifest_text() of no pass with the render's
-// radii.
+// The body of kBegin.
 struct BeginText {
-  bool in_order = false;
-  std::string manifest{};
+  bool in_order = false;       // whether rank 0 adds passes by their index
+  std::string command_line{};  // of rank 0
+  std::string manifest{};      // of a partial result without passes: it holds the settings and the radii
 
-  std::string body() const { return (in_order ? "o" : "-") + manifest; }
+  std::string body() const {
+    return (in_order ? "o" : "-") + number_body(command_line.size()) + command_line + manifest;
+  }
+  // body: made by body().
   static BeginText from(const std::string& body) {
-    return {!body.empty() && body[0] == 'o', body.substr(!body.empty())};
+    constexpr size_t kHead = 1 + sizeof(uint64_t);
+    const size_t line = size_t(number_of(body.substr(1, sizeof(uint64_t))));
+    return {body[0] == 'o', body.substr(kHead, line), body.substr(kHead + line)};
   }
 };
 
@@ -63,10 +68,8 @@ inline double seconds_since(RankClock::time_point start) {
   return std::chrono::duration<double>(RankClock::now() - start).count();
 }
 
-// How often what waits for another rank looks for a signal.
+// How long a thread that waits for another rank sleeps before it looks for a signal.
 inline constexpr auto kRankWake = std::chrono::milliseconds(100);
-// Passes whose sums a rank keeps until those before them have been added, where they are added in order.
-inline constexpr size_t kMostHeld = 2;
 // How often a rank says that it is alive, in seconds.
 inline constexpr double kAliveEvery = 0.5;
 

@@ -7,9 +7,10 @@ namespace {
 constexpr auto kBetweenPolls = std::chrono::milliseconds(2);
 
 template <class Side>
-void exchange_messages(Side& side, RankLink& link) {
-  while (side.poll(link)) std::this_thread::sleep_for(kBetweenPolls);
-  link.close(side.orderly());
+void exchange_messages(Side& side, std::unique_ptr<RankLink>& link) {
+  while (side.poll(*link)) std::this_thread::sleep_for(kBetweenPolls);
+  link->close(side.orderly());
+  if (!side.orderly()) link.release();  // MPI may still use its buffers
 }
 
 }  // namespace
@@ -40,15 +41,11 @@ void Ranks::run(const OpenLink& open, double timeout, std::promise<void>& joined
     return;
   }
   joined.set_value();
-  leads() ? exchange_messages(*coordinator_, *link) : exchange_messages(*worker_, *link);
+  leads() ? exchange_messages(*coordinator_, link) : exchange_messages(*worker_, link);
 }
 
 Ranks::~Ranks() {
-  try {
-    leads() ? void(coordinator_->end()) : worker_->finish();
-  } catch (...) {
-    // It has been reported.
-  }
+  leads() ? coordinator_->finish() : worker_->finish();
   thread_.join();
 }
 

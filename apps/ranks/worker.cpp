@@ -30,8 +30,7 @@ std::optional<BeginText> Worker::begin(const std::function<bool()>& go_on) {
 std::optional<uint64_t> Worker::next(const std::function<bool()>& go_on) {
   std::unique_lock lock(mutex_);
   share_ = 0;
-  wait(lock, go_on, [&] { return held_.size() < kMostHeld; });
-  if (over_ || held_.size() >= kMostHeld) return std::nullopt;
+  if (over_) return std::nullopt;
   order(RankCall::kWants);
   wait(lock, go_on, [&] { return pass_.has_value(); });
   return over_ ? std::nullopt : std::exchange(pass_, std::nullopt);
@@ -52,7 +51,12 @@ bool Worker::deliver(render::PassSums& sums) {
 
 void Worker::fail(const std::string& why) {
   const std::lock_guard lock(mutex_);
+  give_up(why);
+}
+
+void Worker::give_up(const std::string& why) {
   held_.clear();
+  outgoing_.reset();
   order(RankCall::kFailed, why);
 }
 
@@ -61,7 +65,7 @@ void Worker::finish() {
   finished_ = true;
 }
 
-// Everything that is held leaves, unless sums are fetched in order.
+// The sums of several passes leave together, unless they are added in order.
 void Worker::start_sending(const std::string& passes) {
   const auto wanted = render::PassSet::parse(passes);
   const auto found = std::find_if(held_.begin(), held_.end(), [&](const render::PassSums& sums) {
@@ -97,7 +101,6 @@ void Worker::handle(const RankMessage& message) {
     default:
       break;
   }
-  changed_.notify_all();
 }
 
 void Worker::send_pixels(RankLink& link) {
@@ -113,6 +116,17 @@ void Worker::send_pixels(RankLink& link) {
 
 bool Worker::poll(RankLink& link) {
   const std::lock_guard lock(mutex_);
+  try {
+    exchange(link);
+  } catch (const std::exception& error) {
+    give_up(error.what());
+    over_ = true;
+  }
+  changed_.notify_all();
+  return !closed_ && !(deserted_ && finished_);
+}
+
+void Worker::exchange(RankLink& link) {
   for (RankMessage message; link.receive(&message);) handle(message);
   if (seconds_since(told_) >= kAliveEvery) {
     told_ = RankClock::now();
@@ -126,9 +140,7 @@ bool Worker::poll(RankLink& link) {
   send_pixels(link);
   if (seconds_since(heard_) > timeout_) {
     over_ = deserted_ = true;
-    changed_.notify_all();
   }
-  return !closed_ && !(deserted_ && finished_);
 }
 
 }  // namespace kaustik::app

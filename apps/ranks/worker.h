@@ -43,6 +43,8 @@ class Worker {
   bool orderly() const { return orderly_; }
 
  private:
+  void exchange(RankLink& link);
+  void give_up(const std::string& why);
   void handle(const RankMessage& message);
   void start_sending(const std::string& passes);
   void send_pixels(RankLink& link);

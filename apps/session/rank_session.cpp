@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include "apps/command_line/values.h"
@@ -75,6 +76,12 @@ std::string begin_text(const Job& job, const render::PassSums& sums) {
   return render::manifest_text(manifest_of(job, {}, {}, none), none);
 }
 
+// The arguments of this process, each with a zero at its end.
+std::string command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 // Renders what rank 0 hands out.
 void render_for_others(Worker& worker, const Job& job, const accel::Bvh& bvh, const render::PassSums& begun,
                        const std::function<bool()>& go_on) {
@@ -108,6 +115,8 @@ void serve(Worker& worker, const LoadQuietly& load, const std::function<bool()>&
   if (!begin) return;
   const render::PartialResult begun = render::manifest_from_text(begin->manifest).result;
   const render::PartialManifest& manifest = begun.manifest;
+  if (begin->command_line != command_line())
+    refuse("its command line is not that of rank 0, but all ranks share one render");
   check_program(manifest.build, manifest.isa, "rank 0", "their passes cannot be combined");
   const SettingOverrides overrides = overrides_from(manifest.settings, "rank 0");
   if (!load) job = load_job(manifest.scene_path, overrides, quiet);
@@ -154,8 +163,7 @@ void settle_rank_passes(const Console& console, Settings* settings) {
 }
 
 render::RenderResult render_on_ranks(Coordinator& coordinator, const Job& job, const accel::Bvh& bvh,
-                                     const render::ProgressCallback& show,
-                                     std::function<bool(double seconds)> has_time_for,
+                                     const render::ProgressCallback& show, RankRules rules,
                                      render::RenderTask task, const Console& console) {
   const render::PassSet missing = task.passes.without(task.done.passes);
   JointProgress joint(missing, task.done, show);
@@ -166,7 +174,9 @@ render::RenderResult render_on_ranks(Coordinator& coordinator, const Job& job, c
     interrupted |= !joint.update(double(coordinator.added()) + coordinator.at_work());
     return !interrupted;
   };
-  RankRules rules{.has_time_for = std::move(has_time_for)};
+  // Rules refer to what is here.
+  const std::unique_ptr<Coordinator, void (*)(Coordinator*)> stopping(&coordinator,
+                                                                      [](Coordinator* c) { c->stop(); });
   rules.after_pass = [&showing, after = std::move(task.after_pass)](render::PassSums& sums) {
     const std::lock_guard lock(showing);
     return !after || after(sums);
@@ -178,11 +188,14 @@ render::RenderResult render_on_ranks(Coordinator& coordinator, const Job& job, c
   rules.in_order = job.settings.stop.target_error.has_value();
   task.passes = missing;
   task.photons.reset();
+  task.on_pixels = {};  // the picture that is followed is that of all ranks
   render::PassSums done = std::exchange(task.done, {});
   task.done.radii = done.radii;
   coordinator.start(missing, std::move(done), std::move(rules));
   task.next_pass = [&] { return coordinator.next(go_on); };
-  task.begun = [&](const render::PassSums& sums) { coordinator.begin(begin_text(job, sums)); };
+  task.begun = [&](const render::PassSums& sums) {
+    coordinator.begin(command_line(), begin_text(job, sums));
+  };
   task.after_pass = [&](render::PassSums& sums) { return coordinator.deliver(sums); };
   const auto progress = [&](const render::Progress& p) {
     coordinator.here(share_of(p));
@@ -191,7 +204,7 @@ render::RenderResult render_on_ranks(Coordinator& coordinator, const Job& job, c
   render::RenderResult result =
       render::render(job.scene, bvh, job.settings.render, progress, std::move(task));
   result.sums = coordinator.end();
-  result.cancelled = interrupted;
+  result.cancelled = interrupted && !missing.without(result.sums.passes).empty();
   if (!result.sums.passes.empty()) render::show_passes(&result);
   return result;
 }

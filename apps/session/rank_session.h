@@ -21,18 +21,18 @@ inline constexpr uint64_t kRankPasses = 64;
 // Adds --rank-timeout.
 void add_rank_options(Command& command, double& timeout);
 
-// Joins the other ranks; null if there are none. Warns if the launcher leaves cores idle.
+// Joins the other ranks; null if there are none. Warns if the launcher binds them to fewer than half of the
+// cores.
 std::unique_ptr<Ranks> join_ranks(double timeout, const Console& console);
 
 // Sets the passes that ranks share, where neither the settings nor a rule decide.
 void settle_rank_passes(const Console& console, Settings* settings);
 
 // Rank 0: renders the passes of the task that are missing, at least one, on all ranks. task.passes must be
-// set; radii count, but photons shot in advance do not. has_time_for: RankRules. Bits and counts are those of
-// render(), whatever ranks there are.
+// set; radii count, but photons shot in advance do not. rules: those of the time, the others are set here.
+// The sums have the bits of render() in one process, except for the seconds.
 render::RenderResult render_on_ranks(Coordinator& coordinator, const Job& job, const accel::Bvh& bvh,
-                                     const render::ProgressCallback& progress,
-                                     std::function<bool(double seconds)> has_time_for,
+                                     const render::ProgressCallback& progress, RankRules rules,
                                      render::RenderTask task, const Console& console);
 
 // The other ranks: render what rank 0 hands out until it ends the render. load: loads the scene as the

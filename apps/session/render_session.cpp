@@ -208,9 +208,11 @@ render::RenderResult render_task(const RenderSession& session, const Job& job, c
   if (checkpoint.empty())
     console.note(
         "without --checkpoint, nothing is left if the launcher ends all ranks because one is killed");
-  const auto has_time_for = [&](double seconds) { return rule.has_time_for(seconds); };
+  RankRules rules;
+  rules.has_time_for = [&](double seconds) { return rule.has_time_for(seconds); };
+  rules.out_of_time = [&] { rule.stop_for_time(); };
   render::RenderResult result = render_on_ranks(session.ranks->coordinator(), job, bvh, progress,
-                                                has_time_for, std::move(task), console);
+                                                std::move(rules), std::move(task), console);
   if (result.cancelled && !checkpoint.empty())
     console.warning(fmt::format(
         "if the launcher ends this process before the checkpoint is written, `kaustik resume {}` goes "

@@ -3,8 +3,9 @@
 
 #include <mpi.h>
 
-#include <cstdlib>
+#include <chrono>
 #include <list>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -48,22 +49,29 @@ class MpiLink final : public RankLink {
     return count;
   }
 
+  // No receive waits: its sender may die between the head of a message and its body.
   bool receive(RankMessage* message) override {
     forget_sent();
-    int found = 0, size = 0;
-    MPI_Status status;
-    if (MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &found, &status) != MPI_SUCCESS || !found)
-      return false;
-    MPI_Get_count(&status, MPI_CHAR, &size);
-    *message = {status.MPI_SOURCE, status.MPI_TAG, std::string(size_t(size), '\0')};
-    return MPI_Recv(message->body.data(), size, MPI_CHAR, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
-                    MPI_STATUS_IGNORE) == MPI_SUCCESS;
+    start_receiving();
+    std::set<int> late;  // ranks whose earlier message is still under way
+    for (auto at = arriving_.begin(); at != arriving_.end(); ++at) {
+      int done = 0;
+      const bool failed = MPI_Test(&at->request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS;
+      if (failed || !done || late.count(at->rank) > 0) {
+        late.insert(at->rank);
+        continue;
+      }
+      *message = {at->rank, at->kind, std::move(at->body)};
+      arriving_.erase(at);
+      return true;
+    }
+    return false;
   }
 
   void close(bool orderly) override {
-    if (!orderly) return;
-    for (Pending& pending : pending_) MPI_Wait(&pending.request, MPI_STATUS_IGNORE);
-    MPI_Finalize();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    while (!pending_.empty() && (orderly || std::chrono::steady_clock::now() < end)) forget_sent();
+    if (orderly) MPI_Finalize();
   }
 
  private:
@@ -72,6 +80,26 @@ class MpiLink final : public RankLink {
     std::string body{};
     MPI_Request request = MPI_REQUEST_NULL;
   };
+
+  struct Arriving {
+    int rank = 0, kind = 0;
+    std::string body{};
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
+
+  void start_receiving() {
+    for (;;) {
+      int found = 0, size = 0;
+      MPI_Message handle = MPI_MESSAGE_NULL;
+      MPI_Status status;
+      const int code = MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &found, &handle, &status);
+      if (code != MPI_SUCCESS || !found) return;
+      MPI_Get_count(&status, MPI_CHAR, &size);
+      Arriving& one = arriving_.emplace_back(
+          Arriving{status.MPI_SOURCE, status.MPI_TAG, std::string(size_t(size), '\0'), MPI_REQUEST_NULL});
+      MPI_Imrecv(one.body.data(), size, MPI_CHAR, &handle, &one.request);
+    }
+  }
 
   // Frees the messages that have left.
   void forget_sent() {
@@ -83,7 +111,9 @@ class MpiLink final : public RankLink {
   }
 
   int rank_ = 0, ranks_ = 1;
-  std::list<Pending> pending_;  // a list: MPI reads the bodies where they lie
+  // Lists: MPI reads and writes the bodies where they lie.
+  std::list<Pending> pending_;
+  std::list<Arriving> arriving_;  // in their order of arrival
 };
 
 }  // namespace

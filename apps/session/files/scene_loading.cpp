@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/console/exit_error.h"
+#include "apps/machine/launched.h"
 #include "apps/machine/usable_memory.h"
 #include "apps/session/files/dark_scene.h"
 #include "apps/session/files/wide_radius.h"
@@ -99,10 +100,13 @@ SceneDescription view_of(const SceneDescription& scene) {
   return view;
 }
 
-// Bytes that the film of a pass, the totals and the final picture take.
+// Bytes that the film of a pass, the totals and the final picture take. Ranks keep sums several times: those
+// of all passes, those of the present one, and those that are sent or received.
 uint64_t film_of(const Job& job) {
+  const uint64_t sums = launched().ranks > 1 ? 5 : 1;
   const uint64_t pixels = render::rendered_range(job.settings.render.crop, job.scene.camera).pixels();
-  return pixels * (sizeof(render::PixelSum) + sizeof(render::PixelTotals) + sizeof(render::PixelResult));
+  return pixels *
+         (sizeof(render::PixelSum) + sums * sizeof(render::PixelTotals) + sizeof(render::PixelResult));
 }
 
 uint64_t memory_beside(uint64_t bytes) {

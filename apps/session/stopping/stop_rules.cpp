@@ -74,13 +74,18 @@ bool StopRule::met_by(const render::PassSums& sums) {
 bool StopRule::enough(const render::PassSums& sums) {
   const double now = seconds(), pass = now - last_;
   last_ = now;
-  return reaches_target(sums) || !has_time_for(pass);
+  if (reaches_target(sums)) return true;
+  if (has_time_for(pass)) return false;
+  stop_for_time();
+  return true;
 }
 
-bool StopRule::has_time_for(double pass) {
-  if (!settings_.seconds || seconds() + pass + seconds_after_ <= *settings_.seconds) return true;
+bool StopRule::has_time_for(double pass) const {
+  return !settings_.seconds || seconds() + pass + seconds_after_ <= *settings_.seconds;
+}
+
+void StopRule::stop_for_time() {
   reason_ = fmt::format("time {}s", *settings_.seconds);
-  return false;
 }
 
 std::optional<uint64_t> StopRule::passes_needed(const render::PassSums& sums) const {

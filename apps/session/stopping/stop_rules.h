@@ -50,9 +50,10 @@ class StopRule {
   // would exceed the time.
   bool enough(const render::PassSums& sums);
   // The two rules alone, for passes that are rendered side by side: whether the sums reach the target error,
-  // and whether a further pass that takes so many seconds would end in time.
+  // and whether a further pass that takes so many seconds would end in time. stop_for_time(): no pass would.
   bool reaches_target(const render::PassSums& sums);
-  bool has_time_for(double pass);
+  bool has_time_for(double pass) const;
+  void stop_for_time();
   // How many passes the target error takes in all, by the noise of those checked last; unset without a
   // target. Noise falls with the square root of the number of passes.
   std::optional<uint64_t> passes_needed(const render::PassSums& sums) const;

@@ -67,5 +67,33 @@ TEST(PassBoard, InOrderOnlyTheLowestMissingPassIsAskedFor) {
   EXPECT_EQ(board.next_fetch()->rank, 2);
 }
 
+TEST(PassBoard, InOrderAFullRankOnlyGetsThePassThatAllWaitFor) {
+  PassBoard board(PassSet(0, 9), true);
+  EXPECT_EQ(board.hand_out(1), 0u);
+  for (uint64_t pass = 1; pass <= kMostKept; ++pass) {
+    EXPECT_EQ(board.hand_out(2), pass);
+    board.rendered(2, pass);
+  }
+  EXPECT_EQ(board.hand_out(2), std::nullopt);  // full
+  EXPECT_EQ(board.hand_out(3), kMostKept + 1);
+  board.lose(1);
+  EXPECT_EQ(board.hand_out(2), 0u);
+}
+
+TEST(PassBoard, ClosedItForgetsWhatNobodyHas) {
+  PassBoard board(PassSet(0, 9), true);
+  EXPECT_EQ(board.hand_out(1), 0u);
+  EXPECT_EQ(board.hand_out(2), 1u);
+  board.rendered(2, 1);
+  board.close();
+  EXPECT_EQ(board.hand_out(2), std::nullopt);
+  EXPECT_FALSE(board.next_fetch());  // pass 0 is still rendered
+  board.lose(1);
+  ASSERT_TRUE(board.next_fetch());
+  EXPECT_EQ(board.next_fetch()->passes, PassSet(1, 2));
+  board.added(PassSet(1, 2));
+  EXPECT_TRUE(board.complete());
+}
+
 }  // namespace
 }  // namespace kaustik::app

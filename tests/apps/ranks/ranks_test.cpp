@@ -89,7 +89,7 @@ class RendersOnRanks : public test::ProgramTest {
   }
 
   // Renders on all ranks; returns the sums. after_pass: see RankRules.
-  PassSums render_on_all(const std::function<bool(PassSums&)>& after_pass = {}) {
+  PassSums render_on_all(const std::function<bool(PassSums&)>& after_pass = {}, const RankRules& rules = {}) {
     const Job job = job_of(scene_);
     std::vector<std::thread> others;
     for (int rank = 1; rank < kRanks; ++rank)
@@ -109,7 +109,7 @@ class RendersOnRanks : public test::ProgramTest {
           return true;
         };
         result =
-            render_on_ranks(ranks.coordinator(), job, bvh, slow, {}, std::move(task), Console{said, said});
+            render_on_ranks(ranks.coordinator(), job, bvh, slow, rules, std::move(task), Console{said, said});
         said_ = said.str();
       });
     }
@@ -180,6 +180,29 @@ TEST_F(RendersOnRanks, DropTheSumsThatARankHasSentInPart) {
   hub_->cut_offs[2] = {RankCall::kSums, 1};  // the pixels are missing
   expect_same(render_on_all(), whole(12));
   EXPECT_THAT(said_, HasSubstr("rank 2 takes no part any more"));
+}
+
+// All ranks keep finished passes then, which wait for those of the lost one.
+TEST_F(RendersOnRanks, InOrderRenderThePassesOfARankThatFallsSilent) {
+  timeout_ = kTimeout;
+  settings_.emplace_back("target-error", "50%");
+  hub_->cut_offs[2] = {RankCall::kWants, 1};
+  expect_same(render_on_all([](PassSums& so_far) { return so_far.passes.count() < 10; }), whole(10));
+  EXPECT_THAT(said_, HasSubstr("rank 2 takes no part any more"));
+}
+
+TEST_F(RendersOnRanks, EndWhenARankIsLostAndTheTimeIsOver) {
+  timeout_ = kTimeout;
+  settings_.emplace_back("target-error", "50%");
+  hub_->cut_offs[2] = {RankCall::kWants, 1};
+  std::atomic<bool> over = false;
+  RankRules rules;
+  rules.has_time_for = [&](double) { return hub_->waits_for_cut(); };
+  rules.out_of_time = [&] { over = true; };
+  const PassSums sums = render_on_all({}, rules);
+  EXPECT_TRUE(over);
+  EXPECT_GE(sums.passes.count(), 1u);
+  EXPECT_LT(sums.passes.count(), 12u);
 }
 
 TEST_F(RendersOnRanks, DoWithoutARankThatHasReadAnotherScene) {
