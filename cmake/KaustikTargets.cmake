@@ -60,6 +60,17 @@ function(kaustik_library name)
   endif()
 endfunction()
 
+# kaustik_module(<name> <file> <sources> [libraries...]): makes a library that programs load when they first need it, by
+# core/files/module_entry.h. Only its entry function is visible.
+function(kaustik_module name file sources)
+  add_library(${name} MODULE ${sources})
+  target_link_libraries(${name} PRIVATE kaustik_options ${ARGN})
+  set_target_properties(${name} PROPERTIES
+    PREFIX "" OUTPUT_NAME ${file} SUFFIX .so LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}
+    CXX_VISIBILITY_PRESET hidden)
+  install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/kaustik)
+endfunction()
+
 # kaustik_test(<folder> [libraries...]): makes GoogleTest programs of a folder, with one ctest entry per case. Tests that
 # call OpenImageIO are a program of their own, test_<folder>_images: to load it takes longer than most tests.
 function(kaustik_test folder)

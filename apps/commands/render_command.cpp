@@ -79,11 +79,15 @@ void check_with_scene(RenderOptions options, const std::vector<std::string>& out
   check_collisions(files, files_of(job));
 }
 
-// The ranks that an MPI launcher has started; null if there are none. Sequences and kept maps have no passes
-// to share.
+// Whether ranks may share the passes: sequences and kept maps have none.
+bool has_passes_to_share(const RenderOptions& options) {
+  return !options.sequence.any() && options.map.empty() && options.save_map.empty();
+}
+
+// The ranks that an MPI launcher has started; null if there are none.
 std::unique_ptr<Ranks> ranks_of(const RenderOptions& options, const Console& console) {
   std::unique_ptr<Ranks> ranks = join_ranks(options.rank_timeout, console);
-  if (ranks && (options.sequence.any() || !options.map.empty() || !options.save_map.empty()))
+  if (ranks && !has_passes_to_share(options))
     throw ExitError(ranks->leads() ? kBadCommandLine : kDone,
                     ranks->leads() ? "several ranks share the passes of one picture: sequences and kept "
                                      "maps take one process each"
@@ -109,8 +113,7 @@ int run_render(const RenderOptions& options, const Console& console) {
   check_collisions(files_of(options), {{"the scene", options.scene}, {"--map", options.map}});
   const InterruptGuard interrupt;
   RenderSession session;
-  const bool kept = !options.map.empty() || !options.save_map.empty();
-  session.launched = launched().ranks > 0 && !kept && !options.sequence.any();
+  session.launched = launched().ranks > 0 && has_passes_to_share(options);
   session.ranks = ranks.get();
   session.maps.save = options.save_map;
   if (!options.map.empty()) session.maps.from = open_map_file(options.map);

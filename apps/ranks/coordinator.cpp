@@ -17,7 +17,7 @@ constexpr int kMostRounds = 64;
 
 Coordinator::Coordinator(int ranks, double timeout) : timeout_(timeout), peers_(size_t(ranks)) {
   for (Peer& peer : peers_) peer.heard = RankClock::now();
-  peers_[0].left = true;  // itself
+  peers_[0].told_end = peers_[0].left = true;  // itself
 }
 
 void Coordinator::start(const render::PassSet& missing, render::PassSums done, RankRules rules) {
@@ -260,7 +260,6 @@ void Coordinator::serve() {
     }
   }
   at_work_ = at_work;
-  closing_ = over_;
 }
 
 void Coordinator::send_orders(RankLink& link) {
@@ -289,8 +288,10 @@ bool Coordinator::exchange(RankLink& link) {
 bool Coordinator::poll(RankLink& link) {
   for (int round = 0; round < kMostRounds && exchange(link); ++round) continue;
   const std::lock_guard lock(mutex_);
-  const auto gone = [&](const Peer& peer) { return peer.left || seconds_since(peer.heard) > timeout_; };
-  if (!closing_ || !finished_ || !std::all_of(peers_.begin(), peers_.end(), gone)) return true;
+  const auto gone = [&](const Peer& peer) {
+    return peer.told_end && (peer.left || seconds_since(peer.heard) > timeout_);
+  };
+  if (!finished_ || !std::all_of(peers_.begin(), peers_.end(), gone)) return true;
   const std::string how = all_left() ? "orderly" : "";
   for (size_t rank = 1; rank < peers_.size(); ++rank) orders_.push_back({int(rank), RankCall::kClose, how});
   send_orders(link);

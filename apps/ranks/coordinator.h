@@ -8,7 +8,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -23,9 +22,9 @@ namespace kaustik::app {
 struct RankRules {
   // After passes have been added, with the sums of all. False ends the render.
   std::function<bool(render::PassSums&)> after_pass{};
-  // Whether a further pass that takes so many seconds ends in time; called when the time is over for all
-  // ranks.
+  // Whether a further pass that takes so many seconds ends in time.
   std::function<bool(double seconds)> has_time_for{};
+  // Called once no rank has time for a further pass.
   std::function<void()> out_of_time{};
   std::function<void(const std::string&)> warn{};
   // Passes are added one by one by their index, so that after_pass decides as in a single process.
@@ -103,7 +102,7 @@ class Coordinator {
   std::exception_ptr error_;
   std::vector<std::string> warnings_;  // until there are rules
   RankClock::time_point polled_ = RankClock::now(), told_ = RankClock::now();
-  bool started_ = false, any_out_ = false, stopped_ = false, closing_ = false, finished_ = false;
+  bool started_ = false, any_out_ = false, stopped_ = false, finished_ = false;
   std::atomic<bool> over_ = false;
   std::atomic<uint64_t> added_ = 0;
   std::atomic<double> at_work_ = 0, here_ = 0;

@@ -3,8 +3,6 @@
 
 #include <chrono>
 #include <cstring>
-#include <optional>
-#include <span>
 #include <string>
 
 namespace kaustik::app {
@@ -27,9 +25,9 @@ enum class RankCall : int {
   kBye        // follows kEnd: nothing comes any more
 };
 
-// A message of rank 0 that waits to be sent.
+// A message that waits to be sent.
 struct RankOrder {
-  int rank = 0;
+  int rank = 0;  // the receiver
   RankCall call{};
   std::string body{};
 };

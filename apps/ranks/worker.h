@@ -31,8 +31,7 @@ class Worker {
   bool deliver(render::PassSums& sums);
   void share(double share) { share_ = share; }  // of the pass that is rendered
   void fail(const std::string& why);
-  // All that this rank had to say has been said. Returns whether rank 0 has ended the render, rather than
-  // fallen silent.
+  // All that this rank had to say has been said.
   void finish();
 
   bool over() const { return over_; }

@@ -67,7 +67,8 @@ class JointProgress {
   double finished_ = 0;
 };
 
-// The settings and radii with which every rank renders. It knows its window.
+// The settings and radii with which every rank renders. The window of one pixel stands for the picture's,
+// which each rank knows.
 std::string begin_text(const Job& job, const render::PassSums& sums) {
   render::PassSums none;
   none.shares = sums.shares;

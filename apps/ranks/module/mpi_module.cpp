@@ -28,7 +28,7 @@ class MpiLink final : public RankLink {
     if (ranks_ > 1) return {};
     MPI_Finalize();
     return "the MPI launcher has started several processes, but none sees the others: it belongs to another "
-           "MPI than Open MPI";
+           "MPI than this build";
   }
 
   int rank() const override { return rank_; }
