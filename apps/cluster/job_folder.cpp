@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/cluster/job_scripts.h"
 #include "apps/console/exit_error.h"
 #include "apps/session/files/output_files.h"
-#include "core/files/disk_file.h"
+#include "core/files/input_file.h"
 #include "render/settings/names.h"
 
 namespace kaustik::app {
@@ -17,6 +16,8 @@ namespace kaustik::app {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr uint64_t kLargestJob = 1 << 20;  // bytes
 
 void write_script(const JobFolder& job, const std::string& name, const std::string& text) {
   const std::string path = job.path + "/" + name;
@@ -58,9 +59,7 @@ void write_job(const JobFolder& job, const std::vector<std::string>& pictures) {
 
 JobFolder read_job_folder(const std::string& path) {
   try {
-    check_regular(path + "/job.json");
-    std::ifstream file(path + "/job.json");
-    const auto json = nlohmann::json::parse(file);
+    const auto json = nlohmann::json::parse(read_file(path + "/job.json", kLargestJob));
     const auto count = [&](const char* name) {
       if (!json.at(name).is_number_unsigned()) throw std::runtime_error("a number is not a count");
       return json.at(name).get<uint64_t>();

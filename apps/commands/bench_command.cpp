@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "apps/bench/baseline.h"
 #include "apps/bench/bench_json.h"
@@ -165,12 +163,9 @@ BenchResult run_scene(const BenchOptions& options, const Console& console) {
 }
 
 BenchResult read_result(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, std::strerror(errno)));
+  const std::string text = text_of_file(path);
   try {
-    return bench_from_json(text.str());
+    return bench_from_json(text);
   } catch (const std::exception& error) {
     throw ExitError(kBadCommandLine,
                     fmt::format("{} is not a result of kaustik bench: {}", path, error.what()));

@@ -4,10 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "apps/commands/commands.h"
 #include "apps/console/exit_error.h"
@@ -24,14 +20,6 @@ struct ReferenceOptions {
   std::string format, page, output;
 };
 
-std::string file_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, std::strerror(errno)));
-  return text.str();
-}
-
 std::string reference_text(const ReferenceOptions& options, const Program& program) {
   if (options.format == "man") return man_page(program);
   if (options.format == "bash") return bash_completion(program);
@@ -43,7 +31,7 @@ std::string reference_text(const ReferenceOptions& options, const Program& progr
   if (options.page.empty())
     throw ExitError(kBadCommandLine,
                     "--format markdown needs --page, the page whose tables are to be replaced");
-  return updated_reference_page(file_text(options.page), program);
+  return updated_reference_page(text_of_file(options.page), program);
 }
 
 int run_reference(const ReferenceOptions& options, const Program& program, const Console& console) {

@@ -4,15 +4,22 @@
 
 #include <stdexcept>
 
+#include "core/files/input_file.h"
+
 namespace kaustik::app {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-void write(const fs::path& temporary, const fs::path& path, const std::string& bytes) {
-  if (const std::string reason = write_in_place(temporary, bytes); !reason.empty())
-    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), reason));
+constexpr uint64_t kLargestCopy = uint64_t{1} << 36;  // bytes
+
+std::string bytes_of(const fs::path& file) {
+  try {
+    return read_file(file, kLargestCopy);
+  } catch (const FileError& error) {
+    throw std::runtime_error(fmt::format("cannot copy {}: {}", file.string(), error.what()));
+  }
 }
 
 }  // namespace
@@ -26,7 +33,17 @@ SceneFolder::~SceneFolder() {
   if (made_folder_ && !committed_) fs::remove(folder_, ignored);  // removes it only if it is empty
 }
 
-fs::path SceneFolder::new_file(const std::string& name) {
+void SceneFolder::add(const fs::path& path, std::string_view bytes) {
+  try {
+    PendingFile& file = files_.emplace_back(path);
+    file.write(bytes);
+    file.finish();
+  } catch (const FileError& error) {
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), error.what()));
+  }
+}
+
+void SceneFolder::add_to_folder(const std::string& name, std::string_view bytes) {
   if (!fs::exists(folder_)) {
     std::error_code error;
     if (!fs::create_directory(folder_, error))
@@ -34,8 +51,7 @@ fs::path SceneFolder::new_file(const std::string& name) {
           fmt::format("cannot make the folder {}: {}", folder_.string(), error.message()));
     made_folder_ = true;
   }
-  const fs::path path = folder_ / name;
-  return files_.emplace_back(path, unique_temporary_name(path)).temporary();
+  add(folder_ / name, bytes);
 }
 
 std::string SceneFolder::name_in_scene(const std::string& name) const {
@@ -46,7 +62,7 @@ std::string SceneFolder::add_mesh(const std::string& bytes) {
   std::string name;
   do name = fmt::format("mesh{}.ply", meshes_++);
   while (!names_.insert(name).second);
-  write(new_file(name), folder_ / name, bytes);
+  add_to_folder(name, bytes);
   return name_in_scene(name);
 }
 
@@ -57,19 +73,17 @@ std::string SceneFolder::copy(const fs::path& file) {
   std::string name = file.filename().string();
   for (int i = 2; !names_.insert(name).second; ++i)
     name = fmt::format("{}-{}{}", file.stem().string(), i, file.extension().string());
-  fs::copy_file(file, new_file(name), fs::copy_options::overwrite_existing, error);
-  if (error) throw std::runtime_error(fmt::format("cannot copy {}: {}", file.string(), error.message()));
+  add_to_folder(name, bytes_of(file));
   copied_.emplace(key, name);
   return name_in_scene(name);
 }
 
 void SceneFolder::commit(const std::string& text) {
-  const fs::path temporary = unique_temporary_name(scene_);
-  files_.emplace_back(scene_, temporary);
-  write(temporary, scene_, text);
-  for (PendingFile& file : files_) {
-    if (const std::string trouble = file.commit(); !trouble.empty())
-      throw std::runtime_error(fmt::format("{}: {}", scene_.string(), trouble));
+  add(scene_, text);
+  try {
+    for (PendingFile& file : files_) file.commit();
+  } catch (const FileError& error) {
+    throw std::runtime_error(fmt::format("{}: {}", scene_.string(), error.what()));
   }
   committed_ = true;
 }

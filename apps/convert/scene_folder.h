@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "core/files/pending_file.h"
 
@@ -29,7 +30,8 @@ class SceneFolder {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  std::filesystem::path new_file(const std::string& name);
+  void add(const std::filesystem::path& path, std::string_view bytes);
+  void add_to_folder(const std::string& name, std::string_view bytes);
   std::string name_in_scene(const std::string& name) const;
 
   std::filesystem::path scene_, folder_;

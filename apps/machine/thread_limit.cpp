@@ -47,9 +47,18 @@ int startable_threads(int wanted) {
   return std::min(wanted, known);
 }
 
+int most_useful_threads(int cores) {
+  return std::max(64, 4 * cores);
+}
+
 int threads_to_run(int threads, const Console& console) {
   static std::atomic<bool> warned = false;
-  const int wanted = threads > 0 ? threads : core_limits().usable();
+  const int cores = core_limits().usable();
+  const int asked = threads > 0 ? threads : cores;
+  const int wanted = std::min(asked, most_useful_threads(cores));
+  if (wanted < asked && !warned.exchange(true))
+    console.warning(fmt::format("{} threads are used: of {} most would wait for one of the {} cores", wanted,
+                                asked, cores));
   const int possible = startable_threads(wanted);
   if (possible < wanted && !warned.exchange(true))
     console.warning(fmt::format("the system lets this process run {} of {} threads", possible, wanted));

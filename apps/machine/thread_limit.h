@@ -12,8 +12,13 @@ namespace kaustik::app {
 // out, since oneTBB ends the process when it cannot start a worker.
 int startable_threads(int wanted);
 
+// A render of more threads than this only takes longer: four on each core, and 64 on few cores, so that tests
+// and demonstrations of equal results for any number are possible.
+int most_useful_threads(int cores);
+
 // The threads that a command runs on when `threads` are asked for; 0 = as many as the process may use
-// (core_limits). Fewer, with a warning, where not all can be started.
+// (core_limits). Fewer, with a warning, if that is more than most_useful_threads() or more than can be
+// started.
 int threads_to_run(int threads, const Console& console);
 
 // Runs `work` in a task arena of at most `threads` threads, including the caller's. Meanwhile oneTBB, which

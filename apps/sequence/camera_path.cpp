@@ -5,17 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <sstream>
 
 #include "apps/console/exit_error.h"
 #include "apps/import/gltf/file/json_view.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/diagnostics/nearest_name.h"
-#include "core/files/disk_file.h"
+#include "core/files/input_file.h"
 
 namespace kaustik::app {
 
@@ -23,16 +21,14 @@ namespace {
 
 using View = gltf::View;  // checked access to JSON
 
+constexpr uint64_t kLargestPath = 1 << 28;  // bytes
+
 std::string read_text(const std::string& file) {
   try {
-    check_regular(file);  // a pipe would wait for a writer
+    return read_file(file, kLargestPath);
   } catch (const FileError& error) {
     refuse(fmt::format("cannot read the camera path {}: {}", file, error.what()));
   }
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  if (!in || !(text << in.rdbuf())) refuse(fmt::format("cannot read the camera path {}", file));
-  return text.str();
 }
 
 // Line and column of a byte, counted from 1.

@@ -1,9 +1,11 @@
 #pragma once
 // Writes partial results while a render is running.
 
+#include <memory>
 #include <string>
 
 #include "apps/session/files/partial_files.h"
+#include "core/files/file_lock.h"
 #include "core/stopwatch.h"
 
 namespace kaustik::app {
@@ -12,6 +14,10 @@ struct CheckpointSettings {
   std::string path;   // empty = no checkpoints
   double every = 60;  // seconds
 };
+
+// Makes this process the only writer of the checkpoint, and removes what killed ones have left of it. Null if
+// there is no checkpoint. Throws ExitError (bad command line) if another process writes it.
+std::unique_ptr<FileLock> lock_checkpoint(const CheckpointSettings& settings);
 
 // Writes a checkpoint after the pass in which its interval has elapsed, and at the end.
 class Checkpoint {

@@ -1,7 +1,11 @@
 #include "apps/session/interrupt.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
+#include <iostream>
 
 namespace kaustik::app {
 
@@ -16,21 +20,32 @@ void remember(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+// Whether messages have been written to a pipe that nobody reads any more.
+bool messages_are_lost() {
+  if (std::cerr.good()) return false;
+  pollfd error{STDERR_FILENO, 0, 0};
+  return ::poll(&error, 1, 0) > 0 && (error.revents & POLLERR) != 0;
+}
+
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   interrupted = false;
-  previous_interrupt_ = std::signal(SIGINT, remember);
-  previous_terminate_ = std::signal(SIGTERM, remember);
+  for (size_t i = 0; i < kSignals.size(); ++i) {
+    previous_[i] = std::signal(kSignals[i], remember);
+    // `nohup` and shells that start a job in the background have it ignored.
+    if (previous_[i] == SIG_IGN) std::signal(kSignals[i], SIG_IGN);
+  }
+  previous_pipe_ = std::signal(SIGPIPE, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, previous_interrupt_);
-  std::signal(SIGTERM, previous_terminate_);
+  for (size_t i = 0; i < kSignals.size(); ++i) std::signal(kSignals[i], previous_[i]);
+  std::signal(SIGPIPE, previous_pipe_);
 }
 
 bool InterruptGuard::requested() const {
-  return interrupted;
+  return interrupted || messages_are_lost();
 }
 
 render::ProgressCallback shown_in(ProgressBar& bar, const InterruptGuard& interrupt) {

@@ -1,13 +1,18 @@
 #pragma once
-// Turns SIGINT and SIGTERM into a flag that long work polls.
+// Turns signals that ask the program to end into a flag that long work polls.
+
+#include <array>
+#include <csignal>
 
 #include "apps/console/progress_bar.h"
 #include "render/plan/progress.h"
 
 namespace kaustik::app {
 
-// While a guard exists, the first signal sets the flag and a second one ends the process as usual. The
-// destructor restores the previous handlers. Only one guard may exist at a time.
+// While a guard exists, the first SIGINT, SIGTERM or SIGHUP sets the flag and a second one ends the process
+// as usual; signals that were ignored stay so. A pipe that loses its reader raises no SIGPIPE: if it was to
+// read the messages, that counts as a signal. The destructor restores the previous handlers. Only one guard
+// may exist at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -15,12 +20,15 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  // Whether a signal has arrived. Thread-safe.
+  // Whether a signal has arrived or messages have lost their reader. Thread-safe.
   bool requested() const;
 
  private:
-  void (*previous_interrupt_)(int);
-  void (*previous_terminate_)(int);
+  using Handler = void (*)(int);
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+
+  std::array<Handler, kSignals.size()> previous_{};
+  Handler previous_pipe_;
 };
 
 // Shows progress in the bar, and cancels after a signal. Refers to both.

@@ -167,6 +167,7 @@ void settle_kept_maps(const KeptMaps& kept, const Console& console, Job* job) {
     refuse(fmt::format("there are no photons to keep: {}",
                        render::make_plan(settings, job->scene.needs).notes.front()));
   settings.passes = 1;
+  if (!kept.save.empty()) check_utf8({job->path});
   if (!kept.from) return;
   settings.photon_memory = std::numeric_limits<uint64_t>::max();  // the photons stay in the file
   check_file(*kept.from, console, *job);

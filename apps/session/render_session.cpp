@@ -255,6 +255,11 @@ std::shared_ptr<LiveRender> make_live(const Job& job) {
 int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console) {
   int code = kDone;
+  if (writes_sums(session)) {
+    check_utf8({job.path});
+    check_utf8(session.outputs.files);
+  }
+  const std::unique_ptr<FileLock> lock = lock_checkpoint(session.checkpoint);
   if (writes_sums(session) || session.ranks)
     program_build();  // asks Embree for its version before it starts to work
   with_thread_limit(job.settings.render.threads, console, [&] {

@@ -1,18 +1,16 @@
 #include "apps/sweep/sweep_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "apps/console/exit_error.h"
 #include "apps/session/files/output_files.h"
 #include "apps/sweep/sweep_files.h"
 #include "core/files/content_hash.h"
+#include "core/files/input_file.h"
 
 namespace kaustik::app {
 
@@ -50,22 +48,21 @@ std::string difference(const Json& there, const Json& here, const std::string& n
   return fmt::format("{}: in the folder {}, now {}", name, text(there), text(here));
 }
 
+// Lets only one sweep at a time run in a folder.
+FileLock locked(const fs::path& folder) {
+  try {
+    return FileLock(folder / ".lock");
+  } catch (const FileBusy&) {
+    refuse(fmt::format("{}: another sweep is running in this folder", folder.string()));
+  } catch (const FileError& error) {
+    refuse(fmt::format("cannot write {}: {}", folder.string(), error.what()));
+  }
+}
+
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder)
-    : file_(open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (file_ < 0) refuse(fmt::format("cannot write {}: {}", folder.string(), std::strerror(errno)));
-  if (flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  close(file_);
-  refuse(fmt::format("{}: another sweep is running in this folder", folder.string()));
-}
-
-FolderLock::~FolderLock() {
-  close(file_);
-}
-
 SweepFolder::SweepFolder(const std::string& path, const Json& common)
-    : folder_(made(path)), lock_(folder_), common_(common.dump(2) + "\n") {
+    : folder_(made(path)), lock_(locked(folder_)), common_(common.dump(2) + "\n") {
   if (!fs::exists(folder_ / kCommonName)) {
     write_text_file(this->path(kCommonName), common_);
     return;
@@ -86,10 +83,13 @@ std::string SweepFolder::key(const Json& own) const {
 }
 
 std::optional<Json> SweepFolder::read(const std::string& name) const {
-  std::ifstream file(path(name), std::ios::binary);
-  if (!file) return std::nullopt;
-  Json json = Json::parse(file, nullptr, false);
-  return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+  constexpr uint64_t kLargest = uint64_t{1} << 30;  // bytes
+  try {
+    Json json = Json::parse(read_file(path(name), kLargest), nullptr, false);
+    return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
 }
 
 std::optional<SweepCell> SweepFolder::find(const std::string& key, const Console& console) const {

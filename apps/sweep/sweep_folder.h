@@ -15,22 +15,9 @@
 
 #include "apps/console/console.h"
 #include "apps/sweep/sweep_result.h"
+#include "core/files/file_lock.h"
 
 namespace kaustik::app {
-
-// Lets only one process at a time use a folder. The lock ends with the process, also after a crash. On file
-// systems without locks it has no effect.
-class FolderLock {
- public:
-  // Throws ExitError (bad command line) when another process holds the lock.
-  explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_;
-};
 
 class SweepFolder {
  public:
@@ -55,7 +42,7 @@ class SweepFolder {
   void check_picture(std::string_view field, const std::string& named, const std::string& expected) const;
 
   std::filesystem::path folder_;
-  FolderLock lock_;
+  FileLock lock_;
   std::string common_;
 };
 

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "apps/command_line/values.h"
+#include "apps/import/common/temporary_folder.h"
 #include "apps/web/request_check.h"
-#include "core/files/pending_file.h"
+#include "core/files/input_file.h"
 #include "render/picture/exposure.h"
 #include "render/picture/image_io.h"
 
@@ -22,14 +21,10 @@ namespace fs = std::filesystem;
 // The bytes of the file that `write` makes.
 template <class Write>
 std::string bytes_of(const std::string& extension, const Write& write) {
-  const fs::path path = unique_temporary_name(fs::temp_directory_path() / ("kaustik-picture." + extension));
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / ("picture." + extension);
   write(path.string());
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  file.close();
-  std::error_code ignored;
-  fs::remove(path, ignored);
-  return bytes;
+  return read_file(path, fs::file_size(path));
 }
 
 std::optional<float> stops_of(const std::string& text) {

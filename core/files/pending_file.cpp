@@ -1,14 +1,17 @@
-// Renames or removes a temporary file, and chooses its name.
-
 #include "core/files/pending_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+
+#include "core/files/hidden_name.h"
+#include "core/files/system_calls.h"
 
 namespace kaustik {
 
@@ -16,51 +19,122 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Writes all bytes, in as many calls as the system needs. False on failure, with errno set.
-bool write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(size_t(written));
-  }
-  return true;
+constexpr size_t kBufferBytes = 1 << 16;
+constexpr std::string_view kEnding = ".partial";
+constexpr size_t kRandomDigits = 16;
+
+fs::path new_temporary_name(const fs::path& path) {
+  uint64_t random = 0;
+  if (::getrandom(&random, sizeof random, 0) != sizeof random) throw_file_error(errno);
+  return path.parent_path() / fmt::format("{}{:016x}{}", hidden_name_beginning(path), random, kEnding);
+}
+
+// Whether files without a name can later be named, for which /proc must be there.
+bool can_be_named_later() {
+  static const bool there = ::access("/proc/self/fd", X_OK) == 0;
+  return there;
 }
 
 }  // namespace
 
+void throw_file_error(int error) {
+  throw FileError(std::strerror(error));
+}
+
+PendingFile::PendingFile(fs::path final_name)
+    : final_(std::move(final_name)), temporary_(new_temporary_name(final_)) {
+  buffer_.reserve(kBufferBytes);
+  open();
+}
+
+void PendingFile::open() {
+  const fs::path folder = final_.has_parent_path() ? final_.parent_path() : fs::path(".");
+  if (can_be_named_later()) file_ = open_file(folder.c_str(), O_TMPFILE | O_WRONLY);
+  // Overlays and network file systems give other reasons than EOPNOTSUPP; one that matters comes again.
+  if (file_ >= 0) return;
+  file_ = open_file(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+  if (file_ < 0) throw_file_error(errno);
+  named_ = true;
+}
+
 PendingFile::~PendingFile() {
-  std::error_code ignored;
-  if (!done_) fs::remove(temporary_, ignored);
+  if (file_ >= 0) close_file(file_);
+  if (named_) ::unlink(temporary_.c_str());
 }
 
-std::string PendingFile::commit() {
-  std::error_code error;
-  fs::rename(temporary_, final_, error);
-  done_ = !error;
-  return error ? "cannot rename the finished file: " + error.message() : std::string();
+void PendingFile::write(const void* bytes, size_t size) {
+  if (buffer_.size() + size > kBufferBytes) flush();
+  const auto* const first = static_cast<const char*>(bytes);
+  if (size > kBufferBytes)
+    write_through(first, size);
+  else
+    buffer_.insert(buffer_.end(), first, first + size);
+  position_ += size;
+  size_ = std::max(size_, position_);
 }
 
-std::string write_in_place(const fs::path& path, std::string_view bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return std::strerror(errno);
-  int error = write_all(file, bytes) ? 0 : errno;
+void PendingFile::write_through(const char* bytes, size_t size) {
+  while (size > 0) {
+    const ssize_t written = write_some(file_, bytes, size);
+    if (written <= 0) throw_file_error(written < 0 ? errno : EIO);
+    bytes += written;
+    size -= static_cast<size_t>(written);
+  }
+}
+
+void PendingFile::seek(uint64_t position) {
+  flush();
+  if (::lseek(file_, static_cast<off_t>(position), SEEK_SET) < 0) throw_file_error(errno);
+  position_ = position;
+}
+
+void PendingFile::flush() {
+  write_through(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void PendingFile::close() {
+  const int file = std::exchange(file_, -1);
   // Some file systems, NFS among them, report only here that the disk is full.
-  if (::close(file) != 0 && error == 0 && errno != EINTR) error = errno;
-  return error == 0 ? std::string() : std::strerror(error);
+  if (close_file(file) != 0) throw_file_error(errno);
 }
 
-std::string write_file(const fs::path& path, std::string_view bytes) {
-  PendingFile file(path, unique_temporary_name(path));
-  if (std::string error = write_in_place(file.temporary(), bytes); !error.empty()) return error;
-  return file.commit();
+void PendingFile::finish() {
+  flush();
+  if (sync_file(file_) != 0) throw_file_error(errno);
+  struct stat status {};
+  if (::fstat(file_, &status) != 0) throw_file_error(errno);
+  if (static_cast<uint64_t>(status.st_size) != size_) throw FileError("the file has lost some of its bytes");
+  if (!named_) {
+    if (name_file(file_, temporary_.c_str()) != 0) throw_file_error(errno);
+    named_ = true;
+  }
+  close();
 }
 
-fs::path unique_temporary_name(const fs::path& path) {
-  static std::atomic<uint64_t> counter{0};
-  const std::string name = fmt::format(".{}.{}-{}.partial{}", path.stem().string(), ::getpid(), counter++,
-                                       path.extension().string());
-  return path.parent_path() / name;
+void PendingFile::commit() {
+  if (file_ >= 0) finish();
+  if (rename_file(temporary_.c_str(), final_.c_str()) != 0) throw_file_error(errno);
+  named_ = false;
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  PendingFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void remove_leftovers(const fs::path& path) {
+  const std::string beginning = hidden_name_beginning(path);
+  std::error_code error;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+    const std::string name = i->path().filename().string();
+    std::error_code ignored;
+    if (name.size() == beginning.size() + kRandomDigits + kEnding.size() && name.starts_with(beginning) &&
+        name.ends_with(kEnding))
+      fs::remove(i->path(), ignored);
+  }
 }
 
 }  // namespace kaustik

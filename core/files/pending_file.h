@@ -1,41 +1,56 @@
 #pragma once
 // A file that appears under its name only when it is complete.
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <string>
 #include <string_view>
+#include <vector>
+
+#include "core/files/file_error.h"
 
 namespace kaustik {
 
-// The file is written under temporary(), in the folder of the final name; commit() renames it. Without
-// commit() the temporary file is removed, and an existing file of the final name is left untouched.
+// Is written without a name where the file system allows it (O_TMPFILE): then nothing is left even of a
+// process that is killed. Elsewhere it has a temporary name beside the final one, which no other process can
+// know or have planted (O_EXCL). Without commit() the destructor removes it, and an existing file of the
+// final name is left untouched. All functions but the destructor throw FileError with the system's reason.
 class PendingFile {
  public:
-  PendingFile(std::filesystem::path final_name, std::filesystem::path temporary)
-      : final_(std::move(final_name)), temporary_(std::move(temporary)) {}
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
+  explicit PendingFile(std::filesystem::path final_name);
+  PendingFile(PendingFile&&) = delete;
   ~PendingFile();
 
-  std::string temporary() const { return temporary_.string(); }
-  // Returns why the file could not be renamed, or an empty string on success.
-  std::string commit();
+  void write(const void* bytes, size_t size);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  // The next byte is written there; bytes from 0.
+  void seek(uint64_t position);
+  uint64_t position() const { return position_; }
+
+  // Waits until the file is on the disk, checks its size and closes it. It then waits under its temporary
+  // name.
+  void finish();
+  // Gives the file its final name, after finish() if that was not called. An existing file is replaced.
+  void commit();
 
  private:
+  void open();
+  void write_through(const char* bytes, size_t size);
+  void flush();
+  void close();
+
   std::filesystem::path final_, temporary_;
-  bool done_ = false;
+  int file_ = -1;
+  bool named_ = false;  // the temporary name exists
+  std::vector<char> buffer_;
+  uint64_t position_ = 0, size_ = 0;
 };
 
-// Writes `bytes` under a temporary name beside `path` and renames it. Returns the system's reason if that
-// fails, or an empty string; then the temporary file is removed, and a previous file is left untouched.
-std::string write_file(const std::filesystem::path& path, std::string_view bytes);
+// Writes the bytes to a PendingFile and commits it. Throws FileError.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-// Writes `bytes` to `path` itself, for a file that is renamed later or is temporary. Returns the system's
-// reason if that fails, or an empty string. Any file of that name is replaced.
-std::string write_in_place(const std::filesystem::path& path, std::string_view bytes);
-
-// A name in the folder of `path` that keeps its extension (which chooses an image's format) and that no other
-// process on this machine uses.
-std::filesystem::path unique_temporary_name(const std::filesystem::path& path);
+// Removes what processes that were killed have left of files of this name. No other process may be writing
+// it.
+void remove_leftovers(const std::filesystem::path& path);
 
 }  // namespace kaustik

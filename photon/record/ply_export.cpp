@@ -4,9 +4,8 @@
 
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -22,7 +21,8 @@ static_assert(std::endian::native == std::endian::little, "vertices are written 
 template <class Coordinate>
 constexpr size_t kVertexBytes = 3 * sizeof(Coordinate) + 3 * sizeof(float) + 4;
 
-void write_header(std::ofstream& out, uint64_t vertices, std::string_view coordinate) {
+std::string header(uint64_t vertices, std::string_view coordinate) {
+  std::ostringstream out;
   out << "ply\nformat binary_little_endian 1.0\ncomment photons; kind:";
   for (size_t kind = 0; kind < size_t(kPhotonKinds); ++kind)
     out << ' ' << kind << ' ' << kPhotonKindNames[kind];
@@ -31,6 +31,7 @@ void write_header(std::ofstream& out, uint64_t vertices, std::string_view coordi
   for (const char* name : {"nx", "ny", "nz"}) out << "property float " << name << '\n';
   for (const char* name : {"red", "green", "blue", "kind"}) out << "property uchar " << name << '\n';
   out << "end_header\n";
+  return out.str();
 }
 
 float mean_luminance(const PhotonBuffer& buffer) {
@@ -41,7 +42,7 @@ float mean_luminance(const PhotonBuffer& buffer) {
 }
 
 template <class Coordinate>
-void write_vertices(std::ofstream& out, const PlyPhotons& photons, const glm::dvec3& origin) {
+void write_vertices(PendingFile& out, const PlyPhotons& photons, const glm::dvec3& origin) {
   constexpr size_t kBlock = 1 << 16, kBytes = kVertexBytes<Coordinate>;
   const PhotonBuffer& buffer = *photons.buffer;
   const float mean = mean_luminance(buffer);
@@ -60,12 +61,8 @@ void write_vertices(std::ofstream& out, const PlyPhotons& photons, const glm::dv
       std::memcpy(at + sizeof(p), &photon.n, sizeof(photon.n));
       std::memcpy(at + sizeof(p) + sizeof(photon.n), tail, sizeof(tail));
     }
-    out.write(bytes.data(), std::streamsize(bytes.size()));
+    out.write(bytes.data(), bytes.size());
   }
-}
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-  throw std::runtime_error("cannot write " + path.string() + ": " + reason);
 }
 
 }  // namespace
@@ -85,16 +82,16 @@ void write_photons_ply(const std::filesystem::path& path, std::span<const PlyPho
                        const glm::dvec3& origin) {
   uint64_t vertices = 0;
   for (const PlyPhotons& part : photons) vertices += part.buffer->records.size();
-  PendingFile file(path, unique_temporary_name(path));
-  std::ofstream out(file.temporary(), std::ios::binary | std::ios::trunc);
-  if (!out) fail(path, std::strerror(errno));
   const bool far = origin != glm::dvec3(0);
-  write_header(out, vertices, far ? "double" : "float");
-  for (const PlyPhotons& part : photons)
-    far ? write_vertices<double>(out, part, origin) : write_vertices<float>(out, part, origin);
-  out.close();
-  if (!out) fail(path, std::strerror(errno));
-  if (const std::string error = file.commit(); !error.empty()) fail(path, error);
+  try {
+    PendingFile out(path);
+    out.write(header(vertices, far ? "double" : "float"));
+    for (const PlyPhotons& part : photons)
+      far ? write_vertices<double>(out, part, origin) : write_vertices<float>(out, part, origin);
+    out.commit();
+  } catch (const FileError& error) {
+    throw std::runtime_error("cannot write " + path.string() + ": " + error.what());
+  }
 }
 
 }  // namespace kaustik::photon

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "core/files/disk_file.h"
+#include "core/files/mapped_file.h"
 #include "photon/trace/trace_settings.h"
 #include "render/maps/kept_photons.h"
 #include "render/passes/partial_result.h"

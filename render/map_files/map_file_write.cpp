@@ -76,27 +76,22 @@ void add_hashes(Bytes array, std::vector<std::array<uint64_t, 2>>* table) {
                       [&](size_t i) { (*table)[i] = hash_of(chunk_of(array, i - first)); });
 }
 
-// Writes bytes and counts them.
+// Writes bytes, words and the gaps between arrays.
 class MapWriter {
  public:
-  explicit MapWriter(const std::string& path) : file_(path) {}
-  void put(const void* bytes, size_t size) {
-    file_.put(bytes, size);
-    at_ += size;
-  }
+  explicit MapWriter(PendingFile& file) : file_(file) {}
+  void put(const void* bytes, size_t size) { file_.write(bytes, size); }
   void put(uint64_t word) { put(&word, sizeof word); }
   void align() {
-    const std::vector<char> zeros(aligned(at_) - at_);
+    const std::vector<char> zeros(aligned(file_.position()) - file_.position());
     put(zeros.data(), zeros.size());
   }
-  void finish() { file_.finish(); }
 
  private:
-  DiskFile file_;
-  uint64_t at_ = 0;
+  PendingFile& file_;
 };
 
-void write(const std::string& path, const std::string& manifest, const std::vector<WrittenMap>& maps) {
+void write(PendingFile& file, const std::string& manifest, const std::vector<WrittenMap>& maps) {
   std::vector<std::array<uint64_t, 2>> table;
   for (const WrittenMap& map : maps)
     for (const Bytes array : map.arrays()) add_hashes(array, &table);
@@ -104,7 +99,7 @@ void write(const std::string& path, const std::string& manifest, const std::vect
   ContentHash hash;
   hash.add(manifest);
   hash.add(table.data(), table_bytes);
-  MapWriter out(path);
+  MapWriter out(file);
   out.put(kMapMagic.data(), kMapMagic.size());
   for (const uint64_t word : {kMapVersion, uint64_t(manifest.size()), uint64_t(table_bytes)}) out.put(word);
   for (const uint64_t word : hash.words()) out.put(word);
@@ -116,7 +111,6 @@ void write(const std::string& path, const std::string& manifest, const std::vect
       out.put(array.data(), array.size());
     }
   }
-  out.finish();
 }
 
 }  // namespace
@@ -132,9 +126,9 @@ void write_map_file(const std::string& path, const MapManifest& manifest, const 
     if (manifest.kinds[kind]) maps.push_back({kind, photons.maps[k].parts()});
   }
   try {
-    PendingFile pending(path, unique_temporary_name(path));
-    write(pending.temporary(), manifest_text(manifest, photons, maps), maps);
-    if (const std::string error = pending.commit(); !error.empty()) throw FileError(error);
+    PendingFile file(path);
+    write(file, manifest_text(manifest, photons, maps), maps);
+    file.commit();
   } catch (const FileError& error) {
     throw MapFileError(path, error.what());
   }

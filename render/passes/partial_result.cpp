@@ -5,15 +5,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
 
 #include "core/files/content_hash.h"
-#include "core/files/disk_file.h"
+#include "core/files/input_file.h"
 #include "core/files/pending_file.h"
 #include "render/passes/partial_manifest.h"
 
@@ -26,66 +23,44 @@ namespace fs = std::filesystem;
 constexpr std::string_view kMagic{"KPART\r\n\x1a", 8};
 constexpr uint64_t kVersion = 3;
 constexpr uint64_t kHeadBytes = 24, kHashBytes = 16;
-struct Closer {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Closer>;
 
 // Writes bytes to a file and to the hash that ends the file.
 class Writer {
  public:
-  explicit Writer(const std::string& path) : file_(path) {}
+  explicit Writer(PendingFile& file) : file_(file) {}
   void put(const void* bytes, size_t size) {
     hash_.add(bytes, size);
-    file_.put(bytes, size);
+    file_.write(bytes, size);
   }
   void put(uint64_t word) { put(&word, sizeof word); }
-  // Writes the hash and waits until the file is on the disk.
-  void finish() {
+  void put_hash() {
     const auto words = hash_.words();
-    file_.put(words.data(), sizeof words);
-    file_.finish();
+    file_.write(words.data(), sizeof words);
   }
 
  private:
-  DiskFile file_;
+  PendingFile& file_;
   ContentHash hash_;
 };
 
-File open_regular(const std::string& path) {
-  try {
-    check_regular(path);
-  } catch (const FileError& error) {
-    throw PartialError(path, error.what());
-  }
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw PartialError(path, std::strerror(errno));
-  return file;
-}
-
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path), file_(open_regular(path)) {
-    std::error_code error;
-    size_ = fs::file_size(path, error);
-    if (error) fail(error.message());
-  }
-  uint64_t size() const { return size_; }
+  explicit Reader(const std::string& path) : path_(path), file_(path) {}
+  uint64_t size() const { return file_.size(); }
   void get(void* bytes, size_t size) {
-    if (std::fread(bytes, 1, size, file_.get()) != size) fail("the file shrank while it was being read");
+    if (file_.read(bytes, size) != size) fail("the file shrank while it was being read");
   }
   uint64_t word() {
     uint64_t out = 0;
     get(&out, sizeof out);
     return out;
   }
-  void rewind() { std::rewind(file_.get()); }
+  void rewind() { file_.rewind(); }
   [[noreturn]] void fail(const std::string& message) const { throw PartialError(path_, message); }
 
  private:
   std::string path_;
-  File file_;
-  uint64_t size_ = 0;
+  InputFile file_;
 };
 
 // Reads the header and returns the size of the manifest.
@@ -129,6 +104,23 @@ void check_hash(Reader& in) {
     in.fail("the file is damaged or truncated: its checksum does not match its contents");
 }
 
+PartialResult read_checked(const std::string& path) {
+  Reader in(path);
+  const uint64_t manifest_bytes = read_head(in);
+  check_hash(in);
+  in.rewind();
+  ReadManifest read = read_manifest(in);
+  PassSums& sums = read.result.sums;
+  const bool any = !sums.passes.empty();
+  const uint64_t pixel_bytes = any ? read.pixel_bytes() : 0;
+  if (kHeadBytes + manifest_bytes + pixel_bytes + kHashBytes != in.size())
+    in.fail("the file's size does not match its image");
+  sums.totals = read.empty_totals();
+  if (any)
+    for (const std::span<std::byte> pixels : bytes_of(sums.totals)) in.get(pixels.data(), pixels.size());
+  return std::move(read.result);
+}
+
 std::string seen(const std::vector<std::string>& texts) {
   return texts.empty() ? "unset" : fmt::format("{}", fmt::join(texts, " "));
 }
@@ -156,11 +148,10 @@ bool is_partial_name(const std::string& path) {
 }
 
 void write_partial(const std::string& path, const PartialManifest& manifest, const PassSums& sums) {
-  const fs::path name(path);
-  PendingFile pending(name, name.parent_path() / fmt::format(".{}.partial", name.filename().string()));
   const std::string json = checked_manifest_text(manifest, sums, path);
   try {
-    Writer out(pending.temporary());
+    PendingFile file(path);
+    Writer out(file);
     out.put(kMagic.data(), kMagic.size());
     out.put(kVersion);
     out.put(json.size());
@@ -168,28 +159,19 @@ void write_partial(const std::string& path, const PartialManifest& manifest, con
     if (!sums.passes.empty())
       for (const std::span<const std::byte> pixels : bytes_of(sums.totals))
         out.put(pixels.data(), pixels.size());
-    out.finish();
+    out.put_hash();
+    file.commit();
   } catch (const FileError& error) {
     throw PartialError(path, error.what());
   }
-  if (const std::string error = pending.commit(); !error.empty()) throw PartialError(path, error);
 }
 
 PartialResult read_partial(const std::string& path) {
-  Reader in(path);
-  const uint64_t manifest_bytes = read_head(in);
-  check_hash(in);
-  in.rewind();
-  ReadManifest read = read_manifest(in);
-  PassSums& sums = read.result.sums;
-  const bool any = !sums.passes.empty();
-  const uint64_t pixel_bytes = any ? read.pixel_bytes() : 0;
-  if (kHeadBytes + manifest_bytes + pixel_bytes + kHashBytes != in.size())
-    in.fail("the file's size does not match its image");
-  sums.totals = read.empty_totals();
-  if (any)
-    for (const std::span<std::byte> pixels : bytes_of(sums.totals)) in.get(pixels.data(), pixels.size());
-  return std::move(read.result);
+  try {
+    return read_checked(path);
+  } catch (const FileError& error) {
+    throw PartialError(path, error.what());
+  }
 }
 
 std::string difference(const PartialResult& a, const PartialResult& b) {

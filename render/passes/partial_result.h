@@ -54,9 +54,7 @@ struct PartialResult {
 // Whether a path ends in .kpart.
 bool is_partial_name(const std::string& path);
 
-// Writes to .NAME.partial in the same folder and renames it when it is complete and on the disk. So an
-// interrupted write leaves the previous file as it was, and its leftover is overwritten by the next write.
-// Only one writer per path at a time. Throws PartialError.
+// Writes a PendingFile: an interrupted write leaves the previous file as it was. Throws PartialError.
 void write_partial(const std::string& path, const PartialManifest& manifest, const PassSums& sums);
 
 // Throws PartialError for files that are not partial results, have another version of the format, or are

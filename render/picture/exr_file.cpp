@@ -11,10 +11,9 @@
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
+
+#include "core/files/input_file.h"
 
 namespace kaustik::render {
 
@@ -41,41 +40,43 @@ Imf::FrameBuffer buffer_of(const ExrPicture& p) {
   return buffer;
 }
 
-// A file that remembers the system's reason for its first failure: the library's messages wrap it in others,
-// and it reports nothing when its table of rows, which it writes at the end, fails.
+// Remembers the reason of the file's first failure: the library's messages wrap it in others, and it reports
+// nothing when its table of rows, which it writes at the end, fails.
 class ExrStream final : public Imf::OStream {
  public:
-  explicit ExrStream(const std::string& path) : OStream(path.c_str()), file_(path, std::ios::binary) {
-    check();
-  }
+  explicit ExrStream(PendingFile& file) : OStream("the picture"), file_(file) {}
   void write(const char bytes[], int size) override {
-    file_.write(bytes, size);
-    check();
+    remember([&] { file_.write(bytes, size_t(size)); });
   }
-  uint64_t tellp() override { return static_cast<uint64_t>(std::streamoff(file_.tellp())); }
+  uint64_t tellp() override { return file_.position(); }
   void seekp(uint64_t position) override {
-    file_.seekp(std::streamoff(position));
-    check();
+    remember([&] { file_.seek(position); });
   }
-  void close() {
-    file_.close();
-    check();
-  }
-  // Throws the first failure, if there was one.
-  void check() {
-    if (!file_ && error_ == 0) error_ = errno != 0 ? errno : EIO;
-    if (error_ != 0) throw std::runtime_error(std::strerror(error_));
+  // Throws FileError if there was a failure.
+  void check() const {
+    if (!failure_.empty()) throw FileError(failure_);
   }
 
  private:
-  std::ofstream file_;
-  int error_ = 0;
+  template <class Work>
+  void remember(const Work& work) {
+    check();
+    try {
+      work();
+    } catch (const FileError& error) {
+      failure_ = error.what();
+      throw;
+    }
+  }
+
+  PendingFile& file_;
+  std::string failure_;
 };
 
 }  // namespace
 
-void write_exr_file(const std::string& path, const ExrPicture& picture, const Metadata& attributes) {
-  ExrStream stream(path);
+void write_exr_file(PendingFile& file, const ExrPicture& picture, const Metadata& attributes) {
+  ExrStream stream(file);
   try {
     constexpr int kNoThreads = 0;  // the library makes none; the caller's thread does the work
     Imf::OutputFile out(stream, header_of(picture, attributes), kNoThreads);
@@ -85,7 +86,7 @@ void write_exr_file(const std::string& path, const ExrPicture& picture, const Me
     stream.check();
     throw;
   }
-  stream.close();
+  stream.check();
 }
 
 const std::vector<float>* ExrChannels::find(const std::string& name) const {
@@ -111,6 +112,7 @@ void check_size(int64_t width, int64_t height, const Imf::ChannelList& channels,
 }  // namespace
 
 ExrChannels read_exr_file(const std::string& path, uint64_t most_pixels) {
+  check_regular(path);
   constexpr int kNoThreads = 0;
   Imf::InputFile in(path.c_str(), kNoThreads);
   const Imath::Box2i window = in.header().dataWindow(), display = in.header().displayWindow();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/files/pending_file.h"
 #include "render/picture/image_formats.h"
 
 namespace kaustik::render {
@@ -18,8 +19,8 @@ struct ExrPicture {
 };
 
 // Writes 32-bit floats and string attributes but no date, so the same picture gives the same bytes. Makes no
-// threads. Throws std::exception on failure; the caller must remove what was written of the file.
-void write_exr_file(const std::string& path, const ExrPicture& picture, const Metadata& attributes);
+// threads. Does not commit the file. Throws std::exception on failure.
+void write_exr_file(PendingFile& file, const ExrPicture& picture, const Metadata& attributes);
 
 // All channels of a file's first part, converted to 32-bit floats.
 struct ExrChannels {

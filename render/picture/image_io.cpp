@@ -23,15 +23,15 @@ namespace fs = std::filesystem;
 // Not by way of memory, as PNG and JPEG: many layers of a large film are gigabytes, and OpenEXR reports
 // failures.
 void write_exr(const std::string& path, const ExrPicture& picture, const Metadata& metadata) {
-  PendingFile file(path, unique_temporary_name(path));
   try {
-    write_exr_file(file.temporary(), picture, metadata);
+    PendingFile file(path);
+    write_exr_file(file, picture, metadata);
+    file.commit();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw ImageError(path, error.what());
   }
-  if (const std::string error = file.commit(); !error.empty()) throw ImageError(path, error);
 }
 
 const LayerRow& row_of(Layer layer) {
@@ -113,8 +113,11 @@ void write_srgb8(const std::string& path, const Image& image, const ToneSettings
   const auto bytes = image_formats().encode_srgb8(encoding, image.width, image.height, pixels,
                                                   with_tone(metadata, tone), error);
   if (!bytes) throw ImageError(path, error);
-  error = write_file(path, *bytes);
-  if (!error.empty()) throw ImageError(path, error);
+  try {
+    write_file(path, *bytes);
+  } catch (const FileError& failure) {
+    throw ImageError(path, failure.what());
+  }
 }
 
 // What with_tone() has written, if a file has it.

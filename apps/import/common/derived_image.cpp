@@ -38,7 +38,11 @@ std::optional<ImageNumbers> read(const std::filesystem::path& path, std::string&
 std::optional<std::string> write(const std::filesystem::path& path, const ImageNumbers& image, int bits) {
   std::string why;
   const auto bytes = render::image_formats().encode_numbers(image, bits, why);
-  if (bytes) why = write_in_place(path, *bytes);
+  try {
+    if (bytes) write_file(path, *bytes);
+  } catch (const FileError& error) {
+    why = error.what();
+  }
   if (why.empty()) return std::nullopt;
   return fmt::format("cannot write \"{}\": {}", path.string(), why);
 }

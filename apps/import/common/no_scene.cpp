@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
+
+#include "core/files/input_file.h"
 
 namespace kaustik {
 
@@ -65,10 +66,11 @@ std::string why_no_scene(std::string_view bytes) {
 }
 
 std::string why_no_scene_in(const std::filesystem::path& path) {
-  std::array<char, kMarkBytes> bytes{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), bytes.size());
-  return why_no_scene({bytes.data(), static_cast<size_t>(file.gcount())});
+  try {
+    return why_no_scene(read_head(path, kMarkBytes));
+  } catch (const FileError&) {
+    return {};
+  }
 }
 
 bool is_binary(std::string_view bytes) {

@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
 #include "apps/import/common/gzip.h"
 #include "apps/import/common/no_scene.h"
+#include "core/files/input_file.h"
 
 namespace kaustik::pbrt {
 
@@ -27,33 +24,14 @@ fs::path resolve_path(const std::string& name, const fs::path& naming_file, cons
 }
 
 std::optional<std::string> read_bytes(const fs::path& path, uint64_t max_bytes, std::string& error) {
-  const std::string name = path.string();
-  std::error_code code;
-  const fs::file_status status = fs::status(path, code);
-  if (!fs::exists(status)) {
-    error = fmt::format("cannot open \"{}\": no such file", name);
+  std::error_code ignored;
+  try {
+    if (!fs::exists(path, ignored)) throw FileError("no such file");
+    return read_file(path, max_bytes);
+  } catch (const FileError& failure) {
+    error = fmt::format("cannot read \"{}\": {}", path.string(), failure.what());
     return std::nullopt;
   }
-  if (!fs::is_regular_file(status)) {
-    error = fmt::format("cannot read \"{}\": not a regular file", name);
-    return std::nullopt;
-  }
-  const uint64_t size = fs::file_size(path, code);
-  if (code || size > max_bytes) {
-    error = fmt::format("cannot read \"{}\": {}", name,
-                        code ? code.message() : fmt::format("more than {} bytes", max_bytes));
-    return std::nullopt;
-  }
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    error = fmt::format("cannot open \"{}\": {}", name, std::strerror(errno));
-    return std::nullopt;
-  }
-  std::string bytes(size, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  bytes.resize(static_cast<size_t>(in.gcount()));
-  return bytes;
 }
 
 std::optional<uint32_t> SceneFiles::open(const fs::path& path, std::string& error) {

@@ -1,15 +1,23 @@
 #include "apps/import/common/temporary_folder.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <string>
 
 namespace kaustik {
 
 TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "kaustik-XXXXXX").string();
+  const char* const chosen = std::getenv("TMPDIR");
+  const std::string parent = chosen && *chosen != '\0' ? chosen : "/tmp";
+  std::string name = parent + "/kaustik-XXXXXX";
   if (!mkdtemp(name.data()))
-    throw std::filesystem::filesystem_error("cannot make a temporary folder", name,
-                                            std::error_code(errno, std::generic_category()));
+    throw std::runtime_error(
+        fmt::format("cannot make a temporary folder in {}: {}; the variable TMPDIR can name another place",
+                    parent, std::strerror(errno)));
   path_ = name;
 }
 

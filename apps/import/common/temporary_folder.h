@@ -5,10 +5,11 @@
 
 namespace kaustik {
 
-// Created in the system's folder for temporary files; the destructor removes it with all its contents.
+// Created in the folder that the variable TMPDIR names, or else in /tmp. The destructor removes it with all
+// its contents.
 class TemporaryFolder {
  public:
-  TemporaryFolder();  // throws std::filesystem::filesystem_error
+  TemporaryFolder();  // throws std::runtime_error
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

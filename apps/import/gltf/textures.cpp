@@ -4,15 +4,23 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 #include "apps/import/common/derived_image.h"
 #include "apps/import/common/scene_files.h"
+#include "core/files/input_file.h"
 #include "core/files/pending_file.h"
 
 namespace kaustik::gltf {
 namespace {
+
+bool is_ktx(const std::filesystem::path& file) {
+  try {
+    return read_head(file, 8).find("KTX") != std::string::npos;
+  } catch (const FileError&) {
+    return false;  // who reads the picture will say why it cannot be read
+  }
+}
 
 // The file extension that fits the image's first bytes; empty for formats that cannot be read, such as KTX2.
 std::string extension_of(std::string_view bytes) {
@@ -112,8 +120,11 @@ std::optional<ImageFile> Textures::make_file(uint64_t index) {
     return std::nullopt;
   }
   const ImageFile file = in_folder(fmt::format("image{}{}", index, extension));
-  if (const std::string why = write_in_place(path_of(file), *data); !why.empty())
-    throw std::runtime_error(fmt::format("cannot write {}: {}", path_of(file).string(), why));
+  try {
+    write_file(path_of(file), *data);
+  } catch (const FileError& error) {
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path_of(file).string(), error.what()));
+  }
   return file;
 }
 
@@ -126,9 +137,7 @@ std::optional<ImageFile> Textures::find_file(uint64_t index, const std::string& 
     const ImageFile file{candidate, beside};
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path_of(file), ignored)) continue;
-    std::array<char, 8> head{};
-    std::ifstream(path_of(file), std::ios::binary).read(head.data(), head.size());
-    if (std::string_view(head.data(), head.size()).find("KTX") == std::string_view::npos) return file;
+    if (!is_ktx(path_of(file))) return file;
     warnings_.say(
         fmt::format("image {}, \"{}\", is KTX, which cannot be read, and is shown as grey", index, name));
     return std::nullopt;

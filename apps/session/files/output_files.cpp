@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "apps/console/exit_error.h"
+#include "core/files/input_file.h"
 #include "core/files/pending_file.h"
 #include "render/map_files/map_file.h"
 #include "render/picture/image_io.h"
@@ -36,6 +37,9 @@ void check_writable(const std::string& path) {
   if (!fs::exists(folder, ignored)) refuse(path, fmt::format("there is no folder {}", folder.string()));
   if (!fs::is_directory(folder, ignored)) refuse(path, fmt::format("{} is not a folder", folder.string()));
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(path, std::strerror(errno));
+  const std::string name = fs::path(path).filename().string();
+  if (const long most = pathconf(folder.c_str(), _PC_NAME_MAX); most > 0 && name.size() > size_t(most))
+    refuse(path, std::strerror(ENAMETOOLONG));
   if (fs::is_directory(path, ignored)) refuse(path, "it is a folder");
   // A finished file takes the place of the old one, which must not be a device such as /dev/null.
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
@@ -57,9 +61,21 @@ void check_map_output(const std::string& path) {
   check_writable(path);
 }
 
+std::string text_of_file(const std::string& path) {
+  constexpr uint64_t kLargestText = uint64_t{1} << 30;  // bytes
+  try {
+    return read_file(path, kLargestText);
+  } catch (const FileError& error) {
+    throw ExitError(kBadCommandLine, fmt::format("{}: {}", path, error.what()));
+  }
+}
+
 void write_text_file(const std::string& path, const std::string& text) {
-  if (const std::string reason = write_file(path, text); !reason.empty())
-    throw std::runtime_error(fmt::format("{}: {}", path, reason));
+  try {
+    write_file(path, text);
+  } catch (const FileError& error) {
+    throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
+  }
 }
 
 }  // namespace kaustik::app

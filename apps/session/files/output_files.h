@@ -16,6 +16,9 @@ void check_image_output(const std::string& path);
 // Like check_writable, for a file of photon maps, which ends in .kmap.
 void check_map_output(const std::string& path);
 
+// The contents of a text file. Throws ExitError (bad command line) with the path and the reason.
+std::string text_of_file(const std::string& path);
+
 // Writes a text to a temporary file beside `path` and renames it, so that no incomplete file is ever visible
 // under its name. Throws std::runtime_error with the path and the system's reason, and removes the temporary
 // file then.

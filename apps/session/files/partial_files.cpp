@@ -6,6 +6,7 @@
 #endif
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "accel/embree_version.h"
 #include "apps/console/exit_error.h"
@@ -30,6 +31,16 @@ std::string program_and_libraries() {
 
 std::string absolute_path(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+void check_utf8(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    try {
+      (void)nlohmann::json(name).dump();
+    } catch (const nlohmann::json::exception&) {
+      refuse(fmt::format("{}: the name is not UTF-8, as partial results and photon maps need it", name));
+    }
+  }
 }
 
 std::string program_build() {

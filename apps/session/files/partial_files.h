@@ -17,6 +17,9 @@ std::string absolute_path(const std::string& path);
 // it before rendering, and loads OpenImageIO.
 std::string program_build();
 
+// Throws ExitError (bad command line) for a file name that is not UTF-8, as manifests must be.
+void check_utf8(const std::vector<std::string>& names);
+
 // The settings that `listed` picks, by the names of their options, as texts that set them to the same values.
 render::SettingTexts setting_texts(const Settings& settings,
                                    const std::function<bool(const Setting&)>& listed);

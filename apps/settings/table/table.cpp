@@ -276,7 +276,8 @@ void add_image(std::vector<Setting>& table) {
       "threads",
       kRenderAndPhotons | SettingsCommand::kResume | SettingsCommand::kSweep | SettingsCommand::kDenoise,
       "threads", &RenderSettings::threads, 0, 65535, "0 (all usable cores)",
-      "Most threads that the process uses. The image does not depend on it."));
+      "Most threads that the process uses: at most four for each core, or 64. The image does not depend on "
+      "it."));
   table.back().decides_sums = false;
   table.push_back(count("width", kAllThatTrace, "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
                         "Image width. If it is given alone, the height keeps the aspect ratio."));

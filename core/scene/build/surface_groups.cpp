@@ -3,10 +3,14 @@
 #include "core/scene/build/surface_groups.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 
 #include "core/geometry/point_bits.h"
+#include "core/math/frame.h"
 #include "core/parallel/parallel.h"
 
 namespace kaustik {
@@ -96,15 +100,39 @@ std::vector<BoundaryEdge> all_boundary_edges(const std::vector<Shape>& shapes,
   return edges;
 }
 
+// In double precision, in which no square of a difference vanishes.
+glm::dvec3 point_of(const PointBits& bits) {
+  return {std::bit_cast<float>(bits[0]), std::bit_cast<float>(bits[1]), std::bit_cast<float>(bits[2])};
+}
+
+void join_if_alike(const BoundaryEdge& a, const BoundaryEdge& b, DisjointSets& sets) {
+  if (abs_dot(a.n, b.n) > kSameSurfaceCosine) sets.join(a.shape, b.shape);
+}
+
+// Joins all pairs whose normals are alike, directly or by others between them. The normals are perpendicular
+// to the common edge, so neighbours in the order of the angle around it are enough: a scene can have any
+// number of triangles at one edge.
+void join_around(std::span<const BoundaryEdge> edges, DisjointSets& sets) {
+  const Frame frame =
+      Frame::from_z(Vector3(glm::normalize(point_of(edges[0].ends[1]) - point_of(edges[0].ends[0]))));
+  std::vector<std::pair<float, uint32_t>> by_angle;  // in [0, pi]: opposite normals are alike
+  for (uint32_t i = 0; i < edges.size(); ++i) {
+    const Vector3 n = frame.to_local(edges[i].n);
+    if (n == Vector3(0)) continue;
+    const float angle = std::atan2(n.y, n.x);
+    by_angle.emplace_back(angle < 0 ? angle + kPi : angle, i);
+  }
+  std::sort(by_angle.begin(), by_angle.end());
+  for (size_t k = 0; k < by_angle.size(); ++k)
+    join_if_alike(edges[by_angle[k].second], edges[by_angle[(k + 1) % by_angle.size()].second], sets);
+}
+
 void join_by_edges(const std::vector<BoundaryEdge>& edges, DisjointSets& sets) {
   for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     while (end < edges.size() && edges[end].ends == edges[begin].ends) ++end;
-    for (size_t i = begin; i < end; ++i) {
-      for (size_t j = begin; j < i; ++j) {
-        if (sets.find(edges[i].shape) == sets.find(edges[j].shape)) continue;
-        if (abs_dot(edges[i].n, edges[j].n) > kSameSurfaceCosine) sets.join(edges[i].shape, edges[j].shape);
-      }
-    }
+    if (edges[begin].ends[0] == edges[begin].ends[1]) continue;  // triangles without area
+    if (end - begin == 2) join_if_alike(edges[begin], edges[begin + 1], sets);
+    if (end - begin > 2) join_around(std::span(edges).subspan(begin, end - begin), sets);
   }
 }
 

@@ -162,14 +162,14 @@ TEST_F(FilledTime, IsOnePassThatOptionsReproduce) {
   const std::string log = render("1500ms", "a").err;  // where 300 ms are enough, on a busy machine too
   EXPECT_THAT(log, HasSubstr("--time 1.5s is rendered with --spp "));
   EXPECT_THAT(log, HasSubstr("--time 1.5s gave --spp "));
-  EXPECT_THAT(log, HasSubstr(" --denoise on\n"));
+  const bool denoised = log.find(" --denoise on\n") != std::string::npos;  // if the machine has time for it
   const nlohmann::json json = stats("a"), settings = json["settings"];
   EXPECT_EQ(json["photons"]["passes"], 1);
   EXPECT_GE(settings["adaptive"], 0.01);
   EXPECT_EQ(
       run_kaustik({"render", scene_, "--spp", settings["spp"].dump(), "--photons", settings["photons"].dump(),
-                   "--adaptive", fmt::format("{}", settings["adaptive"].get<float>()), "--denoise", "on",
-                   "-o", path("b.exr")})
+                   "--adaptive", fmt::format("{}", settings["adaptive"].get<float>()), "--denoise",
+                   denoised ? "on" : "off", "-o", path("b.exr")})
           .code,
       kDone);
   EXPECT_EQ(pixels("a.exr"), pixels("b.exr"));

@@ -2,10 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,6 +9,7 @@
 #include <thread>
 
 #include "apps/sweep/reference.h"
+#include "core/files/file_lock.h"
 #include "render/passes/partial_result.h"
 #include "render/picture/image_io.h"
 #include "tests/apps/support/child_process.h"
@@ -377,11 +374,10 @@ TEST_F(SweepCommand, SweptSettingsDoNotAffectTheReference) {
 
 TEST_F(SweepCommand, FolderTakesOneSweepAtATime) {
   expect_done(sweep(against_file()));
-  const int file = open(path("out/.lock").c_str(), O_RDWR);
-  ASSERT_GE(file, 0);
-  ASSERT_EQ(flock(file, LOCK_EX | LOCK_NB), 0);
-  expect_refused(sweep(against_file()), "another sweep is running");
-  close(file);
+  {
+    const FileLock other(path("out/.lock"));
+    expect_refused(sweep(against_file()), "another sweep is running");
+  }
   expect_done(sweep(against_file()));
 }
 

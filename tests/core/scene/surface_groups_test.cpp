@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <random>
+
 namespace kaustik {
 namespace {
 
@@ -43,6 +46,36 @@ TEST(SurfaceGroups, TheAngleAtTheEdgeDecides) {
   };
   EXPECT_EQ(bent(25), Groups({0, 0}));  // cos 25 = 0.906
   EXPECT_EQ(bent(27), Groups({0, 1}));  // cos 27 = 0.891
+}
+
+// Pages of a book, at random angles around their common edge: those that are alike, or that others between
+// them join, share a group. The comparison looks at all pairs.
+TEST(SurfaceGroups, AnyNumberOfTrianglesMeetAtAnEdge) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> any(0, 2 * kPi);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<float> angles(3 + random() % 5);
+    for (float& a : angles) a = any(random);
+    std::vector<Shape> shapes;
+    for (const float a : angles) shapes.push_back(tile({0, 0, 0}, {std::cos(a), std::sin(a), 0}, kZ));
+    Groups expected(angles.size());
+    std::iota(expected.begin(), expected.end(), 0u);
+    for (size_t k = 0; k < angles.size(); ++k)  // paths of up to as many steps
+      for (size_t i = 0; i < angles.size(); ++i)
+        for (size_t j = 0; j < angles.size(); ++j)
+          if (std::abs(std::cos(angles[i] - angles[j])) > 0.9f)
+            expected[i] = std::min(expected[i], expected[j]);
+    const Groups found = groups(shapes);
+    for (size_t i = 0; i < angles.size(); ++i)
+      for (size_t j = 0; j < angles.size(); ++j)
+        ASSERT_EQ(found[i] == found[j], expected[i] == expected[j]) << "round " << round;
+  }
+}
+
+// With a comparison of all pairs this would take minutes.
+TEST(SurfaceGroups, APileOfEqualTrianglesIsOneGroup) {
+  const std::vector<Shape> pile(50'000, tile({0, 0, 0}, kX, kZ));
+  EXPECT_EQ(groups(pile), Groups(pile.size(), 0u));
 }
 
 TEST(SurfaceGroups, ACommonCornerOrANearEdgeDoesNotJoin) {

@@ -4,12 +4,14 @@
 
 #include <gmock/gmock.h>
 
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "core/files/content_hash.h"
 #include "tests/render/support/image_statistics.h"
+#include "tests/support/system_faults.h"
 
 namespace kaustik::render {
 namespace {
@@ -181,27 +183,14 @@ TEST_F(PartialFile, ClaimsAreCheckedAgainstTheFilesSize) {
   EXPECT_THAT(complaint(), HasSubstr("size"));
 }
 
-// A kill during the write leaves half of a temporary file. It does not affect the last complete file, nor the
-// next write.
-TEST_F(PartialFile, UnfinishedWriteLosesNothing) {
-  PartialResult part = example();
-  write_partial(file_, part.manifest, part.sums);
-  const std::string whole = bytes();
-  const std::string left = folder_ + "/.a.kpart.partial";
-  EXPECT_FALSE(std::filesystem::exists(left));
-  std::ofstream(left, std::ios::binary) << whole.substr(0, whole.size() / 2);
-  EXPECT_EQ(complaint(), "");
-  part.sums.passes.add(PassSet(3, 4));
-  write_partial(file_, part.manifest, part.sums);
-  EXPECT_FALSE(std::filesystem::exists(left));
-  EXPECT_EQ(read_partial(file_).sums.passes, part.sums.passes);
-}
-
 TEST_F(PartialFile, FailedWriteKeepsThePreviousFile) {
   const PartialResult part = example();
   write_partial(file_, part.manifest, part.sums);
-  std::filesystem::create_directory(folder_ + "/.a.kpart.partial");  // takes the name of the temporary file
-  EXPECT_THROW(write_partial(file_, part.manifest, part.sums), PartialError);
+  {
+    test::SystemFaults faults;
+    faults.fail(SystemCall::kRename, 1, EIO);
+    EXPECT_THROW(write_partial(file_, part.manifest, part.sums), PartialError);
+  }
   EXPECT_EQ(complaint(), "");
   EXPECT_THROW(write_partial(folder_ + "/none/a.kpart", part.manifest, part.sums), PartialError);
 }

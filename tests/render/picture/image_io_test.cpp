@@ -170,15 +170,6 @@ TEST(ImageIo, EqualPicturesAreEqualBytes) {
   EXPECT_EQ(bytes(first), bytes(second));
 }
 
-// For a small file a full disk is noticed only when the file is closed.
-TEST(ImageIo, FullDiskIsNoticed) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  const std::vector<float> grey(4 * 4, 0.5f);
-  const ExrPicture picture{
-      .channels = {"Y"}, .width = 4, .height = 4, .full_width = 4, .full_height = 4, .values = grey.data()};
-  EXPECT_THROW(write_exr_file("/dev/full", picture, {}), std::exception);
-}
-
 // The old picture stays, and no temporary file is left. The picture is noise, so that it is not compressed to
 // less than the limit in any format; libjpeg would end the process if it wrote to the disk itself.
 TEST(ImageIo, FullDiskLeavesThePictureBefore) {

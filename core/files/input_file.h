@@ -1,0 +1,44 @@
+#pragma once
+// Regular files that are read. Pipes and devices are refused at once: to open a pipe would wait for a
+// writer, and to read a device might never end.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/files/file_error.h"
+
+namespace kaustik {
+
+// All functions throw FileError.
+class InputFile {
+ public:
+  explicit InputFile(const std::filesystem::path& path);
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  ~InputFile();
+
+  // Bytes, when the file was opened.
+  uint64_t size() const { return size_; }
+  int descriptor() const { return file_; }
+  // Reads on from the position. Returns fewer than `size` bytes only at the end of the file.
+  size_t read(void* bytes, size_t size);
+  // The next byte that is read is the first.
+  void rewind();
+
+ private:
+  int file_ = -1;
+  uint64_t size_ = 0;
+};
+
+// The bytes of a file. Throws FileError, also for a file of more than most_bytes.
+std::string read_file(const std::filesystem::path& path, uint64_t most_bytes);
+
+// The first bytes of a file, at most `size`. Throws FileError.
+std::string read_head(const std::filesystem::path& path, size_t size);
+
+// Throws FileError for what exists and is no regular file, before a library opens it by its name.
+void check_regular(const std::filesystem::path& path);
+
+}  // namespace kaustik
