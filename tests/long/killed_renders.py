@@ -27,7 +27,8 @@ def render_whole(program, picture, options=kOptions):
 
 def render_with_kills(program, folder, random, longest, killed, options=kOptions):
     """Renders folder/killed.exr with a checkpoint, kills the process after up to `longest` seconds (later more, so
-    that it ends on a busy machine), resumes, and so on until one lives long enough. Returns the number of kills, and adds the numbers of the killed processes to `killed`."""
+    that it ends on a busy machine), resumes, and so on until one lives long enough. Returns the number of kills, and adds
+    the numbers of the killed processes to `killed`."""
     checkpoint, picture, kills = folder / "killed.kpart", folder / "killed.exr", 0
     for file in (checkpoint, picture):
         file.unlink(missing_ok=True)

@@ -69,8 +69,9 @@ class Watched:
         if not self.samples:
             return f"{self.name}: no samples"
         memory, files = zip(*self.samples)
-        return (f"{self.name}: {self.requests} requests, {len(self.samples)} samples; memory {memory[0] / 2**20:.0f} MiB at first, "
-                f"{max(memory) / 2**20:.0f} at most, {memory[-1] / 2**20:.0f} at last; descriptors {files[0]}, {max(files)}, {files[-1]}")
+        quarters = ", ".join(f"{statistics.median(quarter(memory, i) or memory) / 2**20:.0f}" for i in range(4))
+        return (f"{self.name}: {self.requests} requests, {len(self.samples)} samples; memory in the quarters of the time {quarters} MiB, "
+                f"{max(memory) / 2**20:.0f} at most; descriptors {files[0]} at first, {max(files)} at most, {files[-1]} at last")
 
     def end(self):
         """Asks the process to end; returns its exit code, or None if it had to be killed."""
