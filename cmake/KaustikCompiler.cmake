@@ -15,12 +15,19 @@ if(KAUSTIK_WARNINGS_AS_ERRORS)
 endif()
 
 # KAUSTIK_SANITIZE: comma-separated sanitizers, e.g. "address,undefined". The first undefined behaviour ends the program, so
-# that a test fails on it.
+# that a test fails on it. Sanitizers check more than the fortified functions do, and do not see through them.
 if(KAUSTIK_SANITIZE)
   target_compile_options(kaustik_options INTERFACE
     -fsanitize=${KAUSTIK_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(kaustik_options INTERFACE -fsanitize=${KAUSTIK_SANITIZE})
+else()
+  include(KaustikHardening)
 endif()
+
+# The same commit gives the same files in whatever folder it is built: names of sources in messages, and in the debug
+# information, begin at the root of the tree. scripts/check-reproducible compares two builds.
+target_compile_options(kaustik_options INTERFACE
+  -ffile-prefix-map=${PROJECT_SOURCE_DIR}=. -ffile-prefix-map=${PROJECT_BINARY_DIR}=./build)
 
 # ccache keeps objects that were compiled with a precompiled header only if it is told to trust what it cannot see: macros
 # of the header (they come from the same command line), time stamps, and __TIME__, which no source uses. GCC must leave the

@@ -1,5 +1,6 @@
 # kaustik_precompile(<target> <header>): compiles the target's sources with the precompiled cmake/<header>. The first
-# target that names a header, the lowest library, owns its compiled form; the others share it.
+# target that names a header, the lowest library, owns its compiled form; the others share it, if they are compiled with the
+# same options (KAUSTIK_INNER_LAYER).
 function(kaustik_precompile target header)
   if(NOT KAUSTIK_PRECOMPILED_HEADERS)
     return()
@@ -8,12 +9,14 @@ function(kaustik_precompile target header)
   # inside std::string that do not happen.
   target_compile_options(${target} PRIVATE
     "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overread;-Wno-stringop-overflow>")
-  get_property(owner GLOBAL PROPERTY kaustik_owner_of_${header})
+  get_target_property(inner ${target} KAUSTIK_INNER_LAYER)
+  set(key kaustik_owner_of_${header}_${inner})
+  get_property(owner GLOBAL PROPERTY ${key})
   if(owner)
     target_precompile_headers(${target} REUSE_FROM ${owner})
   else()
     target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/${header})
-    set_property(GLOBAL PROPERTY kaustik_owner_of_${header} ${target})
+    set_property(GLOBAL PROPERTY ${key} ${target})
   endif()
 endfunction()
 
@@ -53,6 +56,9 @@ function(kaustik_library name)
   kaustik_join_rooms(sources)
   add_library(kaustik_${name} STATIC ${sources})
   target_link_libraries(kaustik_${name} PUBLIC kaustik_options ${ARGN})
+  if(NOT name STREQUAL core)
+    set_target_properties(kaustik_${name} PROPERTIES KAUSTIK_INNER_LAYER ON)
+  endif()
   if(name STREQUAL core)
     kaustik_precompile(kaustik_core precompiled.h)
   else()
