@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "apps/command_line/values.h"
-#include "apps/import/common/temporary_folder.h"
 #include "apps/web/request_check.h"
 #include "core/files/input_file.h"
+#include "core/files/temporary_folder.h"
 #include "render/picture/exposure.h"
 #include "render/picture/image_io.h"
 

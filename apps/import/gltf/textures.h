@@ -8,9 +8,9 @@
 
 #include "apps/import/common/derived_image.h"
 #include "apps/import/common/make_parameter.h"
-#include "apps/import/common/temporary_folder.h"
 #include "apps/import/common/warnings.h"
 #include "apps/import/gltf/file/document.h"
+#include "core/files/temporary_folder.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "apps/import/common/counted_warnings.h"
-#include "apps/import/common/temporary_folder.h"
 #include "apps/import/common/unique_names.h"
 #include "apps/import/obj/mtl_reader.h"
+#include "core/files/temporary_folder.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::obj {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "apps/import/common/make_parameter.h"
-#include "apps/import/common/temporary_folder.h"
 #include "apps/import/common/unique_names.h"
+#include "core/files/temporary_folder.h"
 #include "core/sampling/equal_area.h"
 #include "render/picture/image_io.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A temporary folder for images that a scene file embeds: image readers take file names only.
+// A temporary folder, for libraries that take file names only.
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "apps/import/common/temporary_folder.h"
+#include "core/files/temporary_folder.h"
 
 #include <fmt/format.h>
 
