@@ -25,8 +25,11 @@ fs::path resolve_path(const std::string& name, const fs::path& naming_file, cons
 
 std::optional<std::string> read_bytes(const fs::path& path, uint64_t max_bytes, std::string& error) {
   std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    error = fmt::format("cannot open \"{}\": no such file", path.string());
+    return std::nullopt;
+  }
   try {
-    if (!fs::exists(path, ignored)) throw FileError("no such file");
     return read_file(path, max_bytes);
   } catch (const FileError& failure) {
     error = fmt::format("cannot read \"{}\": {}", path.string(), failure.what());
