@@ -1,6 +1,7 @@
 // Knows the formats of images by their first bytes, and opens them with the reader of that format.
 
 #include "images/open_image.h"
+#include "core/files/input_file.h"
 #include "core/text.h"
 
 #include <algorithm>
@@ -79,10 +80,11 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::Imag
     error = std::move(why);
     return nullptr;
   };
-  std::error_code ignored;
-  // To open a pipe would wait for a writer.
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    return fail("not a regular file");
+  try {
+    check_regular(path);
+  } catch (const FileError& failure) {
+    return fail(failure.what());
+  }
   if (!std::ifstream(path)) return fail(std::strerror(errno));
   const std::string format = format_of(path);
   if (format.empty()) return fail("it is in none of the formats " + std::string(kFormats));

@@ -245,6 +245,20 @@ void settle_session(const SettingOverrides& given, const Console& console, Job* 
                     fmt::format("--pass-range {}: kept photon maps hold pass 0 alone", session->goal.text()));
 }
 
+namespace {
+
+// What writing sums needs before the work starts. Returns the lock of the checkpoint; null if there is none.
+std::unique_ptr<FileLock> prepare_sums(const Job& job, const RenderSession& session) {
+  if (writes_sums(session) || session.ranks)
+    program_build();  // asks Embree for its version before it starts to work
+  if (!writes_sums(session)) return nullptr;
+  check_utf8({job.path});
+  check_utf8(session.outputs.files);
+  return lock_checkpoint(session.checkpoint);
+}
+
+}  // namespace
+
 std::shared_ptr<LiveRender> make_live(const Job& job) {
   const Camera& camera = job.scene.camera;
   const render::PixelRange range = render::rendered_range(job.settings.render.crop, camera);
@@ -255,13 +269,7 @@ std::shared_ptr<LiveRender> make_live(const Job& job) {
 int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console) {
   int code = kDone;
-  if (writes_sums(session)) {
-    check_utf8({job.path});
-    check_utf8(session.outputs.files);
-  }
-  const std::unique_ptr<FileLock> lock = lock_checkpoint(session.checkpoint);
-  if (writes_sums(session) || session.ranks)
-    program_build();  // asks Embree for its version before it starts to work
+  const std::unique_ptr<FileLock> lock = prepare_sums(job, session);
   with_thread_limit(job.settings.render.threads, console, [&] {
     render::OuterTimes times{.load = job.load_seconds};
     const Stopwatch watch;

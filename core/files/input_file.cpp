@@ -16,7 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kNotRegular = "not a regular file";
+std::string next_bytes(InputFile& file, uint64_t size) {
+  std::string bytes(size, '\0');
+  bytes.resize(file.read(bytes.data(), bytes.size()));
+  return bytes;
+}
 
 }  // namespace
 
@@ -57,21 +61,12 @@ void InputFile::rewind() {
 std::string read_file(const fs::path& path, uint64_t most_bytes) {
   InputFile file(path);
   if (file.size() > most_bytes) throw FileError(fmt::format("more than {} bytes", most_bytes));
-  std::string bytes(file.size(), '\0');
-  bytes.resize(file.read(bytes.data(), bytes.size()));
-  return bytes;
+  return next_bytes(file, file.size());
 }
 
 std::string read_head(const fs::path& path, size_t size) {
   InputFile file(path);
-  std::string bytes(std::min<uint64_t>(size, file.size()), '\0');
-  bytes.resize(file.read(bytes.data(), bytes.size()));
-  return bytes;
-}
-
-void check_regular(const fs::path& path) {
-  std::error_code error;
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) throw FileError(kNotRegular);
+  return next_bytes(file, std::min<uint64_t>(size, file.size()));
 }
 
 }  // namespace kaustik

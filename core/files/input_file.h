@@ -11,6 +11,8 @@
 
 namespace kaustik {
 
+inline constexpr const char* kNotRegular = "not a regular file";
+
 // All functions throw FileError.
 class InputFile {
  public:
@@ -38,7 +40,12 @@ std::string read_file(const std::filesystem::path& path, uint64_t most_bytes);
 // The first bytes of a file, at most `size`. Throws FileError.
 std::string read_head(const std::filesystem::path& path, size_t size);
 
-// Throws FileError for what exists and is no regular file, before a library opens it by its name.
-void check_regular(const std::filesystem::path& path);
+// Throws FileError for what exists and is no regular file, before a library opens it by its name. In the
+// header for libraries that programs load, which have none of this folder's code.
+inline void check_regular(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw FileError(kNotRegular);
+}
 
 }  // namespace kaustik
