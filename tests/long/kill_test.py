@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Kills renders at random moments and resumes them from their checkpoints: the picture must be that of an uninterrupted render,
-byte for byte, and no file may be left but the temporary ones of killed processes.
+byte for byte, and no temporary file may be left.
 
   kill_test.py PROGRAM FOLDER [--kills 100] [--seed 1]
 """
@@ -28,13 +28,13 @@ def main():
     # Of moments up to half of a render, some come before the first checkpoint, and a resumed render survives most.
     longest = render_whole(program, whole) / 2
     print(f"kill test: seed {arguments.seed}; a render takes {2 * longest:.1f} s", flush=True)
-    moments, killed, kills, renders = random.Random(arguments.seed), set(), 0, 0
+    moments, kills, renders = random.Random(arguments.seed), 0, 0
     while kills < arguments.kills:
-        kills += render_with_kills(program, folder, moments, longest, killed)
+        kills += render_with_kills(program, folder, moments, longest)
         renders += 1
         if (folder / "killed.exr").read_bytes() != whole.read_bytes():
             raise Failure(f"after {kills} kills the picture of render {renders} differs from that of an uninterrupted render")
-        if left := left_temporaries(folder, killed):
+        if left := left_temporaries(folder):
             raise Failure(f"left behind: {', '.join(map(str, left))}")
     print(f"kill test: {renders} renders survived {kills} kills with the same bits")
 

@@ -9,9 +9,10 @@ kScene = kRoot / "scenes/cornell-spheres/square-lamp-2.pbrt"
 # Many short passes, with a checkpoint after each, so that kills hit every phase and the writing of files, too.
 kOptions = ["--width", "120", "--spp", "16", "--photons", "320k", "--passes", "16", "--alpha", "0.8", "--aov", "all", "-q"]
 kEach = ["--checkpoint-every", "0.01s"]
-# A file that is not complete yet: .NAME.PID-NUMBER.partial.SUFFIX (core/files/pending_file.h). That of a checkpoint has no number,
-# so that the next one takes its place.
-kTemporary = re.compile(r"\..*?(?:\.(\d+)-\d+)?\.partial(\..*)?")
+# A file that is not complete yet (core/files/pending_file.h) or the lock of a checkpoint or of a sweep (core/files/file_lock.h).
+# Those of killed processes do not stay: files have no name before they are complete, and who writes a checkpoint next removes
+# what there is of it.
+kTemporary = re.compile(r"\..*\.partial|\.(.*\.)?lock")
 
 
 class Failure(Exception):
@@ -25,10 +26,9 @@ def render_whole(program, picture, options=kOptions):
     return time.monotonic() - begun
 
 
-def render_with_kills(program, folder, random, longest, killed, options=kOptions):
+def render_with_kills(program, folder, random, longest, options=kOptions):
     """Renders folder/killed.exr with a checkpoint, kills the process after up to `longest` seconds (later more, so
-    that it ends on a busy machine), resumes, and so on until one lives long enough. Returns the number of kills, and adds
-    the numbers of the killed processes to `killed`."""
+    that it ends on a busy machine), resumes, and so on until one lives long enough. Returns the number of kills."""
     checkpoint, picture, kills = folder / "killed.kpart", folder / "killed.exr", 0
     for file in (checkpoint, picture):
         file.unlink(missing_ok=True)
@@ -41,7 +41,6 @@ def render_with_kills(program, folder, random, longest, killed, options=kOptions
         except subprocess.TimeoutExpired:
             process.kill()
             process.communicate()
-            killed.add(process.pid)
             kills += 1
             continue
         if process.returncode != 0:
@@ -49,7 +48,6 @@ def render_with_kills(program, folder, random, longest, killed, options=kOptions
         return kills
 
 
-def left_temporaries(folder, killed):
-    """Temporary files below the folder that no killed process can have left."""
-    found = ((file, kTemporary.fullmatch(file.name)) for file in folder.rglob(".*"))
-    return [file for file, name in found if name and int(name[1] or 0) not in killed]
+def left_temporaries(folder):
+    """Temporary files and locks below the folder, in which no process works."""
+    return [file for file in folder.rglob(".*") if kTemporary.fullmatch(file.name)]
