@@ -12,7 +12,8 @@ namespace kaustik::app {
 
 namespace {
 
-constexpr int kFormat = 1;  // incremented when readers of the old format would misread the new one
+constexpr int kMostLevels = 64;  // of a JSON text: our files have six
+constexpr int kFormat = 1;       // incremented when readers of the old format would misread the new one
 
 template <size_t N>
 Json spreads_json(const std::array<Spread, N>& spreads, const std::array<std::string_view, N>& names) {
@@ -179,9 +180,20 @@ std::string bench_json(const BenchResult& result) {
   return out.dump(2) + "\n";
 }
 
+Json parse_json(const std::string& text) {
+  bool deep = false;
+  const auto see_level = [&](int level, Json::parse_event_t, const Json&) {
+    deep = deep || level > kMostLevels;
+    return true;
+  };
+  Json json = Json::parse(text, see_level, false);
+  if (json.is_discarded()) throw std::runtime_error("it is not valid JSON");
+  if (deep) throw std::runtime_error(fmt::format("it is nested deeper than {} levels", kMostLevels));
+  return json;
+}
+
 BenchResult bench_from_json(const std::string& text) {
-  const Json in = Json::parse(text, nullptr, false);
-  if (in.is_discarded()) throw std::runtime_error("it is not valid JSON");
+  const Json in = parse_json(text);
   whole(in, "kaustik_bench", kFormat, kFormat);
   BenchResult result;
   result.version = text_of(in, "version");

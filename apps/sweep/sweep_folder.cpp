@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 
+#include "apps/bench/bench_json.h"
 #include "apps/console/exit_error.h"
 #include "apps/session/files/output_files.h"
 #include "apps/sweep/sweep_files.h"
@@ -88,8 +90,12 @@ std::string SweepFolder::key(const Json& own) const {
 std::optional<Json> SweepFolder::read(const std::string& name) const {
   std::ifstream file(path(name), std::ios::binary);
   if (!file) return std::nullopt;
-  Json json = Json::parse(file, nullptr, false);
-  return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  try {
+    return parse_json(text);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 std::optional<SweepCell> SweepFolder::find(const std::string& key, const Console& console) const {
