@@ -103,6 +103,6 @@ function(kaustik_test_program name folder sources)
   target_compile_definitions(${name} PRIVATE
     KAUSTIK_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     KAUSTIK_SCENES_DIR="${PROJECT_SOURCE_DIR}/scenes"
-    KAUSTIK_TEST_OUTPUT_DIR="${CMAKE_CURRENT_BINARY_DIR}/output")
+    KAUSTIK_TEST_OUTPUT_DIR="${PROJECT_BINARY_DIR}/tests/output")
   gtest_discover_tests(${name} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -119,7 +119,7 @@ std::optional<DecodedImage> decode_image(const std::string& path, const ImageEnc
   const bool grey = channels[0] == channels[1];
   std::vector<float> values;
   if (!read_values(*in, channels, grey, values)) {
-    error = unreadable(path, in->geterror());
+    error = unreadable(path, reason_of(*in));
     return std::nullopt;
   }
   const bool bytes = spec.format == OIIO::TypeDesc::UINT8;

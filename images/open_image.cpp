@@ -93,8 +93,13 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::Imag
   in->threads(1);  // otherwise the library starts a thread pool of its own
   configuration.attribute("oiio:UnassociatedAlpha", 1);
   OIIO::ImageSpec spec;
-  if (!in->open(path, spec, configuration)) return fail(in->geterror());
+  if (!in->open(path, spec, configuration)) return fail(reason_of(*in));
   return in;
+}
+
+std::string reason_of(const OIIO::ImageInput& in) {
+  std::string reason = in.geterror();
+  return reason.empty() ? "the file is damaged or truncated" : reason;
 }
 
 }  // namespace kaustik::images

@@ -19,4 +19,7 @@ std::string format_of(const std::string& path);
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::ImageSpec configuration,
                                              std::string& error);
 
+// Why the reader has failed: its own message, or another in its place, since some readers fail without one.
+std::string reason_of(const OIIO::ImageInput& in);
+
 }  // namespace kaustik::images

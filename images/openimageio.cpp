@@ -151,7 +151,7 @@ class OpenImageIo final : public render::ImageFormats {
                      {},         texts_of(spec), part_of(spec)};
     out.values.resize(out.count() * size_t(count));
     if (!in->read_image(0, 0, first, first + count, OIIO::TypeDesc::FLOAT, out.values.data()))
-      return fail(in->geterror());
+      return fail(reason_of(*in));
     return out;
   }
 
@@ -174,7 +174,7 @@ class OpenImageIo final : public render::ImageFormats {
     for (size_t c = 0; c < chosen.size(); ++c)
       if (!in->read_image(0, 0, chosen[c], chosen[c] + 1, OIIO::TypeDesc::FLOAT, out.values.data() + c,
                           OIIO::stride_t(chosen.size() * sizeof(float))))
-        return fail(in->geterror());
+        return fail(reason_of(*in));
     return out;
   }
 

@@ -9,6 +9,11 @@ namespace kaustik::app {
 // Replaces bytes that are not UTF-8: paths may hold such bytes, but JSON, SVG and HTML may not.
 std::string utf8(const std::string& text);
 
+// The value of a JSON text. Throws std::runtime_error if the text is not valid JSON, or nested deeper than
+// any file of ours: values are copied, compared and written by functions that call themselves for each level,
+// so that a deep one would take the whole stack.
+Json parse_json(const std::string& text);
+
 // Converts a spread to JSON, and reads the member `key` of an object back. Throws std::runtime_error when it
 // is not a valid spread.
 Json spread_json(const Spread& spread);

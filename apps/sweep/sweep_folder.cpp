@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "apps/bench/bench_json.h"
 #include "apps/console/exit_error.h"
 #include "apps/session/files/output_files.h"
 #include "apps/sweep/sweep_files.h"
@@ -85,9 +86,8 @@ std::string SweepFolder::key(const Json& own) const {
 std::optional<Json> SweepFolder::read(const std::string& name) const {
   constexpr uint64_t kLargest = uint64_t{1} << 30;  // bytes
   try {
-    Json json = Json::parse(read_file(path(name), kLargest), nullptr, false);
-    return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
-  } catch (const FileError&) {
+    return parse_json(read_file(path(name), kLargest));
+  } catch (const std::runtime_error&) {  // a FileError, too
     return std::nullopt;
   }
 }

@@ -74,7 +74,7 @@ std::optional<HttpResponse> refusal(HttpRequest* request, const PageAddress& add
       return error_response(403, "this page answers to 127.0.0.1 and localhost only");
   } else {
     const size_t end = std::min(path.find('/', 1), path.size());
-    if (path.empty() || !same_token(std::string_view(path).substr(1, end - 1), address.token))
+    if (!path.starts_with('/') || !same_token(std::string_view(path).substr(1, end - 1), address.token))
       return error_response(403, "the address of this page has a token, which is wrong or missing here");
     // The page's own requests are relative to this folder.
     if (end == path.size()) return HttpResponse{308, "", "", {{"Location", path + "/"}}};

@@ -321,6 +321,19 @@ TEST_F(BenchCommand, DamagedResultsAreRefusedNamingTheField) {
   EXPECT_THAT(refused("/machine", "mine"), HasSubstr("\"machine\": expected"));
 }
 
+// Functions that copy values call themselves for each level, and such a file took the whole stack.
+TEST_F(BenchCommand, DeepResultsAreRefused) {
+  std::string text = measured({"--photons", "1k", "--threads", "1", "--repeat", "1"}).dump();
+  const std::string before = "\"counters\":{";
+  ASSERT_NE(text.find(before), text.npos);
+  const size_t levels = 200'000;
+  text.insert(text.find(before) + before.size(),
+              "\"deep\":" + std::string(levels, '[') + std::string(levels, ']') + ",");
+  const Outcome outcome = run_kaustik({"bench", "--from", write("deep.json", text)});
+  EXPECT_EQ(outcome.code, kBadCommandLine);
+  EXPECT_THAT(outcome.err, HasSubstr("nested deeper than 64 levels"));
+}
+
 TEST_F(BenchCommand, AnInterruptWritesNothingAndExitsWith130) {
   const std::string scene = small_scene(film(256, 256));
   std::atomic<bool> stop = false;

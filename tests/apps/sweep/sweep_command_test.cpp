@@ -259,6 +259,12 @@ TEST_F(SweepCommand, RefusesTheFolderOfAnotherSweep) {
   expect_refused(sweep({"--reference-time", "1s"}), "reference");
   small_scene(film(24, 16) + "\n# another");
   expect_refused(sweep(against_file()), "scene: in the folder");
+  // Writing the difference called a function for each level, and took the whole stack.
+  const size_t levels = 200'000;
+  std::string deep = read("out/sweep-of.json");
+  deep.insert(1, "\"scene\":" + std::string(levels, '[') + std::string(levels, ']') + ",");
+  write("out/sweep-of.json", deep);
+  expect_refused(sweep(against_file()), "is damaged");
 }
 
 TEST_F(SweepCommand, BadInputExitsWithTwo) {

@@ -64,7 +64,7 @@ TEST(RequestCheck, OtherMachinesNeedTheToken) {
   EXPECT_EQ(right.path, "/pixels");
   for (const std::string& path :
        {std::string("/pixels"), std::string("/"), std::string(), "/" + open.token + "0/pixels",
-        "/" + open.token.substr(1) + "/pixels", std::string("//pixels")})
+        "/" + open.token.substr(1) + "/pixels", std::string("//pixels"), "." + open.token + "/pixels"})
     EXPECT_FALSE(answers(request("192.168.1.5:4711", {}, {}, path), open)) << path;
   HttpRequest without_slash = request("192.168.1.5:4711", {}, {}, "/" + open.token);
   const auto redirection = refusal(&without_slash, open);

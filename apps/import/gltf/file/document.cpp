@@ -154,6 +154,7 @@ void Document::read_container(std::string_view bytes) {
     }
     at += size;
   }
+  if (!json_) throw FormatError("the header promises no chunk: the JSON is missing");
 }
 
 std::optional<std::string> Document::data_of_uri(const View& uri) {

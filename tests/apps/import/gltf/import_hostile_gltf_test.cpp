@@ -87,6 +87,9 @@ TEST_F(ImportGltf, DamagedContainersAreRefused) {
   EXPECT_THAT(error(write("a.gltf", "{ \"asset\": ")), HasSubstr("its JSON cannot be read"));
   EXPECT_THAT(error(write("a.gltf", std::string(100000, '['))), HasSubstr("its JSON cannot be read"));
   EXPECT_THAT(error(write("a.gltf", "{}")), HasSubstr("it is not glTF 2.0"));
+  std::string empty = glb(json, "");
+  empty.replace(8, 4, std::string("\x0c\0\0\0", 4));  // the length of a file that ends behind its header
+  EXPECT_THAT(error(write("a.glb", empty)), HasSubstr("the JSON is missing"));
   EXPECT_THAT(error(folder_ / "none.glb"), HasSubstr("no such file"));
   EXPECT_THAT(
       error(write(
