@@ -121,7 +121,7 @@ Json counters_json(const RenderStatistics& s) {
 }
 
 std::string statistics_json(const RenderResult& result, const RenderSettings& settings, const Json& shown,
-                            const SceneNeeds& needs, const OuterTimes& times) {
+                            const SceneNeeds& needs, const OuterTimes& times, const Json& memory) {
   const RenderStatistics& s = result.statistics;
   Json out;
   out["version"] = version();
@@ -141,6 +141,7 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
       {"direct", s.direct_radius}, {"caustic", s.caustic_radius}, {"indirect", s.indirect_radius}};
   out["seconds"] = seconds_json(s, times);
   out["peak_memory_bytes"] = peak_memory_bytes();
+  out["memory"] = memory;
   out["dropped_examples"] = Json::array();
   for (const DroppedSample& d : s.dropped_examples) out["dropped_examples"].push_back(d.text());
   out["needs"] = needs_json(needs);

@@ -24,10 +24,10 @@ nlohmann::ordered_json counters_json(const RenderStatistics& statistics);
 
 // The JSON text (UTF-8, indented, ends in a newline): version, seed, settings, plan, counters, seconds per
 // phase, peak memory, radii, the scene's needs and what was left out. 64-bit counts are exact.
-// shown: the settings to list, by name.
+// shown: the settings to list, by name. memory: the forecast of memory, or null.
 std::string statistics_json(const RenderResult& result, const RenderSettings& settings,
                             const nlohmann::ordered_json& shown, const SceneNeeds& needs,
-                            const OuterTimes& times);
+                            const OuterTimes& times, const nlohmann::ordered_json& memory);
 
 // Settings, version, seed and counts for write_film(). Contains nothing that differs between equal renders,
 // so that equal renders give equal files.

@@ -180,7 +180,8 @@ int run_info(const InfoOptions& options, const Console& console) {
   Console quiet = console;
   quiet.quiet = true;  // the report contains what the log would say
   Job job;
-  with_thread_limit(0, console, [&] { job = load_job(options.scene, options.overrides, quiet, false); });
+  with_thread_limit(0, console,
+                    [&] { job = load_job(options.scene, options.overrides, quiet, LoadFor::kDescription); });
   if (options.json) {
     console.out << info_json(options.scene, job).dump(2) << '\n';
   } else {

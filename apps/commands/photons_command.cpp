@@ -127,7 +127,7 @@ int run_photons(const PhotonsOptions& options, const Console& console) {
   const InterruptGuard interrupt;
   Job job;
   with_thread_limit(options.overrides.alone().render.threads, console,
-                    [&] { job = load_job(options.scene, options.overrides, console); });
+                    [&] { job = load_job(options.scene, options.overrides, console, LoadFor::kPhotons); });
   check_names(options, files_of(job));
   int code = kDone;
   with_thread_limit(job.settings.render.threads, console,

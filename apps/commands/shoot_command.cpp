@@ -53,7 +53,7 @@ int run_shoot(const ShootOptions& options, const Console& console) {
   Job job;
   int code = kDone;
   with_thread_limit(options.overrides.alone().render.threads, console, [&] {
-    job = load_job(options.scene, options.overrides, console);
+    job = load_job(options.scene, options.overrides, console, LoadFor::kPhotons);
     check_collisions({{"-o", options.map}}, files_of(job));
     const KeptMaps kept{options.map, {}};
     if (std::exchange(job.settings.render.passes, 1) > 1)

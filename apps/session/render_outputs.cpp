@@ -213,8 +213,9 @@ bool write_outputs(const OutputOptions& options, const Outcome& outcome, render:
   times.total += times.write;
   if (!options.statistics.empty())
     writer.write(options.statistics, [&] {
-      write_text_file(options.statistics, render::statistics_json(result, outcome.settings.render, settings,
-                                                                  outcome.manifest.needs, times));
+      write_text_file(options.statistics,
+                      render::statistics_json(result, outcome.settings.render, settings,
+                                              outcome.manifest.needs, times, outcome.memory));
     });
   report(result, times, console);
   report_error(result, outcome.settings.render, console);

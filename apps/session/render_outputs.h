@@ -1,6 +1,7 @@
 #pragma once
 // Writes the output files and the closing report of the commands that make pictures.
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,8 @@ struct Outcome {
   const render::RenderResult& result;
   const Settings& settings;
   const render::PartialManifest& manifest;
-  LiveRender* live = nullptr;  // shows the final picture, if not null
+  LiveRender* live = nullptr;       // shows the final picture, if not null
+  nlohmann::ordered_json memory{};  // memory_json(), or null
 };
 
 // Writes all files of `options`, partial results only if at least one pass is complete, and the report. The

@@ -18,6 +18,7 @@
 #include "apps/session/stopping/time_plan.h"
 #include "render/camera/pixel_range.h"
 #include "render/film/error_estimate.h"
+#include "render/passes/memory_forecast.h"
 
 namespace kaustik::app {
 
@@ -171,8 +172,17 @@ render::PartialManifest manifest_for_outputs(const Job& job, const RenderSession
   return manifest;
 }
 
-int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, Checkpoint& checkpoint,
-           const StopRule& rule, LiveRender* live, const Console& console) {
+// What `--stats` says of memory; null without it.
+nlohmann::ordered_json memory_of(const Job& job, const accel::Bvh& bvh, const RenderSession& session,
+                                 const render::RenderResult& result) {
+  if (session.outputs.statistics.empty()) return nullptr;
+  const render::RenderInput input{job.scene, bvh, job.settings.render, result.plan, session.views};
+  const bool in_passes = result.sums.totals.pixels().width() > 0;
+  return memory_json(job.memory, in_passes, render::photons_bytes(input, result.sums.shares));
+}
+
+int finish(const Job& job, const accel::Bvh& bvh, const RenderSession& session, RenderOutcome outcome,
+           Checkpoint& checkpoint, const StopRule& rule, LiveRender* live, const Console& console) {
   const render::RenderResult& result = outcome.result;
   const bool stopped = was_stopped(live);
   if (result.cancelled && stopped) console.note(interruption(result, "stopped by a viewer"));
@@ -189,8 +199,9 @@ int finish(const Job& job, const RenderSession& session, RenderOutcome outcome, 
   }
   const render::PartialManifest manifest = manifest_for_outputs(job, session, result.sums, rule.reason());
   report_stop(rule, result, console);
-  const bool written =
-      write_outputs(session.outputs, {result, job.settings, manifest, live}, outcome.times, console);
+  const bool written = write_outputs(
+      session.outputs, {result, job.settings, manifest, live, memory_of(job, bvh, session, result)},
+      outcome.times, console);
   if (checkpoint_written) console.note("wrote " + session.checkpoint.path);
   if (!trouble.empty()) console.error(trouble);
   if (!written) return kFailed;
@@ -266,9 +277,27 @@ std::shared_ptr<LiveRender> make_live(const Job& job) {
                                       camera.width, camera.height);
 }
 
+namespace {
+
+// Forecasts the memory anew, now that the settings are decided, and leaves the rest to photons. Throws
+// std::runtime_error if nothing is left.
+void settle_memory(const RenderSession& session, Job* job) {
+  if (session.bvh) return;  // what made the BVH has forecast its renders
+  render::RenderSettings& settings = job->settings.render;
+  const bool in_passes =
+      writes_sums(session) || session.ranks || settings.passes > 1 || job->settings.stop.any();
+  // A render that fills a time decides later whether to denoise.
+  job->memory = plan_memory(job->scene, settings, job->settings.stop.seconds.has_value());
+  check_memory(job->memory, in_passes);
+  set_photon_memory(job->memory, &settings);
+}
+
+}  // namespace
+
 int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console) {
   int code = kDone;
+  settle_memory(session, &job);
   const std::unique_ptr<FileLock> lock = prepare_sums(job, session);
   with_thread_limit(job.settings.render.threads, console, [&] {
     render::OuterTimes times{.load = job.load_seconds};
@@ -324,7 +353,7 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     if (filled_seconds > 0) job.settings.render.adaptive = float(outcome.result.statistics.adaptive_work);
     if (filled_seconds > 0) report_filled(filled_seconds, job.settings.render, console);
     outcome.times.total = total.seconds();
-    code = finish(job, session, std::move(outcome), checkpoint, rule, live.get(), console);
+    code = finish(job, bvh, session, std::move(outcome), checkpoint, rule, live.get(), console);
     if (!map_written && code == kDone) code = kFailed;
     if (live) live->finish();
   });

@@ -42,6 +42,9 @@ class ImageLibrary {
   // grey. The result is always finite. Thread-safe, and a pure function of its arguments.
   virtual Rgb lookup(uint32_t image, const ImageSampling& sampling, const Point2& st, const Vector2& dstdx,
                      const Vector2& dstdy) const = 0;
+
+  // Bytes that levels and tiles which are made when they are first looked up will take, at most.
+  virtual uint64_t bytes_to_come() const { return 0; }
 };
 
 // The result of loading an image: an index for lookup(), or an error.

@@ -158,6 +158,7 @@ class TextureSet {
   float evaluate_float(uint32_t texture, const TexturePoint& x) const { return evaluate(texture, x).x; }
 
   const ImageLibrary& images() const { return *images_; }
+  uint64_t bytes_to_come() const { return images_ ? images_->bytes_to_come() : 0; }  // see ImageLibrary
   size_t size() const { return nodes_.size(); }
 
  private:

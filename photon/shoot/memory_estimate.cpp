@@ -73,6 +73,11 @@ double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use)
   return kMap * (all - largest) + kBuilt * largest;
 }
 
+uint64_t forecast_bytes(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
+                        PhotonUse use, uint64_t guided) {
+  return static_cast<uint64_t>(peak_bytes(estimate_all(scene, bvh, settings, guided), use));
+}
+
 void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,
                   uint64_t limit, uint64_t guided) {
   const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);

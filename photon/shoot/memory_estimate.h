@@ -21,10 +21,14 @@ std::array<double, kPhotonKinds> estimate_stored(const Scene& scene, const accel
 // Peak memory in bytes for this many stored photons of each kind.
 double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use);
 
+// Peak memory in bytes of a shoot, from a small one. guided: caustic photons that guided emission may leave
+// in place of this shoot's.
+uint64_t forecast_bytes(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
+                        PhotonUse use, uint64_t guided = 0);
+
 // Throws std::runtime_error when the photons will need more than `limit` bytes, or when a map would hold more
 // than it can index; the message says how much, and how many photons to emit at most. Traces the small shoot
-// only if the upper bound of stored photons does not fit. guided: caustic photons that guided emission may
-// leave in place of this shoot's.
+// only if the upper bound of stored photons does not fit. guided: see forecast_bytes().
 void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,
                   uint64_t limit, uint64_t guided = 0);
 

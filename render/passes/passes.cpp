@@ -14,6 +14,27 @@
 
 namespace kaustik::render {
 
+namespace {
+
+// What several passes leave to the photons of each.
+uint64_t memory_in_passes(const RenderSettings& settings) {
+  return settings.photon_memory - std::min(settings.photon_memory, settings.sums_memory);
+}
+
+[[noreturn]] void refuse_sums(const RenderSettings& settings) {
+  constexpr double kMegabyte = 1e6;
+  throw std::runtime_error(
+      fmt::format("not enough memory: {} photons do not fit into the {:.0f} MB that a single pass leaves to "
+                  "them, and the "
+                  "sums that several passes keep take {:.0f} MB: emit fewer photons, or render a smaller "
+                  "picture or parts "
+                  "of it",
+                  settings.photons, double(settings.photon_memory) / kMegabyte,
+                  double(settings.sums_memory) / kMegabyte));
+}
+
+}  // namespace
+
 uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSettings& settings,
                        EstimatorPlan* plan) {
   if (settings.passes > 0) {
@@ -21,14 +42,22 @@ uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSe
       throw std::invalid_argument("there must be at least as many photons as passes");
     const PassShare each = pass_share(0, settings.passes, settings.photons, settings.spp);
     photon::check_memory(scene, bvh, trace_settings(settings, *plan, each), photon::PhotonUse::kMaps,
-                         settings.photon_memory, guided_photons(settings, *plan, each.photons));
+                         settings.passes > 1 ? memory_in_passes(settings) : settings.photon_memory,
+                         guided_photons(settings, *plan, each.photons));
     return settings.passes;
   }
   if (!kinds_needed(*plan).any()) return 1;
   const PassShare whole = pass_share(0, 1, settings.photons, settings.spp);
-  const uint64_t passes =
-      photon::shoots_that_fit(scene, bvh, trace_settings(settings, *plan, whole), settings.photon_memory,
-                              guided_photons(settings, *plan, whole.photons));
+  const auto passes_in = [&](uint64_t memory) {
+    return photon::shoots_that_fit(scene, bvh, trace_settings(settings, *plan, whole), memory,
+                                   guided_photons(settings, *plan, whole.photons));
+  };
+  uint64_t passes = passes_in(settings.photon_memory);
+  if (passes > 1 && settings.sums_memory > 0) {
+    const uint64_t left = memory_in_passes(settings);
+    if (left == 0) refuse_sums(settings);
+    passes = passes_in(left);
+  }
   if (passes > kMostPasses) {  // each takes a sample of each pixel
     throw std::runtime_error(fmt::format(
         "{} photons would need {} passes to fit into memory, which is too many", settings.photons, passes));

@@ -66,8 +66,11 @@ struct RenderSettings {
   // Number of passes among which photons and spp are divided; 0: as many as are needed for the photons of one
   // pass to fit into photon_memory.
   uint64_t passes = 0;
-  // Bytes that the photons of a pass may take while they are shot and their maps are built.
-  uint64_t photon_memory = std::numeric_limits<uint64_t>::max();
+  // Bytes that the process may hold in all; 0: as many as the system leaves it.
+  uint64_t memory = 0;
+  // Bytes that the photons of a pass may take while they are shot and their maps are built: what is left of
+  // `memory` in a render of one pass, and how much less it is in a render of several, which keeps sums.
+  uint64_t photon_memory = std::numeric_limits<uint64_t>::max(), sums_memory = 0;
 };
 
 // The name in `aov` of the layers and halves that denoisers read.

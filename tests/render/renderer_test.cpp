@@ -263,7 +263,8 @@ TEST(Statistics, JsonContainsTheCounts) {
   times.total = 3;
   nlohmann::ordered_json shown;
   shown["direct"] = "lecture";
-  const auto json = nlohmann::json::parse(statistics_json(result, settings, shown, scene.needs, times));
+  const auto json =
+      nlohmann::json::parse(statistics_json(result, settings, shown, scene.needs, times, nullptr));
   EXPECT_EQ(json["seed"].get<uint64_t>(), settings.seed);
   EXPECT_EQ(json["photons"]["emitted"].get<uint64_t>(), 20'000u);
   EXPECT_EQ(json["pass_ranges"], "0:1");

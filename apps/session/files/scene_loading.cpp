@@ -6,14 +6,10 @@
 #include <cmath>
 
 #include "apps/console/exit_error.h"
-#include "apps/machine/launched.h"
-#include "apps/machine/usable_memory.h"
 #include "apps/session/files/dark_scene.h"
 #include "apps/session/files/wide_radius.h"
 #include "core/parallel/work_span.h"
 #include "core/stopwatch.h"
-#include "render/camera/pixel_range.h"
-#include "render/film/film_totals.h"
 
 namespace kaustik::app {
 
@@ -100,18 +96,13 @@ SceneDescription view_of(const SceneDescription& scene) {
   return view;
 }
 
-// Bytes that the film of a pass, the totals and the final picture take. Ranks keep sums several times: those
-// of all passes, those of the present one, and those that are sent or received.
-uint64_t film_of(const Job& job) {
-  const uint64_t sums = launched().ranks > 1 ? 5 : 1;
-  const uint64_t pixels = render::rendered_range(job.settings.render.crop, job.scene.camera).pixels();
-  return pixels *
-         (sizeof(render::PixelSum) + sums * sizeof(render::PixelTotals) + sizeof(render::PixelResult));
-}
-
-uint64_t memory_beside(uint64_t bytes) {
-  const uint64_t usable = usable_memory();
-  return usable - std::min(usable, bytes);
+// Forecasts what the job takes, and leaves the rest of the memory to photons.
+void settle_memory(LoadFor use, Job* job) {
+  render::RenderSettings& settings = job->settings.render;
+  job->memory = plan_memory(job->scene, settings);
+  if (use != LoadFor::kPictures) job->memory.film = job->memory.sums = 0;
+  if (use != LoadFor::kDescription) check_memory(job->memory, settings.passes > 1);
+  set_photon_memory(job->memory, &settings);
 }
 
 }  // namespace
@@ -140,10 +131,10 @@ std::vector<NamedFile> files_of(const Job& job) {
 }
 
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console,
-             bool texture_pixels) {
+             LoadFor use) {
   const PhaseWatch watch;
   ImportOptions options = import_options_of(overrides.alone());
-  options.texture_pixels = texture_pixels;
+  options.texture_pixels = use != LoadFor::kDescription;
   Diagnostics diagnostics;
   std::optional<pbrt::LoadedScene> loaded = pbrt::load_scene(path, diagnostics, options);
   if (!loaded) report_broken_scene(path, options, diagnostics, console);
@@ -164,7 +155,7 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
   overrides.apply(job.settings);
   resolve_size(file, job.settings.render, job.scene.camera);
   resolve_crop(file, overrides, job.scene.camera, job.settings.render, console);
-  job.settings.render.photon_memory = memory_beside(film_of(job));
+  settle_memory(use, &job);
   job.settings.render.width = job.scene.camera.width;
   job.settings.render.height = job.scene.camera.height;
   if (const std::string why = why_wide(job.scene, job.settings.render); !why.empty()) console.warning(why);

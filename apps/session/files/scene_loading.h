@@ -7,6 +7,7 @@
 #include "apps/console/console.h"
 #include "apps/import/import_scene.h"
 #include "apps/session/files/collisions.h"
+#include "apps/session/files/memory_plan.h"
 #include "apps/settings/scene_settings.h"
 #include "apps/settings/setting_options.h"
 
@@ -22,15 +23,20 @@ struct Job {
   SceneDescription view;
   bool fixed_screen_window = false;  // see SceneSettings
   double load_seconds = 0;
+  MemoryPlan memory{};
   std::vector<std::string> files;  // every file that was read
 };
+
+// What a scene is loaded for: its description alone, without the pixels of its textures; photons that are
+// written and not rendered; or pictures.
+enum class LoadFor { kDescription, kPhotons, kPictures };
 
 // Loads and checks a scene file. The command line's settings override the file's, which override the
 // defaults. Warnings go to the console, and the log names the settings that the file makes. Throws ExitError:
 // bad scene, after printing every error of the file, or bad command line when the crop does not fit the
-// image. texture_pixels: see ImportOptions.
+// image. Throws std::runtime_error if there is not enough memory for pictures.
 Job load_job(const std::string& path, const SettingOverrides& overrides, const Console& console,
-             bool texture_pixels = true);
+             LoadFor use = LoadFor::kPictures);
 
 // The files of a scene as inputs for check_collisions().
 std::vector<NamedFile> files_of(const Job& job);

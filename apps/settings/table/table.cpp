@@ -265,6 +265,18 @@ void add_photons(std::vector<Setting>& table) {
                         "Most reflections and refractions of a photon or path."));
 }
 
+Setting memory_setting() {
+  Setting s = count("memory", kAllThatTrace | SettingsCommand::kResume, "bytes", &RenderSettings::memory, 0,
+                    kMaxUint64, "0 (what the system leaves)",
+                    "Most memory that the process takes, such as 2G: for the scene, its BVH, the film and "
+                    "photons, which are divided into passes that fit. 0: what the machine, the control group "
+                    "and `ulimit` leave.");
+  s.value_name = "BYTES";
+  s.decides_sums = false;
+  s.in_scene_files = false;
+  return s;
+}
+
 void add_image(std::vector<Setting>& table) {
   table.push_back(count("spp", kRenderAndBench, "samples", &RenderSettings::spp, 1, kMaxInt, {},
                         "Camera samples per pixel."));
@@ -279,6 +291,7 @@ void add_image(std::vector<Setting>& table) {
       "Most threads that the process uses: at most four for each core, or 64. The image does not depend on "
       "it."));
   table.back().decides_sums = false;
+  table.push_back(memory_setting());
   table.push_back(count("width", kAllThatTrace, "pixels", &RenderSettings::width, 0, 65535, "0 (the scene's)",
                         "Image width. If it is given alone, the height keeps the aspect ratio."));
   table.push_back(count("height", kAllThatTrace, "pixels", &RenderSettings::height, 0, 65535,
@@ -301,7 +314,7 @@ constexpr std::array<std::string_view, 10> kOfPhotons = {
 constexpr std::array<std::string_view, 4> kOfEstimators = {"method", "direct", "caustics", "indirect"};
 
 // What `kaustik shoot` takes besides: the camera, for which photons are guided, among others.
-constexpr std::array<std::string_view, 8> kShooting = {"width", "height",  "camera",  "look-at",
+constexpr std::array<std::string_view, 9> kShooting = {"width", "height",  "camera",  "look-at", "memory",
                                                        "fov",   "quality", "threads", "frame"};
 
 bool among_names(std::span<const std::string_view> names, std::string_view name) {

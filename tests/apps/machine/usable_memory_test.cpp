@@ -2,6 +2,10 @@
 
 #include "apps/machine/usable_memory.h"
 
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <limits>
 
 #include "tests/apps/support/program.h"
@@ -15,7 +19,12 @@ class UsableMemory : public test::ProgramTest {
     std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
     write(name, text);
   }
-  uint64_t usable() const { return usable_memory(path("")); }
+  uint64_t usable() const { return usable_memory(path("")).bytes; }
+  std::string source() const { return usable_memory(path("")).source; }
+  // The process holds `pages` pages, beside 100 of files.
+  void hold(uint64_t pages) const {
+    put("proc/self/statm", fmt::format("5000 {} 100 30 0 600 0\n", pages + 100));
+  }
 };
 
 constexpr const char* kMeminfo =
@@ -51,6 +60,46 @@ TEST_F(UsableMemory, VersionOneHasAHierarchyOfItsOwn) {
   EXPECT_EQ(usable(), 6000u * 1024);
   put("sys/fs/cgroup/memory/docker/memory.limit_in_bytes", "2000000\n");
   EXPECT_EQ(usable(), 2000000u);
+}
+
+TEST_F(UsableMemory, HoldsWhatTheProcessHasAlready) {
+  put("proc/meminfo", kMeminfo);
+  hold(1000);
+  const auto page = uint64_t(sysconf(_SC_PAGESIZE));
+  EXPECT_EQ(held_memory(path("")), 1000 * page);
+  EXPECT_EQ(usable(), 6000u * 1024 + 1000 * page);
+  EXPECT_EQ(source(), "the memory of the machine");
+}
+
+// Of 50 MB the group takes 20: 5 are cached files, 4 this process's own, and the rest that of others.
+TEST_F(UsableMemory, OthersInTheGroupTakeTheirPart) {
+  put("proc/meminfo", "MemAvailable:   60000000 kB\n");
+  put("proc/self/mountinfo", "30 23 0:26 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw\n");
+  put("proc/self/cgroup", "0::/\n");
+  hold(4'000'000 / uint64_t(sysconf(_SC_PAGESIZE)));
+  const uint64_t held = held_memory(path(""));
+  put("sys/fs/cgroup/memory.max", "50000000\n");
+  put("sys/fs/cgroup/memory.current", "20000000\n");
+  put("sys/fs/cgroup/memory.stat", "anon 15000000\nfile 5000000\nfile_mapped 1000\n");
+  EXPECT_EQ(usable(), 50'000'000u - (20'000'000u - 5'000'000u - held));
+  EXPECT_EQ(source(), "the control group");
+}
+
+// The child has no files of its own in the folder but statm, so that only the limit counts.
+TEST_F(UsableMemory, IsAtMostWhatUlimitLeaves) {
+  hold(1000);
+  EXPECT_EXIT(
+      {
+        rlimit limit{};
+        limit.rlim_cur = limit.rlim_max = rlim_t{1} << 30;
+        setrlimit(RLIMIT_AS, &limit);
+        const MemoryLimit usable = usable_memory(path(""));
+        const auto page = uint64_t(sysconf(_SC_PAGESIZE));
+        const bool right =
+            usable.bytes < (uint64_t{1} << 30) - 5000 * page && usable.bytes > (uint64_t{1} << 29);
+        std::_Exit(right && usable.source == "`ulimit -v`" ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -95,6 +95,24 @@ TEST(Passes, FollowTheMemoryLimit) {
                           [](const std::string& note) { return note.find("passes") != std::string::npos; }));
 }
 
+// Sums of several passes take memory that the photons of one pass could have.
+TEST(Passes, SumsLeaveLessToPhotons) {
+  const Scene scene = cornell(8);
+  const accel::Bvh bvh(scene);
+  RenderSettings settings = settings_of(Method::kPhoton, 1, 0.15f, 1);
+  settings.photons = 10'000'000;
+  EstimatorPlan plan = make_plan(settings, scene.needs);
+  settings.photon_memory = 100'000'000;
+  const uint64_t alone = choose_passes(scene, bvh, settings, &plan);
+  ASSERT_GT(alone, 1u);
+  settings.sums_memory = 50'000'000;  // half
+  EXPECT_NEAR(double(choose_passes(scene, bvh, settings, &plan)), 2 * double(alone), 1);
+  settings.sums_memory = 100'000'000;
+  EXPECT_THROW(choose_passes(scene, bvh, settings, &plan), std::runtime_error);
+  settings.photon_memory = std::numeric_limits<uint64_t>::max();
+  EXPECT_EQ(choose_passes(scene, bvh, settings, &plan), 1u);  // which keeps none
+}
+
 TEST(Passes, SameBitsForAnyNumberOfThreads) {
   const Scene scene = cornell(kSize);
   RenderSettings settings = settings_of(Method::kAuto, 4, 0.15f, 1);

@@ -1,0 +1,107 @@
+#include "apps/session/files/memory_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "accel/bvh_memory.h"
+#include "apps/machine/launched.h"
+#include "apps/machine/peak_memory.h"
+#include "apps/machine/usable_cores.h"
+#include "render/camera/pixel_range.h"
+#include "render/passes/memory_forecast.h"
+
+namespace kaustik::app {
+
+namespace {
+
+// Measured: what Embree and oneTBB hold before they have anything to do. OpenImageIO is part of what the
+// process holds: it is loaded for textures, and when the names of output files are checked.
+constexpr uint64_t kLibraries = 12u << 20;
+// Buffers of samples and photons.
+constexpr uint64_t kThread = 2u << 20;
+// Ranks keep the sums of all passes, those of the present one, and those that are sent or received.
+constexpr uint64_t kSumsOfRank = 5;
+
+MemoryLimit limit_of(const render::RenderSettings& settings) {
+  return settings.memory > 0 ? MemoryLimit{settings.memory, "--memory"} : usable_memory();
+}
+
+std::string size_text(uint64_t bytes) {
+  const double size = static_cast<double>(bytes);
+  return size < 1e9 ? fmt::format("{:.3g} MB", size / 1e6) : fmt::format("{:.3g} GB", size / 1e9);
+}
+
+// A part in words, and what makes it smaller.
+struct PartInWords {
+  uint64_t bytes;
+  std::string part, remedy;
+};
+
+PartInWords largest_part(const MemoryPlan& plan, bool in_passes) {
+  const std::array parts = {
+      PartInWords{plan.scene, "the program and the scene as it was read", ""},
+      PartInWords{plan.bvh + plan.surfaces, "the BVH and the edges of its primitives", ""},
+      PartInWords{plan.film + (in_passes ? plan.sums : 0),
+                  fmt::format("the film, whose picture has {} x {} pixels", plan.width, plan.height),
+                  ": render a smaller picture, or parts of it by --crop"}};
+  return *std::max_element(parts.begin(), parts.end(),
+                           [](const auto& a, const auto& b) { return a.bytes < b.bytes; });
+}
+
+}  // namespace
+
+uint64_t MemoryPlan::total(bool in_passes) const {
+  return scene + bvh + surfaces + film + (in_passes ? sums : 0) + libraries;
+}
+
+MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise) {
+  render::RenderSettings decided = settings;
+  decided.denoise = settings.denoise.value_or(may_denoise);
+  const int threads = settings.threads > 0 ? settings.threads : core_limits().usable();
+  const uint64_t pixels = render::rendered_range(settings.crop, scene.camera).pixels();
+  const uint64_t copies = launched().ranks > 1 ? kSumsOfRank : 1;
+  return {.limit = limit_of(settings),
+          .scene = held_memory() + (scene.textures ? scene.textures->bytes_to_come() : 0),
+          .bvh = accel::forecast_bytes(scene),
+          .surfaces = render::surfaces_bytes(scene, settings),
+          .film = pixels * render::film_bytes_per_pixel(decided),
+          .width = scene.camera.width,
+          .height = scene.camera.height,
+          .sums = pixels * copies * render::sums_bytes_per_pixel(decided),
+          .libraries = kLibraries + uint64_t(threads) * kThread};
+}
+
+void set_photon_memory(const MemoryPlan& plan, render::RenderSettings* settings) {
+  settings->photon_memory = plan.limit.bytes - std::min(plan.limit.bytes, plan.total(false));
+  settings->sums_memory = plan.sums;
+}
+
+void check_memory(const MemoryPlan& plan, bool in_passes) {
+  const uint64_t total = plan.total(in_passes);
+  if (total <= plan.limit.bytes) return;
+  const PartInWords largest = largest_part(plan, in_passes);
+  throw std::runtime_error(fmt::format(
+      "not enough memory: the render needs about {} without photons, but {} allows {}; most of it, {}, is "
+      "for {}{}",
+      size_text(total), plan.limit.source, size_text(plan.limit.bytes), size_text(largest.bytes),
+      largest.part, largest.remedy));
+}
+
+nlohmann::ordered_json memory_json(const MemoryPlan& plan, bool in_passes, uint64_t photons) {
+  return {{"limit_bytes", plan.limit.bytes},
+          {"limit_by", plan.limit.source},
+          {"forecast_bytes",
+           {{"scene", plan.scene},
+            {"bvh", plan.bvh},
+            {"surfaces", plan.surfaces},
+            {"film", plan.film + (in_passes ? plan.sums : 0)},
+            {"photons", photons},
+            {"libraries", plan.libraries},
+            {"total", plan.total(in_passes) + photons}}},
+          {"peak_bytes", peak_held_memory()}};
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,61 @@
+#include "render/passes/memory_forecast.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "accel/wall_feet.h"
+#include "photon/shoot/memory_estimate.h"
+#include "render/film/error_estimate.h"
+#include "render/film/film_totals.h"
+#include "render/film/halves.h"
+#include "render/maps/photon_shoots.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// Counts of adaptive samples, and rows of an image file that is encoded.
+constexpr uint64_t kOthers = 24;
+
+// Measured. Of a triangle that may be a wall: its box, and nodes of trees over them.
+constexpr uint64_t kWall = 190;
+// Of a triangle while the sides of its mesh are matched. Meshes without smooth parts take up to ten times as
+// much for their edges.
+constexpr uint64_t kSides = 50;
+
+}  // namespace
+
+uint64_t film_bytes_per_pixel(const RenderSettings& settings) {
+  const uint64_t halves = keeps_halves(settings) ? sizeof(HalfSum) + sizeof(HalfMeans) : 0;
+  return sizeof(PixelSum) + sizeof(PixelResult) + halves + kOthers;
+}
+
+uint64_t sums_bytes_per_pixel(const RenderSettings& settings) {
+  const uint64_t halves = keeps_halves(settings) ? sizeof(HalfTotals) : 0;
+  return sizeof(PixelTotals) + sizeof(PixelError) + halves;
+}
+
+uint64_t surfaces_bytes(const Scene& scene, const RenderSettings& settings) {
+  if (!needs_photons(settings, scene.needs)) return 0;
+  std::set<const TriangleMesh*> meshes;
+  for (const Shape& shape : scene.shapes)
+    if (const TriangleMesh* mesh = shape.mesh()) meshes.insert(mesh);
+  std::vector<uint64_t> counts;
+  for (const TriangleMesh* mesh : meshes) counts.push_back(mesh->indices.size());
+  std::sort(counts.begin(), counts.end());
+  uint64_t walls = 0;  // the smallest meshes come first, see find_wall_feet()
+  for (const uint64_t count : counts)
+    if (walls + count <= accel::kMostWallTriangles) walls += count;
+  return kWall * walls + kSides * (counts.empty() ? 0 : counts.back());
+}
+
+uint64_t photons_bytes(const RenderInput& input, uint64_t passes) {
+  const RenderSettings& settings = input.settings;
+  if (!kinds_needed(input.plan).any()) return 0;
+  const PassShare each = pass_share(0, passes, settings.photons, settings.spp);
+  return photon::forecast_bytes(input.scene, input.bvh, trace_settings(settings, input.plan, each),
+                                photon::PhotonUse::kMaps, guided_photons(settings, input.plan, each.photons));
+}
+
+}  // namespace kaustik::render

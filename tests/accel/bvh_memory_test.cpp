@@ -1,0 +1,68 @@
+// Compares the memory that is forecast for a BVH with what Embree reports of it.
+
+#include "accel/bvh_memory.h"
+
+#include <gtest/gtest.h>
+
+#include "accel/bvh.h"
+#include "tests/support/shapes.h"
+
+namespace kaustik::accel {
+namespace {
+
+// A wavy square of n x n cells, two triangles each.
+TriangleMesh grid(uint32_t n) {
+  TriangleMesh mesh;
+  for (uint32_t y = 0; y <= n; ++y)
+    for (uint32_t x = 0; x <= n; ++x)
+      mesh.P.push_back({float(x), float(y), std::sin(0.1f * float(x)) * std::cos(0.2f * float(y))});
+  for (uint32_t y = 0; y < n; ++y)
+    for (uint32_t x = 0; x < n; ++x) {
+      const uint32_t at = y * (n + 1) + x;
+      mesh.indices.push_back({at, at + 1, at + n + 2});
+      mesh.indices.push_back({at, at + n + 2, at + n + 1});
+    }
+  return mesh;
+}
+
+// The forecast is that of the build's peak, so more than what remains, and less than four times that.
+void expect_forecast(Scene scene) {
+  scene.materials = {Lambertian{Rgb(1)}};
+  finalize_scene(scene);
+  const uint64_t forecast = forecast_bytes(scene), empty = forecast_bytes(Scene{});
+  const Bvh bvh(scene);
+  EXPECT_GE(forecast, bvh.memory_bytes());
+  EXPECT_LE(forecast - empty, 4 * bvh.memory_bytes());
+}
+
+TEST(BvhMemory, IsForecastForTriangles) {
+  for (const uint32_t n : {100u, 400u}) {
+    Scene scene;
+    scene.shapes.emplace_back().geometry = grid(n);
+    expect_forecast(std::move(scene));
+  }
+}
+
+TEST(BvhMemory, IsForecastForSpheres) {
+  Scene scene;
+  for (int i = 0; i < 20'000; ++i) {
+    Sphere sphere;
+    sphere.to_world.translation = 3.0f * Point3(float(i % 100), float(i / 100), 0);
+    scene.shapes.emplace_back().geometry = sphere;
+  }
+  expect_forecast(std::move(scene));
+}
+
+TEST(BvhMemory, SharedMeshesCountOnce) {
+  const auto mesh = std::make_shared<const TriangleMesh>(grid(100));
+  Scene scene;
+  for (int i = 0; i < 1000; ++i) {
+    InstancedMesh instance{mesh, {{0, 0, -1}, {100, 100, 1}}, {}};
+    instance.to_world.translation = Point3(200.0f * float(i), 0, 0);
+    scene.shapes.emplace_back().geometry = instance;
+  }
+  expect_forecast(std::move(scene));
+}
+
+}  // namespace
+}  // namespace kaustik::accel

@@ -1,0 +1,82 @@
+// `--memory`: renders keep to it, in as many passes as that takes, or say what takes most of it.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/machine/peak_memory.h"
+#include "apps/machine/usable_memory.h"
+#include "tests/apps/support/program.h"
+
+namespace kaustik::app {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string kScene = KAUSTIK_SCENES_DIR "/cornell-spheres/square-lamp-2.pbrt";
+constexpr uint64_t kMegabyte = 1'000'000;
+
+class Memory : public test::ProgramTest {
+ protected:
+  // Renders the scene with this much more memory than the process has now.
+  test::Outcome render(uint64_t megabytes, std::vector<std::string> options) const {
+    restart_peak_memory();
+    const uint64_t bytes = held_memory() + megabytes * kMegabyte;
+    options.insert(options.begin(), {"render", kScene, "--spp", "1", "--memory", std::to_string(bytes), "-o",
+                                     path("a.exr"), "--stats", path("a.json")});
+    return test::run_kaustik(options);
+  }
+  json statistics() const { return json::parse(read("a.json")); }
+};
+
+TEST_F(Memory, IsForecastAndKept) {
+  const auto ran = render(400, {"--width", "200", "--photons", "1M"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const json memory = statistics()["memory"], forecast = memory["forecast_bytes"];
+  EXPECT_EQ(memory["limit_by"], "--memory");
+  EXPECT_LE(memory["peak_bytes"], memory["limit_bytes"]);
+  EXPECT_LE(memory["peak_bytes"], forecast["total"]);
+  uint64_t parts = 0;
+  for (const char* part : {"scene", "bvh", "surfaces", "film", "photons", "libraries"})
+    parts += forecast[part].get<uint64_t>();
+  EXPECT_EQ(parts, forecast["total"]);
+}
+
+// Of 160 MB, the film, the sums and the rest take some 110; one pass of ten million photons would take over
+// 500.
+TEST_F(Memory, DividesPhotonsIntoPassesThatFit) {
+  const auto ran = render(160, {"--width", "200", "--photons", "10M"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const json all = statistics(), memory = all["memory"];
+  EXPECT_GT(all["passes_of_settings"], 5);
+  EXPECT_LE(memory["peak_bytes"], memory["limit_bytes"]);
+}
+
+TEST_F(Memory, TooLargeAFilmIsNamedBeforeTheRender) {
+  const auto ran = render(1000, {"--width", "16384", "--height", "16384"});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.err, HasSubstr("--memory allows"));
+  EXPECT_THAT(ran.err,
+              HasSubstr("the film, whose picture has 16384 x 16384 pixels: render a smaller picture"));
+  EXPECT_FALSE(exists("a.exr"));
+  EXPECT_FALSE(exists("a.json"));
+}
+
+// A part of the same picture fits.
+TEST_F(Memory, ACropNeedsItsOwnFilmAlone) {
+  const auto ran = render(
+      200, {"--width", "16384", "--height", "16384", "--crop", "0", "64", "0", "64", "--photons", "10k"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+}
+
+// Only a description is wanted, which needs no film.
+TEST_F(Memory, InfoNeedsNoFilm) {
+  const std::string text =
+      "Film \"rgb\" \"integer xresolution\" 60000 \"integer yresolution\" 60000\n"
+      "Camera \"perspective\"\nWorldBegin\nLightSource \"point\"\nShape \"sphere\"\n";
+  EXPECT_EQ(test::run_kaustik({"info", write("large.pbrt", text)}).code, 0);
+}
+
+}  // namespace
+}  // namespace kaustik::app
