@@ -13,6 +13,7 @@
 #include "apps/session/isa_option.h"
 #include "apps/session/render_session.h"
 #include "apps/session/stopping/fixed_plan.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 

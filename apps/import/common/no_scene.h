@@ -1,9 +1,10 @@
 #pragma once
 // Files that are given as scenes and are none.
 
-#include <filesystem>
 #include <string>
 #include <string_view>
+
+#include "core/files/read_root.h"
 
 namespace kaustik {
 
