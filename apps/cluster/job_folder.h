@@ -27,6 +27,7 @@ struct JobFolder {
   std::string path;
   uint64_t tasks = 0, passes = 0;
   Engine engine = Engine::kSlurm;
+  std::string root = {};  // --root of the tasks, for scripts that are written; empty: none
 
   // The passes of a task: their numbers differ by one at most.
   render::PassSet passes_of(uint64_t task) const;

@@ -50,10 +50,11 @@ std::string task_script(const JobFolder& job) {
              "else\n"
              "  work=(resume start.kpart --pass-range \"$first:$end\" --checkpoint \"$part\")\n"
              "fi\n"
+             "root=({2})\n"
              "threads=()\n"
              "[ -z \"${{SLURM_CPUS_PER_TASK:-}}\" ] || threads=(--threads \"$SLURM_CPUS_PER_TASK\")\n"
              "\"$kaustik\" \"${{work[@]}}\" --checkpoint-every \"${{CHECKPOINT_EVERY:-60s}}\" "
-             "\"${{threads[@]}}\" \"${{isa[@]}}\" "
+             "\"${{threads[@]}}\" \"${{isa[@]}}\" \"${{root[@]}}\" "
              "-q &\n"
              "child=$!\n"
              "stopped=\n"
@@ -70,7 +71,7 @@ std::string task_script(const JobFolder& job) {
              "  scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$task\"\n"
              "fi\n"
              "exit \"$code\"\n",
-             job.tasks, job.passes);
+             job.tasks, job.passes, job.root.empty() ? "" : "--root " + quoted(job.root));
 }
 
 std::string merge_script(const JobFolder& job, const std::vector<std::string>& pictures) {

@@ -42,9 +42,8 @@ std::string text_of(const ConvertOptions& options, const SceneDescription& scene
   SceneTextFiles beside;
   beside.file = [&](const std::string& name, const SourceLocation& where) {
     const fs::path naming(where.valid() ? files.name(where.file) : options.scene);
-    const fs::path path = pbrt::resolve_path(name, naming, options.scene);
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored) ? folder.copy(path) : name;
+    const ReadableFile file = pbrt::find_named_file(files.root(), name, naming, options.scene);
+    return file.exists() ? folder.copy(file) : name;
   };
   beside.mesh = [&](const ShapeDescription& shape) {
     const Parameter* indices = shape.find("indices");

@@ -37,6 +37,7 @@ std::vector<std::string> outputs_of(const RenderOptions& options, const Job& job
   const std::string name = job.scene_output.empty()
                                ? std::filesystem::path(options.scene).stem().string() + ".exr"
                                : job.scene_output;
+  if (!job.scene_output.empty()) check_below_root(options.overrides.root(), options.scene, name);
   check_image_output(name);
   return {name};
 }
@@ -98,7 +99,7 @@ std::unique_ptr<Ranks> ranks_of(const RenderOptions& options, const Console& con
 int serve_render(const RenderOptions& options, Ranks& ranks, const Console& console) {
   const InterruptGuard interrupt;
   const auto load = [&](const Console& quiet) { return load_job(options.scene, options.overrides, quiet); };
-  return serve_passes(ranks, load, options.overrides.alone().render.threads, interrupt, console);
+  return serve_passes(ranks, load, options.overrides, interrupt, console);
 }
 
 int run_render(const RenderOptions& options, const Console& console) {

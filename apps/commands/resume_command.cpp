@@ -88,8 +88,7 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   const Stopwatch total;
   const std::unique_ptr<Ranks> ranks = join_ranks(options.rank_timeout, console);
   const InterruptGuard interrupt;
-  if (ranks && !ranks->leads())
-    return serve_passes(*ranks, {}, options.overrides.alone().render.threads, interrupt, console);
+  if (ranks && !ranks->leads()) return serve_passes(*ranks, {}, options.overrides, interrupt, console);
   check_outputs(options.outputs);
   const std::string& checkpoint = options.checkpoint.empty() ? options.partial : options.checkpoint;
   check_writable(checkpoint);
@@ -103,7 +102,11 @@ int run_resume(const ResumeOptions& options, const Console& console) {
   session.goal = goal_of(options, part);
   session.outputs = options.outputs;
   session.live = options.live;
-  if (session.outputs.files.empty() && options.only.empty()) session.outputs.files = part.manifest.outputs;
+  if (session.outputs.files.empty() && options.only.empty()) {
+    session.outputs.files = part.manifest.outputs;
+    for (const std::string& file : session.outputs.files)
+      check_below_root(options.overrides.root(), options.partial, file);
+  }
   check_outputs(session.outputs);
   check_collisions(named_files(session.outputs),
                    {{"the checkpoint", checkpoint}, {"the partial result", options.partial}});

@@ -13,6 +13,7 @@
 #include "apps/session/isa_option.h"
 #include "apps/session/render_session.h"
 #include "apps/session/stopping/fixed_plan.h"
+#include "render/settings/names.h"
 
 namespace kaustik::app {
 
@@ -69,7 +70,9 @@ int run_split(const SplitOptions& options, const Console& console) {
     return kInterrupted;
   }
   const std::string stem = std::filesystem::path(options.scene).stem().string();
-  const JobFolder folder{options.folder, options.tasks, sums->shares, options.engine};
+  const std::string& root = options.overrides.root();
+  const JobFolder folder{options.folder, options.tasks, sums->shares, options.engine,
+                         root.empty() ? "" : absolute_path(root)};
   render::write_partial(folder.start(), manifest_of(job, {}, {}, *sums), *sums);
   write_job(folder, {stem + ".exr", stem + ".png"});
   console.note(fmt::format("{}: {} passes in {}; {}/{} starts them", options.folder, grouped(folder.passes),

@@ -67,7 +67,7 @@ Json common_settings(const Settings& settings) {
 
 std::string hash_of_file(const std::string& path) {
   std::string error;
-  const auto bytes = pbrt::read_bytes(path, uint64_t{1} << 36, error);
+  const auto bytes = pbrt::read_bytes(ReadableFile::trusted(path), uint64_t{1} << 36, error);
   if (!bytes) throw ExitError(kBadCommandLine, fmt::format("--reference: {}: {}", path, error));
   ContentHash hash;
   hash.add(*bytes);

@@ -14,11 +14,11 @@ namespace {
 
 constexpr uint64_t kLargestCopy = uint64_t{1} << 36;  // bytes
 
-std::string bytes_of(const fs::path& file) {
+std::string bytes_of(const ReadableFile& file) {
   try {
     return read_file(file, kLargestCopy);
   } catch (const FileError& error) {
-    throw std::runtime_error(fmt::format("cannot copy {}: {}", file.string(), error.what()));
+    throw std::runtime_error(fmt::format("cannot copy {}: {}", file.path().string(), error.what()));
   }
 }
 
@@ -66,14 +66,15 @@ std::string SceneFolder::add_mesh(const std::string& bytes) {
   return name_in_scene(name);
 }
 
-std::string SceneFolder::copy(const fs::path& file) {
+std::string SceneFolder::copy(const ReadableFile& readable) {
+  const fs::path& file = readable.path();
   std::error_code error;
-  const std::string key = fs::weakly_canonical(file, error).string();
+  const std::string key = fs::weakly_canonical(readable.place(), error).string();
   if (const auto found = copied_.find(key); found != copied_.end()) return name_in_scene(found->second);
   std::string name = file.filename().string();
   for (int i = 2; !names_.insert(name).second; ++i)
     name = fmt::format("{}-{}{}", file.stem().string(), i, file.extension().string());
-  add_to_folder(name, bytes_of(file));
+  add_to_folder(name, bytes_of(readable));
   copied_.emplace(key, name);
   return name_in_scene(name);
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/files/pending_file.h"
+#include "core/files/read_root.h"
 
 namespace kaustik::app {
 
@@ -21,7 +22,7 @@ class SceneFolder {
   ~SceneFolder();
 
   // Both return the name to write into the scene. Copying a file again returns the same name.
-  std::string copy(const std::filesystem::path& file);
+  std::string copy(const ReadableFile& readable);
   std::string add_mesh(const std::string& bytes);
   void commit(const std::string& text);
 

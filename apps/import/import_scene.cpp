@@ -66,15 +66,14 @@ std::vector<std::string> files_read(const SourceFiles& files, const NamedContent
   return paths;
 }
 
-std::optional<SceneDescription> import_pbrt(const std::filesystem::path& path, Diagnostics& diagnostics) {
+std::optional<SceneDescription> import_pbrt(const ReadableFile& readable, Diagnostics& diagnostics) {
   SceneFiles files(diagnostics.files);
-  std::string error;
-  const auto file = files.open(path, error);
-  if (!file) {
-    diagnostics.error({}, error);
+  const OpenedText opened = files.open(readable);
+  if (!opened.file) {
+    diagnostics.error({}, opened.error);
     return std::nullopt;
   }
-  return SceneParser(path, files, diagnostics).parse(*file);
+  return SceneParser(readable.path(), files, diagnostics).parse(*opened.file);
 }
 
 // Files of other formats than glTF have at most one camera, without a name.
@@ -84,18 +83,31 @@ void check_only_camera(const SceneDescription& scene, const std::string& asked, 
     diagnostics.error({}, error);
 }
 
-std::optional<SceneDescription> import_format(const std::filesystem::path& path, Diagnostics& diagnostics,
+std::optional<SceneDescription> import_format(const ReadableFile& file, Diagnostics& diagnostics,
                                               const ImportOptions& options) {
-  if (const std::string none = why_no_scene_in(path); !none.empty()) {
+  const std::filesystem::path& path = file.path();
+  if (const std::string none = why_no_scene_in(file); !none.empty()) {
     diagnostics.error({}, fmt::format("cannot read \"{}\": {}", path.string(), none));
     return std::nullopt;
   }
-  if (gltf::is_gltf(path)) return gltf::import_gltf(path, diagnostics, options);
-  auto scene = is_obj(path)         ? import_obj(path, diagnostics)
-               : is_lone_mesh(path) ? import_lone_mesh(path, diagnostics)
-                                    : import_pbrt(path, diagnostics);
+  if (gltf::is_gltf(path)) return gltf::import_gltf(file, diagnostics, options);
+  auto scene = is_obj(path)         ? import_obj(file, diagnostics)
+               : is_lone_mesh(path) ? import_lone_mesh(file, diagnostics)
+                                    : import_pbrt(file, diagnostics);
   if (scene && !options.view.camera.empty()) check_only_camera(*scene, options.view.camera, diagnostics);
   return scene;
+}
+
+// Limits the files that are read to those of --root. False, with an error, if there is no such folder.
+bool set_root(const std::string& folder, Diagnostics& diagnostics) {
+  if (folder.empty()) return true;
+  try {
+    diagnostics.files.root() = ReadRoot(folder, lies_outside(folder));
+    return true;
+  } catch (const FileError& error) {
+    diagnostics.error({}, fmt::format("--root: cannot read the folder \"{}\": {}", folder, error.what()));
+    return false;
+  }
 }
 
 Convention convention_of(const std::filesystem::path& path) {
@@ -107,7 +119,8 @@ Convention convention_of(const std::filesystem::path& path) {
 
 std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
                                              const ImportOptions& options) {
-  auto scene = import_format(path, diagnostics, options);
+  if (!set_root(options.root, diagnostics)) return std::nullopt;
+  auto scene = import_format(diagnostics.files.root().find(path), diagnostics, options);
   if (!scene) return std::nullopt;
   apply_view(*scene, options.view, convention_of(path), diagnostics);
   return scene;
@@ -126,21 +139,21 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& path, Diagnos
   const auto load_with = [&](auto load) {
     return [&, load](const std::string& name, const SourceLocation& where) {
       const std::filesystem::path naming(where.valid() ? diagnostics.files.name(where.file) : path.string());
-      const std::filesystem::path file = resolve_path(name, naming, path);
+      const ReadableFile file = find_named_file(diagnostics.files.root(), name, naming, path);
       std::string content;
       auto result = load(file, &content);
-      named.add(name, std::move(content), file);
+      named.add(name, std::move(content), file.path());
       return result;
     };
   };
-  const auto load_mesh = [colours = shows_vertex_colours(*description)](const std::filesystem::path& file,
+  const auto load_mesh = [colours = shows_vertex_colours(*description)](const ReadableFile& file,
                                                                         std::string* content) {
     return load_ply(file, content, colours);
   };
   SceneTextures textures(options.texture_pixels);
   const auto load_texture = [&](const std::string& name, const SourceLocation& where,
                                 const ImageEncoding& encoding) {
-    const auto load = [&](const std::filesystem::path& file, std::string* content) {
+    const auto load = [&](const ReadableFile& file, std::string* content) {
       return textures.load(file, encoding, content);
     };
     return load_with(load)(name, where);

@@ -58,12 +58,12 @@ bool is_lone_mesh(const std::filesystem::path& path) {
   return extension == ".ply" || extension == ".stl";
 }
 
-std::optional<SceneDescription> import_lone_mesh(const std::filesystem::path& path,
-                                                 Diagnostics& diagnostics) {
+std::optional<SceneDescription> import_lone_mesh(const ReadableFile& file, Diagnostics& diagnostics) {
+  const std::filesystem::path& path = file.path();
   // In place of its bytes the file's hash counts in the hash of the scene.
   std::string content;
   const MeshResult loaded =
-      lower_extension(path) == ".stl" ? load_stl(path, &content) : pbrt::load_ply(path, &content, true);
+      lower_extension(path) == ".stl" ? load_stl(file, &content) : pbrt::load_ply(file, &content, true);
   const SourceLocation where{diagnostics.files.add(path.string(), content), 0, 0};
   if (!loaded.error.empty() || loaded.mesh.indices.empty()) {
     diagnostics.error(where, loaded.error.empty() ? "there are no triangles in this file" : loaded.error);

@@ -15,6 +15,6 @@ namespace kaustik {
 bool is_lone_mesh(const std::filesystem::path& path);
 
 // Nothing, with an error in `diagnostics`, when the file cannot be read or has no triangles.
-std::optional<SceneDescription> import_lone_mesh(const std::filesystem::path& path, Diagnostics& diagnostics);
+std::optional<SceneDescription> import_lone_mesh(const ReadableFile& file, Diagnostics& diagnostics);
 
 }  // namespace kaustik

@@ -19,7 +19,7 @@ namespace {
 
 std::string data_uri(const std::filesystem::path& path) {
   std::string error;
-  const auto bytes = pbrt::read_bytes(path, uint64_t{1} << 30, error);
+  const auto bytes = pbrt::read_bytes(ReadableFile::trusted(path), uint64_t{1} << 30, error);
   if (!bytes) throw std::runtime_error(fmt::format("{}: {}", path.string(), error));
   return "data:image/png;base64," + base64(*bytes);
 }

@@ -104,8 +104,8 @@ void take_settings(const render::PartialManifest& manifest, const SettingOverrid
   overrides.apply(job->settings);
 }
 
-void serve(Worker& worker, const LoadQuietly& load, const std::function<bool()>& go_on,
-           const Console& quiet) {
+void serve(Worker& worker, const LoadQuietly& load, const std::string& root,
+           const std::function<bool()>& go_on, const Console& quiet) {
   Job job;  // stays where it is: the BVH refers to its scene
   std::optional<accel::Bvh> bvh;
   if (load) {
@@ -119,7 +119,8 @@ void serve(Worker& worker, const LoadQuietly& load, const std::function<bool()>&
   if (begin->command_line != command_line())
     refuse("its command line is not that of rank 0, but all ranks share one render");
   check_program(manifest.build, manifest.isa, "rank 0", "their passes cannot be combined");
-  const SettingOverrides overrides = overrides_from(manifest.settings, "rank 0");
+  SettingOverrides overrides = overrides_from(manifest.settings, "rank 0");
+  if (!root.empty()) overrides.set_root(root);
   if (!load) job = load_job(manifest.scene_path, overrides, quiet);
   take_settings(manifest, overrides, &job);
   if (!bvh) bvh.emplace(job.scene, job.settings.render.threads);
@@ -210,15 +211,16 @@ render::RenderResult render_on_ranks(Coordinator& coordinator, const Job& job, c
   return result;
 }
 
-int serve_passes(Ranks& ranks, const LoadQuietly& load, int threads, const InterruptGuard& interrupt,
-                 const Console& console) {
+int serve_passes(Ranks& ranks, const LoadQuietly& load, const SettingOverrides& given,
+                 const InterruptGuard& interrupt, const Console& console) {
   Worker& worker = ranks.worker();
   const auto go_on = [&] { return !interrupt.requested(); };
   std::ostringstream said;
   const Console quiet{said, said, false, true, console.command};
   std::string why;
   try {
-    with_thread_limit(threads, quiet, [&] { serve(worker, load, go_on, quiet); });
+    with_thread_limit(given.alone().render.threads, quiet,
+                      [&] { serve(worker, load, given.root(), go_on, quiet); });
     if (interrupt.requested()) why = "a signal has ended it";
   } catch (const std::bad_alloc&) {
     why = "out of memory";

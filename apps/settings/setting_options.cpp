@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/files/read_root.h"
+
 namespace kaustik::app {
 
 void SettingOverrides::add(const Setting& setting, std::vector<std::string> texts) {
@@ -22,6 +24,16 @@ void SettingOverrides::add(const Setting& setting, std::vector<std::string> text
 
 void SettingOverrides::append(const SettingOverrides& others) {
   given_.insert(given_.end(), others.given_.begin(), others.given_.end());
+  if (!others.root_.empty()) root_ = others.root_;
+}
+
+void SettingOverrides::set_root(std::string folder) {
+  try {
+    const ReadRoot check(folder, {});
+  } catch (const FileError& error) {
+    throw OptionError("--root", fmt::format("cannot read the folder \"{}\": {}", folder, error.what()));
+  }
+  root_ = std::move(folder);
 }
 
 void SettingOverrides::apply(Settings& settings) const {
@@ -36,6 +48,7 @@ void SettingOverrides::apply(Settings& settings) const {
   };
   assign(true);
   assign(false);
+  if (!root_.empty()) settings.import_options.root = root_;
 }
 
 bool SettingOverrides::sets(std::string_view name) const {
@@ -55,9 +68,22 @@ std::string help_text(const Setting& setting) {
   return fmt::format("{} Values{}: {}. Default: {}.", setting.doc, unit, setting.range, setting.default_text);
 }
 
+bool reads_scenes(SettingsCommand command) {
+  return command != SettingsCommand::kMerge && command != SettingsCommand::kDenoise;
+}
+
+void add_root_option(Command& command, SettingOverrides& overrides) {
+  command.add_parsed(
+      "--root", "FOLDER",
+      "For scenes of strangers: read the scene, and the files that it names, only if they lie in "
+      "this folder, and write no file outside it that they name. Links that lead out are refused",
+      [&overrides](const std::string& text) { overrides.set_root(text); });
+}
+
 }  // namespace
 
 void add_setting_options(Command& command, SettingOverrides& overrides, SettingsCommand which) {
+  if (reads_scenes(which)) add_root_option(command, overrides);
   for (const Setting& setting : settings_table()) {
     if (!setting.commands.has(which)) continue;
     Option option;

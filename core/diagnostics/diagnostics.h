@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/diagnostics/source_location.h"
+#include "core/files/read_root.h"
 
 namespace kaustik {
 
@@ -62,6 +63,10 @@ class SourceFiles {
   // The text of a line (counted from one) without its line end; empty when there is no such line.
   std::string_view line(uint32_t file, uint32_t line) const;
 
+  // Which files those that are added may name: all, unless a root is set.
+  const ReadRoot& root() const { return root_; }
+  ReadRoot& root() { return root_; }
+
  private:
   struct File {
     std::string name, text;
@@ -70,6 +75,7 @@ class SourceFiles {
   // An index of every line would need as much memory as half of the text of a mesh.
   static constexpr uint32_t kIndexedLines = 1024;
   std::deque<File> files_;
+  ReadRoot root_;
 };
 
 // Everything that a run reports about its input.

@@ -12,8 +12,6 @@
 
 namespace kaustik {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 std::string next_bytes(InputFile& file, uint64_t size) {
@@ -24,9 +22,11 @@ std::string next_bytes(InputFile& file, uint64_t size) {
 
 }  // namespace
 
-InputFile::InputFile(const fs::path& path) {
+InputFile::InputFile(const ReadableFile& file) {
   // Without O_NONBLOCK a pipe waits here for its writer; regular files do not know the flag.
-  file_ = open_file(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY);
+  constexpr int kFlags = O_RDONLY | O_NONBLOCK | O_NOCTTY;
+  const char* const path = file.place().c_str();
+  file_ = file.without_links() ? open_without_links(path, kFlags) : open_file(path, kFlags);
   if (file_ < 0) throw_file_error(errno);
   struct stat status {};
   const int error = ::fstat(file_, &status) == 0 ? 0 : errno;
@@ -58,14 +58,14 @@ void InputFile::rewind() {
   if (::lseek(file_, 0, SEEK_SET) < 0) throw_file_error(errno);
 }
 
-std::string read_file(const fs::path& path, uint64_t most_bytes) {
-  InputFile file(path);
+std::string read_file(const ReadableFile& readable, uint64_t most_bytes) {
+  InputFile file(readable);
   if (file.size() > most_bytes) throw FileError(fmt::format("more than {} bytes", most_bytes));
   return next_bytes(file, file.size());
 }
 
-std::string read_head(const fs::path& path, size_t size) {
-  InputFile file(path);
+std::string read_head(const ReadableFile& readable, size_t size) {
+  InputFile file(readable);
   return next_bytes(file, std::min<uint64_t>(size, file.size()));
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/files/file_error.h"
+#include "core/files/read_root.h"
 
 namespace kaustik {
 
@@ -16,7 +17,8 @@ inline constexpr const char* kNotRegular = "not a regular file";
 // All functions throw FileError.
 class InputFile {
  public:
-  explicit InputFile(const std::filesystem::path& path);
+  explicit InputFile(const std::filesystem::path& path) : InputFile(ReadableFile::trusted(path)) {}
+  explicit InputFile(const ReadableFile& file);
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
@@ -35,10 +37,13 @@ class InputFile {
 };
 
 // The bytes of a file. Throws FileError, also for a file of more than most_bytes.
-std::string read_file(const std::filesystem::path& path, uint64_t most_bytes);
+std::string read_file(const ReadableFile& file, uint64_t most_bytes);
+inline std::string read_file(const std::filesystem::path& path, uint64_t most_bytes) {
+  return read_file(ReadableFile::trusted(path), most_bytes);
+}
 
 // The first bytes of a file, at most `size`. Throws FileError.
-std::string read_head(const std::filesystem::path& path, size_t size);
+std::string read_head(const ReadableFile& file, size_t size);
 
 // Throws FileError for what exists and is no regular file, before a library opens it by its name. In the
 // header for libraries that programs load, which have none of this folder's code.

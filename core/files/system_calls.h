@@ -19,6 +19,9 @@ void set_system_fault(SystemFault fault);
 // Each returns what the system call of its name returns, and sets errno; those that a signal interrupts are
 // made again. A file that is opened is closed in child processes.
 int open_file(const char* path, int flags, mode_t mode = 0666);
+// Fails if any part of the path is a symbolic link. A kernel older than Linux 5.6 looks at the last part
+// alone.
+int open_without_links(const char* path, int flags);
 ssize_t read_some(int file, void* bytes, size_t size);
 ssize_t write_some(int file, const void* bytes, size_t size);
 int sync_file(int file);

@@ -28,10 +28,15 @@ double at(const ImageNumbers& image, size_t pixel, int channel) {
   return double(image.values[pixel * static_cast<size_t>(channels) + static_cast<size_t>(c)]);
 }
 
-std::optional<ImageNumbers> read(const std::filesystem::path& path, std::string& error) {
+std::optional<ImageNumbers> read(const ReadableFile& file, std::string& error) {
   std::string why;
-  auto image = render::image_formats().read(path.string(), render::Channels::kAll, kMostPixels, why);
-  if (!image) error = fmt::format("cannot read \"{}\": {}", path.string(), why);
+  std::optional<ImageNumbers> image;
+  try {
+    image = render::image_formats().read(file.place().string(), render::Channels::kAll, kMostPixels, why);
+  } catch (const FileError& refusal) {
+    why = refusal.what();
+  }
+  if (!image) error = fmt::format("cannot read \"{}\": {}", file.path().string(), why);
   return image;
 }
 
@@ -69,7 +74,7 @@ class ValueFunction {
 
 }  // namespace
 
-std::optional<std::string> write_tinted(const std::filesystem::path& from, const std::filesystem::path& to,
+std::optional<std::string> write_tinted(const ReadableFile& from, const std::filesystem::path& to,
                                         const glm::dvec3& factor, double exponent) {
   std::string error;
   const auto image = read(from, error);
@@ -86,7 +91,7 @@ std::optional<std::string> write_tinted(const std::filesystem::path& from, const
   return write(to, out, 8);
 }
 
-std::optional<std::string> write_channel(const std::filesystem::path& from, const std::filesystem::path& to,
+std::optional<std::string> write_channel(const ReadableFile& from, const std::filesystem::path& to,
                                          int channel, const std::function<double(double)>& map) {
   std::string error;
   const auto image = read(from, error);
@@ -99,7 +104,7 @@ std::optional<std::string> write_channel(const std::filesystem::path& from, cons
   return write(to, out, 16);
 }
 
-std::optional<ImageMeans> image_means(const std::filesystem::path& from, std::string& error) {
+std::optional<ImageMeans> image_means(const ReadableFile& from, std::string& error) {
   const auto image = read(from, error);
   if (!image) return std::nullopt;
   ImageMeans sum;
@@ -115,7 +120,7 @@ std::optional<ImageMeans> image_means(const std::filesystem::path& from, std::st
   return ImageMeans{sum.linear / count, sum.stored / count};
 }
 
-std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error) {
+std::optional<glm::dvec3> mean_colour(const ReadableFile& from, bool srgb, std::string& error) {
   const auto means = image_means(from, error);
   if (!means) return std::nullopt;
   return srgb ? means->linear : glm::dvec3(means->stored);

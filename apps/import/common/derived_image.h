@@ -5,17 +5,18 @@
 #include <functional>
 #include <optional>
 
+#include "core/files/read_root.h"
 #include "core/math/vec.h"
 
 namespace kaustik::gltf {
 
 // Raises the colours of an sRGB image to `exponent` and multiplies them by `factor` in linear light, and
 // writes an sRGB PNG.
-std::optional<std::string> write_tinted(const std::filesystem::path& from, const std::filesystem::path& to,
+std::optional<std::string> write_tinted(const ReadableFile& from, const std::filesystem::path& to,
                                         const glm::dvec3& factor, double exponent = 1);
 // Applies `map` to one channel (0 to 3) of an image and writes a 16-bit grey PNG. A missing alpha channel
 // counts as 1. Constant results are written too.
-std::optional<std::string> write_channel(const std::filesystem::path& from, const std::filesystem::path& to,
+std::optional<std::string> write_channel(const ReadableFile& from, const std::filesystem::path& to,
                                          int channel, const std::function<double(double)>& map);
 // Means over all pixels of an image.
 struct ImageMeans {
@@ -24,7 +25,7 @@ struct ImageMeans {
 };
 // Nothing, with a message in `error`, when the image cannot be read. The second function returns the mean
 // colour, in linear light or as stored.
-std::optional<ImageMeans> image_means(const std::filesystem::path& from, std::string& error);
-std::optional<glm::dvec3> mean_colour(const std::filesystem::path& from, bool srgb, std::string& error);
+std::optional<ImageMeans> image_means(const ReadableFile& from, std::string& error);
+std::optional<glm::dvec3> mean_colour(const ReadableFile& from, bool srgb, std::string& error);
 
 }  // namespace kaustik::gltf

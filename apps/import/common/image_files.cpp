@@ -13,8 +13,8 @@ namespace {
 constexpr uint64_t kLargestImageFile = uint64_t{1} << 32;
 
 // The ContentHash of a file; nothing, with a message in `error`, when it cannot be read.
-std::optional<std::string> hash_of(const std::filesystem::path& path, std::string& error) {
-  const auto bytes = read_bytes(path, kLargestImageFile, error);
+std::optional<std::string> hash_of(const ReadableFile& file, std::string& error) {
+  const auto bytes = read_bytes(file, kLargestImageFile, error);
   if (!bytes) return std::nullopt;
   ContentHash hash;
   hash.add(*bytes);
@@ -31,13 +31,13 @@ class GreyImages final : public ImageLibrary {
 
 }  // namespace
 
-LightImageResult load_light_image(const std::filesystem::path& path, std::string* content) {
+LightImageResult load_light_image(const ReadableFile& file, std::string* content) {
   LightImageResult result;
-  const auto hash = hash_of(path, result.error);
+  const auto hash = hash_of(file, result.error);
   if (!hash) return result;
   if (content) *content = *hash;
   try {
-    render::Image image = render::read_image(path.string(), kMostLightPixels);
+    render::Image image = render::read_image(file.place().string(), kMostLightPixels);
     result.image = {image.width, image.height, std::move(image.pixels)};
   } catch (const render::ImageError& e) {
     result.error = fmt::format("cannot read {}", e.what());
@@ -51,14 +51,15 @@ render::TextureImages& SceneTextures::textures() {
   return *textures_;
 }
 
-ImageResult SceneTextures::load(const std::filesystem::path& path, const ImageEncoding& encoding,
+ImageResult SceneTextures::load(const ReadableFile& file, const ImageEncoding& encoding,
                                 std::string* content) {
   ImageResult result;
-  const auto hash = hash_of(path, result.error);
+  const auto hash = hash_of(file, result.error);
   if (!hash) return result;
   *content = *hash;
-  if (pixels_) return textures().load(path.string(), encoding);
-  result.error = render::image_formats().texture_trouble(path.string());
+  const std::string place = file.place().string();
+  if (pixels_) return textures().load(place, encoding);
+  result.error = render::image_formats().texture_trouble(place);
   return result;
 }
 

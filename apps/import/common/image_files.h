@@ -1,10 +1,10 @@
 #pragma once
 // Loads the image files that a scene names: emission images of lights, and textures.
 
-#include <filesystem>
 #include <mutex>
 #include <string>
 
+#include "core/files/read_root.h"
 #include "core/scene/build/builder.h"
 #include "render/picture/image_formats.h"
 
@@ -15,7 +15,7 @@ inline constexpr uint64_t kMostLightPixels = uint64_t{1} << 26;
 
 // Reads a whole image in any format that render::image_formats() knows; 8- and 16-bit integers are decoded
 // from sRGB. `content` receives the ContentHash of the file if it could be read. Thread-safe.
-LightImageResult load_light_image(const std::filesystem::path& path, std::string* content = nullptr);
+LightImageResult load_light_image(const ReadableFile& file, std::string* content = nullptr);
 
 // The textures of a scene, or, if no pixels are wanted, a grey library in their place, for which files are
 // checked by their headers only. The library that holds them is made when the first one is loaded, so a scene
@@ -25,7 +25,7 @@ class SceneTextures {
   explicit SceneTextures(bool pixels) : pixels_(pixels) {}
 
   // See TextureImages::load. `content` receives the ContentHash of the file if it could be read. Thread-safe.
-  ImageResult load(const std::filesystem::path& path, const ImageEncoding& encoding, std::string* content);
+  ImageResult load(const ReadableFile& file, const ImageEncoding& encoding, std::string* content);
 
   // Null when no texture was loaded.
   std::shared_ptr<const ImageLibrary> library() const;

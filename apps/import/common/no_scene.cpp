@@ -6,7 +6,7 @@
 #include <array>
 #include <cctype>
 
-#include "core/files/input_file.h"
+#include "apps/import/common/scene_files.h"
 
 namespace kaustik {
 
@@ -65,12 +65,8 @@ std::string why_no_scene(std::string_view bytes) {
       format);
 }
 
-std::string why_no_scene_in(const std::filesystem::path& path) {
-  try {
-    return why_no_scene(read_head(path, kMarkBytes));
-  } catch (const FileError&) {
-    return {};
-  }
+std::string why_no_scene_in(const ReadableFile& file) {
+  return why_no_scene(pbrt::first_bytes(file, kMarkBytes));
 }
 
 bool is_binary(std::string_view bytes) {

@@ -219,12 +219,12 @@ bool is_gltf(const std::filesystem::path& path) {
   return extension == ".gltf" || extension == ".glb";
 }
 
-std::optional<SceneDescription> import_gltf(const std::filesystem::path& path, Diagnostics& diagnostics,
+std::optional<SceneDescription> import_gltf(const ReadableFile& readable, Diagnostics& diagnostics,
                                             const ImportOptions& options) {
   const auto file = static_cast<uint32_t>(diagnostics.files.size());
   try {
-    Document document(path, diagnostics.files);
-    SceneDescription scene = Importer(document, path, options, diagnostics).run();
+    Document document(readable, diagnostics.files);
+    SceneDescription scene = Importer(document, readable.path(), options, diagnostics).run();
     return scene;
   } catch (const FormatError& error) {
     const bool opened = diagnostics.files.size() > file;

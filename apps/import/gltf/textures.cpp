@@ -8,18 +8,13 @@
 
 #include "apps/import/common/derived_image.h"
 #include "apps/import/common/scene_files.h"
-#include "core/files/input_file.h"
 #include "core/files/pending_file.h"
 
 namespace kaustik::gltf {
 namespace {
 
-bool is_ktx(const std::filesystem::path& file) {
-  try {
-    return read_head(file, 8).find("KTX") != std::string::npos;
-  } catch (const FileError&) {
-    return false;  // who reads the picture will say why it cannot be read
-  }
+bool is_ktx(const ReadableFile& file) {
+  return pbrt::first_bytes(file, 8).find("KTX") != std::string::npos;
 }
 
 // The file extension that fits the image's first bytes; empty for formats that cannot be read, such as KTX2.
@@ -86,16 +81,12 @@ std::optional<uint64_t> Textures::image_of(const View& info) {
 }
 
 ImageFile Textures::in_folder(const std::string& name) {
-  if (!folder_) {
-    folder_ = std::make_shared<TemporaryFolder>();
-    scene_.keeps = folder_;
-    folder_file_ = files_.add((folder_->path() / "embedded").string(), "");
-  }
-  return {name, {folder_file_, 0, 0}};
+  if (!made_) made_.emplace(files_, scene_);
+  return {name, made_->where()};
 }
 
-std::filesystem::path Textures::path_of(const ImageFile& file) const {
-  return pbrt::resolve_path(file.name, files_.name(file.where.file), path_);
+ReadableFile Textures::place_of(const ImageFile& file) const {
+  return pbrt::find_named_file(files_.root(), file.name, files_.name(file.where.file), path_);
 }
 
 std::optional<ImageFile> Textures::file_of_image(uint64_t index) {
@@ -120,10 +111,11 @@ std::optional<ImageFile> Textures::make_file(uint64_t index) {
     return std::nullopt;
   }
   const ImageFile file = in_folder(fmt::format("image{}{}", index, extension));
+  const std::filesystem::path path = made_->path(file.name);
   try {
-    write_file(path_of(file), *data);
+    write_file(path, *data);
   } catch (const FileError& error) {
-    throw std::runtime_error(fmt::format("cannot write {}: {}", path_of(file).string(), error.what()));
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), error.what()));
   }
   return file;
 }
@@ -135,12 +127,17 @@ std::optional<ImageFile> Textures::find_file(uint64_t index, const std::string& 
   const auto last = std::filesystem::path(name).filename().string();
   for (const std::string& candidate : {name, last}) {
     const ImageFile file{candidate, beside};
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path_of(file), ignored)) continue;
-    if (!is_ktx(path_of(file))) return file;
+    const ReadableFile place = place_of(file);
+    if (!place.exists()) continue;
+    if (!is_ktx(place)) return file;
     warnings_.say(
         fmt::format("image {}, \"{}\", is KTX, which cannot be read, and is shown as grey", index, name));
     return std::nullopt;
+  }
+  std::string error;
+  if (const ReadableFile file = place_of({name, beside}); file.refused()) {
+    pbrt::read_bytes(file, 0, error);
+    document_.item("images", index).fail(error);
   }
   warnings_.say(fmt::format("image {}, \"{}\", does not exist and is shown as grey", index, name));
   return std::nullopt;
@@ -226,7 +223,7 @@ std::optional<ImageFile> Textures::tinted_file(const View& info, const glm::dvec
   const auto image = file(info);
   if (!image || (factor == glm::dvec3(1) && exponent == 1) || !pixels_) return image;
   const ImageFile tinted = in_folder(fmt::format("derived{}.png", derived_++));
-  if (const auto error = write_tinted(path_of(*image), path_of(tinted), factor, exponent)) {
+  if (const auto error = write_tinted(place_of(*image), made_->path(tinted.name), factor, exponent)) {
     warnings_.say(*error);
     return std::nullopt;
   }
@@ -239,7 +236,7 @@ std::optional<std::string> Textures::channel(const View& info, int channel,
   if (!image) return std::nullopt;
   if (!pixels_) return add("float", *image, "linear", info);
   const ImageFile grey = in_folder(fmt::format("derived{}.png", derived_++));
-  if (const auto error = write_channel(path_of(*image), path_of(grey), channel, map)) {
+  if (const auto error = write_channel(place_of(*image), made_->path(grey.name), channel, map)) {
     warnings_.say(*error);
     return std::nullopt;
   }
@@ -248,11 +245,11 @@ std::optional<std::string> Textures::channel(const View& info, int channel,
 
 // Means are read once a file.
 const std::optional<ImageMeans>& Textures::means(const ImageFile& file) {
-  const std::filesystem::path path = path_of(file);
-  const auto [found, is_new] = means_.try_emplace(path);
+  const ReadableFile readable = place_of(file);
+  const auto [found, is_new] = means_.try_emplace(readable.path());
   if (!is_new) return found->second;
   std::string error;
-  found->second = image_means(path, error);
+  found->second = image_means(readable, error);
   if (!found->second) warnings_.say(error + ": grey is shown in its place");
   return found->second;
 }

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "apps/import/common/derived_image.h"
+#include "apps/import/common/made_files.h"
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/common/warnings.h"
 #include "apps/import/gltf/file/document.h"
-#include "core/files/temporary_folder.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::gltf {
@@ -86,7 +86,7 @@ class Textures {
   std::string vertex_texture(const std::string& value_type);
   std::string scaled(const std::string& value_type, Parameter value, const std::string& scale);
   DirectiveMaker<TextureDescription> start(const std::string& type, const std::string& value_type);
-  std::filesystem::path path_of(const ImageFile& file) const;
+  ReadableFile place_of(const ImageFile& file) const;
   ImageFile in_folder(const std::string& name);
   std::string add(const std::string& value_type, const ImageFile& file, const std::string& encoding,
                   const View& info);
@@ -97,9 +97,7 @@ class Textures {
   FileWarnings& warnings_;
   SourceFiles& files_;
   SceneDescription& scene_;
-  std::shared_ptr<TemporaryFolder> folder_;
-  uint32_t folder_file_ =
-      0;  // id of a placeholder in the folder, to which the names of its files are relative
+  std::optional<MadeFiles> made_;  // embedded images, and those that are made from others
   std::map<uint64_t, std::optional<ImageFile>> images_;
   std::map<std::filesystem::path, std::optional<ImageMeans>> means_;
   std::map<std::string, std::string> vertex_textures_;  // names by the type of value

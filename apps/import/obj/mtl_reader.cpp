@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/import/common/find_file.h"
+#include "apps/import/common/scene_files.h"
 #include "apps/import/obj/obj_text.h"
 #include "core/text.h"
 
@@ -27,10 +28,30 @@ bool is_one_of(std::string_view word, std::span<const std::string_view> names) {
   return std::find(names.begin(), names.end(), word) != names.end();
 }
 
+const auto* map_of(std::string_view keyword) {
+  const auto* const map =
+      std::find_if(std::begin(kMaps), std::end(kMaps), [&](const auto& m) { return m.first == keyword; });
+  return map == std::end(kMaps) ? nullptr : map;
+}
+
+bool is_known(std::string_view keyword) {
+  return keyword == "newmtl" || map_of(keyword) || is_one_of(keyword, kColours) ||
+         is_one_of(keyword, kNumbers) || is_one_of(keyword, kSilent);
+}
+
+// Removes the next line from the front of `text`.
+std::string_view next_line(std::string_view& text) {
+  const size_t end = text.find('\n');
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == text.npos ? text.size() : end + 1);
+  return line;
+}
+
 class MtlReader {
  public:
-  MtlReader(uint32_t file, std::span<const std::filesystem::path> folders, CountedWarnings& warnings)
-      : folders_(folders), warnings_(warnings), where_{file, 0, 0} {}
+  MtlReader(uint32_t file, std::span<const std::filesystem::path> folders, CountedWarnings& warnings,
+            Diagnostics& diagnostics)
+      : folders_(folders), warnings_(warnings), diagnostics_(diagnostics), where_{file, 0, 0} {}
 
   void read_line(std::string_view line) {
     ++where_.line;
@@ -45,9 +66,7 @@ class MtlReader {
       return;
     }
     if (materials_.empty()) materials_.push_back({"", where_, {}, {}, {}});
-    const auto* const map =
-        std::find_if(std::begin(kMaps), std::end(kMaps), [&](const auto& m) { return m.first == key; });
-    if (map != std::end(kMaps)) return add_map(std::string(map->second), words);
+    if (const auto* const map = map_of(key)) return add_map(std::string(map->second), words);
     if (is_one_of(key, kColours) || is_one_of(key, kNumbers)) return add_values(keyword, key, words);
     if (!is_one_of(key, kSilent)) ignore(keyword);
   }
@@ -90,15 +109,27 @@ class MtlReader {
     }
     map.where = where_;
     if (!rest.empty()) map.where.column = uint32_t(rest.data() - line_.data()) + 1;
-    auto found = find_file(std::string(rest), folders_);
-    if (const size_t options = rest.find(" -"); !found && options != rest.npos)
-      found = find_file(std::string(trimmed(rest.substr(0, options))), folders_);
-    if (found)
-      map.file = std::move(*found);
-    else if (!rest.empty())
+    map.file = find(rest);
+    if (const size_t options = rest.find(" -"); !map.file && options != rest.npos)
+      map.file = find(trimmed(rest.substr(0, options)));
+    if (map.file && map.file->refused())
+      refuse(map);
+    else if (!map.file && !rest.empty())
       warnings_.say_one_of("missing image", map.where,
                            fmt::format("there is no file \"{}\": this map is left out", rest.substr(0, 200)));
     if (!rest.empty()) materials_.back().maps.insert_or_assign(key, std::move(map));
+  }
+
+  std::optional<ReadableFile> find(std::string_view name) const {
+    return find_file(diagnostics_.files.root(), std::string(name), folders_);
+  }
+
+  // Reports a file that may not be read, which is then one that is missing.
+  void refuse(MtlMap& map) {
+    std::string error;
+    pbrt::read_bytes(*map.file, 0, error);
+    diagnostics_.error(map.where, error);
+    map.file.reset();
   }
 
   static void read_option(std::string_view option, Words& words, MtlMap& map) {
@@ -116,6 +147,7 @@ class MtlReader {
 
   std::span<const std::filesystem::path> folders_;
   CountedWarnings& warnings_;
+  Diagnostics& diagnostics_;
   std::string_view line_;
   SourceLocation where_;
   std::vector<MtlMaterial> materials_;
@@ -143,14 +175,19 @@ const MtlMap* MtlMaterial::map(std::string_view keyword) const {
   return value_in(maps, keyword);
 }
 
-std::vector<MtlMaterial> read_mtl(std::string_view text, uint32_t file,
-                                  std::span<const std::filesystem::path> folders, CountedWarnings& warnings) {
-  MtlReader reader(file, folders, warnings);
+bool is_mtl(std::string_view text) {
   while (!text.empty()) {
-    const size_t end = text.find('\n');
-    reader.read_line(text.substr(0, end));
-    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+    Words words(next_line(text));
+    if (const std::string_view keyword = words.next(); !keyword.empty()) return is_known(lower_case(keyword));
   }
+  return true;
+}
+
+std::vector<MtlMaterial> read_mtl(uint32_t file, std::span<const std::filesystem::path> folders,
+                                  CountedWarnings& warnings, Diagnostics& diagnostics) {
+  MtlReader reader(file, folders, warnings, diagnostics);
+  std::string_view text = diagnostics.files.text(file);
+  while (!text.empty()) reader.read_line(next_line(text));
   return reader.take();
 }
 

@@ -11,14 +11,15 @@
 #include <vector>
 
 #include "apps/import/common/counted_warnings.h"
+#include "core/files/read_root.h"
 #include "core/math/vec.h"
 
 namespace kaustik::obj {
 
 // An image and the options before its name, as in `map_Kd -s 2 2 -o 0.5 0 -clamp on wood.png`.
 struct MtlMap {
-  std::filesystem::path file;  // empty when there is no such file
-  SourceLocation where;        // of the name
+  std::optional<ReadableFile> file;  // nothing when there is no such file
+  SourceLocation where;              // of the name
   std::array<double, 2> scale{1, 1}, offset{0, 0};
   bool clamp = false;
 };
@@ -37,10 +38,13 @@ struct MtlMaterial {
   const MtlMap* map(std::string_view keyword) const;  // null if it is not stated
 };
 
+// Whether the first statement of a text is one of material libraries. Of other texts no line may be shown.
+bool is_mtl(std::string_view text);
+
 // Reads a library whose text is the file `file` of the diagnostics. Images are looked for in `folders`
-// (find_file); one that is missing gives a warning, as do keywords that have no effect here. Values that are
-// no numbers end their statement.
-std::vector<MtlMaterial> read_mtl(std::string_view text, uint32_t file,
-                                  std::span<const std::filesystem::path> folders, CountedWarnings& warnings);
+// (find_file); one that is missing gives a warning, as do keywords that have no effect here, and one that may
+// not be read an error. Values that are no numbers end their statement.
+std::vector<MtlMaterial> read_mtl(uint32_t file, std::span<const std::filesystem::path> folders,
+                                  CountedWarnings& warnings, Diagnostics& diagnostics);
 
 }  // namespace kaustik::obj

@@ -46,25 +46,34 @@ class Libraries {
   std::vector<MtlMaterial> take() { return std::move(materials_); }
 
  private:
-  std::optional<fs::path> find(const std::string& name) const { return find_file(name, std::array{folder_}); }
+  std::optional<ReadableFile> find(const std::string& name) const {
+    return find_file(diagnostics_.files.root(), name, std::array{folder_});
+  }
 
   // What is done without the library: another one that is named as the OBJ file may stand in.
   std::string instead(const SourceLocation& where) {
     const auto file = materials_.empty() ? find(path_.stem().string() + ".mtl") : std::nullopt;
-    if (!file) return "; its materials become grey";
+    if (!file || file->refused()) return "; its materials become grey";
     add(*file, where);
-    return fmt::format("; \"{}\" is read instead", file->filename().string());
+    return fmt::format("; \"{}\" is read instead", file->path().filename().string());
   }
 
-  void add(const fs::path& file, const SourceLocation& where) {
-    std::error_code ignored;
-    if (!read_.insert(fs::weakly_canonical(file, ignored)).second) return;
+  void add(const ReadableFile& file, const SourceLocation& where) {
     std::string error;
+    if (file.refused()) {
+      pbrt::read_bytes(file, kLargestFile, error);
+      return diagnostics_.error(where, error);
+    }
+    std::error_code ignored;
+    if (!read_.insert(fs::weakly_canonical(file.place(), ignored)).second) return;
     auto text = pbrt::read_bytes(file, kLargestFile, error);
     if (!text) return warnings_.say(where, error + "; its materials become grey");
-    const uint32_t id = diagnostics_.files.add(file.string(), std::move(*text));
-    const std::array folders{file.parent_path(), folder_};
-    for (MtlMaterial& mtl : read_mtl(diagnostics_.files.text(id), id, folders, warnings_))
+    if (!is_mtl(*text))
+      return warnings_.say(where, fmt::format("\"{}\" is not a material library: its materials become grey",
+                                              file.path().string()));
+    const uint32_t id = diagnostics_.files.add(file.path().string(), std::move(*text));
+    const std::array folders{file.path().parent_path(), folder_};
+    for (MtlMaterial& mtl : read_mtl(id, folders, warnings_, diagnostics_))
       materials_.push_back(std::move(mtl));
   }
 
@@ -155,9 +164,10 @@ bool is_obj(const std::filesystem::path& path) {
   return lower_extension(path) == ".obj";
 }
 
-std::optional<SceneDescription> import_obj(const std::filesystem::path& path, Diagnostics& diagnostics) {
+std::optional<SceneDescription> import_obj(const ReadableFile& readable, Diagnostics& diagnostics) {
+  const std::filesystem::path& path = readable.path();
   std::string error;
-  auto bytes = pbrt::read_bytes(path, obj::kLargestFile, error);
+  auto bytes = pbrt::read_bytes(readable, obj::kLargestFile, error);
   if (!bytes) {
     diagnostics.error({}, error);
     return std::nullopt;

@@ -34,12 +34,12 @@ glm::dvec3 diffuse_colour(const MtlMaterial& mtl, const glm::dvec3& otherwise = 
   const MtlMap* const map = mtl.map("map_kd");
   const glm::dvec3 kd = glm::min(mtl.colour("kd").value_or(otherwise), 1.0);
   const bool says_nothing = kd == kBlack || kd == glm::dvec3(1);
-  return map && map->file.empty() && says_nothing ? kGrey : kd;
+  return map && !map->file && says_nothing ? kGrey : kd;
 }
 
 const MtlMap* image(const MtlMaterial& mtl, std::string_view keyword) {
   const MtlMap* const map = mtl.map(keyword);
-  return map && !map->file.empty() ? map : nullptr;
+  return map && map->file ? map : nullptr;
 }
 
 }  // namespace
@@ -175,7 +175,7 @@ void MtlMaterials::add_normals(const MtlMaterial& mtl, MaterialDescription& m) {
   const MtlMap* map = image(mtl, "norm");
   if (const MtlMap* const bump = image(mtl, "bump"); bump && !map) {
     std::string error;
-    const auto mean = gltf::mean_colour(bump->file, false, error);
+    const auto mean = gltf::mean_colour(*bump->file, false, error);
     if (mean && mean->z > 0.75 && mean->x < 0.65 && mean->y < 0.65)
       map = bump;
     else
@@ -187,8 +187,8 @@ void MtlMaterials::add_normals(const MtlMaterial& mtl, MaterialDescription& m) {
 // A file name relative to the file that names it.
 Parameter MtlMaterials::file_parameter(const std::string& name, const MtlMap& map) const {
   const std::filesystem::path folder = std::filesystem::path(files_.name(map.where.file)).parent_path();
-  std::filesystem::path file = map.file.lexically_relative(folder.empty() ? "." : folder);
-  if (file.empty()) file = std::filesystem::absolute(map.file);
+  std::filesystem::path file = map.file->path().lexically_relative(folder.empty() ? "." : folder);
+  if (file.empty()) file = std::filesystem::absolute(map.file->path());
   return make_parameter(ParameterType::kString, name, file.string(), map.where);
 }
 
@@ -210,15 +210,11 @@ std::string MtlMaterials::add_texture(const MtlMap& map, const std::string& valu
 // when the image cannot be read.
 std::optional<MtlMap> MtlMaterials::channel(const MtlMap& map, int channel,
                                             const std::function<double(double)>& value) {
-  if (!folder_) {
-    folder_ = std::make_shared<TemporaryFolder>();
-    scene_.keeps = folder_;
-    folder_file_ = files_.add((folder_->path() / "derived").string(), "");
-  }
+  if (!made_) made_.emplace(files_, scene_);
   MtlMap out = map;
-  out.file = folder_->path() / fmt::format("derived{}.png", derived_++);
-  out.where = {folder_file_, 0, 0};
-  if (const auto error = gltf::write_channel(map.file, out.file, channel, value)) {
+  out.file = files_.root().find(made_->path(fmt::format("derived{}.png", derived_++)));
+  out.where = made_->where();
+  if (const auto error = gltf::write_channel(*map.file, out.file->path(), channel, value)) {
     warnings_.say(map.where, *error);
     return std::nullopt;
   }
@@ -247,7 +243,7 @@ bool MtlMaterials::is_clear(const MtlMaterial& mtl) {
 bool MtlMaterials::is_metal(const MtlMaterial& mtl) {
   const MtlMap* const map = image(mtl, "map_pm");
   std::string error;
-  const auto mean = map ? gltf::mean_colour(map->file, false, error) : std::nullopt;
+  const auto mean = map ? gltf::mean_colour(*map->file, false, error) : std::nullopt;
   if (map && !mean) warnings_.say(map->where, error);
   return (mean ? mean->x : mtl.number("pm").value_or(0)) > 0.5;
 }
@@ -269,7 +265,8 @@ std::optional<uint32_t> MtlMaterials::add_light(const MtlMaterial& mtl) {
 std::optional<Parameter> MtlMaterials::alpha_of(const MtlMaterial& mtl) {
   if (const MtlMap* const map = image(mtl, "map_d")) {
     const MtlMap* const kd = image(mtl, "map_kd");
-    const auto alpha = kd && kd->file == map->file ? channel(*map, 3, [](double v) { return v; }) : *map;
+    const auto alpha =
+        kd && kd->file->path() == map->file->path() ? channel(*map, 3, [](double v) { return v; }) : *map;
     if (!alpha) return std::nullopt;
     return make_parameter(ParameterType::kTexture, "alpha", add_texture(*alpha, "float"), mtl.where);
   }

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "apps/import/common/counted_warnings.h"
+#include "apps/import/common/made_files.h"
 #include "apps/import/common/unique_names.h"
 #include "apps/import/obj/mtl_reader.h"
-#include "core/files/temporary_folder.h"
 #include "core/scene/description/description.h"
 
 namespace kaustik::obj {
@@ -54,8 +54,7 @@ class MtlMaterials {
   SourceFiles& files_;
   SceneDescription& scene_;
   bool vertex_colours_;
-  std::shared_ptr<TemporaryFolder> folder_;  // of images that are made from others
-  uint32_t folder_file_ = 0;                 // a name in it
+  std::optional<MadeFiles> made_;  // images that are made from others
   size_t derived_ = 0;
   UniqueNames names_;
 };

@@ -195,15 +195,15 @@ std::optional<Spectrum> ColourReducer::from_name(const Parameter& p) {
                                    name));
     return std::nullopt;
   }
-  std::string error;
-  if (const auto file = open_(name, error)) return from_file(p, *file);
+  const OpenedText opened = open_(name);
+  if (opened.file) return from_file(p, *opened.file);
   const std::vector<std::string_view> names = spectrum_names();
   const std::string hint = name_hint(name, names);
   std::string message = fmt::format("no spectrum is named \"{}\"{} Read as a file name: {}", name,
-                                    hint.empty() ? "." : hint, error);
+                                    hint.empty() ? "." : hint, opened.error);
   // A name with a letter or two wrong is the author's error; pbrt goes on without files that are not there.
   const auto nearest = nearest_name(name, names);
-  if (nearest && edit_distance(name, *nearest) <= 2) {
+  if (opened.refused || (nearest && edit_distance(name, *nearest) <= 2)) {
     diagnostics_.error(p.value_location(0), std::move(message));
   } else {
     diagnostics_.warning(p.value_location(0), fmt::format("{}; `{}` keeps its default", message, p.name));
@@ -212,16 +212,11 @@ std::optional<Spectrum> ColourReducer::from_name(const Parameter& p) {
 }
 
 std::optional<Spectrum> ColourReducer::from_file(const Parameter& p, uint32_t file) {
-  Tokenizer tokens(file, diagnostics_.files.text(file), diagnostics_);
+  const auto numbers = read_numbers(file, p.value_location(0), diagnostics_);
+  if (!numbers) return std::nullopt;
   std::vector<double> pairs;
-  std::vector<SourceLocation> places;
-  for (Token token = tokens.next(); !token.is(TokenKind::kEnd); token = tokens.next()) {
-    const auto value = parse_number(token, diagnostics_);
-    if (!value) return std::nullopt;
-    pairs.push_back(*value);
-    places.push_back(token.location);
-  }
-  return from_samples(pairs, p.value_location(0), [&](size_t i) { return places[i]; });
+  for (const PlacedNumber& number : *numbers) pairs.push_back(number.value);
+  return from_samples(pairs, p.value_location(0), [&](size_t i) { return (*numbers)[i].where; });
 }
 
 }  // namespace kaustik::pbrt

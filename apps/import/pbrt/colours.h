@@ -5,16 +5,13 @@
 #include <functional>
 #include <optional>
 
+#include "apps/import/common/scene_files.h"
 #include "core/diagnostics/diagnostics.h"
 #include "core/scene/schema/schema.h"
 #include "core/spectrum/colour_space.h"
 #include "core/spectrum/spectrum.h"
 
 namespace kaustik::pbrt {
-
-// Opens a text file that a parameter names: its id; nothing, with a message in `error`, when it cannot be
-// read.
-using TextOpener = std::function<std::optional<uint32_t>(const std::string& name, std::string& error)>;
 
 class ColourReducer {
  public:

@@ -207,6 +207,25 @@ std::optional<double> parse_number(const Token& token, DiagnosticList& diagnosti
   return value;
 }
 
+std::optional<std::vector<PlacedNumber>> read_numbers(uint32_t file, const SourceLocation& where,
+                                                      Diagnostics& diagnostics) {
+  DiagnosticList unsaid;
+  Tokenizer tokens(file, diagnostics.files.text(file), unsaid);
+  std::vector<PlacedNumber> numbers;
+  for (Token token = tokens.next(); !token.is(TokenKind::kEnd); token = tokens.next()) {
+    const auto value = parse_number(token, unsaid);
+    if (value && !unsaid.has_errors()) {
+      numbers.push_back({*value, token.location});
+      continue;
+    }
+    diagnostics.error(where,
+                      fmt::format("cannot read \"{}\": expected a number in line {}, column {}",
+                                  diagnostics.files.name(file), token.location.line, token.location.column));
+    return std::nullopt;
+  }
+  return numbers;
+}
+
 std::optional<std::vector<double>> parse_numbers(Tokenizer& tokens, size_t count, std::string_view what,
                                                  DiagnosticList& diagnostics) {
   const bool brackets = tokens.peek().is(TokenKind::kOpen);

@@ -13,6 +13,17 @@ namespace kaustik::pbrt {
 // float.
 std::optional<double> parse_number(const Token& token, DiagnosticList& diagnostics);
 
+// A number of a file that holds nothing else, and its place there.
+struct PlacedNumber {
+  double value = 0;
+  SourceLocation where;
+};
+
+// Reads a file of numbers alone; nothing, with an error, when it holds anything else. `where`: what names the
+// file. The error points there and quotes nothing, since the file may be of any kind.
+std::optional<std::vector<PlacedNumber>> read_numbers(uint32_t file, const SourceLocation& where,
+                                                      Diagnostics& diagnostics);
+
 // Reads exactly `count` numbers, with or without brackets; nothing, with an error, when there are fewer.
 // `what`: the directive, for the message.
 std::optional<std::vector<double>> parse_numbers(Tokenizer& tokens, size_t count, std::string_view what,

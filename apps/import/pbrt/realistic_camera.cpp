@@ -17,21 +17,17 @@ struct Element {
 
 std::optional<std::vector<Element>> read_lens(uint32_t file, const SourceLocation& where,
                                               Diagnostics& diagnostics) {
-  Tokenizer tokens(file, diagnostics.files.text(file), diagnostics);
-  std::vector<double> numbers;
-  for (Token token = tokens.next(); !token.is(TokenKind::kEnd); token = tokens.next()) {
-    const auto value = parse_number(token, diagnostics);
-    if (!value) return std::nullopt;
-    numbers.push_back(*value);
-  }
-  if (numbers.empty() || numbers.size() % 4 != 0) {
+  const auto numbers = read_numbers(file, where, diagnostics);
+  if (!numbers) return std::nullopt;
+  if (numbers->empty() || numbers->size() % 4 != 0) {
     diagnostics.error(where,
                       fmt::format("a lens has rows of radius, thickness, index and diameter, not {} numbers",
-                                  numbers.size()));
+                                  numbers->size()));
     return std::nullopt;
   }
   std::vector<Element> lens;
-  for (size_t i = 0; i < numbers.size(); i += 4) lens.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+  for (size_t i = 0; i < numbers->size(); i += 4)
+    lens.push_back({(*numbers)[i].value, (*numbers)[i + 1].value, (*numbers)[i + 2].value});
   return lens;
 }
 
@@ -64,7 +60,7 @@ double field_of_view(const Directive* film, double distance) {
 
 }  // namespace
 
-void replace_realistic_camera(CameraDescription& replaced, const Directive* film, const OpenFile& open,
+void replace_realistic_camera(CameraDescription& replaced, const Directive* film, const TextOpener& open,
                               Diagnostics& diagnostics) {
   const CameraDescription camera = replaced;
   replaced.type = "perspective";
@@ -72,10 +68,9 @@ void replace_realistic_camera(CameraDescription& replaced, const Directive* film
   const Parameter* name = camera.find("lensfile");
   if (!name || name->strings.size() != 1)
     return diagnostics.error(camera.type_location, "camera \"realistic\" needs `lensfile`");
-  std::string error;
-  const auto file = open(name->strings[0], error);
-  if (!file) return diagnostics.error(name->value_location(0), error);
-  const auto lens = read_lens(*file, name->value_location(0), diagnostics);
+  const OpenedText opened = open(name->strings[0]);
+  if (!opened.file) return diagnostics.error(name->value_location(0), opened.error);
+  const auto lens = read_lens(*opened.file, name->value_location(0), diagnostics);
   if (!lens) return;
   const double focus = number(&camera, "focusdistance", 10), f = focal_length(*lens);
   const double distance = 1 / (1 / f - 1 / (1000 * focus));

@@ -24,8 +24,7 @@ class SceneParser {
       : main_file_(std::move(main_file)),
         files_(files),
         diagnostics_(diagnostics),
-        colours_([this](const std::string& name, std::string& error) { return open_beside(name, error); },
-                 diagnostics),
+        colours_([this](const std::string& name) { return open_beside(name); }, diagnostics),
         v3_(diagnostics) {}
 
   // Reads a whole scene. After an error, parsing continues at the next directive.
@@ -55,7 +54,7 @@ class SceneParser {
   std::optional<Token> in_quotes(std::string_view what, const Token& word);
   bool read_directive(const Token& word, std::string_view target, Directive& out);
   void add_defaults(std::string_view target, std::vector<Parameter>& parameters);
-  std::optional<uint32_t> open_beside(const std::string& name, std::string& error);
+  OpenedText open_beside(const std::string& name) const;
   void concat(const glm::dmat4& m) { set_transform(state_.ctm * m); }
   void set_transform(const glm::dmat4& m) {
     if (!state_.at_end_time) state_.ctm = m;
@@ -119,6 +118,9 @@ class SceneParser {
   void on_import(const Token& word);
   void on_medium(const Token& word);
   void include(const Token& word, bool keep_state);
+  // Whether a text begins with a directive and something that may follow it, or is empty. Messages quote
+  // lines of such texts alone: a scene may name any file.
+  static bool begins_as_scene(std::string_view text);
 
   std::filesystem::path main_file_;
   SceneFiles& files_;

@@ -185,9 +185,7 @@ void SceneParser::on_v2(const Token& word) {
 void SceneParser::on_world_begin(const Token& word) {
   if (in_world_) return diagnostics_.error(word.location, "this is a second `WorldBegin`");
   if (scene_.camera && scene_.camera->type == "realistic") {
-    const auto open = [this](const std::string& name, std::string& error) {
-      return open_beside(name, error);
-    };
+    const auto open = [this](const std::string& name) { return open_beside(name); };
     replace_realistic_camera(*scene_.camera, scene_.film ? &*scene_.film : nullptr, open, diagnostics_);
   }
   in_world_ = true;

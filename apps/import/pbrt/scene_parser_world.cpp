@@ -169,9 +169,20 @@ void SceneParser::on_import(const Token& word) {
   include(word, false);
 }
 
-std::optional<uint32_t> SceneParser::open_beside(const std::string& name, std::string& error) {
+OpenedText SceneParser::open_beside(const std::string& name) const {
   const std::filesystem::path naming(diagnostics_.files.name(open_files_.back()));
-  return files_.open(resolve_path(name, naming, main_file_), error);
+  return files_.open(find_named_file(diagnostics_.files.root(), name, naming, main_file_));
+}
+
+bool SceneParser::begins_as_scene(std::string_view text) {
+  DiagnosticList unsaid;
+  Tokenizer tokens(kNoFile, text, unsaid);
+  const auto is_directive = [](const Token& t) {
+    return t.is(TokenKind::kWord) && directives().contains(t.text);
+  };
+  const Token first = tokens.next(), second = tokens.next();
+  if (!is_directive(first)) return first.is(TokenKind::kEnd);
+  return !second.is(TokenKind::kWord) || is_directive(second) || first.text == "ActiveTransform";
 }
 
 void SceneParser::include(const Token& word, bool keep_state) {
@@ -180,14 +191,18 @@ void SceneParser::include(const Token& word, bool keep_state) {
   if (open_files_.size() >= kDeepestInclude) {
     return diagnostics_.error(name->location, fmt::format("more than {} nested includes", kDeepestInclude));
   }
-  std::string error;
-  const auto file = open_beside(unescape(name->text), error);
-  if (!file) return diagnostics_.error(name->location, error);
-  if (std::find(open_files_.begin(), open_files_.end(), *file) != open_files_.end()) {
+  const OpenedText opened = open_beside(unescape(name->text));
+  if (!opened.file) return diagnostics_.error(name->location, opened.error);
+  const uint32_t file = *opened.file;
+  if (std::find(open_files_.begin(), open_files_.end(), file) != open_files_.end()) {
     return diagnostics_.error(name->location,
-                              fmt::format("\"{}\" includes itself", diagnostics_.files.name(*file)));
+                              fmt::format("\"{}\" includes itself", diagnostics_.files.name(file)));
   }
-  bytes_read_ += diagnostics_.files.text(*file).size() + 1;
+  if (!begins_as_scene(diagnostics_.files.text(file)))
+    return diagnostics_.error(name->location,
+                              fmt::format("\"{}\" is not a pbrt scene: it does not begin with a directive",
+                                          diagnostics_.files.name(file)));
+  bytes_read_ += diagnostics_.files.text(file).size() + 1;
   if (bytes_read_ > kMostBytes || ++files_included_ > kMostIncludes) {
     if (!stopped_)
       diagnostics_.error(name->location,
@@ -196,7 +211,7 @@ void SceneParser::include(const Token& word, bool keep_state) {
     return;
   }
   const GraphicsState before = state_;
-  parse_file(*file);
+  parse_file(file);
   if (!keep_state) state_ = before;
 }
 

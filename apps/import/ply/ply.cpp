@@ -178,9 +178,9 @@ MeshResult read_packed(std::string_view bytes, bool colours) {
 
 }  // namespace
 
-MeshResult load_ply(const std::filesystem::path& path, std::string* content, bool colours) {
+MeshResult load_ply(const ReadableFile& file, std::string* content, bool colours) {
   std::string error;
-  const auto bytes = read_bytes(path, kLargestMeshFile, error);
+  const auto bytes = read_bytes(file, kLargestMeshFile, error);
   if (!bytes) return {{}, std::move(error)};
   if (content) {
     ContentHash hash;
@@ -189,7 +189,7 @@ MeshResult load_ply(const std::filesystem::path& path, std::string* content, boo
   }
   MeshResult result = is_gzip(*bytes) ? read_packed(*bytes, colours) : read_mesh(*bytes, colours);
   if (!result.error.empty())
-    result.error = fmt::format("cannot read \"{}\": {}", path.string(), result.error);
+    result.error = fmt::format("cannot read \"{}\": {}", file.path().string(), result.error);
   return result;
 }
 

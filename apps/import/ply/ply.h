@@ -2,8 +2,7 @@
 // Loads triangle meshes from PLY files (Turk 1994; ASCII, little and big endian), optionally compressed by
 // gzip.
 
-#include <filesystem>
-
+#include "core/files/read_root.h"
 #include "core/scene/build/builder.h"
 
 namespace kaustik::pbrt {
@@ -16,6 +15,6 @@ namespace kaustik::pbrt {
 // truncated file, faces of fewer than three vertices, indices out of range, positions that are not finite.
 // Blocks are read in parallel. `content` receives the ContentHash of the file if it could be read.
 // Thread-safe.
-MeshResult load_ply(const std::filesystem::path& path, std::string* content = nullptr, bool colours = false);
+MeshResult load_ply(const ReadableFile& file, std::string* content = nullptr, bool colours = false);
 
 }  // namespace kaustik::pbrt

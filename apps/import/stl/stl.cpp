@@ -97,16 +97,16 @@ MeshResult read_ascii(std::string_view text) {
 
 }  // namespace
 
-MeshResult load_stl(const std::filesystem::path& path, std::string* content) {
+MeshResult load_stl(const ReadableFile& file, std::string* content) {
   std::string error;
-  const auto bytes = pbrt::read_bytes(path, kLargestStl, error);
+  const auto bytes = pbrt::read_bytes(file, kLargestStl, error);
   if (!bytes) return {{}, std::move(error)};
   ContentHash hash;
   hash.add(*bytes);
   if (content) *content = hash.text();
   MeshResult result = is_ascii(*bytes) ? read_ascii(*bytes) : read_binary(*bytes);
   if (!result.error.empty())
-    result.error = fmt::format("cannot read \"{}\": {}", path.string(), result.error);
+    result.error = fmt::format("cannot read \"{}\": {}", file.path().string(), result.error);
   return result;
 }
 

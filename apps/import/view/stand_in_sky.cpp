@@ -113,7 +113,8 @@ class Radiances {
     const std::filesystem::path main(files_.name(scene_.location.file));
     const std::filesystem::path naming(name.location.valid() ? files_.name(name.location.file)
                                                              : main.string());
-    const auto image = pbrt::load_light_image(pbrt::resolve_path(name.strings[0], naming, main)).image;
+    const ReadableFile file = pbrt::find_named_file(files_.root(), name.strings[0], naming, main);
+    const auto image = pbrt::load_light_image(file).image;
     double sum = 0;
     for (const Rgb& pixel : image.pixels) sum += double(luminance(pixel));
     return image.pixels.empty() ? 0 : sum / double(image.pixels.size());

@@ -6,9 +6,9 @@
 #include <memory>
 #include <numbers>
 
+#include "apps/import/common/made_files.h"
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/common/unique_names.h"
-#include "core/files/temporary_folder.h"
 #include "core/sampling/equal_area.h"
 #include "render/picture/image_io.h"
 
@@ -161,23 +161,19 @@ double studio_radiance(const glm::dvec3& w) {
 
 std::optional<std::string> add_studio_light(SceneDescription& scene, const ModelBox& box, SourceFiles& files,
                                             const SourceLocation& where) {
-  const auto folder = std::make_shared<const TemporaryFolder>();
-  const std::string path = (folder->path() / "studio.exr").string();
+  const MadeFiles made(files, scene);
   try {
-    render::write_image(path, studio_image());
+    render::write_image(made.path("studio.exr").string(), studio_image());
   } catch (const render::ImageError& error) {
     return error.what();
   }
-  const SourceLocation in_folder{files.add((folder->path() / "studio").string(), ""), 0, 0};
   DirectiveMaker<LightDescription> light("infinite", where);
-  light.add(make_parameter(ParameterType::kString, "filename", std::string("studio.exr"), in_folder));
+  light.add(make_parameter(ParameterType::kString, "filename", std::string("studio.exr"), made.where()));
   const glm::dvec3 to_camera = studio_direction(box);
   const glm::dvec3 up(0, 1, 0), z = glm::normalize(glm::dvec3(to_camera.x, 0, to_camera.z));
   light->light_to_world = glm::dmat4(glm::dvec4(glm::cross(up, z), 0), glm::dvec4(up, 0), glm::dvec4(z, 0),
                                      glm::dvec4(0, 0, 0, 1));
   scene.lights.push_back(std::move(*light));
-  scene.keeps = std::make_shared<const std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>>(
-      scene.keeps, folder);
   return std::nullopt;
 }
 

@@ -93,7 +93,8 @@ class ViewMaker {
   void add_sky_image() {
     std::error_code ignored;
     const std::filesystem::path path = std::filesystem::absolute(options_.sky, ignored);
-    if (!std::filesystem::is_regular_file(path, ignored))
+    // A file that may not be read is refused when the light is made: a partial result may have named it.
+    if (const ReadableFile file = diagnostics_.files.root().find(path); !file.refused() && !file.exists())
       return complain(fmt::format("--sky: there is no file \"{}\"", options_.sky));
     DirectiveMaker<LightDescription> sky("infinite", where());
     sky.text("filename", path.string());

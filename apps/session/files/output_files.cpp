@@ -8,8 +8,10 @@
 #include <filesystem>
 
 #include "apps/console/exit_error.h"
+#include "apps/settings/table/import_options.h"
 #include "core/files/input_file.h"
 #include "core/files/pending_file.h"
+#include "core/files/read_root.h"
 #include "render/map_files/map_file.h"
 #include "render/picture/image_io.h"
 
@@ -54,6 +56,18 @@ void check_image_output(const std::string& path) {
   }
   check_writable(path);
   if (!render::is_exr(path)) render::image_formats();
+}
+
+void check_below_root(const std::string& root, const std::string& named_by, const std::string& output) {
+  if (root.empty()) return;
+  std::error_code error;
+  try {
+    if (!ReadRoot(root, {"outside"}).find("/", fs::absolute(output, error)).refused()) return;
+  } catch (const FileError&) {
+    // Without its folder, nothing lies below the root.
+  }
+  throw ExitError(kBadScene, fmt::format("{} names the output \"{}\": {}; -o names another one", named_by,
+                                         output, lies_outside(root)));
 }
 
 void check_map_output(const std::string& path) {

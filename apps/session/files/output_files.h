@@ -13,6 +13,10 @@ void check_writable(const std::string& path);
 // when the library for that format cannot be loaded.
 void check_image_output(const std::string& path);
 
+// Throws ExitError (bad scene) if there is a root (--root) and the file `named_by` names an output outside
+// it.
+void check_below_root(const std::string& root, const std::string& named_by, const std::string& output);
+
 // Like check_writable, for a file of photon maps, which ends in .kmap.
 void check_map_output(const std::string& path);
 

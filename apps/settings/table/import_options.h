@@ -36,9 +36,17 @@ struct ImportOptions {
   // The moment at which an animated file is shown; unset = its beginning.
   std::optional<float> seconds{};
   ViewOptions view{};
+  // The folder in which all files that are read must lie; empty: any folder. Set by --root alone, which is no
+  // setting: no file can name it, and none stores it.
+  std::string root{};
   // Set by the command, not the user. False: images of textures are checked by their headers only and are
   // grey in the scene, for commands that render nothing.
   bool texture_pixels = true;
 };
+
+// Why a file outside the root cannot be read or written.
+inline std::string lies_outside(const std::string& root) {
+  return "it lies outside --root " + root;
+}
 
 }  // namespace kaustik

@@ -75,7 +75,8 @@ TEST_F(ImportColours, SpectraAreReadFromFiles) {
               testing::HasSubstr("worse.spd:2:1: warning: wavelengths must increase"));
   write("text.spd", "300 two");
   EXPECT_THAT(messages("WorldBegin LightSource \"point\" \"spectrum I\" \"text.spd\""),
-              testing::HasSubstr("text.spd:1:5: error: expected a number"));
+              testing::HasSubstr(
+                  "scene.pbrt:1:45: error: cannot read \"text.spd\": expected a number in line 1, column 5"));
 }
 
 TEST_F(ImportColours, MetalsKeepTheirColour) {

@@ -15,7 +15,9 @@ namespace {
 
 class ImportPly : public ImportTest {
  protected:
-  MeshResult read(const std::string& bytes) const { return load_ply(write("mesh.ply", bytes)); }
+  MeshResult read(const std::string& bytes) const {
+    return load_ply(ReadableFile::trusted(write("mesh.ply", bytes)));
+  }
   std::string error(const std::string& bytes) const {
     std::string text = read(bytes).error;
     const std::string prefix = "cannot read \"" + (folder_ / "mesh.ply").string() + "\": ";
@@ -155,14 +157,15 @@ TEST_F(ImportPly, ReadsColoursWhereTheyAreShown) {
       xyz + "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n" + face +
       "0 0 0 255 0 188 51\n1 0 0 0 0 0 0\n0 1 0 0 0 0 0\n3 0 1 2\n";
   EXPECT_TRUE(read(bytes).mesh.colours.empty());
-  const TriangleMesh mesh = load_ply(write("mesh.ply", bytes), nullptr, true).mesh;
+  const TriangleMesh mesh = load_ply(ReadableFile::trusted(write("mesh.ply", bytes)), nullptr, true).mesh;
   ASSERT_EQ(mesh.colours.size(), 3u);
   EXPECT_EQ(mesh.colours[0].x, 1);
   EXPECT_NEAR(mesh.colours[0].z, 0.5029f, 1e-4f);
   EXPECT_NEAR(mesh.colours[0].w, 0.2f, 1e-6f);
   const std::string floats = xyz + "property float red\nproperty float green\nproperty float blue\n" + face +
                              "0 0 0 0.25 0 1\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n";
-  EXPECT_EQ(load_ply(write("mesh.ply", floats), nullptr, true).mesh.colours.at(0), glm::vec4(0.25f, 0, 1, 1));
+  EXPECT_EQ(load_ply(ReadableFile::trusted(write("mesh.ply", floats)), nullptr, true).mesh.colours.at(0),
+            glm::vec4(0.25f, 0, 1, 1));
 }
 
 TEST_F(ImportPly, ReadsCarriageReturns) {

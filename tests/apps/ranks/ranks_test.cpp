@@ -85,7 +85,9 @@ class RendersOnRanks : public test::ProgramTest {
     std::ostringstream said;
     Ranks ranks(timeout_, [&] { return std::make_unique<HubLink>(hub_, rank); });
     const LoadQuietly load = [&](const Console&) { return job_of(scene); };
-    EXPECT_EQ(serve_passes(ranks, load, 1, interrupt_, Console{said, said}), kDone) << said.str();
+    SettingOverrides given;
+    given.add(*find_setting("threads"), {"1"});
+    EXPECT_EQ(serve_passes(ranks, load, given, interrupt_, Console{said, said}), kDone) << said.str();
   }
 
   // Renders on all ranks; returns the sums. after_pass: see RankRules.

@@ -31,8 +31,8 @@ TEST(InputFile, ReadsAllOrTheBeginning) {
   write_file(path, "0123456789");
   EXPECT_EQ(read_file(path, 10), "0123456789");
   EXPECT_EQ(failure([&] { read_file(path, 9); }), "more than 9 bytes");
-  EXPECT_EQ(read_head(path, 4), "0123");
-  EXPECT_EQ(read_head(path, 40), "0123456789");
+  EXPECT_EQ(read_head(ReadableFile::trusted(path), 4), "0123");
+  EXPECT_EQ(read_head(ReadableFile::trusted(path), 40), "0123456789");
   const MappedFile mapped(path);
   EXPECT_EQ(std::memcmp(mapped.bytes().data(), "0123456789", 10), 0);
   EXPECT_EQ(mapped.bytes().size(), 10u);
@@ -44,7 +44,7 @@ TEST(InputFile, PipesDevicesAndFoldersAreRefusedAtOnce) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const fs::path& path : {pipe, fs::path("/dev/zero"), folder}) {
     EXPECT_EQ(failure([&] { read_file(path, 100); }), "not a regular file") << path;
-    EXPECT_EQ(failure([&] { read_head(path, 100); }), "not a regular file") << path;
+    EXPECT_EQ(failure([&] { read_head(ReadableFile::trusted(path), 100); }), "not a regular file") << path;
     EXPECT_EQ(failure([&] { check_regular(path); }), "not a regular file") << path;
     EXPECT_EQ(failure([&] { MappedFile{path}; }), "not a regular file") << path;
   }

@@ -102,9 +102,10 @@ std::string decode_base64(const View& uri, std::string_view text) {
 
 }  // namespace
 
-Document::Document(const std::filesystem::path& path, SourceFiles& files) {
+Document::Document(const ReadableFile& file, SourceFiles& files) {
+  const std::filesystem::path& path = file.path();
   std::string error;
-  auto bytes = pbrt::read_bytes(path, kLargestFile, error);
+  auto bytes = pbrt::read_bytes(file, kLargestFile, error);
   if (!bytes) throw FormatError(error);
   file_ = files.add(path.string(), std::move(*bytes));
   const std::string_view text = files.text(file_);
@@ -122,8 +123,11 @@ Document::Document(const std::filesystem::path& path, SourceFiles& files) {
 void Document::read_json(std::string_view bytes) {
   try {
     json_ = std::make_shared<const Json>(Json::parse(bytes));
-  } catch (const Json::exception& error) {
-    throw FormatError(fmt::format("its JSON cannot be read: {}", error.what()));
+  } catch (const Json::parse_error& error) {
+    // The library's own message quotes the file, which may be of any kind.
+    throw FormatError(fmt::format("its JSON cannot be read: there is an error at byte {}", error.byte));
+  } catch (const Json::exception&) {
+    throw FormatError("its JSON cannot be read");
   }
   if (!json_->is_object()) throw FormatError("its JSON is not an object");
 }
@@ -203,10 +207,10 @@ void Document::read_buffers(const std::filesystem::path& path, SourceFiles& file
       bytes = files.text(files.add(path.string(), std::move(*data)));
     } else {
       std::string error;
-      const auto file = path.parent_path() / file_of_uri(uri.text());
+      const ReadableFile file = files.root().find(path.parent_path(), file_of_uri(uri.text()));
       auto text = pbrt::read_bytes(file, kLargestFile, error);
       if (!text) buffer.fail(error);
-      bytes = files.text(files.add(file.string(), std::move(*text)));
+      bytes = files.text(files.add(file.path().string(), std::move(*text)));
     }
     if (length > bytes.size())
       buffer.fail(fmt::format("has {} bytes, `byteLength` promises {}", bytes.size(), length));

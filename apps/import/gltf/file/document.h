@@ -17,7 +17,7 @@ class Document {
  public:
   // Reads a .gltf or .glb file and the buffers that it names. They are added to `files`, so that they count
   // in the scene's content hash. Throws FormatError.
-  Document(const std::filesystem::path& path, SourceFiles& files);
+  Document(const ReadableFile& file, SourceFiles& files);
 
   View root() const { return {*json_, ""}; }
   // An item of a top-level list, such as item("nodes", 3).

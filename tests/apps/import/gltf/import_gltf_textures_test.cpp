@@ -48,7 +48,9 @@ class GltfTextures : public ImportGltf {
   }
   std::filesystem::path file_of(const Directive& d, std::string_view name) const {
     const Parameter& p = *d.find(name);
-    return resolve_path(p.strings.at(0), diagnostics_.files.name(p.location.file), folder_ / "scene.gltf");
+    return find_named_file({}, p.strings.at(0), diagnostics_.files.name(p.location.file),
+                           folder_ / "scene.gltf")
+        .path();
   }
 };
 
