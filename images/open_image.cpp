@@ -3,6 +3,8 @@
 #include "images/open_image.h"
 #include "core/files/input_file.h"
 #include "core/text.h"
+#include "images/png_check.h"
+#include "render/picture/exr_header.h"
 
 #include <algorithm>
 #include <array>
@@ -55,6 +57,18 @@ bool is_netpbm(std::string_view head) {
          std::isspace(static_cast<unsigned char>(head[2])) != 0;
 }
 
+// Damage with which the library that decodes the format does not deal well.
+std::string damage_of(const std::string& path, const std::string& format) {
+  if (format == "png") return png_trouble(path);
+  if (format != "openexr") return {};
+  try {
+    render::check_exr_header(path);
+  } catch (const std::runtime_error& failure) {
+    return failure.what();
+  }
+  return {};
+}
+
 bool is_targa_name(const std::string& path) {
   const std::string extension = lower_extension(path);
   return extension == ".tga" || extension == ".tpic";
@@ -88,6 +102,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::Imag
   if (!std::ifstream(path)) return fail(std::strerror(errno));
   const std::string format = format_of(path);
   if (format.empty()) return fail("it is in none of the formats " + std::string(kFormats));
+  if (std::string why = damage_of(path, format); !why.empty()) return fail(std::move(why));
   auto in = OIIO::ImageInput::create(format);
   if (!in) return fail(OIIO::geterror());
   in->threads(1);  // otherwise the library starts a thread pool of its own

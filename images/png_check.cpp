@@ -1,0 +1,77 @@
+// Walks through the chunks of a PNG file: the size of the data in four bytes (big-endian), a name of four
+// letters, the data, and the checksum of name and data.
+
+#include "images/png_check.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace kaustik::images {
+
+namespace {
+
+// The next bytes of the file; nothing if it ends before.
+template <size_t N>
+std::optional<std::array<unsigned char, N>> next(std::istream& file) {
+  std::array<unsigned char, N> bytes{};
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), N)) return std::nullopt;
+  return bytes;
+}
+
+uint32_t big_endian(const unsigned char* bytes) {
+  uint32_t out = 0;
+  for (int i = 0; i < 4; ++i) out = out << 8 | bytes[i];
+  return out;
+}
+
+// The checksum of the name, which has been read, and of the data, which follow; nothing if the file ends
+// before.
+std::optional<uint32_t> checksum(std::istream& file, const unsigned char* name, uint64_t size) {
+  constexpr uint64_t kBlock = 1 << 16;
+  std::vector<unsigned char> block(std::min(size, kBlock));
+  uLong sum = crc32(0, name, 4);
+  for (; size > 0; size -= block.size()) {
+    block.resize(std::min(size, kBlock));
+    if (!file.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size())))
+      return std::nullopt;
+    sum = crc32(sum, block.data(), static_cast<uInt>(block.size()));
+  }
+  return static_cast<uint32_t>(sum);
+}
+
+// Small letters begin the names of chunks that readers may pass over.
+bool is_needed(unsigned char first_letter) {
+  return (first_letter & 0x20) == 0;
+}
+
+}  // namespace
+
+std::string png_trouble(const std::string& path) {
+  constexpr std::streamoff kMarkBytes = 8;
+  constexpr const char* kCut = "it ends early";
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(kMarkBytes);
+  while (file.peek() != std::ifstream::traits_type::eof()) {
+    const std::streamoff at = file.tellg();
+    const auto head = next<8>(file);
+    if (!head) return kCut;
+    const unsigned char* const name = head->data() + 4;
+    const auto sum = checksum(file, name, big_endian(head->data()));
+    const auto stored = next<4>(file);
+    if (!sum || !stored) return kCut;
+    if (is_needed(*name) && *sum != big_endian(stored->data()))
+      return fmt::format("it is damaged: its chunk at byte {} does not match its checksum", at);
+    if (std::equal(name, name + 4, "IEND")) break;
+  }
+  return {};
+}
+
+}  // namespace kaustik::images
