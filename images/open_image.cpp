@@ -3,8 +3,7 @@
 #include "images/open_image.h"
 #include "core/files/input_file.h"
 #include "core/text.h"
-#include "images/png_check.h"
-#include "render/picture/exr_header.h"
+#include "images/damage.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <string_view>
 
 namespace kaustik::images {
@@ -22,6 +22,7 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr size_t kMarkBytes = 16;
+constexpr const char* kDamaged = "the file is damaged or truncated";
 
 struct Mark {
   std::string_view bytes, format;
@@ -57,16 +58,10 @@ bool is_netpbm(std::string_view head) {
          std::isspace(static_cast<unsigned char>(head[2])) != 0;
 }
 
-// Damage with which the library that decodes the format does not deal well.
-std::string damage_of(const std::string& path, const std::string& format) {
-  if (format == "png") return png_trouble(path);
-  if (format != "openexr") return {};
-  try {
-    render::check_exr_header(path);
-  } catch (const std::runtime_error& failure) {
-    return failure.what();
-  }
-  return {};
+// Why the reader has failed: its own message, or another in its place, since some readers fail without one.
+std::string reason_of(const OIIO::ImageInput& in) {
+  std::string reason = in.geterror();
+  return reason.empty() ? kDamaged : reason;
 }
 
 bool is_targa_name(const std::string& path) {
@@ -108,13 +103,27 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::Imag
   in->threads(1);  // otherwise the library starts a thread pool of its own
   configuration.attribute("oiio:UnassociatedAlpha", 1);
   OIIO::ImageSpec spec;
-  if (!in->open(path, spec, configuration)) return fail(reason_of(*in));
+  try {
+    if (!in->open(path, spec, configuration)) return fail(reason_of(*in));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return fail(kDamaged);
+  }
   return in;
 }
 
-std::string reason_of(const OIIO::ImageInput& in) {
-  std::string reason = in.geterror();
-  return reason.empty() ? "the file is damaged or truncated" : reason;
+bool read_channels(OIIO::ImageInput& in, int first, int end, float* values, OIIO::stride_t stride,
+                   std::string& error) {
+  try {
+    if (in.read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, values, stride)) return true;
+    error = reason_of(in);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    error = kDamaged;
+  }
+  return false;
 }
 
 }  // namespace kaustik::images

@@ -13,7 +13,9 @@ namespace {
 
 using namespace std::string_literals;
 using namespace test;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // The error of reading a picture with these bytes; empty if there is none.
 std::string complaint_of(const std::string& name, const std::string& bytes) {
@@ -46,8 +48,9 @@ TEST(DamagedImages, PngPrintsNothing) {
   for (size_t cut = whole.find("IDAT") + 4; cut + 14 < whole.size(); cut += 9)
     EXPECT_THAT(complaint_of("cut.png", whole.substr(0, cut)), HasSubstr("it ends early"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  // Pictures without their end mark are read as before.
+  // What follows the pixels is not read.
   EXPECT_EQ(complaint_of("endless.png", whole.substr(0, whole.size() - 12)), "");
+  EXPECT_EQ(complaint_of("cut-end.png", whole.substr(0, whole.size() - 5)), "");
 }
 
 std::string little_endian(uint32_t number) {
@@ -81,8 +84,31 @@ TEST(DamagedImages, SizesOfExrAttributesAreCheckedAgainstTheFile) {
               HasSubstr("its attribute \"channels\" should have 56 bytes"));
   EXPECT_THAT(complaint_of("fixed.exr", with("number\0int\0"s + little_endian(5) + "abcde")),
               HasSubstr("its attribute \"number\" should have 5 bytes, and has 4"));
-  EXPECT_EQ(complaint_of("valid.exr", with(list + little_endian(1) + "a" + little_endian(0))), "");
+  // A header with a list that is right is left to OpenEXR, which finds no rows where they were.
+  EXPECT_THAT(complaint_of("valid.exr", with(list + little_endian(1) + "a" + little_endian(0))),
+              AllOf(HasSubstr("pixel data"), Not(HasSubstr("attribute"))));
   EXPECT_THAT(complaint_of("cut.exr", whole.substr(0, 20)), HasSubstr("its header has no end"));
+}
+
+// OpenImageIO's reader of PSD allocates what the size of a section says.
+TEST(DamagedImages, SizesOfPsdSectionsAreCheckedAgainstTheFile) {
+  const std::string header = "8BPS\0\1\0\0\0\0\0\0\0\3\0\0\0\1\0\0\0\1\0\10\0\3"s;
+  const std::string none(4, '\0'), huge = "\xe4\xf6\xe4\x50"s, pixels = "\0\0\20\20\20"s;
+  EXPECT_EQ(complaint_of("valid.psd", header + none + none + none + pixels), "");
+  EXPECT_THAT(complaint_of("colours.psd", header + huge + none + none + pixels), HasSubstr("it ends early"));
+  EXPECT_THAT(complaint_of("layers.psd", header + none + none + huge + pixels), HasSubstr("it ends early"));
+  // One block of resources: mark, number, an empty name, size.
+  const std::string block = "\0\0\0\xc"s + "8BIM\4\17\0\0"s;
+  EXPECT_EQ(complaint_of("resource.psd", header + none + block + none + none + pixels), "");
+  EXPECT_THAT(complaint_of("resources.psd", header + none + block + huge + none + pixels),
+              HasSubstr("its resources end behind their section"));
+}
+
+// OpenImageIO's reader of SGI throws std::length_error for numbers of 255 bytes.
+TEST(DamagedImages, ExceptionsOfReadersAreErrors) {
+  const std::string header = "\x01\xda\xff\xff\0\1\0\3\0\5\0\x8d"s;
+  EXPECT_THAT(complaint_of("numbers.sgi", header + std::string(500, '\0')),
+              HasSubstr("damaged or truncated"));
 }
 
 }  // namespace
