@@ -120,6 +120,21 @@ std::string psd_trouble(const std::string& path) {
   return fits ? "" : kCut;
 }
 
+// In an SGI file of run lengths two tables follow the header, each with four bytes for every row of every
+// channel.
+std::string sgi_trouble(const std::string& path) {
+  constexpr uint64_t kHeaderBytes = 512;
+  constexpr unsigned char kRunLengths = 1;
+  std::error_code unknown;
+  std::ifstream file(path, std::ios::binary);
+  const auto head = next<12>(file);  // mark, storage, bytes of a number, dimensions, width, height, channels
+  if (!head) return kCut;
+  const auto number = [&](size_t at) { return uint64_t{(*head)[at]} << 8 | (*head)[at + 1]; };
+  const uint64_t tables = 8 * number(8) * number(10);
+  const bool fits = kHeaderBytes + tables <= std::filesystem::file_size(path, unknown);
+  return (*head)[2] != kRunLengths || fits ? "" : kCut;
+}
+
 std::string exr_trouble(const std::string& path) {
   try {
     render::check_exr_header(path);
@@ -134,6 +149,7 @@ std::string exr_trouble(const std::string& path) {
 std::string damage_of(const std::string& path, const std::string& format) {
   if (format == "png") return png_trouble(path);
   if (format == "psd") return psd_trouble(path);
+  if (format == "sgi") return sgi_trouble(path);
   return format == "openexr" ? exr_trouble(path) : "";
 }
 

@@ -104,6 +104,12 @@ TEST(DamagedImages, SizesOfPsdSectionsAreCheckedAgainstTheFile) {
               HasSubstr("its resources end behind their section"));
 }
 
+// OpenImageIO's reader of SGI allocates the tables of run lengths before it finds that they are not there.
+TEST(DamagedImages, TablesOfSgiAreCheckedAgainstTheFile) {
+  const std::string header = "\x01\xda\1\1\0\3\0\1\xff\xff\xff\xff"s;
+  EXPECT_THAT(complaint_of("tables.sgi", header + std::string(600, '\0')), HasSubstr("it ends early"));
+}
+
 // OpenImageIO's reader of SGI throws std::length_error for numbers of 255 bytes.
 TEST(DamagedImages, ExceptionsOfReadersAreErrors) {
   const std::string header = "\x01\xda\xff\xff\0\1\0\3\0\5\0\x8d"s;
