@@ -73,14 +73,14 @@ bool is_cut_png(const std::string& path, const OIIO::ImageSpec& spec) {
 
 // Reads all pixels and keeps the chosen channels. Values that are not finite become zero.
 bool read_values(OIIO::ImageInput& in, const std::array<int, 3>& channels, bool grey,
-                 std::vector<float>& values) {
+                 std::vector<float>& values, std::string& why) {
   const OIIO::ImageSpec& spec = in.spec();
   const int first = *std::min_element(channels.begin(), channels.end());
   const int end = 1 + *std::max_element(channels.begin(), channels.end());
   const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
   const size_t read = static_cast<size_t>(end - first), kept = grey ? 1 : 3;
   values.resize(pixels * read);
-  if (!in.read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, values.data())) return false;
+  if (!read_channels(in, first, end, values.data(), OIIO::AutoStride, why)) return false;
   for (size_t i = 0; i < pixels; ++i) {
     std::array<float, 3> pixel{};
     for (size_t c = 0; c < kept; ++c) {
@@ -118,8 +118,9 @@ std::optional<DecodedImage> decode_image(const std::string& path, const ImageEnc
   const std::array<int, 3> channels = colour_channels(spec);
   const bool grey = channels[0] == channels[1];
   std::vector<float> values;
-  if (!read_values(*in, channels, grey, values)) {
-    error = unreadable(path, reason_of(*in));
+  std::string why;
+  if (!read_values(*in, channels, grey, values, why)) {
+    error = unreadable(path, why);
     return std::nullopt;
   }
   const bool bytes = spec.format == OIIO::TypeDesc::UINT8;

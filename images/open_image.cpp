@@ -3,6 +3,7 @@
 #include "images/open_image.h"
 #include "core/files/input_file.h"
 #include "core/text.h"
+#include "images/damage.h"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <string_view>
 
 namespace kaustik::images {
@@ -20,6 +22,7 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr size_t kMarkBytes = 16;
+constexpr const char* kDamaged = "the file is damaged or truncated";
 
 struct Mark {
   std::string_view bytes, format;
@@ -55,6 +58,12 @@ bool is_netpbm(std::string_view head) {
          std::isspace(static_cast<unsigned char>(head[2])) != 0;
 }
 
+// Why the reader has failed: its own message, or another in its place, since some readers fail without one.
+std::string reason_of(const OIIO::ImageInput& in) {
+  std::string reason = in.geterror();
+  return reason.empty() ? kDamaged : reason;
+}
+
 bool is_targa_name(const std::string& path) {
   const std::string extension = lower_extension(path);
   return extension == ".tga" || extension == ".tpic";
@@ -88,18 +97,33 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::Imag
   if (!std::ifstream(path)) return fail(std::strerror(errno));
   const std::string format = format_of(path);
   if (format.empty()) return fail("it is in none of the formats " + std::string(kFormats));
+  if (std::string why = damage_of(path, format); !why.empty()) return fail(std::move(why));
   auto in = OIIO::ImageInput::create(format);
   if (!in) return fail(OIIO::geterror());
   in->threads(1);  // otherwise the library starts a thread pool of its own
   configuration.attribute("oiio:UnassociatedAlpha", 1);
   OIIO::ImageSpec spec;
-  if (!in->open(path, spec, configuration)) return fail(reason_of(*in));
+  try {
+    if (!in->open(path, spec, configuration)) return fail(reason_of(*in));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return fail(kDamaged);
+  }
   return in;
 }
 
-std::string reason_of(const OIIO::ImageInput& in) {
-  std::string reason = in.geterror();
-  return reason.empty() ? "the file is damaged or truncated" : reason;
+bool read_channels(OIIO::ImageInput& in, int first, int end, float* values, OIIO::stride_t stride,
+                   std::string& error) {
+  try {
+    if (in.read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, values, stride)) return true;
+    error = reason_of(in);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    error = kDamaged;
+  }
+  return false;
 }
 
 }  // namespace kaustik::images

@@ -19,7 +19,9 @@ std::string format_of(const std::string& path);
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::ImageSpec configuration,
                                              std::string& error);
 
-// Why the reader has failed: its own message, or another in its place, since some readers fail without one.
-std::string reason_of(const OIIO::ImageInput& in);
+// Reads the channels from `first` to before `end`, those of pixels `stride` bytes apart. Returns false and
+// sets `error` if the reader fails or throws, as those of some formats do for damaged files.
+bool read_channels(OIIO::ImageInput& in, int first, int end, float* values, OIIO::stride_t stride,
+                   std::string& error);
 
 }  // namespace kaustik::images

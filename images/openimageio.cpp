@@ -150,8 +150,8 @@ class OpenImageIo final : public render::ImageFormats {
     ImageNumbers out{spec.width, spec.height,    count,        !spec.format.is_floating_point(),
                      {},         texts_of(spec), part_of(spec)};
     out.values.resize(out.count() * size_t(count));
-    if (!in->read_image(0, 0, first, first + count, OIIO::TypeDesc::FLOAT, out.values.data()))
-      return fail(reason_of(*in));
+    if (!read_channels(*in, first, first + count, out.values.data(), OIIO::AutoStride, error))
+      return std::nullopt;
     return out;
   }
 
@@ -172,9 +172,9 @@ class OpenImageIo final : public render::ImageFormats {
                      {},         {},          part_of(spec)};
     out.values.resize(out.count() * chosen.size());
     for (size_t c = 0; c < chosen.size(); ++c)
-      if (!in->read_image(0, 0, chosen[c], chosen[c] + 1, OIIO::TypeDesc::FLOAT, out.values.data() + c,
-                          OIIO::stride_t(chosen.size() * sizeof(float))))
-        return fail(reason_of(*in));
+      if (!read_channels(*in, chosen[c], chosen[c] + 1, out.values.data() + c,
+                         OIIO::stride_t(chosen.size() * sizeof(float)), error))
+        return std::nullopt;
     return out;
   }
 

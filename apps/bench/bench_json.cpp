@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "apps/bench/span.h"
+#include "render/passes/json_numbers.h"
 
 namespace kaustik::app {
 
@@ -99,10 +100,7 @@ const Json& field(const Json& object, std::string_view key) {
 }
 
 uint64_t whole(const Json& object, std::string_view key, uint64_t least, uint64_t most) {
-  const Json& value = field(object, key);
-  if (!value.is_number_unsigned() || value.get<uint64_t>() < least || value.get<uint64_t>() > most)
-    refuse(key, fmt::format("a whole number, {} to {}", least, most));
-  return value.get<uint64_t>();
+  return render::whole_number(field(object, key), key, least, most);
 }
 
 std::string text_of(const Json& object, std::string_view key) {

@@ -15,6 +15,7 @@
 #include "core/files/content_hash.h"
 #include "core/stopwatch.h"
 #include "render/camera/pixel_range.h"
+#include "render/passes/json_numbers.h"
 #include "render/picture/exposure.h"
 #include "render/picture/image_io.h"
 #include "render/renderer.h"
@@ -114,7 +115,7 @@ Reference kept_reference(const Job& job, const SweepFolder& folder) {
         fmt::format("{}: it is not the picture that {} describes", folder.path(kPictureName), kAboutName));
   about->at("source").get_to(reference.about.source);
   about->at("seconds").get_to(reference.about.seconds);
-  about->at("passes").get_to(reference.about.passes);
+  render::take_whole(*about, "passes", &reference.about.passes);
   if (const Json& noise = about->at("noise_relmse"); !noise.is_null())
     reference.about.noise = noise.get<double>();
   return reference;

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <string_view>
 
 #include "apps/bench/bench_json.h"
+#include "render/passes/json_numbers.h"
 #include "render/settings/names.h"
 
 namespace kaustik::app {
@@ -26,6 +29,14 @@ Json or_null(const std::optional<double>& value) {
 
 std::optional<double> optional_number(const Json& in) {
   return in.is_null() ? std::nullopt : std::optional(in.get<double>());
+}
+
+float radius_from(const Json& radii, const char* key) {
+  const Json& value = radii.at(key);
+  const double radius = value.is_number() ? value.get<double>() : -1;
+  if (!(radius >= 0 && radius <= std::numeric_limits<float>::max()))
+    throw std::runtime_error(fmt::format("\"{}\": expected a radius in metres, 0 or more", key));
+  return static_cast<float>(radius);
 }
 
 // The values by the sides of their blocks.
@@ -97,7 +108,7 @@ Json cell_json(const SweepCell& cell) {
 SweepCell cell_from_json(const Json& in) {
   SweepCell cell;
   const Json& error = in.at("error");
-  in.at("seeds").get_to(cell.error.images);
+  render::take_whole(in, "seeds", &cell.error.images);
   error.at("relmse").get_to(cell.error.relmse);
   cell.error.bias2 = optional_number(error.at("bias2"));
   cell.error.variance = optional_number(error.at("variance"));
@@ -105,11 +116,12 @@ SweepCell cell_from_json(const Json& in) {
   for (size_t i = 0; i < render::kBlockSides.size(); ++i)
     error.at("relmse_of_blocks").at(std::to_string(render::kBlockSides[i])).get_to(cell.relmse_of_blocks[i]);
   error.at("flip").get_to(cell.flip);
-  error.at("pixels").at("compared").get_to(cell.error.compared);
-  error.at("pixels").at("masked").get_to(cell.error.masked);
-  error.at("pixels").at("not_finite").get_to(cell.error.not_finite);
+  const Json& pixels = error.at("pixels");
+  render::take_whole(pixels, "compared", &cell.error.compared);
+  render::take_whole(pixels, "masked", &cell.error.masked);
+  render::take_whole(pixels, "not_finite", &cell.error.not_finite);
   if (const Json& r = in.at("r0"); !r.is_null())
-    cell.radii = {r.at("direct").get<float>(), r.at("caustic").get<float>(), r.at("indirect").get<float>()};
+    cell.radii = {radius_from(r, "direct"), radius_from(r, "caustic"), radius_from(r, "indirect")};
   for (size_t i = 0; i < kPhases; ++i) cell.seconds[i] = read_spread(in.at("seconds"), kPhaseNames[i]);
   in.at("picture").get_to(cell.picture);
   in.at("error_map").get_to(cell.error_map);

@@ -11,6 +11,7 @@
 #include "core/files/content_hash.h"
 #include "core/parallel/parallel.h"
 #include "render/map_files/map_layout.h"
+#include "render/passes/json_numbers.h"
 #include "render/passes/manifest_values.h"
 #include "render/settings/names.h"
 
@@ -95,10 +96,11 @@ void MapFile::read_manifest(std::string_view text) {
   statistics_ = statistics_from(json.at("statistics"));
   for (const Json& entry : json.at("maps")) {
     Map map{.kind = kind_named(entry.at("kind").get<std::string>())};
-    entry.at("photons").get_to(map.photons);
+    take_whole(entry, "photons", &map.photons);
     map.flux_unit = finite_from_hex(entry.at("flux_unit"));
     map.cube = cube_from(entry.at("cube"));
-    for (size_t a = 0; a < kArrays; ++a) entry.at("bytes").at(a).get_to(map.arrays[a].bytes);
+    for (size_t a = 0; a < kArrays; ++a)
+      map.arrays[a].bytes = whole_number<uint64_t>(entry.at("bytes").at(a), "bytes");
     m.kinds[map.kind] = true;
     maps_.push_back(map);
   }

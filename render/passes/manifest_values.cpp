@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "render/passes/json_numbers.h"
+
 namespace kaustik::render {
 
 using Json = ManifestJson;
@@ -64,11 +66,8 @@ float finite_from_hex(const Json& json) {
   return value;
 }
 
-int exponent_from(const Json& json) {
-  const int exponent = json.get<int>();
-  if (exponent < -1000 || exponent > 1000)
-    throw std::runtime_error(fmt::format("2^{} is not a valid unit", exponent));
-  return exponent;
+int exponent_from(const Json& object, const char* key) {
+  return whole_number(object.at(key), key, -1000, 1000);
 }
 
 Json settings_json(const SettingTexts& settings) {
@@ -100,8 +99,10 @@ std::optional<GatherRadii> radii_from(const Json& json) {
     if (!(r >= 0)) throw std::runtime_error(fmt::format("`{}` is not a radius", r));
     return r;
   };
-  return GatherRadii{radius("direct"), radius("caustic"), radius("indirect"),
-                     json.at("caustic_nearest").get<uint32_t>(), json.at("direct_nearest").get<uint32_t>()};
+  GatherRadii radii{radius("direct"), radius("caustic"), radius("indirect")};
+  take_whole(json, "caustic_nearest", &radii.caustic_nearest);
+  take_whole(json, "direct_nearest", &radii.direct_nearest);
+  return radii;
 }
 
 Json statistics_values(const RenderStatistics& s) {
@@ -116,13 +117,16 @@ Json statistics_values(const RenderStatistics& s) {
 
 RenderStatistics statistics_from(const Json& json) {
   RenderStatistics s;
-  for_each_count(s, [&](const std::string& name, uint64_t& n) { json.at("counts").at(name).get_to(n); });
+  const Json &counts = json.at("counts"), &energy = json.at("energy");
+  for_each_count(s, [&](const std::string& name, uint64_t& n) { take_whole(counts, name, &n); });
   for_each_time(s, [&](const std::string& name, double& t) { json.at("seconds").at(name).get_to(t); });
   photon::EnergyLedger& e = s.photons.energy;
-  for_each_energy(e, [&](const std::string& name, int64_t& n) { json.at("energy").at(name).get_to(n); });
-  e.unit_exponent = exponent_from(json.at("energy").at("unit_exponent"));
-  for (const Json& d : json.at("dropped_examples"))
-    s.dropped_examples.push_back({d.at(0).get<int>(), d.at(1).get<int>(), d.at(2).get<uint64_t>()});
+  for_each_energy(e, [&](const std::string& name, int64_t& n) { take_whole(energy, name, &n); });
+  e.unit_exponent = exponent_from(energy, "unit_exponent");
+  const char* const key = "dropped_examples";
+  for (const Json& d : json.at(key))
+    s.dropped_examples.push_back({whole_number<int>(d.at(0), key), whole_number<int>(d.at(1), key),
+                                  whole_number<uint64_t>(d.at(2), key)});
   return s;
 }
 

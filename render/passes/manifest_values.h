@@ -17,8 +17,8 @@ using ManifestJson = nlohmann::ordered_json;
 std::string hex_text(float value);
 float finite_from_hex(const ManifestJson& json);
 
-// An exponent whose power of two is representable as a double.
-int exponent_from(const ManifestJson& json);
+// An exponent in a member of an object, whose power of two is representable as a double.
+int exponent_from(const ManifestJson& object, const char* key);
 
 ManifestJson settings_json(const SettingTexts& settings);
 SettingTexts settings_from(const ManifestJson& json);

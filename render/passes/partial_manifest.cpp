@@ -7,6 +7,7 @@
 #include <bit>
 #include <type_traits>
 
+#include "render/passes/json_numbers.h"
 #include "render/passes/manifest_values.h"
 
 namespace kaustik::render {
@@ -42,9 +43,9 @@ Json window_json(const PixelWindow<PixelTotals>& p) {
 }
 
 void take_window(const Json& json, ReadManifest* out) {
-  json.at("width").get_to(out->width), json.at("height").get_to(out->height);
-  json.at("x0").get_to(out->x0), json.at("y0").get_to(out->y0);
-  json.at("full_width").get_to(out->full_width), json.at("full_height").get_to(out->full_height);
+  take_whole(json, "width", &out->width), take_whole(json, "height", &out->height);
+  take_whole(json, "x0", &out->x0), take_whole(json, "y0", &out->y0);
+  take_whole(json, "full_width", &out->full_width), take_whole(json, "full_height", &out->full_height);
   constexpr int kMost = 65535;
   const auto inside = [](int first, int size, int full) {
     return first >= 0 && size >= 1 && full <= kMost && size <= full && first <= full - size;
@@ -118,16 +119,15 @@ ReadManifest manifest_from_text(std::string_view text) {
   sums.passes = passes_from(json.at("passes"));
   m.goal = passes_from(json.at("goal"));
   json.at("stopped_by").get_to(m.stopped_by);
-  json.at("passes_of_settings").get_to(sums.shares);
-  if (sums.shares < 1 || sums.shares > kMostPasses)
-    throw std::runtime_error("the number of passes is out of range");
+  constexpr const char* kShares = "passes_of_settings";
+  sums.shares = whole_number<uint64_t>(json.at(kShares), kShares, 1, kMostPasses);
   sums.radii = radii_from(json.at("radii"));
   take_window(json.at("window"), &out);
   json.at("halves").get_to(out.halves);
   const Json& units = json.at("unit_exponents");
-  out.units = {.radiance = exponent_from(units.at("radiance")),
-               .square = exponent_from(units.at("square")),
-               .depth = exponent_from(units.at("depth"))};
+  out.units = {.radiance = exponent_from(units, "radiance"),
+               .square = exponent_from(units, "square"),
+               .depth = exponent_from(units, "depth")};
   for_each_need(m.needs,
                 [&](const std::string& name, bool& need) { json.at("needs").at(name).get_to(need); });
   sums.statistics = statistics_from(json.at("statistics"));

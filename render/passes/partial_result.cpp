@@ -115,9 +115,9 @@ PartialResult read_checked(const std::string& path) {
   const uint64_t pixel_bytes = any ? read.pixel_bytes() : 0;
   if (kHeadBytes + manifest_bytes + pixel_bytes + kHashBytes != in.size())
     in.fail("the file's size does not match its image");
-  sums.totals = read.empty_totals();
-  if (any)
-    for (const std::span<std::byte> pixels : bytes_of(sums.totals)) in.get(pixels.data(), pixels.size());
+  // The file's size says that its window may be kept in memory, unless it holds no pass.
+  sums.totals = any ? read.empty_totals() : FilmTotals({}, read.units);
+  for (const std::span<std::byte> pixels : bytes_of(sums.totals)) in.get(pixels.data(), pixels.size());
   return std::move(read.result);
 }
 
@@ -195,7 +195,8 @@ std::string difference(const PartialResult& a, const PartialResult& b) {
   if (a.sums.radii && b.sums.radii && *a.sums.radii != *b.sums.radii) return "their gather radii differ";
   if (a.sums.shares != b.sums.shares || a.sums.totals.units() != b.sums.totals.units())
     return "their sums have different units";
-  if (a.sums.totals.has_halves() != b.sums.totals.has_halves())
+  const bool pixels = !a.sums.passes.empty() && !b.sums.passes.empty();
+  if (pixels && a.sums.totals.has_halves() != b.sums.totals.has_halves())
     return "only one of them has its samples in halves, for denoising";
   return {};
 }

@@ -11,7 +11,7 @@ namespace kaustik::render {
 
 namespace {
 
-std::optional<PassSet> parse_range(std::string_view text) {
+std::optional<PassSet::Range> parse_range(std::string_view text) {
   uint64_t edge[2] = {0, 0};
   const size_t colon = text.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
@@ -22,7 +22,7 @@ std::optional<PassSet> parse_range(std::string_view text) {
     if (error != std::errc() || end != stop) return std::nullopt;
   }
   if (edge[0] >= edge[1] || edge[1] > kMostPasses) return std::nullopt;
-  return PassSet(edge[0], edge[1]);
+  return PassSet::Range{edge[0], edge[1]};
 }
 
 }  // namespace
@@ -33,14 +33,20 @@ PassSet::PassSet(uint64_t begin, uint64_t end) {
 
 std::optional<PassSet> PassSet::parse(std::string_view text) {
   PassSet all;
-  for (;;) {
-    const size_t comma = text.find(',');
+  for (size_t comma = 0; comma != std::string_view::npos;) {
+    comma = text.find(',');
     const auto range = parse_range(text.substr(0, comma));
-    if (!range || !all.common(*range).empty()) return std::nullopt;
-    all.add(*range);
-    if (comma == std::string_view::npos) return all;
-    text.remove_prefix(comma + 1);
+    if (!range) return std::nullopt;
+    all.ranges_.push_back(*range);
+    text.remove_prefix(std::min(comma, text.size() - 1) + 1);
   }
+  // Sorted and compared once: a text of a megabyte, which a file may hold, has a hundred thousand ranges.
+  std::sort(all.ranges_.begin(), all.ranges_.end(),
+            [](const Range& a, const Range& b) { return a.begin < b.begin; });
+  for (size_t i = 1; i < all.ranges_.size(); ++i)
+    if (all.ranges_[i].begin < all.ranges_[i - 1].end) return std::nullopt;
+  all.add({});  // joins those that touch
+  return all;
 }
 
 std::string PassSet::text() const {

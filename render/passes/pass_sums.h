@@ -13,7 +13,7 @@ namespace kaustik::render {
 struct PassSums {
   PassSet passes;       // the complete passes
   uint64_t shares = 1;  // number of passes among which the settings' photons and samples are divided
-  FilmTotals totals;
+  FilmTotals totals;    // may be without pixels if there is no pass
   std::optional<GatherRadii> radii;  // r0 of the first pass, once known
   RenderStatistics statistics;
 

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "core/files/input_file.h"
+#include "render/picture/exr_header.h"
 
 namespace kaustik::render {
 
@@ -113,6 +114,7 @@ void check_size(int64_t width, int64_t height, const Imf::ChannelList& channels,
 
 ExrChannels read_exr_file(const std::string& path, uint64_t most_pixels) {
   check_regular(path);
+  check_exr_header(path);
   constexpr int kNoThreads = 0;
   Imf::InputFile in(path.c_str(), kNoThreads);
   const Imath::Box2i window = in.header().dataWindow(), display = in.header().displayWindow();

@@ -2,8 +2,10 @@
 
 #include "render/passes/partial_result.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -63,6 +65,22 @@ class PartialFile : public ::testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
   void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
+  // Replaces a part of the manifest and corrects its size and the checksum.
+  void forge(const std::string& honest, const std::string& claim) const {
+    std::string forged = bytes();
+    const size_t at = forged.find(honest);
+    ASSERT_NE(at, std::string::npos) << honest;
+    forged.replace(at, honest.size(), claim);
+    uint64_t manifest = 0;
+    std::memcpy(&manifest, &forged[16], sizeof manifest);
+    manifest += claim.size() - honest.size();
+    std::memcpy(&forged[16], &manifest, sizeof manifest);
+    ContentHash hash;
+    hash.add(std::string_view(forged).substr(0, forged.size() - 16));
+    const auto words = hash.words();
+    std::memcpy(forged.data() + forged.size() - 16, words.data(), 16);
+    write(forged);
+  }
   // The error message for the file; empty when it can be read.
   std::string complaint() const {
     try {
@@ -171,16 +189,51 @@ TEST_F(PartialFile, ClaimsAreCheckedAgainstTheFilesSize) {
   part.sums.totals =
       FilmTotals(PixelWindow<PixelTotals>(10000, 1, 0, 0, 65535, 65535), part.sums.totals.units());
   write_partial(file_, part.manifest, part.sums);
-  std::string forged = bytes();
-  const std::string honest = "\"width\": 10000,", claim = "\"width\": 65535,";  // of equal length
-  ASSERT_NE(forged.find(honest), std::string::npos);
-  forged.replace(forged.find(honest), honest.size(), claim);
-  ContentHash hash;
-  hash.add(std::string_view(forged).substr(0, forged.size() - 16));
-  const auto words = hash.words();
-  std::memcpy(forged.data() + forged.size() - 16, words.data(), 16);
-  write(forged);
+  forge("\"width\": 10000,", "\"width\": 65535,");
   EXPECT_THAT(complaint(), HasSubstr("size"));
+}
+
+// A file without passes has no pixels that its claims could be checked against, and needs none in memory.
+TEST_F(PartialFile, WithoutPassesClaimsTakeNoMemory) {
+  PartialResult none = example();
+  none.sums.passes = {};
+  write_partial(file_, none.manifest, none.sums);
+  forge("\"width\": 3,", "\"width\": 65535,"), forge("\"height\": 2,", "\"height\": 65535,");
+  forge("\"x0\": 1,", "\"x0\": 0,");
+  forge("\"full_width\": 8,", "\"full_width\": 65535,");
+  forge("\"full_height\": 8", "\"full_height\": 65535");
+  none = read_partial(file_);
+  EXPECT_TRUE(none.sums.totals.pixels().all().empty());
+  // It can be merged in either order.
+  const PartialResult part = example();
+  EXPECT_EQ(difference(none, part), "");
+  PassSums first = none.sums, second = part.sums;
+  first.add(part.sums), second.add(none.sums);
+  for (const PassSums& sums : {first, second}) {
+    EXPECT_EQ(sums.passes, part.sums.passes);
+    EXPECT_EQ(sums.totals.pixels().at(2, 1), part.sums.totals.pixels().at(2, 1));
+  }
+}
+
+// The JSON library would turn 2^32 + 3 into a width of 3 and -5 into 2^64 - 5.
+TEST_F(PartialFile, NumbersThatAreNoCountsAreRefusedByName) {
+  const std::array<std::array<std::string, 3>, 8> claims = {{{"width", "3", "4294967299"},
+                                                             {"width", "3", "3.5"},
+                                                             {"y0", "0", "-4294967296"},
+                                                             {"shadow_rays", "5", "-5"},
+                                                             {"shadow_rays", "5", "1e30"},
+                                                             {"absorbed", "0", "18446744073709551615"},
+                                                             {"direct_nearest", "0", "4294967296"},
+                                                             {"passes_of_settings", "8", "-8"}}};
+  const PartialResult part = example();
+  for (const auto& [key, honest, claim] : claims) {
+    write_partial(file_, part.manifest, part.sums);
+    forge(fmt::format("\"{}\": {}", key, honest), fmt::format("\"{}\": {}", key, claim));
+    EXPECT_THAT(complaint(), HasSubstr(fmt::format("\"{}\": expected a whole number", key))) << claim;
+  }
+  write_partial(file_, part.manifest, part.sums);
+  forge("1099511627776", "-1");
+  EXPECT_THAT(complaint(), HasSubstr("\"dropped_examples\": expected a whole number"));
 }
 
 TEST_F(PartialFile, FailedWriteKeepsThePreviousFile) {

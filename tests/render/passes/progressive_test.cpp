@@ -1,5 +1,6 @@
 // Tests passes that are split, joined and extended, and radii that shrink.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -157,6 +158,10 @@ TEST(PassSets, StoreRangesOfPasses) {
                           "a:b", "0:2147483648", "0:99999999999999999999"})
     EXPECT_FALSE(PassSet::parse(bad)) << bad;
   EXPECT_TRUE(PassSet::parse("0:2147483647"));
+  // A file may hold a long text, which takes no minutes.
+  std::string many;
+  for (int i = 0; i < 100000; ++i) many += fmt::format("{}{}:{}", i == 0 ? "" : ",", 2 * i, 2 * i + 1);
+  EXPECT_EQ(PassSet::parse(many)->count(), 100000u);
 }
 
 // A point light at height 1 over a plane, seen below the light. The estimate of radius r is the mean of E = I
