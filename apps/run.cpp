@@ -86,7 +86,12 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
 }  // namespace
 
 int run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
-  const int code = run_program(argc, argv, out, err);
+  int code = kFailed;
+  try {
+    code = run_program(argc, argv, out, err);
+  } catch (const std::bad_alloc&) {  // before the command ran
+    err << "kaustik: out of memory\n";
+  }
   errno = 0;
   if (out.flush()) return code;
   err << "kaustik: cannot write to the standard output: "

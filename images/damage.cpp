@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -58,7 +57,7 @@ bool is_needed(unsigned char first_letter) {
 
 // A PNG file is a list of chunks: the size of the data in four bytes (big-endian), a name of four letters,
 // the data, and the checksum of name and data.
-std::string png_trouble(const std::string& path) {
+std::string png_trouble(const std::string& path, Reads reads) {
   constexpr std::streamoff kMarkBytes = 8;
   std::ifstream file(path, std::ios::binary);
   file.seekg(kMarkBytes);
@@ -68,7 +67,7 @@ std::string png_trouble(const std::string& path) {
     if (!head) return any_pixels ? "" : kCut;
     const unsigned char* const name = head->data() + 4;
     const bool pixels = std::equal(name, name + 4, "IDAT");
-    if (any_pixels && !pixels) break;
+    if ((any_pixels && !pixels) || (pixels && reads == Reads::kHeader)) break;
     any_pixels = pixels;
     const auto sum = checksum(file, name, big_endian(head->data()));
     const auto stored = next<4>(file);
@@ -77,62 +76,6 @@ std::string png_trouble(const std::string& path) {
       return fmt::format("it is damaged: its chunk at byte {} does not match its checksum", at);
   }
   return {};
-}
-
-// Passes the blocks of resources before `end` in a PSD file: mark, number, name, which is padded to an even
-// size with its length, and data. Returns whether they end there or before.
-bool resources_end(std::istream& file, std::streamoff end) {
-  while (file.tellg() < end) {
-    const auto head = next<7>(file);
-    if (!head) return false;
-    file.ignore(head->back() | 1);
-    const auto size = next<4>(file);
-    if (!size || big_endian(size->data()) > end - file.tellg()) return false;
-    file.ignore((uint64_t{big_endian(size->data())} + 1) & ~uint64_t{1});
-  }
-  return true;
-}
-
-// In a PSD file three sections follow the header, each behind its size: colours, resources, layers. Files of
-// version 2 are larger, with eight bytes for the last size.
-std::string psd_trouble(const std::string& path) {
-  constexpr std::streamoff kVersion = 4, kHeaderBytes = 26;
-  std::error_code unknown;
-  const auto file_size = static_cast<std::streamoff>(std::filesystem::file_size(path, unknown));
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(kVersion);
-  const auto version = next<2>(file);
-  file.seekg(kHeaderBytes);
-  for (const bool resources : {false, true}) {
-    const auto size = next<4>(file);
-    if (!size || big_endian(size->data()) > file_size - file.tellg()) return kCut;
-    const std::streamoff end = file.tellg() + std::streamoff{big_endian(size->data())};
-    if (resources && !resources_end(file, end))
-      return "it is damaged: its resources end behind their section";
-    file.seekg(end);
-  }
-  const bool large = version && version->back() == 2;
-  const auto upper = large ? next<4>(file) : std::array<unsigned char, 4>{};
-  const auto lower = next<4>(file);
-  const bool fits = upper && lower &&
-                    (uint64_t{big_endian(upper->data())} << 32 | big_endian(lower->data())) <=
-                        static_cast<uint64_t>(file_size - file.tellg());
-  return fits ? "" : kCut;
-}
-
-// In an SGI file of run lengths two tables follow the header, each with four bytes for every row of every
-// channel.
-std::string sgi_trouble(const std::string& path) {
-  constexpr uint64_t kHeaderBytes = 512;
-  constexpr unsigned char kRunLengths = 1;
-  std::error_code unknown;
-  std::ifstream file(path, std::ios::binary);
-  const auto head = next<12>(file);  // mark, storage, bytes of a number, dimensions, width, height, channels
-  if (!head) return kCut;
-  const auto number = [&](size_t at) { return uint64_t{(*head)[at]} << 8 | (*head)[at + 1]; };
-  const uint64_t tables = 8 * number(8) * number(10);
-  const bool fits = kHeaderBytes + tables <= std::filesystem::file_size(path, unknown);
-  return (*head)[2] != kRunLengths || fits ? "" : kCut;
 }
 
 std::string exr_trouble(const std::string& path) {
@@ -146,10 +89,8 @@ std::string exr_trouble(const std::string& path) {
 
 }  // namespace
 
-std::string damage_of(const std::string& path, const std::string& format) {
-  if (format == "png") return png_trouble(path);
-  if (format == "psd") return psd_trouble(path);
-  if (format == "sgi") return sgi_trouble(path);
+std::string damage_of(const std::string& path, const std::string& format, Reads reads) {
+  if (format == "png") return png_trouble(path, reads);
   return format == "openexr" ? exr_trouble(path) : "";
 }
 

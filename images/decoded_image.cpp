@@ -93,15 +93,18 @@ bool read_values(OIIO::ImageInput& in, const std::array<int, 3>& channels, bool 
   return true;
 }
 
+// Of three channels: as read, converted, and in the cache.
+constexpr uint64_t kBytesOfPixel = 3 * 3 * sizeof(float);
+
 std::string unreadable(const std::string& path, std::string_view why) {
   return fmt::format("cannot read the image \"{}\": {}", path, why);
 }
 
 }  // namespace
 
-std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, std::string& error) {
+std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, Reads reads, std::string& error) {
   std::string why;
-  auto in = open_image(path, {}, why);
+  auto in = open_image(path, reads, {}, why);
   if (in) why = refusal(in->spec());
   if (in && why.empty() && in->format_name() == std::string_view("png") && is_cut_png(path, in->spec()))
     why = "it ends early";
@@ -111,10 +114,15 @@ std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, std::str
 }
 
 std::optional<DecodedImage> decode_image(const std::string& path, const ImageEncoding& encoding,
-                                         std::string& error) {
-  const auto in = open_texture(path, error);
+                                         uint64_t most_bytes, std::string& error) {
+  const auto in = open_texture(path, Reads::kPixels, error);
   if (!in) return std::nullopt;
   const OIIO::ImageSpec spec = in->spec();
+  if (spec.image_pixels() > most_bytes / kBytesOfPixel) {
+    error = unreadable(
+        path, fmt::format("there is no memory left for its {} x {} pixels", spec.width, spec.height));
+    return std::nullopt;
+  }
   const std::array<int, 3> channels = colour_channels(spec);
   const bool grey = channels[0] == channels[1];
   std::vector<float> values;

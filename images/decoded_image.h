@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/texture/image_lookup.h"
+#include "images/damage.h"
 
 namespace kaustik::images {
 
@@ -24,12 +25,13 @@ struct DecodedImage {
 
 // Opens the first image of a file, unless its header shows that it cannot be a texture. Otherwise returns
 // null and stores a sentence in `error` that names the file.
-std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, std::string& error);
+std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, Reads reads, std::string& error);
 
 // Reads the first image of a file in full: its channels R, G and B, or one grey channel. Integers are decoded
-// by `encoding` (sRGB by default); values that are not finite become zero. If the file cannot be read,
+// by `encoding` (sRGB by default); values that are not finite become zero. An image that needs more than
+// most_bytes meanwhile, with its copy in the cache, is refused by its header. If the file cannot be read,
 // returns nothing and stores a sentence in `error` that names the file. Thread-safe; starts no threads.
 std::optional<DecodedImage> decode_image(const std::string& path, const ImageEncoding& encoding,
-                                         std::string& error);
+                                         uint64_t most_bytes, std::string& error);
 
 }  // namespace kaustik::images

@@ -3,7 +3,6 @@
 #include "images/open_image.h"
 #include "core/files/input_file.h"
 #include "core/text.h"
-#include "images/damage.h"
 
 #include <algorithm>
 #include <array>
@@ -39,18 +38,10 @@ constexpr Mark kMarks[] = {
     {"II+\0"sv, "tiff"},
     {"MM\0+"sv, "tiff"},
     {"WEBP"sv, "webp", 8},
-    {"DDS "sv, "dds"},
-    {"8BPS"sv, "psd"},
-    {"GIF8"sv, "gif"},
     {"BM"sv, "bmp"},
-    {"\x01\xda"sv, "sgi"},
-    {"ftypavif"sv, "heif", 4},
-    {"ftyphei"sv, "heif", 4},
-    {"ftypmif1"sv, "heif", 4},
 };
 
-constexpr std::string_view kFormats =
-    "PNG, JPEG, EXR, HDR, TIFF, PFM and PNM, WebP, DDS, Targa, PSD, GIF, BMP, SGI, AVIF and HEIF";
+constexpr std::string_view kFormats = "PNG, JPEG, EXR, HDR, TIFF, PFM and PNM, WebP, Targa and BMP";
 
 // Netpbm's P1 to P6, PF and Pf, each followed by white space.
 bool is_netpbm(std::string_view head) {
@@ -83,8 +74,8 @@ std::string format_of(const std::string& path) {
   return is_targa_name(path) ? "targa" : "";
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::ImageSpec configuration,
-                                             std::string& error) {
+std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, Reads reads,
+                                             OIIO::ImageSpec configuration, std::string& error) {
   const auto fail = [&](std::string why) {
     error = std::move(why);
     return nullptr;
@@ -97,7 +88,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::Imag
   if (!std::ifstream(path)) return fail(std::strerror(errno));
   const std::string format = format_of(path);
   if (format.empty()) return fail("it is in none of the formats " + std::string(kFormats));
-  if (std::string why = damage_of(path, format); !why.empty()) return fail(std::move(why));
+  if (std::string why = damage_of(path, format, reads); !why.empty()) return fail(std::move(why));
   auto in = OIIO::ImageInput::create(format);
   if (!in) return fail(OIIO::geterror());
   in->threads(1);  // otherwise the library starts a thread pool of its own

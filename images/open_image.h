@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "images/damage.h"
+
 namespace kaustik::images {
 
 // OpenImageIO's name of the format that a file begins as, such as "png"; empty for all formats but those that
@@ -16,8 +18,8 @@ std::string format_of(const std::string& path);
 
 // Opens an image for reading, with colours that are not multiplied by alpha unless they are stored so, and
 // without threads. On failure returns null and sets `error` to the reason.
-std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, OIIO::ImageSpec configuration,
-                                             std::string& error);
+std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, Reads reads,
+                                             OIIO::ImageSpec configuration, std::string& error);
 
 // Reads the channels from `first` to before `end`, those of pixels `stride` bytes apart. Returns false and
 // sets `error` if the reader fails or throws, as those of some formats do for damaged files.

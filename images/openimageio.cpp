@@ -141,7 +141,7 @@ class OpenImageIo final : public render::ImageFormats {
     // a configuration.
     OIIO::ImageSpec configuration;
     configuration.attribute("pnm:pfmflip", 1);
-    const auto in = open_image(path, configuration, error);
+    const auto in = open_image(path, Reads::kPixels, configuration, error);
     if (!in) return std::nullopt;
     const OIIO::ImageSpec spec = in->spec();
     if (std::string why = refusal(spec, channels, most_pixels); !why.empty()) return fail(std::move(why));
@@ -161,7 +161,7 @@ class OpenImageIo final : public render::ImageFormats {
       error = std::move(why);
       return std::nullopt;
     };
-    const auto in = open_image(path, {}, error);
+    const auto in = open_image(path, Reads::kPixels, {}, error);
     if (!in) return std::nullopt;
     const OIIO::ImageSpec spec = in->spec();
     if (std::string why = refusal(spec, Channels::kColour, most_pixels); !why.empty())
@@ -199,7 +199,7 @@ class OpenImageIo final : public render::ImageFormats {
 
   std::string texture_trouble(const std::string& path) const override {
     std::string error;
-    open_texture(path, error);
+    open_texture(path, Reads::kHeader, error);
     return error;
   }
 

@@ -25,7 +25,7 @@ class TextureCache final : public render::TextureImages {
   TextureCache(const TextureCache&) = delete;
   TextureCache& operator=(const TextureCache&) = delete;
 
-  ImageResult load(const std::string& path, const ImageEncoding& encoding) override;
+  ImageResult load(const std::string& path, const ImageEncoding& encoding, uint64_t most_bytes) override;
 
   Rgb lookup(uint32_t image, const ImageSampling& sampling, const Point2& st, const Vector2& dstdx,
              const Vector2& dstdy) const override;

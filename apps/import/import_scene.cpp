@@ -120,6 +120,7 @@ Convention convention_of(const std::filesystem::path& path) {
 std::optional<SceneDescription> import_scene(const std::filesystem::path& path, Diagnostics& diagnostics,
                                              const ImportOptions& options) {
   if (!set_root(options.root, diagnostics)) return std::nullopt;
+  diagnostics.files.root().set_room(options.room);
   auto scene = import_format(diagnostics.files.root().find(path), diagnostics, options);
   if (!scene) return std::nullopt;
   apply_view(*scene, options.view, convention_of(path), diagnostics);

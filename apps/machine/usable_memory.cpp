@@ -25,7 +25,7 @@ constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 constexpr uint64_t kReserved = uint64_t{256} << 20;
 
 struct Sizes {
-  uint64_t mapped = 0, resident = 0, of_files = 0, data = 0;  // bytes
+  uint64_t mapped = 0, data = 0;  // bytes
 };
 
 // Reads /proc/self/statm: pages of address space, resident ones, those of files, code, 0, data and stack.
@@ -34,7 +34,7 @@ Sizes sizes_of_process(const std::string& root) {
   uint64_t mapped = 0, resident = 0, of_files = 0, code = 0, unused = 0, data = 0;
   if (!(file >> mapped >> resident >> of_files >> code >> unused >> data)) return {};
   const auto page = static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
-  return {mapped * page, resident * page, of_files * page, data * page};
+  return {mapped * page, data * page};
 }
 
 uint64_t sum_or_most(uint64_t a, uint64_t b) {
@@ -99,11 +99,6 @@ uint64_t left_by_system(decltype(RLIMIT_AS) resource, uint64_t taken, uint64_t h
 }
 
 }  // namespace
-
-uint64_t held_memory(const std::string& root) {
-  const Sizes sizes = sizes_of_process(root);
-  return difference_or_0(sizes.resident, sizes.of_files);
-}
 
 MemoryLimit usable_memory(const std::string& root) {
   const Sizes sizes = sizes_of_process(root);

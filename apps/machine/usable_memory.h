@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/memory/memory_room.h"
+
 namespace kaustik::app {
 
 struct MemoryLimit {
@@ -16,9 +18,5 @@ struct MemoryLimit {
 // to this process, together with what it holds already. Ranks that a launcher has started on this machine
 // share it equally. `root`: a prefix of /proc and /sys, for tests. A missing file sets no limit.
 MemoryLimit usable_memory(const std::string& root = "");
-
-// Bytes of memory that belong to the process alone: without pages of files, which the system can drop. 0 if
-// they cannot be read.
-uint64_t held_memory(const std::string& root = "");
 
 }  // namespace kaustik::app

@@ -111,6 +111,7 @@ std::optional<fs::path> ReadRoot::place_of(const fs::path& folder, const fs::pat
 
 ReadableFile ReadRoot::find(const fs::path& folder, const fs::path& name) const {
   ReadableFile file = ReadableFile::trusted(folder / name);
+  file.room_ = room_;
   if (root_.empty()) return file;
   auto place = place_of(folder, name);
   if (!place) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which files may be read: all, or only those below one folder.
+// Which files may be read: all, or only those below one folder, and only as large as memory allows.
 
 #include <filesystem>
 #include <optional>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/files/file_error.h"
+#include "core/memory/memory_room.h"
 
 namespace kaustik {
 
@@ -26,10 +27,13 @@ class ReadableFile {
   bool without_links() const { return without_links_; }
   // Whether there is such a regular file that may be read. Of files that may not, the answer is always no.
   bool exists() const;
+  // The memory for the file and what is made of it.
+  const MemoryRoom& room() const { return room_; }
 
  private:
   friend class ReadRoot;
   std::filesystem::path path_, place_;
+  MemoryRoom room_;
   std::string refusal_;
   bool without_links_ = false;
 };
@@ -54,6 +58,9 @@ class ReadRoot {
   // Files of this folder may be read, too, by their names alone: the program has made them.
   void add_own(const std::filesystem::path& folder);
 
+  // Limits the memory for files that are found from now on.
+  void set_room(MemoryRoom room) { room_ = std::move(room); }
+
  private:
   using Parts = std::vector<std::string>;
 
@@ -68,6 +75,7 @@ class ReadRoot {
   Parts root_parts_, given_parts_;  // of the root, and of its absolute path as it was given
   std::string refusal_;
   std::vector<std::filesystem::path> own_;  // without links
+  MemoryRoom room_;
 };
 
 }  // namespace kaustik

@@ -42,8 +42,9 @@ enum class Encoding { kPng, kJpeg };
 class TextureImages : public ImageLibrary {
  public:
   // Decodes a file and keeps it. The same file with the same encoding is loaded once. May be called by
-  // several threads at once, but not while lookup() is running.
-  virtual ImageResult load(const std::string& path, const ImageEncoding& encoding) = 0;
+  // several threads at once, but not while lookup() is running. Refuses by its header what needs more than
+  // most_bytes while it is decoded.
+  virtual ImageResult load(const std::string& path, const ImageEncoding& encoding, uint64_t most_bytes) = 0;
 };
 
 // All functions are thread-safe and make no threads.

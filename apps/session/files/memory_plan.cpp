@@ -9,6 +9,7 @@
 #include "accel/bvh_memory.h"
 #include "apps/machine/launched.h"
 #include "apps/machine/peak_memory.h"
+#include "apps/machine/thread_limit.h"
 #include "apps/machine/usable_cores.h"
 #include "render/camera/pixel_range.h"
 #include "render/passes/memory_forecast.h"
@@ -24,15 +25,6 @@ constexpr uint64_t kLibraries = 12u << 20;
 constexpr uint64_t kThread = 2u << 20;
 // Ranks keep the sums of all passes, those of the present one, and those that are sent or received.
 constexpr uint64_t kSumsOfRank = 5;
-
-MemoryLimit limit_of(const render::RenderSettings& settings) {
-  return settings.memory > 0 ? MemoryLimit{settings.memory, "--memory"} : usable_memory();
-}
-
-std::string size_text(uint64_t bytes) {
-  const double size = static_cast<double>(bytes);
-  return size < 1e9 ? fmt::format("{:.3g} MB", size / 1e6) : fmt::format("{:.3g} GB", size / 1e9);
-}
 
 // A part in words, and what makes it smaller.
 struct PartInWords {
@@ -53,6 +45,10 @@ PartInWords largest_part(const MemoryPlan& plan, bool in_passes) {
 
 }  // namespace
 
+MemoryLimit memory_limit(const render::RenderSettings& settings) {
+  return settings.memory > 0 ? MemoryLimit{settings.memory, "--memory"} : usable_memory();
+}
+
 uint64_t MemoryPlan::total(bool in_passes) const {
   return scene + bvh + surfaces + film + (in_passes ? sums : 0) + libraries;
 }
@@ -60,10 +56,11 @@ uint64_t MemoryPlan::total(bool in_passes) const {
 MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise) {
   render::RenderSettings decided = settings;
   decided.denoise = settings.denoise.value_or(may_denoise);
-  const int threads = settings.threads > 0 ? settings.threads : core_limits().usable();
+  const int cores = core_limits().usable();
+  const int threads = settings.threads > 0 ? std::min(settings.threads, most_useful_threads(cores)) : cores;
   const uint64_t pixels = render::rendered_range(settings.crop, scene.camera).pixels();
   const uint64_t copies = launched().ranks > 1 ? kSumsOfRank : 1;
-  return {.limit = limit_of(settings),
+  return {.limit = memory_limit(settings),
           .scene = held_memory() + (scene.textures ? scene.textures->bytes_to_come() : 0),
           .bvh = accel::forecast_bytes(scene),
           .surfaces = render::surfaces_bytes(scene, settings),

@@ -24,6 +24,9 @@ struct MemoryPlan {
   uint64_t total(bool in_passes) const;
 };
 
+// --memory, or what the system leaves.
+MemoryLimit memory_limit(const render::RenderSettings& settings);
+
 // The forecast for a scene that is read and whose BVH is not built. may_denoise: whether the picture may be
 // denoised although the settings do not say so yet.
 MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise = false);

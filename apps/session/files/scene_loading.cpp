@@ -83,6 +83,8 @@ ImportOptions import_options_of(const Settings& settings) {
   ImportOptions options = settings.import_options;
   if (settings.render.width > 0 && settings.render.height > 0)
     options.view.aspect = double(settings.render.width) / settings.render.height;
+  const MemoryLimit limit = memory_limit(settings.render);
+  options.room = MemoryRoom(limit.bytes, limit.source);
   return options;
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/memory/memory_room.h"
+
 namespace kaustik {
 
 // Of an animated file: glTF has seconds, and most of its files come from films.
@@ -42,6 +44,7 @@ struct ImportOptions {
   // Set by the command, not the user. False: images of textures are checked by their headers only and are
   // grey in the scene, for commands that render nothing.
   bool texture_pixels = true;
+  MemoryRoom room{};  // for files and textures, likewise
 };
 
 // Why a file outside the root cannot be read or written.

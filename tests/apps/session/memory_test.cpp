@@ -70,6 +70,19 @@ TEST_F(Memory, ACropNeedsItsOwnFilmAlone) {
   EXPECT_EQ(ran.code, 0) << ran.err;
 }
 
+// A file that does not fit beside what is made of it is refused where the scene names it, before it is read.
+TEST_F(Memory, FilesAreRefusedBeforeTheyAreRead) {
+  std::ofstream(path("large.ply")) << "ply\n";
+  std::filesystem::resize_file(path("large.ply"), 300 * kMegabyte);
+  const std::string scene =
+      write("scene.pbrt",
+            "Camera \"perspective\"\nWorldBegin\nShape \"plymesh\" \"string filename\" \"large.ply\"\n");
+  const auto ran = test::run_kaustik({"render", scene, "--memory", "500M", "-o", path("a.exr")});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("scene.pbrt:3:"));
+  EXPECT_THAT(ran.err, HasSubstr("it needs about 600 MB of memory, but --memory leaves"));
+}
+
 // Only a description is wanted, which needs no film.
 TEST_F(Memory, InfoNeedsNoFilm) {
   const std::string text =

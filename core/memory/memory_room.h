@@ -1,0 +1,34 @@
+#pragma once
+// How much more memory the process may take.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace kaustik {
+
+// Bytes of memory that belong to the process alone: without pages of files, which the system can drop. 0 if
+// they cannot be read. `root`: a prefix of /proc, for tests.
+uint64_t held_memory(const std::string& root = "");
+
+// "1.5 GB" or "20 MB".
+std::string size_text(uint64_t bytes);
+
+// A limit of what the process holds. A value; const functions are thread-safe.
+class MemoryRoom {
+ public:
+  MemoryRoom() = default;  // without a limit
+  // limit: in bytes, of held_memory(). source: what sets it, for messages.
+  MemoryRoom(uint64_t limit, std::string source) : limit_(limit), source_(std::move(source)) {}
+
+  // Bytes that may be taken beside those that the process holds now.
+  uint64_t left() const;
+  // Why so many bytes more cannot be taken; empty if they can.
+  std::string lacks(uint64_t bytes) const;
+
+ private:
+  uint64_t limit_ = std::numeric_limits<uint64_t>::max();
+  std::string source_;
+};
+
+}  // namespace kaustik
