@@ -93,8 +93,8 @@ bool read_values(OIIO::ImageInput& in, const std::array<int, 3>& channels, bool 
   return true;
 }
 
-// Of three channels: as read, converted, and in the cache.
-constexpr uint64_t kBytesOfPixel = 3 * 3 * sizeof(float);
+// As read, converted, and in the cache.
+constexpr uint64_t kBytesOfNumber = 3 * sizeof(float);
 
 std::string unreadable(const std::string& path, std::string_view why) {
   return fmt::format("cannot read the image \"{}\": {}", path, why);
@@ -118,13 +118,13 @@ std::optional<DecodedImage> decode_image(const std::string& path, const ImageEnc
   const auto in = open_texture(path, Reads::kPixels, error);
   if (!in) return std::nullopt;
   const OIIO::ImageSpec spec = in->spec();
-  if (spec.image_pixels() > most_bytes / kBytesOfPixel) {
+  const std::array<int, 3> channels = colour_channels(spec);
+  const bool grey = channels[0] == channels[1];
+  if (spec.image_pixels() * (grey ? 1 : 3) > most_bytes / kBytesOfNumber) {
     error = unreadable(
         path, fmt::format("there is no memory left for its {} x {} pixels", spec.width, spec.height));
     return std::nullopt;
   }
-  const std::array<int, 3> channels = colour_channels(spec);
-  const bool grey = channels[0] == channels[1];
   std::vector<float> values;
   std::string why;
   if (!read_values(*in, channels, grey, values, why)) {

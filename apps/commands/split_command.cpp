@@ -55,7 +55,7 @@ int run_split(const SplitOptions& options, const Console& console) {
   const InterruptGuard interrupt;
   Job job;
   with_thread_limit(options.overrides.alone().render.threads, console,
-                    [&] { job = load_job(options.scene, options.overrides, console); });
+                    [&] { job = load_job(options.scene, options.overrides, console, LoadFor::kPhotons); });
   if (job.settings.stop.any()) refuse("--time and --target-error cannot be divided among tasks");
   settle_passes(options, &job.settings.render);
   check_photons_of_passes(job);

@@ -20,9 +20,10 @@ namespace {
 
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 
-// Address space that Embree, oneTBB and the arenas of the C library reserve without ever touching it.
-// Measured: renders of small scenes end well under `ulimit -v 300000`, of which they hold 15 MB.
-constexpr uint64_t kReserved = uint64_t{256} << 20;
+// Address space that libraries, threads and the arenas of the C library have reserved at the least once a
+// render has begun, mostly without touching it; and data of it. Measured: renders of small scenes, of which
+// they hold 15 MB, end well under `ulimit -v 300000` and under `ulimit -d 200000`.
+constexpr uint64_t kReservedSpace = uint64_t{256} << 20, kReservedData = uint64_t{64} << 20;
 
 struct Sizes {
   uint64_t mapped = 0, data = 0;  // bytes
@@ -63,6 +64,7 @@ uint64_t available_in_machine(const std::string& root) {
 }
 
 // The file holds one number. For no limit, v2 writes "max" and v1 a number near 2^63.
+constexpr uint64_t kAsGoodAsNone = uint64_t{1} << 62;
 uint64_t number_in(const std::filesystem::path& path, uint64_t otherwise) {
   std::ifstream file(path);
   uint64_t bytes = 0;
@@ -70,7 +72,7 @@ uint64_t number_in(const std::filesystem::path& path, uint64_t otherwise) {
 }
 
 // The files of a memory controller: its limit, what its group takes, and the cached pages of files in
-// memory.stat, which the kernel drops before it kills anyone.
+// memory.stat, which, like reclaimable slabs, the kernel drops before it kills anyone.
 struct GroupFiles {
   CgroupVersion version;
   const char *limit, *usage, *cached;
@@ -83,19 +85,28 @@ constexpr GroupFiles kVersion1{CgroupVersion::kV1, "memory.limit_in_bytes", "mem
 uint64_t left_by_groups(const GroupFiles& files, uint64_t held, const std::string& root) {
   uint64_t least = kNoLimit;
   for (const auto& folder : control_group_folders(files.version, "memory", root)) {
+    const uint64_t limit = number_in(folder / files.limit, kNoLimit);
+    if (limit >= kAsGoodAsNone) continue;
     const uint64_t usage = number_in(folder / files.usage, 0);
-    const uint64_t cached = number_named(folder / "memory.stat", files.cached, 0);
+    const uint64_t cached = number_named(folder / "memory.stat", files.cached, 0) +
+                            number_named(folder / "memory.stat", "slab_reclaimable", 0);
     const uint64_t of_others = difference_or_0(usage, cached + held);
-    least = std::min(least, difference_or_0(number_in(folder / files.limit, kNoLimit), of_others));
+    least = std::min(least, difference_or_0(limit, of_others));
   }
   return least;
 }
 
-// What setrlimit(2) leaves of a resource of which the process has taken this much.
-uint64_t left_by_system(decltype(RLIMIT_AS) resource, uint64_t taken, uint64_t held) {
+// What setrlimit(2) leaves of a resource of which the process has taken this much. reserved: what it will
+// have taken without use for it, at the least.
+uint64_t left_by_system(decltype(RLIMIT_AS) resource, uint64_t taken, uint64_t reserved, uint64_t held) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kNoLimit;
-  return sum_or_most(held, difference_or_0(limit.rlim_cur, taken + kReserved));
+  return sum_or_most(held, difference_or_0(limit.rlim_cur, std::max(taken, reserved)));
+}
+
+// The part of one of several ranks, of what is left to all of them with what this one holds.
+uint64_t share(uint64_t left, uint64_t held, uint64_t ranks) {
+  return left == kNoLimit ? left : held + difference_or_0(left, held) / ranks;
 }
 
 }  // namespace
@@ -104,11 +115,11 @@ MemoryLimit usable_memory(const std::string& root) {
   const Sizes sizes = sizes_of_process(root);
   const uint64_t held = held_memory(root), ranks = uint64_t(launched().on_machine);
   const MemoryLimit limits[] = {
-      {sum_or_most(held, available_in_machine(root) / ranks), "the memory of the machine"},
-      {left_by_groups(kVersion2, held, root) / ranks, "the control group"},
-      {left_by_groups(kVersion1, held, root) / ranks, "the control group"},
-      {left_by_system(RLIMIT_AS, sizes.mapped, held), "`ulimit -v`"},
-      {left_by_system(RLIMIT_DATA, sizes.data, held), "`ulimit -d`"}};
+      {share(sum_or_most(held, available_in_machine(root)), held, ranks), "the memory of the machine"},
+      {share(left_by_groups(kVersion2, held, root), held, ranks), "the control group"},
+      {share(left_by_groups(kVersion1, held, root), held, ranks), "the control group"},
+      {left_by_system(RLIMIT_AS, sizes.mapped, kReservedSpace, held), "`ulimit -v`"},
+      {left_by_system(RLIMIT_DATA, sizes.data, kReservedData, held), "`ulimit -d`"}};
   return *std::min_element(std::begin(limits), std::end(limits),
                            [](const auto& a, const auto& b) { return a.bytes < b.bytes; });
 }

@@ -104,7 +104,7 @@ void take_settings(const render::PartialManifest& manifest, const SettingOverrid
   overrides.apply(job->settings);
 }
 
-void serve(Worker& worker, const LoadQuietly& load, const std::string& root,
+void serve(Worker& worker, const LoadQuietly& load, const SettingOverrides& given,
            const std::function<bool()>& go_on, const Console& quiet) {
   Job job;  // stays where it is: the BVH refers to its scene
   std::optional<accel::Bvh> bvh;
@@ -120,7 +120,7 @@ void serve(Worker& worker, const LoadQuietly& load, const std::string& root,
     refuse("its command line is not that of rank 0, but all ranks share one render");
   check_program(manifest.build, manifest.isa, "rank 0", "their passes cannot be combined");
   SettingOverrides overrides = overrides_from(manifest.settings, "rank 0");
-  if (!root.empty()) overrides.set_root(root);
+  overrides.append(given.of_machine());
   if (!load) job = load_job(manifest.scene_path, overrides, quiet);
   take_settings(manifest, overrides, &job);
   if (!bvh) bvh.emplace(job.scene, job.settings.render.threads);
@@ -219,8 +219,7 @@ int serve_passes(Ranks& ranks, const LoadQuietly& load, const SettingOverrides& 
   const Console quiet{said, said, false, true, console.command};
   std::string why;
   try {
-    with_thread_limit(given.alone().render.threads, quiet,
-                      [&] { serve(worker, load, given.root(), go_on, quiet); });
+    with_thread_limit(given.alone().render.threads, quiet, [&] { serve(worker, load, given, go_on, quiet); });
     if (interrupt.requested()) why = "a signal has ended it";
   } catch (const std::bad_alloc&) {
     why = "out of memory";

@@ -178,7 +178,8 @@ nlohmann::ordered_json memory_of(const Job& job, const accel::Bvh& bvh, const Re
   if (session.outputs.statistics.empty()) return nullptr;
   const render::RenderInput input{job.scene, bvh, job.settings.render, result.plan, session.views};
   const bool in_passes = result.sums.totals.pixels().width() > 0;
-  return memory_json(job.memory, in_passes, render::photons_bytes(input, result.sums.shares));
+  const bool shot = !session.maps.from && !result.cancelled;  // kept photons stay in their file
+  return memory_json(job.memory, in_passes, shot ? render::photons_bytes(input, result.sums.shares) : 0);
 }
 
 int finish(const Job& job, const accel::Bvh& bvh, const RenderSession& session, RenderOutcome outcome,
@@ -284,12 +285,13 @@ namespace {
 void settle_memory(const RenderSession& session, Job* job) {
   if (session.bvh) return;  // what made the BVH has forecast its renders
   render::RenderSettings& settings = job->settings.render;
-  const bool in_passes =
-      writes_sums(session) || session.ranks || settings.passes > 1 || job->settings.stop.any();
+  const bool open = job->settings.stop.any() && !session.fill_time;
+  const bool in_passes = writes_sums(session) || session.ranks || settings.passes > 1 || open;
   // A render that fills a time decides later whether to denoise.
   job->memory = plan_memory(job->scene, settings, job->settings.stop.seconds.has_value());
   check_memory(job->memory, in_passes);
-  set_photon_memory(job->memory, &settings);
+  if (!session.maps.from)
+    set_photon_memory(job->memory, in_passes, &settings);  // kept photons stay in their file
 }
 
 }  // namespace
@@ -297,8 +299,8 @@ void settle_memory(const RenderSession& session, Job* job) {
 int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console) {
   int code = kDone;
-  settle_memory(session, &job);
   const std::unique_ptr<FileLock> lock = prepare_sums(job, session);
+  settle_memory(session, &job);  // of which what loads libraries comes before
   with_thread_limit(job.settings.render.threads, console, [&] {
     render::OuterTimes times{.load = job.load_seconds};
     const Stopwatch watch;

@@ -27,6 +27,14 @@ void SettingOverrides::append(const SettingOverrides& others) {
   if (!others.root_.empty()) root_ = others.root_;
 }
 
+SettingOverrides SettingOverrides::of_machine() const {
+  SettingOverrides out;
+  out.root_ = root_;
+  for (const auto& given : given_)
+    if (given.first->name == "threads" || given.first->name == "memory") out.given_.push_back(given);
+  return out;
+}
+
 void SettingOverrides::set_root(std::string folder) {
   try {
     const ReadRoot check(folder, {});

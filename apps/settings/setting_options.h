@@ -18,6 +18,8 @@ class SettingOverrides {
   void add(const Setting& setting, std::vector<std::string> texts);
   // Appends all settings of `others`, and takes their root if they have one.
   void append(const SettingOverrides& others);
+  // Those that are for this process alone, which no manifest holds: --threads, --memory, --root.
+  SettingOverrides of_machine() const;
   // Applies the settings. --method also resets the three estimators that the scene file chose. --quality
   // replaces the scene file's photons, samples and passes, but not values for them that the command line
   // gives itself.

@@ -61,7 +61,7 @@ void InputFile::rewind() {
 std::string read_file(const ReadableFile& readable, uint64_t most_bytes) {
   InputFile file(readable);
   if (file.size() > most_bytes) throw FileError(fmt::format("more than {} bytes", most_bytes));
-  // What is made of the bytes takes about as much again.
+  // What is made of the bytes may take as much again.
   if (std::string lack = readable.room().lacks(2 * file.size()); !lack.empty()) throw FileError(lack);
   return next_bytes(file, file.size());
 }

@@ -3,7 +3,6 @@
 #include "core/files/system_calls.h"
 
 #include <fcntl.h>
-#include <linux/openat2.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -12,6 +11,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <string>
+
+// Since Linux 5.6, and of older headers in none.
+#if __has_include(<linux/openat2.h>)
+#include <linux/openat2.h>
+#endif
 
 namespace kaustik {
 
@@ -48,6 +52,7 @@ int open_file(const char* path, int flags, mode_t mode) {
 
 int open_without_links(const char* path, int flags) {
   if (fails(SystemCall::kOpen)) return -1;
+#ifdef RESOLVE_NO_SYMLINKS
   open_how how{};
   how.flags = static_cast<uint64_t>(flags | O_CLOEXEC);
   how.resolve = RESOLVE_NO_SYMLINKS;
@@ -55,6 +60,7 @@ int open_without_links(const char* path, int flags) {
       uninterrupted([&] { return ::syscall(SYS_openat2, AT_FDCWD, path, &how, sizeof how); }));
   // Filters of system calls in containers answer EPERM to those that they do not know.
   if (file >= 0 || (errno != ENOSYS && errno != EPERM)) return file;
+#endif
   return uninterrupted([&] { return ::open(path, flags | O_CLOEXEC | O_NOFOLLOW); });
 }
 

@@ -18,7 +18,8 @@ uint64_t held_memory(const std::string& root) {
 
 std::string size_text(uint64_t bytes) {
   const double size = static_cast<double>(bytes);
-  return size < 1e9 ? fmt::format("{:.3g} MB", size / 1e6) : fmt::format("{:.3g} GB", size / 1e9);
+  if (size < 1e9) return fmt::format("{:.3g} MB", size / 1e6);
+  return size < 1e12 ? fmt::format("{:.3g} GB", size / 1e9) : fmt::format("{:.3g} TB", size / 1e12);
 }
 
 uint64_t MemoryRoom::left() const {

@@ -11,7 +11,7 @@ namespace kaustik {
 // they cannot be read. `root`: a prefix of /proc, for tests.
 uint64_t held_memory(const std::string& root = "");
 
-// "1.5 GB" or "20 MB".
+// In three digits: "20.5 MB", "1.5 GB", "2 TB".
 std::string size_text(uint64_t bytes);
 
 // A limit of what the process holds. A value; const functions are thread-safe.

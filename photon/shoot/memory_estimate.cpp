@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/memory/memory_room.h"
+
 namespace kaustik::photon {
 
 namespace {
@@ -34,6 +36,10 @@ std::array<double, kPhotonKinds> estimate_all(const Scene& scene, const accel::B
   return stored;
 }
 
+uint64_t whole_bytes(double bytes) {
+  return static_cast<uint64_t>(std::min(bytes, 0x1p63));
+}
+
 // A count as --photons takes it, rounded down to two digits, such as "3.4M".
 std::string rounded_count(double count) {
   if (count < 1000) return fmt::format("{:.0f}", std::floor(count));
@@ -42,10 +48,6 @@ std::string rounded_count(double count) {
   if (value < 1e6) return fmt::format("{:g}k", value / 1e3);
   if (value < 1e9) return fmt::format("{:g}M", value / 1e6);
   return fmt::format("{:g}G", value / 1e9);
-}
-
-std::string size_text(double bytes) {
-  return bytes < 1e12 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} TB", bytes / 1e12);
 }
 
 }  // namespace
@@ -75,7 +77,7 @@ double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use)
 
 uint64_t forecast_bytes(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
                         PhotonUse use, uint64_t guided) {
-  return static_cast<uint64_t>(peak_bytes(estimate_all(scene, bvh, settings, guided), use));
+  return whole_bytes(peak_bytes(estimate_all(scene, bvh, settings, guided), use));
 }
 
 void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,
@@ -90,7 +92,7 @@ void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
     throw std::runtime_error(fmt::format(
         "{} photons would need about {} of memory, but {} are available: emit at most about {} at a time, or "
         "store fewer kinds",
-        settings.photons, size_text(bytes), size_text(bytes_limit),
+        settings.photons, size_text(whole_bytes(bytes)), size_text(limit),
         rounded_count(photons * bytes_limit / bytes)));
   }
   if (use == PhotonUse::kMaps && largest > kMostInMap) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/memory/memory_room.h"
 #include "photon/shoot/memory_estimate.h"
 #include "render/maps/photon_shoots.h"
 #include "render/passes/pass_set.h"
@@ -22,15 +23,10 @@ uint64_t memory_in_passes(const RenderSettings& settings) {
 }
 
 [[noreturn]] void refuse_sums(const RenderSettings& settings) {
-  constexpr double kMegabyte = 1e6;
-  throw std::runtime_error(
-      fmt::format("not enough memory: {} photons do not fit into the {:.0f} MB that a single pass leaves to "
-                  "them, and the "
-                  "sums that several passes keep take {:.0f} MB: emit fewer photons, or render a smaller "
-                  "picture or parts "
-                  "of it",
-                  settings.photons, double(settings.photon_memory) / kMegabyte,
-                  double(settings.sums_memory) / kMegabyte));
+  throw std::runtime_error(fmt::format(
+      "not enough memory: {} photons do not fit into the {} that a single pass leaves to them, and the sums "
+      "that several passes keep take {}: emit fewer photons, or render a smaller picture or parts of it",
+      settings.photons, size_text(settings.photon_memory), size_text(settings.sums_memory)));
 }
 
 }  // namespace

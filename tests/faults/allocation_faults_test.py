@@ -18,6 +18,7 @@ import subprocess
 import sys
 
 OLD = b"the file from before"
+EXACT = "exact.exr"  # which always has the same bits
 SCENE = """LookAt 0 0 -3 0 0 0 0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 16 "integer yresolution" 16
@@ -80,9 +81,13 @@ class Command:
 def is_whole(program, path, expected):
     if path.read_bytes() == expected:
         return True
+    if path.name == EXACT:
+        return False
     if path.suffix == ".json":
-        json.loads(path.read_text())
-        return True
+        try:
+            return "seconds" in json.loads(path.read_text())
+        except ValueError:
+            return False
     if path.suffix == ".kpart":
         line = [program, "merge", path, "-o", path.with_suffix(".exr")]
     else:
@@ -112,7 +117,7 @@ def check(command, least, first, most_runs):
 def main():
     program, library, folder = (pathlib.Path(p).resolve() for p in sys.argv[1:4])
     folder.mkdir(parents=True, exist_ok=True)
-    linear = Command(program, library, folder, ["a.exr", "a.json"], ["--passes", "2"])
+    linear = Command(program, library, folder, [EXACT, "a.json"], ["--passes", "2", "--denoise", "off"])
     pictures = Command(program, library, folder, ["a.png", "a.jpg", "a.kpart"], ["--passes", "2", "--denoise", "on"])
     failures = check(linear, 2048, 1, 1000) + check(pictures, 65536, 2, 60)
     sys.exit(1 if failures else 0)

@@ -15,6 +15,8 @@ namespace kaustik::gltf {
 namespace {
 
 constexpr uint64_t kMostPixels = uint64_t{1} << 28;
+// Of four floats, as read and as written.
+constexpr uint64_t kBytesOfPixel = 2 * 4 * sizeof(float);
 
 using render::ImageNumbers;
 
@@ -32,7 +34,8 @@ std::optional<ImageNumbers> read(const ReadableFile& file, std::string& error) {
   std::string why;
   std::optional<ImageNumbers> image;
   try {
-    image = render::image_formats().read(file.place().string(), render::Channels::kAll, kMostPixels, why);
+    image = render::image_formats().read(file.place().string(), render::Channels::kAll,
+                                         std::min(kMostPixels, file.room().left() / kBytesOfPixel), why);
   } catch (const FileError& refusal) {
     why = refusal.what();
   }

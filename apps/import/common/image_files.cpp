@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/import/common/scene_files.h"
 #include "core/files/content_hash.h"
 #include "render/picture/image_io.h"
@@ -11,6 +13,9 @@ namespace kaustik::pbrt {
 namespace {
 
 constexpr uint64_t kLargestImageFile = uint64_t{1} << 32;
+
+// Of three floats: as read, as kept, and as a distribution of directions.
+constexpr uint64_t kBytesOfLightPixel = 40;
 
 // The ContentHash of a file; nothing, with a message in `error`, when it cannot be read.
 std::optional<std::string> hash_of(const ReadableFile& file, std::string& error) {
@@ -37,7 +42,8 @@ LightImageResult load_light_image(const ReadableFile& file, std::string* content
   if (!hash) return result;
   if (content) *content = *hash;
   try {
-    render::Image image = render::read_image(file.place().string(), kMostLightPixels);
+    render::Image image = render::read_image(
+        file.place().string(), std::min(kMostLightPixels, file.room().left() / kBytesOfLightPixel));
     result.image = {image.width, image.height, std::move(image.pixels)};
   } catch (const render::ImageError& e) {
     result.error = fmt::format("cannot read {}", e.what());

@@ -18,11 +18,12 @@ namespace kaustik::app {
 
 namespace {
 
-// Measured: what Embree and oneTBB hold before they have anything to do. OpenImageIO is part of what the
-// process holds: it is loaded for textures, and when the names of output files are checked.
+// Measured: what Embree and oneTBB hold before they have anything to do. Where OpenImageIO is needed, it is
+// part of what the process holds: it is loaded for textures, and when the names of output files are checked.
 constexpr uint64_t kLibraries = 12u << 20;
+constexpr const char* kOption = "--memory";
 // Buffers of samples and photons.
-constexpr uint64_t kThread = 2u << 20;
+constexpr uint64_t kThread = 1u << 19;
 // Ranks keep the sums of all passes, those of the present one, and those that are sent or received.
 constexpr uint64_t kSumsOfRank = 5;
 
@@ -38,7 +39,8 @@ PartInWords largest_part(const MemoryPlan& plan, bool in_passes) {
       PartInWords{plan.bvh + plan.surfaces, "the BVH and the edges of its primitives", ""},
       PartInWords{plan.film + (in_passes ? plan.sums : 0),
                   fmt::format("the film, whose picture has {} x {} pixels", plan.width, plan.height),
-                  ": render a smaller picture, or parts of it by --crop"}};
+                  ": render a smaller picture, or parts of it by --crop"},
+      PartInWords{plan.libraries, "libraries and the buffers of threads", ": --threads makes it less"}};
   return *std::max_element(parts.begin(), parts.end(),
                            [](const auto& a, const auto& b) { return a.bytes < b.bytes; });
 }
@@ -46,7 +48,7 @@ PartInWords largest_part(const MemoryPlan& plan, bool in_passes) {
 }  // namespace
 
 MemoryLimit memory_limit(const render::RenderSettings& settings) {
-  return settings.memory > 0 ? MemoryLimit{settings.memory, "--memory"} : usable_memory();
+  return settings.memory > 0 ? MemoryLimit{settings.memory, kOption} : usable_memory();
 }
 
 uint64_t MemoryPlan::total(bool in_passes) const {
@@ -71,20 +73,22 @@ MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& setting
           .libraries = kLibraries + uint64_t(threads) * kThread};
 }
 
-void set_photon_memory(const MemoryPlan& plan, render::RenderSettings* settings) {
-  settings->photon_memory = plan.limit.bytes - std::min(plan.limit.bytes, plan.total(false));
-  settings->sums_memory = plan.sums;
+void set_photon_memory(const MemoryPlan& plan, bool in_passes, render::RenderSettings* settings) {
+  settings->photon_memory = plan.limit.bytes - std::min(plan.limit.bytes, plan.total(in_passes));
+  settings->sums_memory = in_passes ? 0 : plan.sums;
 }
 
 void check_memory(const MemoryPlan& plan, bool in_passes) {
   const uint64_t total = plan.total(in_passes);
   if (total <= plan.limit.bytes) return;
   const PartInWords largest = largest_part(plan, in_passes);
-  throw std::runtime_error(fmt::format(
-      "not enough memory: the render needs about {} without photons, but {} allows {}; most of it, {}, is "
-      "for {}{}",
-      size_text(total), plan.limit.source, size_text(plan.limit.bytes), size_text(largest.bytes),
-      largest.part, largest.remedy));
+  throw std::runtime_error(
+      fmt::format("not enough memory: the render needs about {} without photons, but {} allows {}{}; the "
+                  "largest part, {}, "
+                  "is for {}{}",
+                  size_text(total), plan.limit.source, size_text(plan.limit.bytes),
+                  plan.limit.source == kOption ? "" : " (--memory sets another limit)",
+                  size_text(largest.bytes), largest.part, largest.remedy));
 }
 
 nlohmann::ordered_json memory_json(const MemoryPlan& plan, bool in_passes, uint64_t photons) {

@@ -31,15 +31,15 @@ MemoryLimit memory_limit(const render::RenderSettings& settings);
 // denoised although the settings do not say so yet.
 MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise = false);
 
-// Sets what the plan leaves to photons.
-void set_photon_memory(const MemoryPlan& plan, render::RenderSettings* settings);
+// Sets what the plan leaves to photons. in_passes: whether sums are kept even of one pass.
+void set_photon_memory(const MemoryPlan& plan, bool in_passes, render::RenderSettings* settings);
 
 // Throws std::runtime_error, which names the largest part, if the render cannot fit into the limit whatever
 // the number of its photons. in_passes: whether it keeps sums.
 void check_memory(const MemoryPlan& plan, bool in_passes);
 
 // For `--stats`: the limit, the forecast of each part, and what the process has held at most. photons:
-// render::photons_bytes().
+// render::photons_bytes(), or 0.
 nlohmann::ordered_json memory_json(const MemoryPlan& plan, bool in_passes, uint64_t photons);
 
 }  // namespace kaustik::app

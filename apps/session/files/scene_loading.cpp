@@ -98,13 +98,18 @@ SceneDescription view_of(const SceneDescription& scene) {
   return view;
 }
 
-// Forecasts what the job takes, and leaves the rest of the memory to photons.
-void settle_memory(LoadFor use, Job* job) {
+// Forecasts what the job takes, and leaves the rest of the memory to photons. Whether pictures are denoised
+// is decided later: without it they must fit, and photons get what is left with it.
+void forecast(LoadFor use, Job* job) {
   render::RenderSettings& settings = job->settings.render;
-  job->memory = plan_memory(job->scene, settings);
-  if (use != LoadFor::kPictures) job->memory.film = job->memory.sums = 0;
-  if (use != LoadFor::kDescription) check_memory(job->memory, settings.passes > 1);
-  set_photon_memory(job->memory, &settings);
+  const auto plan = [&](bool may_denoise) {
+    MemoryPlan out = plan_memory(job->scene, settings, may_denoise);
+    if (use != LoadFor::kPictures) out.film = out.sums = 0;
+    return out;
+  };
+  if (use != LoadFor::kDescription) check_memory(plan(false), settings.passes > 1);
+  job->memory = plan(true);
+  set_photon_memory(job->memory, false, &settings);
 }
 
 }  // namespace
@@ -157,7 +162,7 @@ Job load_job(const std::string& path, const SettingOverrides& overrides, const C
   overrides.apply(job.settings);
   resolve_size(file, job.settings.render, job.scene.camera);
   resolve_crop(file, overrides, job.scene.camera, job.settings.render, console);
-  settle_memory(use, &job);
+  forecast(use, &job);
   job.settings.render.width = job.scene.camera.width;
   job.settings.render.height = job.scene.camera.height;
   if (const std::string why = why_wide(job.scene, job.settings.render); !why.empty()) console.warning(why);

@@ -53,6 +53,33 @@ TEST_F(Memory, DividesPhotonsIntoPassesThatFit) {
   EXPECT_LE(memory["peak_bytes"], memory["limit_bytes"]);
 }
 
+// A checkpoint keeps the sums of a single pass, too.
+TEST_F(Memory, SumsOfOnePassAreCounted) {
+  for (const uint64_t megabytes : {280, 500}) {  // several passes, and one
+    const auto ran = render(
+        megabytes, {"--width", "400", "--height", "400", "--photons", "2M", "--checkpoint", path("c.kpart")});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const json memory = statistics()["memory"];
+    EXPECT_LE(memory["peak_bytes"], memory["limit_bytes"]);
+  }
+}
+
+// Each thread takes its buffers, but a small picture fits whatever their number.
+TEST_F(Memory, ManyThreadsOfASmallPictureFit) {
+  const auto ran = render(120, {"--width", "64", "--photons", "10k", "--threads", "64"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+}
+
+// The image of a light is refused by its size, too.
+TEST_F(Memory, ImagesOfLightsMustFit) {
+  std::ofstream(path("sky.pfm")) << "PF\n4096 4096\n-1.0\n";
+  std::filesystem::resize_file(path("sky.pfm"), 20 + 4096 * 4096 * 12);
+  const std::string scene =
+      write("scene.pbrt",
+            "WorldBegin\nLightSource \"infinite\" \"string filename\" \"sky.pfm\"\nShape \"sphere\"\n");
+  EXPECT_EQ(test::run_kaustik({"render", scene, "--memory", "500M", "-o", path("a.exr")}).code, 3);
+}
+
 TEST_F(Memory, TooLargeAFilmIsNamedBeforeTheRender) {
   const auto ran = render(1000, {"--width", "16384", "--height", "16384"});
   EXPECT_EQ(ran.code, 1);
@@ -68,6 +95,24 @@ TEST_F(Memory, ACropNeedsItsOwnFilmAlone) {
   const auto ran = render(
       200, {"--width", "16384", "--height", "16384", "--crop", "0", "64", "0", "64", "--photons", "10k"});
   EXPECT_EQ(ran.code, 0) << ran.err;
+}
+
+// The photons of a kept map stay in their file: their memory is not the render's.
+TEST_F(Memory, KeptPhotonsTakeNone) {
+  const std::vector<std::string> photons = {"--width", "64", "--photons", "1M"};
+  std::vector<std::string> shoot = {"shoot", kScene, "-o", path("a.kmap")};
+  shoot.insert(shoot.end(), photons.begin(), photons.end());
+  ASSERT_EQ(test::run_kaustik(shoot).code, 0);
+  ASSERT_EQ(render(400, photons).code, 0);
+  const json forecast = statistics()["memory"]["forecast_bytes"];
+  ASSERT_GT(forecast["photons"], 20 * kMegabyte);
+  const uint64_t others = uint64_t(forecast["total"]) - uint64_t(forecast["photons"]);
+  const uint64_t megabytes = (others - uint64_t(forecast["scene"])) / kMegabyte + 10;
+  ASSERT_EQ(render(megabytes, photons).code, 0);
+  EXPECT_GT(statistics()["passes_of_settings"], 1);  // not all at once
+  const auto kept = render(megabytes, {"--width", "64", "--map", path("a.kmap")});
+  ASSERT_EQ(kept.code, 0) << kept.err;
+  EXPECT_EQ(statistics()["passes_of_settings"], 1);
 }
 
 // A file that does not fit beside what is made of it is refused where the scene names it, before it is read.
