@@ -6,8 +6,8 @@ namespace kaustik::accel {
 
 namespace {
 
-// Measured by Embree's memory monitor, at the peak of the build (tests/accel/bvh_memory_test.cpp). Vertices
-// are copies that are scaled for Embree.
+// Measured as what the process holds at the peak of the build. Vertices are copies that are scaled for
+// Embree.
 constexpr uint64_t kTriangle = 100, kVertex = 16, kAnalytic = 200, kInstance = 1400, kAny = 4u << 20;
 
 uint64_t bytes_of(const TriangleMesh& mesh) {

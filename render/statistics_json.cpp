@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/memory/process_memory.h"
 #include "core/version.h"
 #include "render/settings/names.h"
 
@@ -95,10 +95,7 @@ Json needs_json(const SceneNeeds& needs) {
 }  // namespace
 
 uint64_t peak_memory_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind("VmHWM:", 0) == 0) return std::stoull(line.substr(6)) * 1024;
-  return 0;
+  return status_bytes("VmHWM:");
 }
 
 // The estimated error, or null where it is unknown.

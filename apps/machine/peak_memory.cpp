@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string>
 
 #include "core/memory/memory_pages.h"
+#include "core/memory/process_memory.h"
 
 namespace kaustik::app {
 
@@ -17,13 +17,8 @@ bool restart_peak_memory() {
 }
 
 uint64_t peak_held_memory() {
-  std::ifstream file("/proc/self/status");
-  uint64_t peak = 0, of_files = 0;  // kilobytes
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("VmHWM:")) peak = std::stoull(line.substr(6));
-    if (line.starts_with("RssFile:")) of_files = std::stoull(line.substr(8));
-  }
-  return (peak - std::min(peak, of_files)) * 1024;
+  const uint64_t peak = status_bytes("VmHWM:");
+  return peak - std::min(peak, process_memory().of_files);
 }
 
 }  // namespace kaustik::app

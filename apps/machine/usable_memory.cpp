@@ -1,10 +1,9 @@
 // Memory limits are described in the kernel's cgroup-v2.rst ("Memory Interface Files") and, for v1, in
-// memory.txt; statm and meminfo in proc(5).
+// memory.txt; meminfo in proc(5).
 
 #include "apps/machine/usable_memory.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -24,19 +23,6 @@ constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 // render has begun, mostly without touching it; and data of it. Measured: renders of small scenes, of which
 // they hold 15 MB, end well under `ulimit -v 300000` and under `ulimit -d 200000`.
 constexpr uint64_t kReservedSpace = uint64_t{256} << 20, kReservedData = uint64_t{64} << 20;
-
-struct Sizes {
-  uint64_t mapped = 0, data = 0;  // bytes
-};
-
-// Reads /proc/self/statm: pages of address space, resident ones, those of files, code, 0, data and stack.
-Sizes sizes_of_process(const std::string& root) {
-  std::ifstream file(root + "/proc/self/statm");
-  uint64_t mapped = 0, resident = 0, of_files = 0, code = 0, unused = 0, data = 0;
-  if (!(file >> mapped >> resident >> of_files >> code >> unused >> data)) return {};
-  const auto page = static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
-  return {mapped * page, data * page};
-}
 
 uint64_t sum_or_most(uint64_t a, uint64_t b) {
   return a > kNoLimit - b ? kNoLimit : a + b;
@@ -112,14 +98,14 @@ uint64_t share(uint64_t left, uint64_t held, uint64_t ranks) {
 }  // namespace
 
 MemoryLimit usable_memory(const std::string& root) {
-  const Sizes sizes = sizes_of_process(root);
+  const ProcessMemory own = process_memory(root);
   const uint64_t held = held_memory(root), ranks = uint64_t(launched().on_machine);
   const MemoryLimit limits[] = {
       {share(sum_or_most(held, available_in_machine(root)), held, ranks), "the memory of the machine"},
       {share(left_by_groups(kVersion2, held, root), held, ranks), "the control group"},
       {share(left_by_groups(kVersion1, held, root), held, ranks), "the control group"},
-      {left_by_system(RLIMIT_AS, sizes.mapped, kReservedSpace, held), "`ulimit -v`"},
-      {left_by_system(RLIMIT_DATA, sizes.data, kReservedData, held), "`ulimit -d`"}};
+      {left_by_system(RLIMIT_AS, own.mapped, kReservedSpace, held), "`ulimit -v`"},
+      {left_by_system(RLIMIT_DATA, own.data, kReservedData, held), "`ulimit -d`"}};
   return *std::min_element(std::begin(limits), std::end(limits),
                            [](const auto& a, const auto& b) { return a.bytes < b.bytes; });
 }

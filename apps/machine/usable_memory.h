@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/memory/memory_room.h"
+#include "core/memory/process_memory.h"
 
 namespace kaustik::app {
 

@@ -37,7 +37,7 @@ render::RenderResult render_on_ranks(Coordinator& coordinator, const Job& job, c
 
 // The other ranks: render what rank 0 hands out until it ends the render. load: loads the scene as the
 // command line says, quietly; if empty, the scene is loaded as rank 0 says. given: the settings of the
-// command line, of which threads and root count. Returns the exit code.
+// command line, of which those of this machine count. Returns the exit code.
 using LoadQuietly = std::function<Job(const Console&)>;
 int serve_passes(Ranks& ranks, const LoadQuietly& load, const SettingOverrides& given,
                  const InterruptGuard& interrupt, const Console& console);

@@ -269,17 +269,6 @@ std::unique_ptr<FileLock> prepare_sums(const Job& job, const RenderSession& sess
   return lock_checkpoint(session.checkpoint);
 }
 
-}  // namespace
-
-std::shared_ptr<LiveRender> make_live(const Job& job) {
-  const Camera& camera = job.scene.camera;
-  const render::PixelRange range = render::rendered_range(job.settings.render.crop, camera);
-  return std::make_shared<LiveRender>(std::filesystem::path(job.path).filename().string(), range,
-                                      camera.width, camera.height);
-}
-
-namespace {
-
 // Forecasts the memory anew, now that the settings are decided, and leaves the rest to photons. Throws
 // std::runtime_error if nothing is left.
 void settle_memory(const RenderSession& session, Job* job) {
@@ -290,17 +279,24 @@ void settle_memory(const RenderSession& session, Job* job) {
   // A render that fills a time decides later whether to denoise.
   job->memory = plan_memory(job->scene, settings, job->settings.stop.seconds.has_value());
   check_memory(job->memory, in_passes);
-  if (!session.maps.from)
-    set_photon_memory(job->memory, in_passes, &settings);  // kept photons stay in their file
+  // Kept photons stay in their file.
+  if (!session.maps.from) set_photon_memory(job->memory, in_passes, &settings);
 }
 
 }  // namespace
+
+std::shared_ptr<LiveRender> make_live(const Job& job) {
+  const Camera& camera = job.scene.camera;
+  const render::PixelRange range = render::rendered_range(job.settings.render.crop, camera);
+  return std::make_shared<LiveRender>(std::filesystem::path(job.path).filename().string(), range,
+                                      camera.width, camera.height);
+}
 
 int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt, const Stopwatch& total,
                 const Console& console) {
   int code = kDone;
   const std::unique_ptr<FileLock> lock = prepare_sums(job, session);
-  settle_memory(session, &job);  // of which what loads libraries comes before
+  settle_memory(session, &job);  // when libraries for sums are loaded
   with_thread_limit(job.settings.render.threads, console, [&] {
     render::OuterTimes times{.load = job.load_seconds};
     const Stopwatch watch;

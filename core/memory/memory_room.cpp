@@ -1,20 +1,12 @@
 #include "core/memory/memory_room.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
+
+#include "core/memory/process_memory.h"
 
 namespace kaustik {
-
-uint64_t held_memory(const std::string& root) {
-  std::ifstream file(root +
-                     "/proc/self/statm");  // proc(5): pages of address space, resident ones, those of files
-  uint64_t mapped = 0, resident = 0, of_files = 0;
-  if (!(file >> mapped >> resident >> of_files)) return 0;
-  return (resident - std::min(resident, of_files)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
-}
 
 std::string size_text(uint64_t bytes) {
   const double size = static_cast<double>(bytes);

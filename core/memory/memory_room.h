@@ -7,10 +7,6 @@
 
 namespace kaustik {
 
-// Bytes of memory that belong to the process alone: without pages of files, which the system can drop. 0 if
-// they cannot be read. `root`: a prefix of /proc, for tests.
-uint64_t held_memory(const std::string& root = "");
-
 // In three digits: "20.5 MB", "1.5 GB", "2 TB".
 std::string size_text(uint64_t bytes);
 

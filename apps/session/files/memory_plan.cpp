@@ -11,6 +11,7 @@
 #include "apps/machine/peak_memory.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/machine/usable_cores.h"
+#include "core/memory/memory_room.h"
 #include "render/camera/pixel_range.h"
 #include "render/passes/memory_forecast.h"
 
@@ -37,7 +38,7 @@ PartInWords largest_part(const MemoryPlan& plan, bool in_passes) {
   const std::array parts = {
       PartInWords{plan.scene, "the program and the scene as it was read", ""},
       PartInWords{plan.bvh + plan.surfaces, "the BVH and the edges of its primitives", ""},
-      PartInWords{plan.film + (in_passes ? plan.sums : 0),
+      PartInWords{plan.film_and_sums(in_passes),
                   fmt::format("the film, whose picture has {} x {} pixels", plan.width, plan.height),
                   ": render a smaller picture, or parts of it by --crop"},
       PartInWords{plan.libraries, "libraries and the buffers of threads", ": --threads makes it less"}};
@@ -52,25 +53,31 @@ MemoryLimit memory_limit(const render::RenderSettings& settings) {
 }
 
 uint64_t MemoryPlan::total(bool in_passes) const {
-  return scene + bvh + surfaces + film + (in_passes ? sums : 0) + libraries;
+  return scene + bvh + surfaces + film_and_sums(in_passes) + libraries;
 }
 
 MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise) {
-  render::RenderSettings decided = settings;
-  decided.denoise = settings.denoise.value_or(may_denoise);
   const int cores = core_limits().usable();
   const int threads = settings.threads > 0 ? std::min(settings.threads, most_useful_threads(cores)) : cores;
+  MemoryPlan plan{.limit = memory_limit(settings),
+                  .scene = held_memory() + (scene.textures ? scene.textures->bytes_to_come() : 0),
+                  .bvh = accel::forecast_bytes(scene),
+                  .surfaces = render::surfaces_bytes(scene, settings),
+                  .width = scene.camera.width,
+                  .height = scene.camera.height,
+                  .libraries = kLibraries + uint64_t(threads) * kThread};
+  forecast_film(scene, settings, may_denoise, &plan);
+  return plan;
+}
+
+void forecast_film(const Scene& scene, const render::RenderSettings& settings, bool may_denoise,
+                   MemoryPlan* plan) {
+  render::RenderSettings decided = settings;
+  decided.denoise = settings.denoise.value_or(may_denoise);
   const uint64_t pixels = render::rendered_range(settings.crop, scene.camera).pixels();
   const uint64_t copies = launched().ranks > 1 ? kSumsOfRank : 1;
-  return {.limit = memory_limit(settings),
-          .scene = held_memory() + (scene.textures ? scene.textures->bytes_to_come() : 0),
-          .bvh = accel::forecast_bytes(scene),
-          .surfaces = render::surfaces_bytes(scene, settings),
-          .film = pixels * render::film_bytes_per_pixel(decided),
-          .width = scene.camera.width,
-          .height = scene.camera.height,
-          .sums = pixels * copies * render::sums_bytes_per_pixel(decided),
-          .libraries = kLibraries + uint64_t(threads) * kThread};
+  plan->film = pixels * render::film_bytes_per_pixel(decided);
+  plan->sums = pixels * copies * render::sums_bytes_per_pixel(decided);
 }
 
 void set_photon_memory(const MemoryPlan& plan, bool in_passes, render::RenderSettings* settings) {
@@ -84,8 +91,7 @@ void check_memory(const MemoryPlan& plan, bool in_passes) {
   const PartInWords largest = largest_part(plan, in_passes);
   throw std::runtime_error(
       fmt::format("not enough memory: the render needs about {} without photons, but {} allows {}{}; the "
-                  "largest part, {}, "
-                  "is for {}{}",
+                  "largest part, {}, is for {}{}",
                   size_text(total), plan.limit.source, size_text(plan.limit.bytes),
                   plan.limit.source == kOption ? "" : " (--memory sets another limit)",
                   size_text(largest.bytes), largest.part, largest.remedy));
@@ -98,7 +104,7 @@ nlohmann::ordered_json memory_json(const MemoryPlan& plan, bool in_passes, uint6
            {{"scene", plan.scene},
             {"bvh", plan.bvh},
             {"surfaces", plan.surfaces},
-            {"film", plan.film + (in_passes ? plan.sums : 0)},
+            {"film", plan.film_and_sums(in_passes)},
             {"photons", photons},
             {"libraries", plan.libraries},
             {"total", plan.total(in_passes) + photons}}},

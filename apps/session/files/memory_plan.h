@@ -20,6 +20,8 @@ struct MemoryPlan {
   uint64_t sums = 0;          // the exact sums that renders of several passes keep besides
   uint64_t libraries = 0;     // that are loaded later, and the buffers of threads
 
+  // Of all that is kept for each pixel.
+  uint64_t film_and_sums(bool in_passes) const { return film + (in_passes ? sums : 0); }
   // Without photons.
   uint64_t total(bool in_passes) const;
 };
@@ -27,9 +29,13 @@ struct MemoryPlan {
 // --memory, or what the system leaves.
 MemoryLimit memory_limit(const render::RenderSettings& settings);
 
-// The forecast for a scene that is read and whose BVH is not built. may_denoise: whether the picture may be
-// denoised although the settings do not say so yet.
-MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise = false);
+// The forecast for a scene that is read and whose BVH is not built. may_denoise: see forecast_film().
+MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise);
+
+// Forecasts film and sums alone. may_denoise: whether the picture may be denoised although the settings do
+// not say so yet.
+void forecast_film(const Scene& scene, const render::RenderSettings& settings, bool may_denoise,
+                   MemoryPlan* plan);
 
 // Sets what the plan leaves to photons. in_passes: whether sums are kept even of one pass.
 void set_photon_memory(const MemoryPlan& plan, bool in_passes, render::RenderSettings* settings);

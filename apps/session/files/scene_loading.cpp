@@ -102,14 +102,12 @@ SceneDescription view_of(const SceneDescription& scene) {
 // is decided later: without it they must fit, and photons get what is left with it.
 void forecast(LoadFor use, Job* job) {
   render::RenderSettings& settings = job->settings.render;
-  const auto plan = [&](bool may_denoise) {
-    MemoryPlan out = plan_memory(job->scene, settings, may_denoise);
-    if (use != LoadFor::kPictures) out.film = out.sums = 0;
-    return out;
-  };
-  if (use != LoadFor::kDescription) check_memory(plan(false), settings.passes > 1);
-  job->memory = plan(true);
-  set_photon_memory(job->memory, false, &settings);
+  MemoryPlan& plan = job->memory;
+  plan = plan_memory(job->scene, settings, false);
+  if (use != LoadFor::kPictures) plan.film = plan.sums = 0;
+  if (use != LoadFor::kDescription) check_memory(plan, settings.passes > 1);
+  if (use == LoadFor::kPictures) forecast_film(job->scene, settings, true, &plan);
+  set_photon_memory(plan, false, &settings);
 }
 
 }  // namespace

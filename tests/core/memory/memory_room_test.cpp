@@ -7,6 +7,8 @@
 #include <cstring>
 #include <memory>
 
+#include "core/memory/process_memory.h"
+
 namespace kaustik {
 namespace {
 
