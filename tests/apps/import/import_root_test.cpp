@@ -124,7 +124,7 @@ TEST_F(ImportRoot, ImagesOfMaterialLibrariesAreRefused) {
   }
   // Names of other machines are known to lead nowhere: the file of the last name is taken.
   write("root/a.ppm", kPicture);
-  write("root/s.mtl", "newmtl m\nmap_Kd /home/somebody/a.ppm\n");
+  write("root/s.mtl", "newmtl m\nmap_Kd /srv/elsewhere/a.ppm\n");
   EXPECT_TRUE(loads(r, "", root_.string())) << said();
 }
 
