@@ -8,6 +8,7 @@
 #include "apps/settings/table/table.h"
 #include "apps/web/map_data.h"
 #include "apps/web/request_check.h"
+#include "core/memory/memory_pages.h"
 #include "render/maps/probe.h"
 #include "render/passes/pass_trials.h"
 #include "render/passes/passes.h"
@@ -53,10 +54,14 @@ HttpResponse bytes(std::string body) {
 }  // namespace
 
 void Laboratory::begin() {
-  const std::lock_guard lock(settings_mutex_);
-  settled_.reset();
-  made_.reset();
-  ++turn_;
+  {
+    const std::lock_guard lock(settings_mutex_);
+    settled_.reset();
+    made_.reset();
+    ++turn_;
+  }
+  // The C library keeps a heap for each of the threads that answer, and in each what one photon map took.
+  give_back_freed();
 }
 
 void Laboratory::settle(const Settings& settled) {
