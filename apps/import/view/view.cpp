@@ -92,7 +92,9 @@ class ViewMaker {
 
   void add_sky_image() {
     std::error_code ignored;
-    const std::filesystem::path path = std::filesystem::absolute(options_.sky, ignored);
+    std::filesystem::path path = std::filesystem::absolute(options_.sky, ignored);
+    // A folder may have several names: below --root, that without links is known.
+    path = std::filesystem::weakly_canonical(path.parent_path(), ignored) / path.filename();
     // A file that may not be read is refused when the light is made: a partial result may have named it.
     if (const ReadableFile file = diagnostics_.files.root().find(path); !file.refused() && !file.exists())
       return complain(fmt::format("--sky: there is no file \"{}\"", options_.sky));

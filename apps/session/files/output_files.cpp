@@ -62,7 +62,7 @@ void check_below_root(const std::string& root, const std::string& named_by, cons
   if (root.empty()) return;
   std::error_code error;
   try {
-    if (!ReadRoot(root, {"outside"}).find("/", fs::absolute(output, error)).refused()) return;
+    if (!ReadRoot(root, {"outside"}).find(fs::absolute(output, error)).refused()) return;
   } catch (const FileError&) {
     // Without its folder, nothing lies below the root.
   }

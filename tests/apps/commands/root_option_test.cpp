@@ -56,6 +56,18 @@ TEST_F(RootOption, EveryCommandThatReadsScenesTakesIt) {
   }
 }
 
+TEST_F(RootOption, TheSkyLiesInsideByAnyNameOfItsFolder) {
+  const std::string s = scene("");
+  fs::create_symlink(path("root"), path("way"));
+  const std::string image = "PF\n1 1\n-1\n" + std::string(12, '\0');
+  for (const char* sky : {"root/sky.pfm", "sky.pfm"}) write(sky, image);
+  for (const char* sky : {"root/sky.pfm", "way/sky.pfm"})
+    EXPECT_EQ(below_root({"info", s, "--sky", path(sky)}).code, kDone) << sky;
+  const Outcome outcome = below_root({"info", s, "--sky", path("sky.pfm")});
+  EXPECT_EQ(outcome.code, kBadScene);
+  EXPECT_THAT(outcome.err, HasSubstr("it lies outside --root"));
+}
+
 TEST_F(RootOption, FilesOutsideAreNotQuotedWithoutIt) {
   const Outcome outcome = run_kaustik({"info", scene("", "Include \"../secret.txt\"")});
   EXPECT_EQ(outcome.code, kBadScene);
@@ -83,6 +95,11 @@ TEST_F(RootOption, ScenesNameOutputsInsideAlone) {
     EXPECT_THAT(outcome.err, HasSubstr("names the output \"" + output + "\": it lies outside --root"));
     EXPECT_FALSE(exists("b.exr"));
   }
+  // By another name of the folder, too.
+  fs::create_symlink(path("root"), path("way"));
+  EXPECT_EQ(run({"render", scene_that_names_output(path("way/c.exr")), "--root", path("root")}, draft_).code,
+            kDone);
+  EXPECT_TRUE(exists("root/c.exr"));
   // What the command line names is its user's choice.
   EXPECT_EQ(run({"render", path("root/s.pbrt"), "-o", path("b.exr"), "--root", path("root")}, draft_).code,
             kDone);
