@@ -11,6 +11,13 @@ namespace {
 
 constexpr size_t kBlock = size_t{4} << 20;
 
+// The memory to unpack a block more: when the string grows, its next capacity, beside its present one. What
+// is made of the bytes may take as much again as they do.
+uint64_t memory_of_block(const std::string& out) {
+  const bool grows = out.size() + kBlock > out.capacity();
+  return kBlock + out.size() + (grows ? 2 * out.capacity() : 0);
+}
+
 // Owns a zlib inflate stream.
 struct Inflater {
   z_stream stream{};
@@ -30,7 +37,7 @@ bool is_gzip(std::string_view bytes) {
   return bytes.starts_with("\x1f\x8b");
 }
 
-std::optional<std::string> unpack_gzip(std::string_view bytes, std::string& error) {
+std::optional<std::string> unpack_gzip(std::string_view bytes, const MemoryRoom& room, std::string& error) {
   const uint64_t most = std::max(kFreeGzipBytes, kMostGzipRatio * uint64_t{bytes.size()});
   Inflater inflater;
   z_stream& stream = inflater.stream;
@@ -50,6 +57,7 @@ std::optional<std::string> unpack_gzip(std::string_view bytes, std::string& erro
     }
     const size_t before = out.size();
     if (before >= most) return fail(fmt::format("it unpacks to more than {} bytes", most));
+    if (const std::string lack = room.lacks(memory_of_block(out)); !lack.empty()) return fail(lack);
     out.resize(before + std::min<uint64_t>(kBlock, most - before));
     stream.next_out = reinterpret_cast<Bytef*>(out.data() + before);
     stream.avail_out = static_cast<uInt>(out.size() - before);

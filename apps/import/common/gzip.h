@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/memory/memory_room.h"
+
 namespace kaustik::pbrt {
 
 // Guard against files that unpack to absurd sizes: the output may be at most kMostGzipRatio times as long as
@@ -16,7 +18,7 @@ inline constexpr uint64_t kFreeGzipBytes = uint64_t{64} << 20;
 // Decides by the first two bytes.
 bool is_gzip(std::string_view bytes);
 // The unpacked bytes; nothing, with a message in `error` that names the byte, when the file is damaged, ends
-// early or unpacks to more than the limits above.
-std::optional<std::string> unpack_gzip(std::string_view bytes, std::string& error);
+// early, unpacks to more than the limits above or leaves no room for what is made of it.
+std::optional<std::string> unpack_gzip(std::string_view bytes, const MemoryRoom& room, std::string& error);
 
 }  // namespace kaustik::pbrt

@@ -64,7 +64,7 @@ OpenedText SceneFiles::open(const ReadableFile& readable) {
   auto text = read_bytes(readable, kLargestSceneFile, opened.error);
   if (!text) return opened;
   if (is_gzip(*text)) {
-    text = unpack_gzip(*text, opened.error);
+    text = unpack_gzip(*text, readable.room(), opened.error);
     if (!text) return unreadable(opened.error);
   }
   std::string none = why_no_scene(*text);

@@ -170,9 +170,9 @@ MeshResult read_mesh(std::string_view bytes, bool colours) {
   return header ? MeshReader(bytes, *header, colours).read() : MeshResult{{}, std::move(error)};
 }
 
-MeshResult read_packed(std::string_view bytes, bool colours) {
+MeshResult read_packed(std::string_view bytes, const MemoryRoom& room, bool colours) {
   std::string error;
-  const auto unpacked = unpack_gzip(bytes, error);
+  const auto unpacked = unpack_gzip(bytes, room, error);
   return unpacked ? read_mesh(*unpacked, colours) : MeshResult{{}, std::move(error)};
 }
 
@@ -187,7 +187,8 @@ MeshResult load_ply(const ReadableFile& file, std::string* content, bool colours
     hash.add(*bytes);
     *content = hash.text();
   }
-  MeshResult result = is_gzip(*bytes) ? read_packed(*bytes, colours) : read_mesh(*bytes, colours);
+  MeshResult result =
+      is_gzip(*bytes) ? read_packed(*bytes, file.room(), colours) : read_mesh(*bytes, colours);
   if (!result.error.empty())
     result.error = fmt::format("cannot read \"{}\": {}", file.path().string(), result.error);
   return result;

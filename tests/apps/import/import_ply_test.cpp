@@ -7,6 +7,7 @@
 
 #include "apps/import/common/gzip.h"
 #include "apps/import/ply/ply.h"
+#include "core/memory/process_memory.h"
 #include "tests/apps/import/gzipped.h"
 #include "tests/apps/import/import_support.h"
 
@@ -308,6 +309,18 @@ TEST_F(ImportPly, GzipBombsAreRefused) {
   ASSERT_LT(bomb.size() * kMostGzipRatio, kFreeGzipBytes);
   EXPECT_NE(error(bomb).find(fmt::format("it unpacks to more than {} bytes", kFreeGzipBytes)),
             std::string::npos);
+}
+
+// 40 MB must be held twice while the last of them are unpacked: in what has become too small, and in what is
+// larger.
+TEST_F(ImportPly, GzipMustFitUnpacked) {
+  const std::string packed = gzipped(std::string(40'000'000, ' '));
+  std::string why;
+  const MemoryRoom small(held_memory() + 50'000'000, "--memory");
+  EXPECT_EQ(unpack_gzip(packed, small, why), std::nullopt);
+  EXPECT_NE(why.find("of memory, but --memory leaves"), std::string::npos) << why;
+  const MemoryRoom large(held_memory() + 200'000'000, "--memory");
+  EXPECT_TRUE(unpack_gzip(packed, large, why)) << why;
 }
 
 TEST_F(ImportPly, EveryTruncationIsRefusedOrComplete) {
