@@ -61,13 +61,13 @@ std::string png_trouble(const std::string& path, Reads reads) {
   constexpr std::streamoff kMarkBytes = 8;
   std::ifstream file(path, std::ios::binary);
   file.seekg(kMarkBytes);
-  for (bool any_pixels = false; file.peek() != std::ifstream::traits_type::eof();) {
+  for (bool any_pixels = false;;) {
     const std::streamoff at = file.tellg();
     const auto head = next<8>(file);
     if (!head) return any_pixels ? "" : kCut;
     const unsigned char* const name = head->data() + 4;
     const bool pixels = std::equal(name, name + 4, "IDAT");
-    if ((any_pixels && !pixels) || (pixels && reads == Reads::kHeader)) break;
+    if ((any_pixels && !pixels) || (pixels && reads == Reads::kHeader)) return {};
     any_pixels = pixels;
     const auto sum = checksum(file, name, big_endian(head->data()));
     const auto stored = next<4>(file);
@@ -75,7 +75,6 @@ std::string png_trouble(const std::string& path, Reads reads) {
     if (is_needed(*name) && *sum != big_endian(stored->data()))
       return fmt::format("it is damaged: its chunk at byte {} does not match its checksum", at);
   }
-  return {};
 }
 
 std::string exr_trouble(const std::string& path) {

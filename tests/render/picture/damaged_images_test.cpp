@@ -45,7 +45,7 @@ TEST(DamagedImages, PngPrintsNothing) {
   flipped[whole.find("IDAT") + 12] ^= 0x10;
   testing::internal::CaptureStderr();
   EXPECT_THAT(complaint_of("flipped.png", flipped), HasSubstr("does not match its checksum"));
-  for (size_t cut = whole.find("IDAT") + 4; cut + 14 < whole.size(); cut += 9)
+  for (size_t cut = 8; cut + 14 < whole.size(); ++cut)
     EXPECT_THAT(complaint_of("cut.png", whole.substr(0, cut)), HasSubstr("it ends early"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   // What follows the pixels is not read.
