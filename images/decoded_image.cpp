@@ -114,13 +114,13 @@ std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, Reads re
 }
 
 std::optional<DecodedImage> decode_image(const std::string& path, const ImageEncoding& encoding,
-                                         uint64_t most_bytes, std::string& error) {
+                                         DecodingMemory::Part& memory, std::string& error) {
   const auto in = open_texture(path, Reads::kPixels, error);
   if (!in) return std::nullopt;
   const OIIO::ImageSpec spec = in->spec();
   const std::array<int, 3> channels = colour_channels(spec);
   const bool grey = channels[0] == channels[1];
-  if (spec.image_pixels() * (grey ? 1 : 3) > most_bytes / kBytesOfNumber) {
+  if (!memory.take(spec.image_pixels() * (grey ? 1 : 3) * kBytesOfNumber)) {
     error = unreadable(
         path, fmt::format("there is no memory left for its {} x {} pixels", spec.width, spec.height));
     return std::nullopt;

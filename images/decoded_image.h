@@ -10,6 +10,7 @@
 
 #include "core/texture/image_lookup.h"
 #include "images/damage.h"
+#include "images/decoding_memory.h"
 
 namespace kaustik::images {
 
@@ -28,10 +29,10 @@ struct DecodedImage {
 std::unique_ptr<OIIO::ImageInput> open_texture(const std::string& path, Reads reads, std::string& error);
 
 // Reads the first image of a file in full: its channels R, G and B, or one grey channel. Integers are decoded
-// by `encoding` (sRGB by default); values that are not finite become zero. An image that needs more than
-// most_bytes meanwhile, with its copy in the cache, is refused by its header. If the file cannot be read,
+// by `encoding` (sRGB by default); values that are not finite become zero. An image is refused by its header
+// if `memory` has no room for it and its copy in the cache. If the file cannot be read,
 // returns nothing and stores a sentence in `error` that names the file. Thread-safe; starts no threads.
 std::optional<DecodedImage> decode_image(const std::string& path, const ImageEncoding& encoding,
-                                         uint64_t most_bytes, std::string& error);
+                                         DecodingMemory::Part& memory, std::string& error);
 
 }  // namespace kaustik::images

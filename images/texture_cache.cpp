@@ -152,14 +152,16 @@ TextureCache::~TextureCache() {
   system_.remove(names_, bytes_);
 }
 
-ImageResult TextureCache::load(const std::string& path, const ImageEncoding& encoding, uint64_t most_bytes) {
+ImageResult TextureCache::load(const std::string& path, const ImageEncoding& encoding,
+                               const std::function<uint64_t()>& memory_left) {
   ImageResult result;
   {
     const std::lock_guard lock(mutex_);
     const auto found = loaded_.find({path, encoding});
     if (found != loaded_.end()) return found->second;
   }
-  const auto image = decode_image(path, encoding, most_bytes, result.error);
+  DecodingMemory::Part memory(decoding_, memory_left);
+  const auto image = decode_image(path, encoding, memory, result.error);
   const std::lock_guard lock(mutex_);
   const auto found = loaded_.find({path, encoding});  // another thread may have loaded it meanwhile
   if (found != loaded_.end()) return found->second;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "images/decoded_image.h"
+#include "images/decoding_memory.h"
 #include "render/picture/image_formats.h"
 
 namespace kaustik::images {
@@ -25,7 +26,8 @@ class TextureCache final : public render::TextureImages {
   TextureCache(const TextureCache&) = delete;
   TextureCache& operator=(const TextureCache&) = delete;
 
-  ImageResult load(const std::string& path, const ImageEncoding& encoding, uint64_t most_bytes) override;
+  ImageResult load(const std::string& path, const ImageEncoding& encoding,
+                   const std::function<uint64_t()>& memory_left) override;
 
   Rgb lookup(uint32_t image, const ImageSampling& sampling, const Point2& st, const Vector2& dstdx,
              const Vector2& dstdy) const override;
@@ -47,6 +49,7 @@ class TextureCache final : public render::TextureImages {
   void add(const DecodedImage& image, const std::string& path, ImageResult* result);
 
   System& system_;
+  DecodingMemory decoding_;
   std::mutex mutex_;  // guards the members below
   std::map<Key, ImageResult> loaded_;
   std::vector<Entry> entries_;

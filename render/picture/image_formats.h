@@ -6,6 +6,7 @@
 // sides of the interface.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,9 +43,11 @@ enum class Encoding { kPng, kJpeg };
 class TextureImages : public ImageLibrary {
  public:
   // Decodes a file and keeps it. The same file with the same encoding is loaded once. May be called by
-  // several threads at once, but not while lookup() is running. Refuses by its header what needs more than
-  // most_bytes while it is decoded.
-  virtual ImageResult load(const std::string& path, const ImageEncoding& encoding, uint64_t most_bytes) = 0;
+  // several threads at once, but not while lookup() is running. memory_left returns
+  // the bytes that the process may still take: an image waits until it fits beside those that other threads
+  // decode, and one that does not fit even alone is refused by its header.
+  virtual ImageResult load(const std::string& path, const ImageEncoding& encoding,
+                           const std::function<uint64_t()>& memory_left) = 0;
 };
 
 // All functions are thread-safe and make no threads.

@@ -64,7 +64,7 @@ ImageResult SceneTextures::load(const ReadableFile& file, const ImageEncoding& e
   if (!hash) return result;
   *content = *hash;
   const std::string place = file.place().string();
-  if (pixels_) return textures().load(place, encoding, file.room().left());
+  if (pixels_) return textures().load(place, encoding, [&] { return file.room().left(); });
   result.error = render::image_formats().texture_trouble(place);
   return result;
 }

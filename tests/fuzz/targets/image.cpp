@@ -28,7 +28,7 @@ void fuzz_image(Bytes input) {
   // Textures have their own limit, which is larger: those that are too large here are only asked about.
   if (!render::image_formats().texture_trouble(path).empty() || !numbers) return;
   const auto textures = render::image_formats().make_textures();
-  const ImageResult texture = textures->load(path, {}, uint64_t{1} << 30);
+  const ImageResult texture = textures->load(path, {}, [] { return uint64_t{1} << 30; });
   if (texture.error.empty()) textures->lookup(texture.image, {}, {0.5f, 0.25f}, {0.1f, 0}, {0, 0.1f});
 }
 
