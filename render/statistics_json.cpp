@@ -46,10 +46,9 @@ Json energy_json(const RenderStatistics& s) {
   const photon::EnergyLedger& e = s.photons.energy;
   const double passes = static_cast<double>(std::max<uint64_t>(1, s.passes));
   const auto watts = [&](int64_t units) { return e.watts(units) / passes; };
-  return {{"emitted", watts(e.emitted)},    {"absorbed", watts(e.absorbed)},
-          {"escaped", watts(e.escaped)},    {"terminated", watts(e.terminated)},
-          {"roulette", watts(e.roulette)},  {"invalid", watts(e.invalid)},
-          {"unaccounted", e.unaccounted()}, {"unit", e.watts(1)}};
+  return {{"emitted", watts(e.emitted)}, {"absorbed", watts(e.absorbed)},     {"in_media", watts(e.in_media)},
+          {"escaped", watts(e.escaped)}, {"terminated", watts(e.terminated)}, {"roulette", watts(e.roulette)},
+          {"invalid", watts(e.invalid)}, {"unaccounted", e.unaccounted()},    {"unit", e.watts(1)}};
 }
 
 Json rays_json(const RenderStatistics& s) {

@@ -31,10 +31,10 @@ class Writer {
 
   std::string write() {
     name_materials();
+    for (const MediumDescription& medium : scene_.media) write_medium(medium);
     settings();
     line("WorldBegin");
-    for (const LightDescription& light : scene_.lights)
-      placed_directive("LightSource", light, light.light_to_world);
+    for (const LightDescription& light : scene_.lights) write_light(light);
     for (const TextureDescription& texture : scene_.textures) write_texture(texture);
     for (size_t i = 0; i < scene_.materials.size(); ++i) material(scene_.materials[i], names_[i]);
     for (const ObjectDescription& object : scene_.objects) write_object(object);
@@ -134,9 +134,11 @@ class Writer {
 
   void settings() {
     if (scene_.camera) {
+      enter({scene_.camera->medium, scene_.camera->medium});
       const glm::dmat4 m = pbrt::inverse_transform(scene_.camera->camera_to_world);
       if (m != glm::dmat4(1)) transform(m);
       directive("Camera", *scene_.camera);
+      if (!scene_.camera->medium.name.empty()) line("MediumInterface \"\"");
     }
     for (const auto& [word, setting] :
          {std::pair{"Film", &scene_.film}, std::pair{"Sampler", &scene_.sampler},
@@ -149,6 +151,25 @@ class Writer {
       parameter(option, false);
       out_ += '\n';
     }
+  }
+
+  void write_medium(const MediumDescription& m) {
+    out_ += fmt::format("MakeNamedMedium {} \"string type\" {}", in_quotes(m.name), in_quotes(m.type));
+    parameters("MakeNamedMedium", m);
+  }
+
+  // Writes the media of what follows unless they are the vacuum.
+  void enter(const MediaReference& media) {
+    if (!media.inside.name.empty() || !media.outside.name.empty())
+      line(fmt::format("MediumInterface {} {}", in_quotes(media.inside.name), in_quotes(media.outside.name)));
+  }
+
+  void write_light(const LightDescription& light) {
+    if (light.medium.name.empty()) return placed_directive("LightSource", light, light.light_to_world);
+    begin();
+    enter({light.medium, light.medium});
+    placed_directive("LightSource", light, light.light_to_world);
+    end();
   }
 
   void write_texture(const TextureDescription& t) {
@@ -175,6 +196,7 @@ class Writer {
     if (m.index || !m.name.empty()) line("NamedMaterial " + in_quotes(m.index ? names_[*m.index] : m.name));
     if (shape.area_light) directive("AreaLightSource", scene_.area_lights[*shape.area_light]);
     if (shape.reverse_orientation) line("ReverseOrientation");
+    enter(shape.media);
     const std::string mesh = shape.type == "trianglemesh" ? files_.mesh(shape) : "";
     if (mesh.empty()) {
       directive("Shape", shape);

@@ -26,12 +26,14 @@ void report_energy(const render::RenderStatistics& s, const Console& console) {
   const photon::EnergyLedger& e = s.photons.energy;
   if (e.emitted == 0) return;
   const auto share = [&](int64_t units) { return 100 * double(units) / double(e.emitted); };
+  const std::string in_media =
+      e.in_media == 0 ? "" : fmt::format("{:.2f} % absorbed by media, ", share(e.in_media));
   console.note(fmt::format(
-      "energy: {:.5g} W emitted (R + G + B); {:.2f} % absorbed, {:.2f} % escaped, {:.2f} % not traced "
+      "energy: {:.5g} W emitted (R + G + B); {:.2f} % absorbed, {}{:.2f} % escaped, {:.2f} % not traced "
       "further, as no map needs it or --max-bounces ends it; noise of Russian roulette, zero on average: "
       "{:+.2f} %",
-      e.watts(e.emitted) / double(std::max<uint64_t>(1, s.passes)), share(e.absorbed), share(e.escaped),
-      share(e.terminated), share(e.roulette)));
+      e.watts(e.emitted) / double(std::max<uint64_t>(1, s.passes)), share(e.absorbed), in_media,
+      share(e.escaped), share(e.terminated), share(e.roulette)));
   if (e.unaccounted() != 0)
     console.warning(
         fmt::format("energy: {:.3g} % of the photons' flux is unaccounted for", share(e.unaccounted())));

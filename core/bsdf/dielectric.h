@@ -1,6 +1,6 @@
 #pragma once
-// Smooth and rough boundaries between dielectrics, such as glass and water. Not modelled: absorption and
-// dispersion.
+// Smooth and rough boundaries between dielectrics, such as glass and water. Not modelled: dispersion.
+// What lies behind the boundary absorbs as a medium does (core/medium/medium.h).
 
 #include "core/bsdf/bsdf_types.h"
 #include "core/bsdf/lobe_tints.h"

@@ -16,6 +16,7 @@
 #include "core/math/index.h"
 #include "core/math/transform.h"
 #include "core/math/vec.h"
+#include "core/medium/medium.h"
 
 namespace kaustik {
 
@@ -64,6 +65,7 @@ struct Shape {
   uint32_t surface_group = 0;  // photons are shared only within a group
   // ReverseOrientation xor the handedness of the transform (not applied where N is given).
   bool flip_normal = false;
+  MediumInterface media{};
   // Opacity of the surface: a constant, or a float texture of the scene (core/scene/alpha.h).
   float alpha = 1;
   uint32_t alpha_texture = kNoIndex;

@@ -41,6 +41,9 @@ SceneNeeds needs_of(const Scene& scene) {
     needs.glossy |= parts.glossy && !parts.diffuse && !transmits(material.typical());
     needs.diffuse |= parts.diffuse;
   }
+  needs.media = scene.camera_medium != kVacuum || !scene.light_media.empty() ||
+                std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                            [](const Shape& s) { return s.media.is_transition(); });
   needs.any_light = !scene.lights.empty();
   needs.infinite_light = !scene.infinite_lights.empty();
   needs.sky_alone = needs.any_light && scene.infinite_lights.size() == scene.lights.size();
@@ -57,6 +60,8 @@ void finalize_scene(Scene& scene) {
   set_scene_sphere(scene.lights, scene.bounds);
   scene.light_power = light_power_distribution(scene.lights);
   scene.light_sampler = LightSampler(scene.lights);
+  const auto in_vacuum = [](MediumIndex medium) { return medium == kVacuum; };
+  if (std::all_of(scene.light_media.begin(), scene.light_media.end(), in_vacuum)) scene.light_media.clear();
   scene.infinite_lights.clear();
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (is_infinite(scene.lights[i])) scene.infinite_lights.push_back(static_cast<uint32_t>(i));

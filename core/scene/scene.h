@@ -25,7 +25,10 @@ struct Scene {
   std::shared_ptr<const TextureSet> textures;  // named by materials and shapes by index; may be null
   std::vector<std::string> material_names;     // for `kaustik info`
   std::vector<std::string> surface_group_names;
+  std::vector<Medium> media;  // by MediumIndex; the first is the vacuum. Empty where there are no others
+  MediumIndex camera_medium = kVacuum;
   std::vector<Light> lights;
+  std::vector<MediumIndex> light_media;   // where each light shines; empty where all do so in the vacuum
   DiscreteDistribution light_power;       // probabilities for photon emission
   LightSampler light_sampler;             // for next-event estimation
   std::vector<uint32_t> infinite_lights;  // indices into lights

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "core/scene/bsdf_at.h"
+#include "core/scene/media.h"
 #include "photon/trace/lanes/walker_queue.h"
 #include "photon/trace/shading_correction.h"
 #include "photon/trace/tracer.h"
@@ -128,6 +129,7 @@ class Tracer {
     emit_lanes(scene_, settings_.photons, settings_.emission, count, starts_, settings_.light);
     if (settings_.guide) weigh_starts(count);
     std::fill_n(walkers_.state, count, WalkState());
+    if (!scene_.light_media.empty()) enter_media(count);
     to_energy_lanes(starts_.flux, count, units_per_watt_, walkers_.energy);
     for (size_t k = 0; k < count; ++k) {
       const Rgb flux = get_lane(starts_.flux, k);
@@ -135,6 +137,12 @@ class Tracer {
       if (goes_on_[k]) counters_.energy.emitted += walkers_.energy[k];
     }
     push(starts_.ray, starts_.flux, count);
+  }
+
+  // Sets the media in which the first `count` photons start.
+  void enter_media(size_t count) {
+    for (size_t k = 0; k < count; ++k)
+      walkers_.state[k] = WalkState().in(medium_of_start(scene_, starts_.u_light[k], settings_.light));
   }
 
   void weigh_starts(size_t count) {
@@ -152,6 +160,7 @@ class Tracer {
     queue.take(count, lanes_, walkers_);
     intersect_lanes(bvh_, lanes_.ray, count, &lanes_.hit);
     if (surfaces_.many_triangles()) prefetch_triangles(surfaces_, lanes_.hit, count);
+    if (scene_.needs.media) absorb(count);
     const uint32_t traits = fill_lanes(count);
     locate_lanes(lanes_, surfaces_.shapes(), count);
     const bool chooses_lobes = traits & (kSpecularTrait | kScalarTrait);
@@ -166,6 +175,21 @@ class Tracer {
     if (counters_.dropped_invalid != dropped_before) book_dropped(count);
     book(count);
     push(lanes_.next, lanes_.next_flux, count);
+  }
+
+  // Leaves the flux that the media between the photons and their hits do not absorb.
+  void absorb(size_t count) {
+    for (size_t k = 0; k < count; ++k) {
+      const WalkState& state = walkers_.state[k];
+      if (state.medium() == kVacuum) continue;
+      const float distance = lanes_.hit.valid(k) ? lanes_.hit.t[k] : kInfinity;
+      const Rgb flux = transmittance(scene_, state.medium(), distance) * get_lane(lanes_.flux, k);
+      set_lane(lanes_.flux, k, flux);
+      if (state.is_straight()) continue;
+      const int32_t energy = energy_of(flux, units_per_watt_);
+      counters_.energy.in_media += walkers_.energy[k] - energy;
+      walkers_.energy[k] = energy;
+    }
   }
 
   void draw_vertex_numbers(size_t count, int dimensions) {
@@ -272,7 +296,8 @@ class Tracer {
 
   // Queues the straight ray behind a photon's first surface.
   void start_straight(size_t k, const Ray& on, const Rgb& flux) {
-    queue_of(on.d).push(on.o, on.d, flux, walkers_.reversed_index[k], WalkState::straight());
+    const WalkState state = WalkState::straight().in(walkers_.state[k].medium());
+    queue_of(on.d).push(on.o, on.d, flux, walkers_.reversed_index[k], state);
   }
   void go_straight_on(size_t k, const Ray& on, const Rgb& flux) {
     lanes_.set_next(k, on, flux);
@@ -360,6 +385,7 @@ class Tracer {
     lanes_.scattered_energy[k] = energy_of(next, units_per_watt_);
     const float scale = roulette(photon.flux, next, u(B::kDrawsLobe ? 3 : 2));
     if (scale == 0) return false;
+    state = state.in(medium_beyond(scene_, si, on.wi, state.medium()));
     lanes_.set_next(k, si.spawn(unit(on.wi)), scale * next);
     lanes_.next_energy[k] = energy_of(scale * next, units_per_watt_);
     return true;

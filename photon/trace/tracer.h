@@ -14,7 +14,8 @@
 // straight ray behind any first surface leaves them, since mirrors and glass block direct light. A straight
 // ray passes through specular surfaces.
 //
-// Not handled: participating media.
+// Media absorb light on its way. Straight rays stay in the medium where their light shines, as direct light
+// without occlusion does. Not handled: media that scatter.
 
 #include <cstdint>
 

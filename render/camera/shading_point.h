@@ -14,6 +14,7 @@ struct ShadingPoint {
   Frame frame;    // si.shading_frame()
   Vector3 wo_local{0};
   BsdfAt bsdf;
+  MediumIndex medium = kVacuum;  // on the side of wo; set by those who follow paths through media
 
   // If wo lies on different sides of the geometric and the shading surface of a non-specular material, the
   // geometric normal is used for shading, since the interpolated one is meaningless there.

@@ -20,7 +20,8 @@ constexpr uint64_t kFewestPoints = 1024;
 // estimates that are not finite, which the picture would drop.
 std::optional<TwoEstimates> estimate_at(const RenderContext& ctx, const VisiblePoint& point,
                                         Sampler& sampler) {
-  const ShadingPoint x(ctx.scene, point.si, point.wo);
+  ShadingPoint x(ctx.scene, point.si, point.wo);
+  x.medium = point.medium;
   if (lobes(*x.bsdf).rough) return {};
   TileCounters ignored;
   TwoEstimates found;

@@ -2,6 +2,8 @@
 
 #include "render/estimators/lighting.h"
 
+#include "core/scene/media.h"
+
 namespace kaustik::render {
 
 namespace {
@@ -83,6 +85,12 @@ std::optional<LightSample> sample_guided(const Light& light, const LightReceiver
   return s;
 }
 
+// What the medium between x and the light sample does not absorb.
+Rgb left_of_light(const Scene& scene, const ShadingPoint& x, const LightSample& s) {
+  const MediumIndex medium = medium_beyond(scene, x.si, s.wi, x.medium);
+  return transmittance(scene, medium, s.infinite ? kInfinity : glm::distance(x.si.p, s.p_light));
+}
+
 // Samples one light; nothing if it contributes nothing. expected: the expected number of samples of this
 // light.
 std::optional<WeightedLightSample> sample_light(const RenderContext& ctx, uint32_t light, float expected,
@@ -98,7 +106,9 @@ std::optional<WeightedLightSample> sample_light(const RenderContext& ctx, uint32
   const float pdf = s->pdf * expected;
   const bool shared = weight == LightWeight::kMis && !is_delta(from);
   const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
-  return WeightedLightSample{*s, f * s->Li * (w / pdf)};
+  WeightedLightSample weighted{*s, f * s->Li * (w / pdf)};
+  if (ctx.scene.needs.media) weighted.contribution *= left_of_light(ctx.scene, x, *s);
+  return weighted;
 }
 
 // Light samples of which at most one is corrected by a shadow ray (Talbot et al. 2005). The estimate is the

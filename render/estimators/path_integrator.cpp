@@ -2,22 +2,25 @@
 
 #include "render/estimators/path_integrator.h"
 
+#include "core/scene/media.h"
+
 namespace kaustik::render {
 
 namespace {
 
 // State of a path while it is traced.
 struct PathState {
-  Rgb beta{1};            // throughput since x
-  float roulette = 1;     // largest component of the throughput without the eta^2 of refractions
-  int events = 1;         // scattering events since x, x included
-  int diffuse = 0;        // scattering events by diffuse lobes, x included
-  bool specular = false;  // the last event was specular
-  bool has_pdf = false;   // that event was by no delta lobe, so lights were sampled there too
-  LightReceiver ref;      // where that event was
-  float pdf = 0;          // density of the ray that left it
-  Point3 from{0};         // the point that the ray left
-  float segment = 0;      // length of the path since the last diffuse event, metres
+  Rgb beta{1};                   // throughput since x
+  float roulette = 1;            // largest component of the throughput without the eta^2 of refractions
+  int events = 1;                // scattering events since x, x included
+  int diffuse = 0;               // scattering events by diffuse lobes, x included
+  bool specular = false;         // the last event was specular
+  bool has_pdf = false;          // that event was by no delta lobe, so lights were sampled there too
+  LightReceiver ref;             // where that event was
+  float pdf = 0;                 // density of the ray that left it
+  Point3 from{0};                // the point that the ray left
+  float segment = 0;             // length of the path since the last diffuse event, metres
+  MediumIndex medium = kVacuum;  // of the ray
 };
 
 bool caustics_by_map(const RenderContext& ctx) {
@@ -78,8 +81,16 @@ Rgb arriving_at_end(const RenderContext& ctx, const ShadingPoint& y, Sampler& sa
   return sum;
 }
 
+// Leaves of the throughput what the ray's medium does not absorb along the way.
+void absorb(const Scene& scene, float distance, PathState* path) {
+  const Rgb left = transmittance(scene, path->medium, distance);
+  path->beta *= left;
+  path->roulette *= max_component(left);
+}
+
 // Samples a scattering event and continues the path; false where it ends.
-bool continue_path(const ShadingPoint& v, Scatter part, PathState* path, Ray* ray, Sampler& sampler) {
+bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, PathState* path, Ray* ray,
+                   Sampler& sampler) {
   const auto s = scatter(v, sampler, part);
   if (!s || is_black(s->weight)) return false;
   path->beta *= s->weight;
@@ -90,6 +101,7 @@ bool continue_path(const ShadingPoint& v, Scatter part, PathState* path, Ray* ra
   path->has_pdf = !s->specular || s->glossy;
   path->ref = v.receiver();
   path->pdf = s->pdf;
+  path->medium = medium_beyond(scene, v.si, s->wi, v.medium);
   *ray = v.si.spawn(s->wi);
   return true;
 }
@@ -139,22 +151,25 @@ PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach 
   PathState path;
   path.from = x.si.p;
   Ray ray;
-  if (!continue_path(x, Scatter::kDiffuse, &path, &ray, sampler)) return light;
+  if (!continue_path(ctx.scene, x, Scatter::kDiffuse, &path, &ray, sampler)) return light;
   while (true) {
     // A ray that looks for lights alone counts as the shadow ray whose work it shares.
     ++(reach == PathReach::kLights ? counters.rays.shadow : counters.rays.bounce);
     SurfaceInteraction si;
     if (!ctx.bvh.intersect(ray, &si)) {
+      if (path.medium != kVacuum) absorb(ctx.scene, kInfinity, &path);
       add_escape(ctx, path, ray, &light);
       return light;
     }
+    if (path.medium != kVacuum) absorb(ctx.scene, glm::distance(si.p, path.from), &path);
     add_light(ctx, path, si, ray, &light);
     if (reach == PathReach::kLights || ++path.events > ctx.settings.max_bounces) return light;
     path.segment += glm::distance(si.p, path.from);
     path.from = si.p;
-    const ShadingPoint y(ctx.scene, si, -ray.d);
+    ShadingPoint y(ctx.scene, si, -ray.d);
+    y.medium = path.medium;
     const std::optional<Scatter> part = visit(ctx, y, reach, &path, &light, sampler, counters);
-    if (!part || !continue_path(y, *part, &path, &ray, sampler)) return light;
+    if (!part || !continue_path(ctx.scene, y, *part, &path, &ray, sampler)) return light;
   }
 }
 

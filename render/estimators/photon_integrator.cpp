@@ -14,6 +14,7 @@
 
 #include <array>
 
+#include "core/scene/media.h"
 #include "render/estimators/disc_pilots.h"
 #include "render/estimators/glossy_tails.h"
 #include "render/explore/surroundings.h"
@@ -212,9 +213,10 @@ struct Branch {
   int events = 0;
   LastScatter last{};
   Tail tail = Tail::kNone;
-  bool blurred = false;  // an earlier lobe of the chain blurs more than the indirect map's disc
-  float length = 0;      // of the chain
-  bool shown = false;    // the chain had a point with lobes that are no delta lobes
+  bool blurred = false;          // an earlier lobe of the chain blurs more than the indirect map's disc
+  float length = 0;              // of the chain
+  bool shown = false;            // the chain had a point with lobes that are no delta lobes
+  MediumIndex medium = kVacuum;  // of the ray
 };
 
 // Emission that the ray meets. After a glossy lobe it has the MIS weight of BSDF sampling, since lights are
@@ -274,9 +276,11 @@ class CameraPath {
 
   void trace(const CameraSample& sample) {
     ++counters_.rays.camera;
-    visit(Branch{sample.ray, ctx_.cone}, sample.hit);
+    Branch first{sample.ray, ctx_.cone};
+    first.medium = ctx_.scene.camera_medium;
+    visit(first, sample.hit);
     while (waiting_ > 0) {
-      const Branch branch = branches_[--waiting_];
+      Branch branch = branches_[--waiting_];
       ++counters_.rays.specular;
       visit(branch, ctx_.bvh.intersect(branch.ray));
     }
@@ -287,7 +291,9 @@ class CameraPath {
   static constexpr int kMostWaiting = 16;
 
   // Adds the light at the end of a branch and continues the branch if the surface has specular lobes.
-  void visit(const Branch& branch, const Hit& hit) {
+  void visit(Branch& branch, const Hit& hit) {
+    if (branch.medium != kVacuum)
+      branch.beta *= transmittance(ctx_.scene, branch.medium, hit.valid() ? hit.t : kInfinity);
     const bool sees_lights = branch.tail != Tail::kBehind;
     if (!hit.valid()) {
       if (sees_lights) add_emission(branch, escape_seen(ctx_, branch.last, branch.ray));
@@ -298,7 +304,8 @@ class CameraPath {
     if (sees_lights) add_emission(branch, emission_seen(ctx_.scene, branch.last, si, branch.ray.d));
     const RayCone cone = branch.cone.after(hit.t);
     const bool constant = ctx_.scene.materials[si.material].constant();
-    const ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
+    ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
+    x.medium = branch.medium;
     const Lobes parts = lobes(*x.bsdf);
     const float length = branch.length + hit.t;
     const bool end = parts.diffuse || parts.glossy || !parts.specular || branch.events == kMostFollowed;
@@ -348,7 +355,8 @@ class CameraPath {
     Tail tail = behind_event(from.tail);
     if (tail == Tail::kNone && s->glossy && gathers_tail(ctx_, x) && in_tail(x, s->wi)) tail = Tail::kLeft;
     push({x.si.spawn(s->wi), from.cone, beta, from.share, from.events + 1,
-          LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred, from.length, from.shown});
+          LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred, from.length, from.shown,
+          medium_beyond(ctx_.scene, x.si, s->wi, x.medium)});
   }
 
   // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
@@ -363,7 +371,7 @@ class CameraPath {
     for (const BsdfSample* s : {&*reflected, &*refracted})
       push({x.si.spawn(s->wi), from.cone, from.beta * s->weight * s->pdf, from.share * s->pdf,
             from.events + 1, LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.blurred,
-            from.length, from.shown});
+            from.length, from.shown, medium_beyond(ctx_.scene, x.si, s->wi, x.medium)});
     return true;
   }
 

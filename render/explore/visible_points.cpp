@@ -8,6 +8,7 @@
 #include "core/parallel/parallel.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
+#include "core/scene/media.h"
 #include "photon/emission/emission.h"
 #include "render/camera/shading_point.h"
 
@@ -18,8 +19,9 @@ namespace {
 // Separates the random numbers of these rays from those of the image.
 constexpr uint64_t kPilotStream = 0x9117;
 
-// The first point on the ray, or behind mirrors and glass, whose BSDF has diffuse lobes.
-std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, Sampler& sampler) {
+// The first point on the ray, or behind mirrors and glass, whose BSDF has diffuse lobes. medium: the ray's.
+std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, MediumIndex medium,
+                                          Sampler& sampler) {
   const Scene& scene = input.scene;
   for (int events = 0; events <= input.settings.max_bounces; ++events) {
     SurfaceInteraction si;
@@ -27,19 +29,20 @@ std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, Sam
     const ShadingPoint x(scene, si, -ray.d);
     if (!x.specular()) {
       const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;
-      return VisiblePoint{{si.p, n, si.surface_group}, transmits(*x.bsdf), si, x.wo};
+      return VisiblePoint{{si.p, n, si.surface_group}, transmits(*x.bsdf), si, x.wo, medium};
     }
     const auto s = scatter(x, sampler);
     if (!s) return {};
     ray = si.spawn(s->wi);
+    medium = medium_beyond(scene, si, s->wi, medium);
   }
   return {};
 }
 
 std::optional<VisiblePoint> seen_by(const Camera& camera, const RenderInput& input, Sampler& sampler) {
   const Point2 u = sampler.next_2d();
-  return first_diffuse(input, camera.generate_ray({u.x * float(camera.width), u.y * float(camera.height)}),
-                       sampler);
+  const Ray ray = camera.generate_ray({u.x * float(camera.width), u.y * float(camera.height)});
+  return first_diffuse(input, ray, input.scene.camera_medium, sampler);
 }
 
 // What some camera may see: where light arrives from the lights, and where it does after up to `reflections`
@@ -48,11 +51,12 @@ std::optional<VisiblePoint> lit_point(const RenderInput& input, uint32_t reflect
   const photon::EmissionNumbers u = photon::emission_numbers(input.scene, sampler);
   const auto start = photon::emit_photon(input.scene, u, 1, input.settings.emission);
   if (!start) return {};
-  std::optional<VisiblePoint> point = first_diffuse(input, start->ray, sampler);
+  std::optional<VisiblePoint> point =
+      first_diffuse(input, start->ray, photon::medium_of_start(input.scene, u.light), sampler);
   for (uint32_t i = 0; point && i < reflections; ++i) {
     const Frame frame = Frame::from_z(point->query.n);
     const Vector3 wi = frame.to_world(sample_cosine_hemisphere(sampler.next_2d()));
-    const auto next = first_diffuse(input, point->si.spawn(wi), sampler);
+    const auto next = first_diffuse(input, point->si.spawn(wi), point->medium, sampler);
     if (!next) break;
     point = next;
   }

@@ -13,7 +13,8 @@ struct VisiblePoint {
   photon::GatherQuery query;  // radius unset; n on the viewer's side
   bool both_sides = false;    // the BSDF transmits, so light from the other side is gathered too
   SurfaceInteraction si{};
-  Vector3 wo{0};  // unit, to the viewer
+  Vector3 wo{0};                 // unit, to the viewer
+  MediumIndex medium = kVacuum;  // on the viewer's side
 };
 
 // Traces `count` rays of the views and returns the points of those that meet one. With settings.for_camera =

@@ -42,8 +42,9 @@ void for_each_count(Statistics& s, F&& f) {
 
 template <class Ledger, class F>
 void for_each_energy(Ledger& e, F&& f) {
-  f("emitted", e.emitted), f("absorbed", e.absorbed), f("escaped", e.escaped);
-  f("terminated", e.terminated), f("roulette", e.roulette), f("invalid", e.invalid);
+  f("emitted", e.emitted), f("absorbed", e.absorbed), f("in_media", e.in_media);
+  f("escaped", e.escaped), f("terminated", e.terminated);
+  f("roulette", e.roulette), f("invalid", e.invalid);
 }
 
 template <class Statistics, class F>

@@ -41,17 +41,18 @@ bool same_bytes(const Film& a, const Film& b) {
 class Determinism : public ::testing::TestWithParam<Method> {};
 
 TEST_P(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
-  const Scene scene = cornell(40);
-  const auto one = render_with_threads(scene, settings_of(GetParam()), 1);
-  EXPECT_GT(total_mean(one.film), 0);
-  for (const int threads : {2, 3, 8}) {
-    const auto many = render_with_threads(scene, settings_of(GetParam()), threads);
-    EXPECT_TRUE(same_bytes(one.film, many.film)) << threads << " threads";
-    EXPECT_EQ(one.statistics.rays.bounce, many.statistics.rays.bounce);
-    EXPECT_EQ(one.statistics.gather_accepted, many.statistics.gather_accepted);
-    EXPECT_EQ(one.statistics.photons.stored, many.statistics.photons.stored);
-    EXPECT_EQ(one.statistics.radius, many.statistics.radius);
-    write_if_failed(many.film, "threads_" + std::to_string(threads));
+  for (const Scene& scene : {cornell(40), coloured_cornell(40)}) {
+    const auto one = render_with_threads(scene, settings_of(GetParam()), 1);
+    EXPECT_GT(total_mean(one.film), 0);
+    for (const int threads : {2, 3, 8}) {
+      const auto many = render_with_threads(scene, settings_of(GetParam()), threads);
+      EXPECT_TRUE(same_bytes(one.film, many.film)) << threads << " threads";
+      EXPECT_EQ(one.statistics.rays.bounce, many.statistics.rays.bounce);
+      EXPECT_EQ(one.statistics.gather_accepted, many.statistics.gather_accepted);
+      EXPECT_EQ(one.statistics.photons.stored, many.statistics.photons.stored);
+      EXPECT_EQ(one.statistics.radius, many.statistics.radius);
+      write_if_failed(many.film, "threads_" + std::to_string(threads));
+    }
   }
 }
 
@@ -127,10 +128,10 @@ TEST_P(Determinism, SeedsChangeTheNoise) {
 // Scales from 2^-20 to 2^20, twelve decades. The lights' radiance stays, so the picture stays; depth and
 // radius scale.
 TEST_P(Determinism, ScaledSceneGivesTheSameBits) {
-  const auto one = render_with_threads(cornell(24), settings_of(GetParam()));
+  const auto one = render_with_threads(coloured_cornell(24), settings_of(GetParam()));
   for (const int exponent : {-20, -3, 20}) {
     const float scale = std::ldexp(1.0f, exponent);
-    auto scaled = render_with_threads(cornell(24, scale), settings_of(GetParam()));
+    auto scaled = render_with_threads(coloured_cornell(24, scale), settings_of(GetParam()));
     EXPECT_EQ(scaled.statistics.radius, one.statistics.radius * scale);
     for (int y = 0; y < 24; ++y)
       for (int x = 0; x < 24; ++x) {

@@ -114,6 +114,7 @@ class Importer {
     if (!shape) return std::nullopt;
     shape->material = look.material;
     shape->area_light = look.area_light;
+    shape->media.inside = look.inside;
     if (look.alpha) shape->parameters.push_back(*look.alpha);
     if (look.by_vertex)
       shape->parameters.push_back(

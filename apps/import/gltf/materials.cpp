@@ -56,6 +56,7 @@ Look Materials::make(const View& material, const std::string& name) {
   look.material = {std::nullopt, is_unlit ? unlit(material, name, look) : surface(material, name),
                    warnings_.where()};
   look.alpha = alpha_of(material);
+  if (!is_unlit) look.inside = inside_of(material, look.material.name);
   const View strength = extension(material, "KHR_materials_emissive_strength")["emissiveStrength"];
   if (!is_unlit)
     add_light(material, material["emissiveTexture"],
@@ -243,24 +244,30 @@ std::string Materials::clear_part(const View& material, const std::string& name)
   return add(std::move(*m), name, material);
 }
 
+// The medium inside a transmissive body, by KHR_materials_volume: attenuationColor is what it leaves of light
+// along attenuationDistance, which is in world space.
+MediumReference Materials::inside_of(const View& material, const std::string& name) {
+  const View volume = extension(material, "KHR_materials_volume");
+  const double distance = volume["attenuationDistance"].number(0);
+  const bool body = volume["thicknessFactor"].number(0) > 0 &&
+                    extension(material, "KHR_materials_transmission")["transmissionFactor"].number(0) > 0;
+  if (!body || !(distance > 0)) return {};
+  constexpr double kDarkest = 1e-6;  // of a colour without a component: so that the coefficient is finite
+  const glm::dvec3 left = glm::clamp(colour(volume["attenuationColor"].numbers(3, {1, 1, 1})), kDarkest, 1.0);
+  if (left == glm::dvec3(1)) return {};
+  DirectiveMaker<MediumDescription> medium("homogeneous", warnings_.where());
+  medium.rgb("sigma_a", -glm::log(left) / distance).rgb("sigma_s", glm::dvec3(0));
+  medium->name = name;  // materials have names of their own
+  medium->name_location = warnings_.where();
+  scene_.media.push_back(std::move(*medium));
+  return {name, warnings_.where()};
+}
+
 // The base colour tints the light that passes a pane. Light passes the surface of a body twice, so that each
-// time it is tinted by the root of the base colour and of what KHR_materials_volume leaves of light along the
-// thickness that it states.
+// time it is tinted by the root of the base colour.
 void Materials::add_transmittance(const View& material, bool pane, MaterialDescription& m) {
   Base base = base_of(material);
-  glm::dvec3 tint = base.colour();
-  if (!pane) {
-    const View volume = extension(material, "KHR_materials_volume");
-    const double distance = volume["attenuationDistance"].number(0),
-                 thickness = volume["thicknessFactor"].number();
-    if (distance > 0) {
-      warnings_.count("the attenuation of KHR_materials_volume is that along its thickness, at the surface",
-                      "material");
-      const glm::dvec3 left = glm::clamp(colour(volume["attenuationColor"].numbers(3, {1, 1, 1})), 0.0, 1.0);
-      tint *= glm::pow(left, glm::dvec3(thickness / distance));
-    }
-    tint = glm::sqrt(tint);
-  }
+  const glm::dvec3 tint = pane ? base.colour() : glm::sqrt(base.colour());
   if (tint == glm::dvec3(1) && !base.texture && !tint_.each) return;
   for (size_t k = 0; k < 3; ++k) base.factor[k] = tint[static_cast<int>(k)];
   add_base("transmittance", base, 1, m, pane ? 1 : 0.5);

@@ -18,6 +18,7 @@ struct Look {
   MaterialReference material;
   std::optional<uint32_t> area_light;
   std::optional<Parameter> alpha;
+  MediumReference inside;
   UvSource uv;
   bool by_vertex = false;    // shows the colours of vertices
   bool emits_image = false;  // shown once, over uv from 0 to 1
@@ -84,6 +85,7 @@ class Materials {
   void add_base(const std::string& parameter, const Base& base, double share, MaterialDescription& m,
                 double exponent = 1);
   void add_transmittance(const View& material, bool pane, MaterialDescription& m);
+  MediumReference inside_of(const View& material, const std::string& name);
   void add_width(const std::string& parameter, const Width& width, MaterialDescription& m);
   void add_roughness(const View& material, bool coat, MaterialDescription& m);
   std::optional<Parameter> alpha_of(const View& material);

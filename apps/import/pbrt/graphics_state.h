@@ -28,6 +28,7 @@ struct GraphicsState {
   MaterialReference material;
   std::optional<uint32_t> area_light;
   bool reverse_orientation = false;
+  MediaReference media;
   const ColourSpace* colour_space = find_colour_space("srgb");  // of rgb parameters
   std::map<std::string, Defaults, std::less<>>
       defaults;  // by target: "shape", "light", "material", "texture"

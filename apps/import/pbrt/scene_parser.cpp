@@ -59,9 +59,9 @@ const std::map<std::string_view, SceneParser::Entry>& SceneParser::directives() 
       {"LightSource", {&P::on_light, kWorld}},
       {"LookAt", {&P::on_look_at, kAny}},
       {"MakeNamedMaterial", {&P::on_make_named_material, kWorld}},
-      {"MakeNamedMedium", {&P::on_medium, kAny}},
+      {"MakeNamedMedium", {&P::on_make_named_medium, kAny}},
       {"Material", {&P::on_material, kWorld}},
-      {"MediumInterface", {&P::on_medium, kAny}},
+      {"MediumInterface", {&P::on_medium_interface, kAny}},
       {"NamedMaterial", {&P::on_named_material, kWorld}},
       {"ObjectBegin", {&P::on_object_begin, kWorld}},
       {"ObjectEnd", {&P::on_object_end, kWorld}},
@@ -217,13 +217,12 @@ void SceneParser::add_defaults(std::string_view target, std::vector<Parameter>& 
 }
 
 void SceneParser::on_attribute(const Token& word) {
-  const auto target = in_quotes("its target, \"shape\", \"light\", \"material\" or \"texture\",", word);
+  const auto target =
+      in_quotes("its target, \"shape\", \"light\", \"material\", \"medium\" or \"texture\",", word);
   if (!target) return;
   const std::string name = unescape(target->text);
   std::vector<Parameter> parameters = parse_parameters(*tokens_, diagnostics_);
-  if (name == "medium")
-    return warn_once(word, "`Attribute \"medium\"` is ignored: participating media are not rendered");
-  constexpr std::string_view kTargets[] = {"shape", "light", "material", "texture"};
+  constexpr std::string_view kTargets[] = {"shape", "light", "material", "medium", "texture"};
   if (std::find(std::begin(kTargets), std::end(kTargets), name) == std::end(kTargets)) {
     diagnostics_.error(target->location, fmt::format("unknown target \"{}\" of `Attribute`{}", name,
                                                      name_hint(name, kTargets)));

@@ -53,6 +53,10 @@ class SceneParser {
   // Helpers that read the arguments of directives.
   std::optional<Token> in_quotes(std::string_view what, const Token& word);
   bool read_directive(const Token& word, std::string_view target, Directive& out);
+  // Of a named material or medium: what was read as its type is its name; the type is a parameter. False,
+  // with an error, if there is none.
+  bool take_type(std::string_view what, std::string_view example, Directive& directive, std::string& name,
+                 SourceLocation& name_location);
   void add_defaults(std::string_view target, std::vector<Parameter>& parameters);
   OpenedText open_beside(const std::string& name) const;
   void concat(const glm::dmat4& m) { set_transform(state_.ctm * m); }
@@ -116,7 +120,8 @@ class SceneParser {
   void on_shape(const Token& word);
   void on_include(const Token& word);
   void on_import(const Token& word);
-  void on_medium(const Token& word);
+  void on_make_named_medium(const Token& word);
+  void on_medium_interface(const Token& word);
   void include(const Token& word, bool keep_state);
   // Whether a text begins with a directive and something that may follow it, or is empty. Messages quote
   // lines of such texts alone: a scene may name any file.

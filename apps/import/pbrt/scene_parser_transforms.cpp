@@ -105,6 +105,7 @@ void SceneParser::on_camera(const Token& word) {
   CameraDescription camera;
   if (!read_directive(word, "camera", camera)) return;
   camera.camera_to_world = inverse_transform(state_.ctm);
+  camera.medium = state_.media.outside;
   coordinate_systems_["camera"] = camera.camera_to_world;
   if (scene_.camera) {
     diagnostics_.warning(word.location, "this `Camera` replaces an earlier one",

@@ -52,21 +52,26 @@ void SceneParser::on_material(const Token& word) {
   state_.material = {static_cast<uint32_t>(scene_.materials.size() - 1), {}, where};
 }
 
+bool SceneParser::take_type(std::string_view what, std::string_view example, Directive& directive,
+                            std::string& name, SourceLocation& name_location) {
+  name = std::exchange(directive.type, {});
+  name_location = directive.type_location;
+  const Parameter* type = directive.find("type");
+  if (!type || type->strings.size() != 1) {
+    diagnostics_.error(name_location,
+                       fmt::format("{} `{}` needs its type: \"string type\" \"{}\"", what, name, example));
+    return false;
+  }
+  directive.type = type->strings[0];
+  directive.type_location = type->value_location(0);
+  std::erase_if(directive.parameters, [](const Parameter& p) { return p.name == "type"; });
+  return true;
+}
+
 void SceneParser::on_make_named_material(const Token& word) {
   MaterialDescription material;
   if (!read_directive(word, "material", material)) return;
-  material.name = std::exchange(material.type, {});
-  material.name_location = material.type_location;
-  const Parameter* type = material.find("type");
-  if (!type || type->strings.size() != 1) {
-    diagnostics_.error(
-        material.name_location,
-        fmt::format("material `{}` needs its type: \"string type\" \"diffuse\"", material.name));
-    return;
-  }
-  material.type = type->strings[0];
-  material.type_location = type->value_location(0);
-  std::erase_if(material.parameters, [](const Parameter& p) { return p.name == "type"; });
+  if (!take_type("material", "diffuse", material, material.name, material.name_location)) return;
   v3_.upgrade("Material", material);
   resolve_names("Material", material);
   repairs_.repair("Material", material);
@@ -99,6 +104,7 @@ void SceneParser::on_light(const Token& word) {
   // pbrt ignores it.
   if (light.type == "infinite" || light.type == "distant")
     light.light_to_world = glm::dmat4(glm::dmat3(state_.ctm));
+  light.medium = state_.media.outside;
   scene_.lights.push_back(std::move(light));
 }
 
@@ -115,6 +121,7 @@ void SceneParser::on_shape(const Token& word) {
   shape.reverse_orientation = state_.reverse_orientation;
   shape.material = state_.material;
   shape.area_light = state_.area_light;
+  shape.media = state_.media;
   apply_opacity(shape);
   if (shape.type == "curve") return curves_.add(shape, open_object_);
   (open_object_ ? scene_.objects[*open_object_].shapes : scene_.shapes).push_back(std::move(shape));
@@ -215,15 +222,24 @@ void SceneParser::include(const Token& word, bool keep_state) {
   if (!keep_state) state_ = before;
 }
 
-// Ignores `MakeNamedMedium "name" <parameters>` and `MediumInterface "inside" "outside"` with one warning
-// each.
-void SceneParser::on_medium(const Token& word) {
-  warn_once(word, word.text == "MediumInterface"
-                      ? "`MediumInterface` is ignored: participating media are not rendered, so glass does "
-                        "not absorb and "
-                        "media inside of \"interface\" surfaces are invisible"
-                      : "`MakeNamedMedium` is ignored: participating media are not rendered");
-  skip_arguments();
+void SceneParser::on_make_named_medium(const Token& word) {
+  MediumDescription medium;
+  if (!read_directive(word, "medium", medium)) return;
+  if (!take_type("medium", "homogeneous", medium, medium.name, medium.name_location)) return;
+  repairs_.repair(word.text, medium);
+  colours_.reduce(word.text, *state_.colour_space, medium);
+  scene_.media.push_back(std::move(medium));
+}
+
+// One name stands for both sides.
+void SceneParser::on_medium_interface(const Token& word) {
+  const auto inside = in_quotes("the medium inside", word);
+  if (!inside) return;
+  state_.media.inside = {unescape(inside->text), inside->location};
+  state_.media.outside = state_.media.inside;
+  if (!tokens_->peek().is(TokenKind::kString)) return;
+  const Token outside = tokens_->next();
+  state_.media.outside = {unescape(outside.text), outside.location};
 }
 
 }  // namespace kaustik::pbrt

@@ -14,6 +14,7 @@
 #include "core/scene/build/light_table.h"
 #include "core/scene/build/local_origin.h"
 #include "core/scene/build/material_table.h"
+#include "core/scene/build/medium_table.h"
 #include "core/scene/build/sensor_builder.h"
 #include "core/scene/build/surface_groups.h"
 #include "core/scene/build/without_area.h"
@@ -31,6 +32,7 @@ constexpr uint64_t kMostPlacements = 10'000'000;
 struct Item {
   const ShapeDescription* description = nullptr;
   uint32_t material = 0;
+  MediumInterface media{};
   float alpha = 1;
   uint32_t alpha_texture = kNoIndex;
   std::optional<size_t> object;  // the object it belongs to; nothing for shapes placed directly in the world
@@ -82,6 +84,8 @@ class Builder {
     scene.sensor = build_sensor(description_, diagnostics_);
     textures_.emplace(description_, images_, warned_, diagnostics_);
     MaterialTable materials(description_, *textures_, warned_, diagnostics_);
+    media_.emplace(description_, warned_, diagnostics_);
+    if (description_.camera) scene.camera_medium = media_->resolve(description_.camera->medium, diagnostics_);
     collect(materials);
     flat_shapes_.report("shape", diagnostics_);
     flat_instances_.report("instance", diagnostics_);
@@ -95,6 +99,7 @@ class Builder {
     if (diagnostics_.has_errors()) return std::nullopt;
     scene.materials = std::move(materials.materials());
     scene.material_names = std::move(materials.names());
+    scene.media = std::move(media_->media());
     scene.textures = textures_->finish(scene.origin);
     finalize_scene(scene);
     return scene;
@@ -127,6 +132,7 @@ class Builder {
   LightImages light_images_;
   WarnedOnce warned_;
   std::optional<TextureTable> textures_;
+  std::optional<MediumTable> media_;
   std::optional<LightTable> lights_;
   std::vector<Item> items_;
   std::vector<Placement> placements_;
@@ -151,11 +157,16 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
                            "the area light is ignored: material \"interface\" is not a surface",
                            {{description_.area_lights[*shape.area_light].location, "the area light"}});
     }
+    if (media_->resolve(shape.media, diagnostics_).is_transition() &&
+        warned_.insert("inside interfaces").second)
+      diagnostics_.warning(shape.location,
+                           "media inside surfaces of material \"interface\" are not rendered");
     return std::nullopt;
   }
   Item& item = items_.emplace_back();
   item.description = &shape;
   item.material = material;
+  item.media = media_->resolve(shape.media, diagnostics_);
   item.object = object;
   set_alpha(shape, item);
   return items_.size() - 1;
@@ -299,8 +310,10 @@ void Builder::build_lights(Scene& scene) {
                                   [&](const LightRow& r) { return &r.spec == spec; });
     auto made = row->make(
         {ParameterReader(light, *spec), light.light_to_world, scene.origin, light_images_, diagnostics_});
-    if (made && is_power(power(*made), light.location, diagnostics_))
-      scene.lights.push_back(std::move(*made));
+    const MediumIndex medium = media_->resolve(light.medium, diagnostics_);
+    if (!made || !is_power(power(*made), light.location, diagnostics_)) continue;
+    scene.lights.push_back(std::move(*made));
+    scene.light_media.push_back(medium);
   }
 }
 
@@ -364,9 +377,11 @@ void Builder::place(Scene& scene) {
     Shape& shape = placed[i].shape;
     if (!keep(placements_[i], placed[i])) continue;
     shape.material = item.material;
+    shape.media = item.media;
     shape.alpha = item.alpha;
     shape.alpha_texture = item.alpha_texture;
     if (placements_[i].light && !lights_->make(*item.description, shape, scene.lights)) continue;
+    scene.light_media.resize(scene.lights.size(), item.media.outside);
     names.push_back(group_key(placements_[i]));
     places.push_back(group_name(*item.description));
     scene.shapes.push_back(std::move(shape));

@@ -61,8 +61,26 @@ struct Directive {
   Parameter* find(std::string_view name);
 };
 
+// A participating medium.
+struct MediumDescription : Directive {
+  std::string name;
+  SourceLocation name_location;
+};
+
+// A medium by its name, which may be defined later. Without a name: the vacuum.
+struct MediumReference {
+  std::string name;
+  SourceLocation location;
+};
+
+// The media on the two sides of a surface.
+struct MediaReference {
+  MediumReference inside, outside;
+};
+
 struct CameraDescription : Directive {
   glm::dmat4 camera_to_world{1};
+  MediumReference medium;
 };
 
 // A texture; Directive::type is its class, for example "imagemap".
@@ -93,10 +111,12 @@ struct ShapeDescription : Directive {
   bool reverse_orientation = false;
   MaterialReference material;
   std::optional<uint32_t> area_light;  // into SceneDescription::area_lights
+  MediaReference media;
 };
 
 struct LightDescription : Directive {
   glm::dmat4 light_to_world{1};
+  MediumReference medium;  // in which it shines
 };
 
 // Shapes that exist only through instances.
@@ -127,6 +147,7 @@ struct SceneDescription {
   std::vector<Parameter> options;
   std::vector<TextureDescription> textures;
   std::vector<MaterialDescription> materials;
+  std::vector<MediumDescription> media;
   std::vector<Directive> area_lights;
   std::vector<ShapeDescription> shapes;
   std::vector<LightDescription> lights;

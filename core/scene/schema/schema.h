@@ -142,6 +142,7 @@ const std::vector<LightRow>& light_rows();
 const std::vector<ShapeRow>& shape_rows();
 const std::vector<TypeSpec>& area_light_types();
 const std::vector<TypeSpec>& texture_types();
+const std::vector<TypeSpec>& medium_types();
 const std::vector<TypeSpec>& camera_types();
 const std::vector<TypeSpec>& film_types();
 const std::vector<TypeSpec>& sampler_types();

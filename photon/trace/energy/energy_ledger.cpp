@@ -10,6 +10,7 @@ EnergyLedger& EnergyLedger::operator+=(const EnergyLedger& o) {
   if (emitted == 0) unit_exponent = o.unit_exponent;
   emitted += o.emitted;
   absorbed += o.absorbed;
+  in_media += o.in_media;
   escaped += o.escaped;
   terminated += o.terminated;
   roulette += o.roulette;

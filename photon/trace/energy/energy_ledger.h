@@ -1,6 +1,7 @@
 #pragma once
-// Balance of a shoot's energy: every emitted watt is absorbed by a surface, escapes from the scene, ends with
-// a path that is not followed further, is lost (or gained) by Russian roulette, or is dropped as invalid.
+// Balance of a shoot's energy: every emitted watt is absorbed by a surface or a medium, escapes from the
+// scene, ends with a path that is not followed further, is lost (or gained) by Russian roulette, or is
+// dropped as invalid.
 //
 // Fluxes are counted in whole multiples of a unit, so that the entries add up exactly and in any order: a
 // nonzero unaccounted() means that a photon was lost or booked twice. Rounding changes each entry by at most
@@ -18,13 +19,16 @@ namespace kaustik::photon {
 struct EnergyLedger {
   int64_t emitted = 0;     // emitted by the lights
   int64_t absorbed = 0;    // absorbed by BSDFs; negative only through the shading-normal correction
+  int64_t in_media = 0;    // absorbed by media
   int64_t escaped = 0;     // carried out of the scene by rays that met nothing
   int64_t terminated = 0;  // path reached max_bounces, or no requested photon kind needs its rest
   int64_t roulette = 0;    // lost minus gained: zero on average
   int64_t invalid = 0;     // photon scattered to NaN, infinite or negative flux
   int unit_exponent = 0;
 
-  int64_t unaccounted() const { return emitted - absorbed - escaped - terminated - roulette - invalid; }
+  int64_t unaccounted() const {
+    return emitted - absorbed - in_media - escaped - terminated - roulette - invalid;
+  }
   double watts(int64_t units) const { return std::ldexp(static_cast<double>(units), unit_exponent); }
   // Both ledgers must have the same unit, unless this one is still empty.
   EnergyLedger& operator+=(const EnergyLedger& o);

@@ -46,6 +46,7 @@ SurfaceRow make_row(const Shape& shape, const std::vector<Material>& materials) 
   row.flip = shape.flip_normal ? -1.0f : 1.0f;
   row.surface_group = shape.surface_group;
   set_geometry(row, shape);
+  if (shape.media.is_transition()) row.traits |= kScalarTrait;
   const Material& material = materials[shape.material];
   std::visit(
       [&](const auto& bsdf) {

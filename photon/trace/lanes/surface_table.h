@@ -16,7 +16,7 @@ enum SurfaceTraits : uint32_t {
   kDielectricTrait = 2,  // parameter[0] is eta
   kRoughTrait = 4,       // Oren-Nayar: parameter is {A, B}
   kSphereTrait = 8,
-  kScalarTrait = 16,  // not computed in lanes: vertex normals, disks, textures, tints, other BSDFs
+  kScalarTrait = 16,  // not computed in lanes: vertex normals, disks, textures, tints, media, other BSDFs
   kMissedTrait = 32,  // the ray met no surface
 };
 

@@ -3,24 +3,28 @@
 
 #include <cstdint>
 
+#include "core/medium/medium.h"
 #include "photon/record/photon.h"
 
 namespace kaustik::photon {
 
-// The events that a photon has met and the number of rays it has followed.
+// The events that a photon has met, the number of rays it has followed, and the medium that it is in.
 class WalkState {
  public:
   WalkState() = default;
   // State of the straight ray behind a direct photon's first surface.
   static WalkState straight() { return WalkState(kStraight); }
+  // The same state in another medium.
+  WalkState in(MediumIndex medium) const { return WalkState((bits_ & ~(255 * kMedium)) | kMedium * medium); }
 
   bool is_straight() const { return bits_ & kStraight; }
   uint32_t rays() const { return bits_ / kOneRay; }  // completed, not counting the current one
-  PhotonKind kind() const {                          // of the photon left at a non-specular surface
+  MediumIndex medium() const { return static_cast<MediumIndex>(bits_ / kMedium); }
+  PhotonKind kind() const {  // of the photon left at a non-specular surface
     using enum PhotonKind;
     constexpr PhotonKind kKinds[] = {kDirect, kCaustic, kIndirect, kIndirect,
                                      kShadow, kShadow,  kShadow,   kShadow};
-    return kKinds[bits_ % kOneRay];
+    return kKinds[bits_ % kMedium];
   }
   WalkState behind_specular() const { return WalkState((bits_ | kSpecular) + kOneRay); }
   WalkState behind_diffuse() const { return WalkState((bits_ | kDiffuse) + kOneRay); }
@@ -32,7 +36,7 @@ class WalkState {
 
  private:
   explicit WalkState(uint32_t bits) : bits_(bits) {}
-  static constexpr uint32_t kSpecular = 1, kDiffuse = 2, kStraight = 4, kOneRay = 8;
+  static constexpr uint32_t kSpecular = 1, kDiffuse = 2, kStraight = 4, kMedium = 8, kOneRay = 256 * kMedium;
   uint32_t bits_ = 0;
 };
 

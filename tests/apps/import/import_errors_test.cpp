@@ -169,11 +169,20 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{R"(Texture "a" "imagemap")", R"(2:23: error: `Texture` needs a type in quotes)"},
         Case{R"(MakeNamedMedium "fog" "string type" "homogeneous")",
-             R"(2:1: warning: `MakeNamedMedium` is ignored: participating media are not rendered)"},
-        Case{
-            R"(MediumInterface "" "fog")",
-            R"(2:1: warning: `MediumInterface` is ignored: participating media are not rendered, so glass does not absorb )"
-            R"(and media inside of "interface" surfaces are invisible)"},
+             R"(2:37: warning: medium `fog` only absorbs light: scattering is not rendered)"},
+        Case{R"(MakeNamedMedium "fog" "float scale" 2)",
+             R"(2:17: error: medium `fog` needs its type: "string type" "homogeneous")"},
+        Case{R"(MakeNamedMedium "fog" "string type" "cloud")",
+             "2:37: error: pbrt's medium \"cloud\" is not supported; known: homogeneous"},
+        Case{R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [1 -1 0])",
+             "2:68: error: `sigma_a` of medium \"homogeneous\" must be >= 0, not -1"},
+        Case{"MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [0 0 0]\n"
+             "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [0 0 0]",
+             "3:17: error: medium `fog` is defined twice"},
+        Case{"MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [0 0 0]\n"
+             "MediumInterface \"\" \"fogg\" Shape \"sphere\"",
+             "3:20: error: no medium is named `fogg`; did you mean `fog`?"},
+        Case{R"(MediumInterface fog)", "2:17: error: `MediumInterface` needs the medium inside in quotes"},
         Case{R"(ActiveTransform EndTime)",
              R"(2:1: warning: motion is not rendered: everything stays where it is when the shutter opens)"},
         Case{R"(ActiveTransform Sometimes)",
@@ -220,7 +229,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{
             R"(Attribute "shpae" "float radius" 2)",
             R"(2:11: error: unknown target "shpae" of `Attribute`; did you mean `shape`? known: shape, light, )"
-            R"(material, texture)"},
+            R"(material, medium, texture)"},
         Case{R"(Attribute "shape" "float radiuss" 2)", R"(2:19: error: no shape has a parameter `radiuss`)"},
         Case{R"(Include "none.pbrt")", R"(2:9: error: cannot open "none.pbrt": no such file)"},
         Case{R"(Include "scene.pbrt")", R"(2:9: error: "scene.pbrt" includes itself)"},

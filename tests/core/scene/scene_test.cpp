@@ -42,6 +42,12 @@ TEST(Scene, NeedsFollowFromSurfacesAndLights) {
   EXPECT_TRUE(scene.needs.specular && scene.needs.diffuse && scene.needs.any_light &&
               scene.needs.infinite_light);
   EXPECT_FALSE(scene.needs.only_delta_lights);
+  EXPECT_THAT(scene.needs.left_out(), ::testing::ElementsAre("no medium: space is empty"));
+
+  scene.media = {Medium{}, Medium{Rgb(1)}};
+  scene.shapes[0].media.inside = 1;
+  finalize_scene(scene);
+  EXPECT_TRUE(scene.needs.media);
   EXPECT_TRUE(scene.needs.left_out().empty());
 
   scene.shapes.pop_back();  // no shape uses the mirror material now

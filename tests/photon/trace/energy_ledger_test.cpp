@@ -64,6 +64,19 @@ TEST(EnergyLedger, BalancesToTheLastUnit) {
   }
 }
 
+// A room filled with a medium: what does not arrive at its walls was absorbed on the way, in whole units.
+TEST(EnergyLedger, MediaHaveAnEntry) {
+  Scene scene = test::lit_room(Rgb(0), Rgb(1));
+  scene.media = {Medium{}, Medium{{0.5f, 1, 2}}};
+  scene.light_media.assign(scene.lights.size(), 1);
+  finalize_scene(scene);
+  const EnergyLedger e = ledger_of(scene, settings_for(10'000, kAllKinds));
+  EXPECT_EQ(e.unaccounted(), 0);
+  EXPECT_GT(e.in_media, e.emitted / 4);
+  EXPECT_GT(e.absorbed, e.emitted / 100);
+  EXPECT_EQ(e.absorbed + e.in_media, e.emitted);
+}
+
 TEST(EnergyLedger, MatchesItsPhotonsOnAnyNumberOfThreads) {
   const Scene scene = open_room();
   const TraceSettings settings = settings_for(3 * kShootBlock + 77, kAllKinds);

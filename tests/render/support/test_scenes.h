@@ -33,6 +33,13 @@ inline Shape horizontal(const Point3& c, float half_x, float half_z, bool up, ui
   return up ? quad(a, b, d, e, material) : quad(a, e, d, b, material);
 }
 
+// Adds a medium that absorbs and returns its index.
+inline MediumIndex add_medium(Scene& scene, const Rgb& sigma_a) {
+  if (scene.media.empty()) scene.media.emplace_back();
+  scene.media.push_back({sigma_a});
+  return static_cast<MediumIndex>(scene.media.size() - 1);
+}
+
 // Puts the camera at eye, looking towards target; +x of the image is to the right of a viewer in a
 // right-handed world.
 inline void look_at(Scene& scene, const Point3& eye, const Point3& target, const Vector3& up, float fov,
@@ -71,6 +78,21 @@ inline Scene cornell(int size, float scale = 1) {
   Shape& light = add_shape(scene, horizontal(p(0, 1.98f, 0), 0.25f * s, 0.25f * s, false, black));
   make_light(scene, light, {17, 12, 4});
   look_at(scene, p(0, 1, 0.99f), p(0, 0.8f, -1), {0, 1, 0}, 80, size, size);
+  finalize_scene(scene);
+  return scene;
+}
+
+// The box with a sphere of coloured glass, filled by a thin medium.
+inline Scene coloured_cornell(int size, float scale = 1) {
+  Scene scene = cornell(size, scale);
+  const MediumIndex green = add_medium(scene, Rgb(2, 0.25f, 1) / scale);
+  const MediumIndex air = add_medium(scene, Rgb(0.1f, 0.1f, 0.2f) / scale);
+  scene.camera_medium = air;
+  scene.light_media.assign(scene.lights.size(), air);
+  for (Shape& shape : scene.shapes) {
+    const bool glass = std::holds_alternative<Dielectric>(scene.materials[shape.material].typical());
+    shape.media = {glass ? green : air, air};
+  }
   finalize_scene(scene);
   return scene;
 }

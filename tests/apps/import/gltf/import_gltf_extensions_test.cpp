@@ -66,14 +66,18 @@ TEST_F(ImportGltfExtensions, BaseColourTintsTransmittedLight) {
   EXPECT_FALSE(material(glass).find("transmittance"));
 }
 
-// Half of the red is left after 2 m; the volume is 4 m thick: a quarter in all, a half at each surface.
-TEST_F(ImportGltfExtensions, VolumesAbsorbAlongTheirThickness) {
-  const auto body =
-      material(R"("KHR_materials_transmission": { "transmissionFactor": 1 }, "KHR_materials_volume":
-      { "thicknessFactor": 4, "attenuationDistance": 2, "attenuationColor": [ 0.5, 1, 1 ] })",
-               R"(, "metallicFactor": 0)");
-  EXPECT_THAT(numbers(body, "transmittance"), ElementsAre(testing::DoubleNear(0.5, 1e-12), 1, 1));
-  EXPECT_THAT(diagnostics_.format_all(), HasSubstr("along its thickness, at the surface (1 material)"));
+// Half of the red is left after 2 m, and nothing of the blue.
+TEST_F(ImportGltfExtensions, VolumesAreMedia) {
+  const SceneDescription scene = describe(triangle(
+      R"({ "name": "tea", "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 },
+      "KHR_materials_volume": { "thicknessFactor": 4, "attenuationDistance": 2, "attenuationColor": [ 0.5, 1, 0 ] } } })"));
+  ASSERT_EQ(scene.media.size(), 1u);
+  EXPECT_EQ(scene.media[0].name, "tea");
+  EXPECT_THAT(numbers(scene.media[0], "sigma_a"),
+              ElementsAre(testing::DoubleNear(std::log(2.0) / 2, 1e-12), 0, testing::Gt(5)));
+  EXPECT_EQ(scene.shapes.at(0).media.inside.name, "tea");
+  EXPECT_EQ(scene.shapes.at(0).media.outside.name, "");
+  EXPECT_FALSE(scene.materials.at(0).find("transmittance"));
 }
 
 TEST_F(ImportGltfExtensions, DiffuseTransmissionIsConverted) {

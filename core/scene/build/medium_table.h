@@ -1,0 +1,35 @@
+#pragma once
+// The media of a description, by name.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/medium/medium.h"
+#include "core/scene/schema/schema.h"
+
+namespace kaustik {
+
+class MediumTable {
+ public:
+  // Makes every medium; reports invalid ones and names defined twice.
+  MediumTable(const SceneDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
+
+  // The vacuum where no medium is named, and for one that changes no light; with an error where there is none
+  // of that name.
+  MediumIndex resolve(const MediumReference& reference, DiagnosticList& diagnostics) const;
+  MediumInterface resolve(const MediaReference& references, DiagnosticList& diagnostics) const {
+    return {resolve(references.inside, diagnostics), resolve(references.outside, diagnostics)};
+  }
+
+  // By MediumIndex; empty if there is none but the vacuum.
+  std::vector<Medium>& media() { return media_; }
+
+ private:
+  MediumIndex make(const MediumDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
+
+  std::vector<Medium> media_;
+  std::map<std::string_view, MediumIndex, std::less<>> by_name_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,22 @@
+#pragma once
+// The media along a path: as in pbrt, a path stays in one until it crosses a surface that separates two.
+
+#include "core/scene/scene.h"
+
+namespace kaustik {
+
+// The share of light that is left after `distance` metres, which may be infinite.
+inline Rgb transmittance(const Scene& scene, MediumIndex medium, float distance) {
+  return medium == kVacuum ? Rgb(1) : transmittance(scene.media[medium], distance);
+}
+
+// The medium of a ray that leaves si in direction w. `current`: that of the ray which has led to si.
+inline MediumIndex medium_beyond(const Scene& scene, const SurfaceInteraction& si, const Vector3& w,
+                                 MediumIndex current) {
+  if (!scene.needs.media) return current;
+  const MediumInterface& media = scene.shapes[si.shape].media;
+  if (!media.is_transition()) return current;
+  return glm::dot(w, si.n) > 0 ? media.outside : media.inside;
+}
+
+}  // namespace kaustik

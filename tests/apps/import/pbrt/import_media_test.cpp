@@ -1,0 +1,65 @@
+// Tests the media of pbrt scenes: where they are, and how much they absorb.
+
+#include "tests/apps/import/import_support.h"
+
+namespace kaustik::pbrt {
+namespace {
+
+class ImportMedia : public ImportTest {
+ protected:
+  static std::string medium(const std::string& name, const std::string& parameters) {
+    return "MakeNamedMedium \"" + name + "\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ 0 0 0 ] " +
+           parameters + "\n";
+  }
+};
+
+TEST_F(ImportMedia, CoefficientsAreScaled) {
+  const Scene s = world(medium("tea", "\"rgb sigma_a\" [ 0.25 1 4 ] \"float scale\" 2") +
+                        "MediumInterface \"tea\" \"\" Material \"dielectric\" Shape \"sphere\"");
+  ASSERT_EQ(s.media.size(), 2u);
+  EXPECT_EQ(s.media[kVacuum].sigma_a, Rgb(0));
+  EXPECT_EQ(s.media[1].sigma_a, Rgb(0.5f, 2, 8));
+  EXPECT_EQ(s.shapes[0].media.inside, 1);
+  EXPECT_EQ(s.shapes[0].media.outside, kVacuum);
+  EXPECT_TRUE(s.needs.media);
+}
+
+// Definitions may follow their use, and the graphics state keeps the media as it keeps the material.
+TEST_F(ImportMedia, InterfacesBelongToTheGraphicsState) {
+  const Scene s = world(
+      "AttributeBegin MediumInterface \"a\" \"b\" Shape \"sphere\" AttributeEnd\n"
+      "Shape \"sphere\" MediumInterface \"b\" Shape \"sphere\" LightSource \"point\"\n" +
+      medium("a", "\"rgb sigma_a\" [ 1 1 1 ]") + medium("b", "\"rgb sigma_a\" [ 2 2 2 ]"));
+  ASSERT_EQ(s.shapes.size(), 3u);
+  EXPECT_EQ(s.shapes[0].media.inside, 1);
+  EXPECT_EQ(s.shapes[0].media.outside, 2);
+  EXPECT_FALSE(s.shapes[1].media.is_transition());
+  EXPECT_EQ(s.shapes[2].media.inside, 2);  // one name stands for both sides
+  EXPECT_EQ(s.shapes[2].media.outside, 2);
+  EXPECT_EQ(s.light_media, std::vector<MediumIndex>{2});
+}
+
+TEST_F(ImportMedia, TheCameraIsInTheOutsideMedium) {
+  const Scene s = load(medium("water", "\"rgb sigma_a\" [ 1 1 1 ]") + "MediumInterface \"\" \"water\" " +
+                       "Camera \"perspective\"\nWorldBegin\nShape \"sphere\"")
+                      .scene;
+  EXPECT_EQ(s.camera_medium, 1);
+}
+
+// What absorbs nothing costs nothing.
+TEST_F(ImportMedia, ClearMediaAreNone) {
+  const Scene s =
+      world(medium("air", "\"rgb sigma_a\" [ 0 0 0 ]") + "MediumInterface \"air\" \"\" Shape \"sphere\"");
+  EXPECT_TRUE(s.media.empty());
+  EXPECT_FALSE(s.needs.media);
+}
+
+TEST_F(ImportMedia, DefaultsAreThoseOfAttribute) {
+  const Scene s = world("Attribute \"medium\" \"rgb sigma_a\" [ 1 2 3 ]\n" + medium("a", "") +
+                        "MediumInterface \"a\" \"\" Shape \"sphere\"");
+  ASSERT_EQ(s.media.size(), 2u);
+  EXPECT_EQ(s.media[1].sigma_a, Rgb(1, 2, 3));
+}
+
+}  // namespace
+}  // namespace kaustik::pbrt

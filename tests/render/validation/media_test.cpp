@@ -1,0 +1,98 @@
+// Tests media that absorb, against Beer and Lambert's law and against paths.
+
+#include <gtest/gtest.h>
+
+#include "tests/render/support/class_agreement.h"
+#include "tests/render/support/closed_forms.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+const Rgb kSigma(0.125f, 0.5f, 2);
+
+// Fills all space.
+void fill(Scene& scene, const Rgb& sigma_a) {
+  scene.camera_medium = add_medium(scene, sigma_a);
+  scene.light_media.assign(scene.lights.size(), scene.camera_medium);
+  for (Shape& shape : scene.shapes) shape.media = {scene.camera_medium, scene.camera_medium};
+  finalize_scene(scene);
+}
+
+RenderSettings quick(Method method) {
+  RenderSettings settings;
+  settings.method = method;
+  settings.spp = 4;
+  return settings;
+}
+
+// A box of the medium whose surfaces neither reflect nor bend, 0.7 m deep, in front of a lamp that fills the
+// view: what the camera sees is the lamp's radiance times exp(-0.7 sigma), without noise.
+class SlabOfMedium : public ::testing::TestWithParam<Method> {};
+
+TEST_P(SlabOfMedium, LeavesBeerAndLambertsShare) {
+  Scene scene;
+  const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
+  const uint32_t clear = add_material(scene, Dielectric{1});
+  const MediumIndex inside = add_medium(scene, kSigma);
+  add_shape(scene, horizontal({0, 1, 0}, 1, 1, true, clear)).media = {inside, kVacuum};
+  add_shape(scene, horizontal({0, 0.3f, 0}, 1, 1, false, clear)).media = {inside, kVacuum};
+  make_light(scene, add_shape(scene, horizontal({0, 0, 0}, 1, 1, true, black)), Rgb(1, 2, 3));
+  look_at(scene, {0, 3, 0}, {0, 0, 0}, {0, 0, 1}, 0.001f, 4, 4);
+  finalize_scene(scene);
+  const auto result = render_with_threads(scene, quick(GetParam()));
+  const Rgb expected = Rgb(1, 2, 3) * transmittance(scene.media[inside], 0.7f);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(result.film.at(1, 2).emitted[c], expected[c], 1e-5 * double(expected[c])) << c;
+  write_if_failed(result.film, "slab_of_medium");
+}
+INSTANTIATE_TEST_SUITE_P(Methods, SlabOfMedium,
+                         ::testing::Values(Method::kRaytrace, Method::kMc, Method::kPhoton, Method::kAuto));
+
+// A point light over a plane, everything in one medium: light passes r from the lamp to the plane and d from
+// there to the camera. The footprint of the view changes r and d by less than 1e-4 of themselves.
+class PlaneInMedium : public ::testing::TestWithParam<Method> {};
+
+TEST_P(PlaneInMedium, LightIsAbsorbedOnBothWays) {
+  Scene scene;
+  add_shape(scene, horizontal({0, 0, 0}, 4, 4, true, add_material(scene, Lambertian{Rgb(0.5f)})));
+  scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(3)});
+  const Point3 eye(2, 3, 1.5f), seen(0.5f, 0, 0.25f);
+  look_at(scene, eye, seen, {0, 1, 0}, 0.001f, 4, 4);
+  fill(scene, kSigma);
+  const auto result = render_with_threads(scene, quick(GetParam()));
+  const double rho2 = 0.5 * 0.5 + 0.25 * 0.25, way = std::sqrt(1 + rho2) + double(glm::distance(eye, seen));
+  const double clear = 0.5 * PointLightOverPlane{3, 1}.irradiance(rho2) / double(kPi);
+  for (int c = 0; c < 3; ++c) {
+    const double depth = double(kSigma[c]) * way, expected = clear * std::exp(-depth);
+    EXPECT_NEAR(double(result.film.at(1, 2).direct[c]), expected, expected * 1e-4 * (3 + depth)) << c;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Methods, PlaneInMedium,
+                         ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
+
+TEST(MediaAgreement, EachClassAgreesWithPaths) {
+  const Scene scene = coloured_cornell(kSize);
+  const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
+  for (const Method method : {Method::kPhoton, Method::kAuto}) {
+    const Comparison c(scene, by_paths, method, 0.1f);
+    for (const Layer layer : {Layer::kDirect, Layer::kIndirect}) c.expect_agreement_everywhere(layer);
+    for (int block = -1; block < kSize / kBlock * (kSize / kBlock); ++block)
+      c.expect_agreement(Layer::kCaustic, block, 1.0 / 3);
+    c.write_pictures("coloured_cornell_" + std::to_string(int(method)));
+  }
+}
+
+// Light is lost, unlike in the same box without media.
+TEST(MediaAgreement, MediaDarkenTheBox) {
+  const RenderSettings settings = settings_of(Method::kPhoton, 16, 0.1f, 1);
+  const double with = total_mean(render_with_threads(coloured_cornell(kSize), settings).film);
+  const double without = total_mean(render_with_threads(cornell(kSize), settings).film);
+  // Light passes at least 1 m on its way, and 10 m are little: exp(-0.2 * 1) and exp(-0.1 * 10).
+  EXPECT_LT(with, 0.9 * without);
+  EXPECT_GT(with, 0.3 * without);
+}
+
+}  // namespace
+}  // namespace kaustik::render
