@@ -10,6 +10,11 @@ inline Rgb transmittance(const Scene& scene, MediumIndex medium, float distance)
   return medium == kVacuum ? Rgb(1) : transmittance(scene.media[medium], distance);
 }
 
+// The medium in which a light shines.
+inline MediumIndex medium_of_light(const Scene& scene, uint32_t light) {
+  return scene.light_media.empty() ? kVacuum : scene.light_media[light];
+}
+
 // The medium of a ray that leaves si in direction w. `current`: that of the ray which has led to si.
 inline MediumIndex medium_beyond(const Scene& scene, const SurfaceInteraction& si, const Vector3& w,
                                  MediumIndex current) {

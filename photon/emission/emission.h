@@ -35,11 +35,10 @@ inline EmissionNumbers emission_numbers(const Scene& scene, Sampler& sampler) {
 std::optional<EmissionSample> emit_photon(const Scene& scene, const EmissionNumbers& u, uint64_t total,
                                           EmissionMode mode, std::optional<uint32_t> only = {});
 
-// The medium in which that photon starts; u_light: EmissionNumbers::light.
-inline MediumIndex medium_of_start(const Scene& scene, float u_light, std::optional<uint32_t> only = {}) {
-  if (scene.light_media.empty()) return kVacuum;
-  if (only || scene.lights.size() == 1) return scene.light_media[only.value_or(0)];
-  return scene.light_media[scene.light_power.sample(u_light).index];
+// The light of that photon; u_light: EmissionNumbers::light.
+inline uint32_t light_of_photon(const Scene& scene, float u_light, std::optional<uint32_t> only = {}) {
+  if (only || scene.lights.size() == 1) return only.value_or(0);
+  return scene.light_power.sample(u_light).index;
 }
 
 }  // namespace kaustik::photon

@@ -139,10 +139,16 @@ class Tracer {
     push(starts_.ray, starts_.flux, count);
   }
 
-  // Sets the media in which the first `count` photons start.
+  // Sets the media in which the first `count` photons start. Light from infinitely far has come through
+  // them already.
   void enter_media(size_t count) {
-    for (size_t k = 0; k < count; ++k)
-      walkers_.state[k] = WalkState().in(medium_of_start(scene_, starts_.u_light[k], settings_.light));
+    for (size_t k = 0; k < count; ++k) {
+      const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light);
+      const MediumIndex medium = medium_of_light(scene_, light);
+      walkers_.state[k] = WalkState().in(medium);
+      if (medium != kVacuum && !bounds_of(scene_.lights[light]))
+        set_lane(starts_.flux, k, transmittance(scene_, medium, kInfinity) * get_lane(starts_.flux, k));
+    }
   }
 
   void weigh_starts(size_t count) {

@@ -31,6 +31,8 @@ MediumIndex MediumTable::make(const MediumDescription& description, WarnedOnce& 
     diagnostics.warning(
         p.location("sigma_s"),
         fmt::format("medium `{}` only absorbs light: scattering is not rendered", description.name));
+  if (!is_finite(medium.sigma_a))
+    diagnostics.error(p.location("scale"), "`scale` takes `sigma_a` beyond the range of floats");
   if (is_black(medium.sigma_a)) return kVacuum;
   if (media_.empty()) media_.emplace_back();  // the vacuum
   if (media_.size() > kMostMedia) {

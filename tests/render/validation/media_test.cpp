@@ -84,6 +84,28 @@ TEST(MediaAgreement, EachClassAgreesWithPaths) {
   }
 }
 
+// Light from infinitely far is absorbed by a medium that fills all space, except for what it does not absorb
+// at all: by paths and by photons.
+TEST(MediaAgreement, SunsAreAbsorbedOnTheirInfiniteWay) {
+  for (const Method method : {Method::kMc, Method::kPhoton}) {
+    Scene scene;
+    add_shape(scene, horizontal({0, 0, 0}, 1, 1, true, add_material(scene, Lambertian{Rgb(0.5f)})));
+    scene.lights.push_back(DistantLight{{0, 1, 0}, Rgb(3)});
+    look_at(scene, {0.2f, 2, 0.1f}, {0, 0, 0}, {0, 0, 1}, 10, 8, 8);
+    fill(scene, Rgb(0, 1e-3f, 1));
+    RenderSettings settings = quick(method);
+    settings.photons = 20'000;
+    const auto result = render_with_threads(scene, settings);
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) {
+        const Rgb& direct = result.film.at(x, y).direct;
+        EXPECT_GT(direct.x, 0);
+        EXPECT_EQ(direct.y, 0);
+        EXPECT_EQ(direct.z, 0);
+      }
+  }
+}
+
 // Light is lost, unlike in the same box without media.
 TEST(MediaAgreement, MediaDarkenTheBox) {
   const RenderSettings settings = settings_of(Method::kPhoton, 16, 0.1f, 1);

@@ -54,6 +54,20 @@ TEST_F(ImportMedia, ClearMediaAreNone) {
   EXPECT_FALSE(s.needs.media);
 }
 
+// Photons keep the index of their medium in eight bits.
+TEST_F(ImportMedia, TheirNumberIsLimited) {
+  std::string all;
+  for (int i = 0; i < 255; ++i) all += medium("m" + std::to_string(i), "\"rgb sigma_a\" [ 1 1 1 ]");
+  EXPECT_EQ(world(all).media.size(), 256u);
+  EXPECT_EQ(first_lines(all + medium("more", "\"rgb sigma_a\" [ 1 1 1 ]")),
+            "257:17: error: there are more than 255 media\n");
+}
+
+TEST_F(ImportMedia, CoefficientsAreFinite) {
+  EXPECT_EQ(first_lines(medium("m", "\"rgb sigma_a\" [ 1e30 1 1 ] \"float scale\" 1e30")),
+            "2:114: error: `scale` takes `sigma_a` beyond the range of floats\n");
+}
+
 TEST_F(ImportMedia, DefaultsAreThoseOfAttribute) {
   const Scene s = world("Attribute \"medium\" \"rgb sigma_a\" [ 1 2 3 ]\n" + medium("a", "") +
                         "MediumInterface \"a\" \"\" Shape \"sphere\"");
