@@ -80,6 +80,8 @@ Json seconds_json(const RenderStatistics& s, const OuterTimes& t) {
           {"total", t.total}};
 }
 
+}  // namespace
+
 Json needs_json(const SceneNeeds& needs) {
   return {{"specular", needs.specular},
           {"delta", needs.delta},
@@ -88,10 +90,9 @@ Json needs_json(const SceneNeeds& needs) {
           {"infinite_light", needs.infinite_light},
           {"sky_alone", needs.sky_alone},
           {"any_light", needs.any_light},
+          {"media", needs.media},
           {"left_out", needs.left_out()}};
 }
-
-}  // namespace
 
 uint64_t peak_memory_bytes() {
   return status_bytes("VmHWM:");

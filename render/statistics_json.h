@@ -22,6 +22,9 @@ uint64_t peak_memory_bytes();
 // maps. Integers only, equal in every run of the same program on any number of threads.
 nlohmann::ordered_json counters_json(const RenderStatistics& statistics);
 
+// What the scene needs, and what is left out.
+nlohmann::ordered_json needs_json(const SceneNeeds& needs);
+
 // The JSON text (UTF-8, indented, ends in a newline): version, seed, settings, plan, counters, seconds per
 // phase, peak memory, radii, the scene's needs and what was left out. 64-bit counts are exact.
 // shown: the settings to list, by name. memory: the forecast of memory, or null.

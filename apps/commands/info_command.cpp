@@ -10,6 +10,7 @@
 #include "apps/session/files/scene_loading.h"
 #include "render/renderer.h"
 #include "render/settings/names.h"
+#include "render/statistics_json.h"
 
 namespace kaustik::app {
 
@@ -109,14 +110,7 @@ Json info_json(const std::string& path, const Job& job) {
   out["materials"] = materials_json(scene);
   out["lights"] = lights_json(scene);
   out["surface_groups"] = groups_json(scene);
-  out["needs"] = {{"specular", scene.needs.specular},
-                  {"delta", scene.needs.delta},
-                  {"diffuse", scene.needs.diffuse},
-                  {"only_delta_lights", scene.needs.only_delta_lights},
-                  {"infinite_light", scene.needs.infinite_light},
-                  {"sky_alone", scene.needs.sky_alone},
-                  {"any_light", scene.needs.any_light},
-                  {"left_out", scene.needs.left_out()}};
+  out["needs"] = render::needs_json(scene.needs);
   out["plan"] = {{"direct", render::name_of(plan.direct)},
                  {"caustics", render::name_of(plan.caustics)},
                  {"indirect", render::name_of(plan.indirect)},

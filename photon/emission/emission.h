@@ -26,6 +26,18 @@ inline EmissionNumbers emission_numbers(const Scene& scene, Sampler& sampler) {
   return u;
 }
 
+// The light that a photon chooses, and the probability of that. u_light: EmissionNumbers::light; only: as for
+// emit_photon().
+struct LightOfPhoton {
+  uint32_t light = 0;
+  float p = 1;
+};
+inline LightOfPhoton light_of_photon(const Scene& scene, float u_light, std::optional<uint32_t> only = {}) {
+  if (only || scene.lights.size() == 1) return {only.value_or(0), 1};
+  const DiscreteDistribution::Sample chosen = scene.light_power.sample(u_light);
+  return {chosen.index, chosen.pdf};
+}
+
 // Ray (world space, unit direction, origin moved off the light) and flux in watts, already divided by `total`
 // and by the light's probability: the sum of flux over i tends to the lights' power. For light from the sky
 // through a portal it does so before occlusion outside the portal is taken into account: see
@@ -34,11 +46,5 @@ inline EmissionNumbers emission_numbers(const Scene& scene, Sampler& sampler) {
 // Thread-safe.
 std::optional<EmissionSample> emit_photon(const Scene& scene, const EmissionNumbers& u, uint64_t total,
                                           EmissionMode mode, std::optional<uint32_t> only = {});
-
-// The light of that photon; u_light: EmissionNumbers::light.
-inline uint32_t light_of_photon(const Scene& scene, float u_light, std::optional<uint32_t> only = {}) {
-  if (only || scene.lights.size() == 1) return only.value_or(0);
-  return scene.light_power.sample(u_light).index;
-}
 
 }  // namespace kaustik::photon

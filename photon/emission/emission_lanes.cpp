@@ -56,9 +56,8 @@ class ChosenLight {
       : scene_(scene), total_(total), mode_(mode), only_(only) {}
 
   void choose(float u_light) {
-    if (only_ || scene_.lights.size() == 1) return set(only_.value_or(0), 1);
-    const DiscreteDistribution::Sample chosen = scene_.light_power.sample(u_light);
-    set(chosen.index, chosen.pdf);
+    const LightOfPhoton chosen = light_of_photon(scene_, u_light, only_);
+    set(chosen.light, chosen.p);
   }
   // Null when the light's photons cannot be started in lanes.
   const TriangleEmitter* triangles() const { return triangles_; }

@@ -143,7 +143,7 @@ class Tracer {
   // them already.
   void enter_media(size_t count) {
     for (size_t k = 0; k < count; ++k) {
-      const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light);
+      const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light).light;
       const MediumIndex medium = medium_of_light(scene_, light);
       walkers_.state[k] = WalkState().in(medium);
       if (medium != kVacuum && !bounds_of(scene_.lights[light]))

@@ -43,9 +43,9 @@ enum class Encoding { kPng, kJpeg };
 class TextureImages : public ImageLibrary {
  public:
   // Decodes a file and keeps it. The same file with the same encoding is loaded once. May be called by
-  // several threads at once, but not while lookup() is running. memory_left returns
-  // the bytes that the process may still take: an image waits until it fits beside those that other threads
-  // decode, and one that does not fit even alone is refused by its header.
+  // several threads at once, but not while lookup() is running. memory_left returns the bytes that the
+  // process may still take: an image waits until it fits beside those that other threads decode, and one that
+  // does not fit even alone is refused by its header.
   virtual ImageResult load(const std::string& path, const ImageEncoding& encoding,
                            const std::function<uint64_t()>& memory_left) = 0;
 };

@@ -27,6 +27,11 @@ View extension(const View& material, const char* name) {
   return material["extensions"][name];
 }
 
+// Without KHR_materials_volume of some thickness, a transmissive surface is a thin pane.
+bool is_pane(const View& material) {
+  return !(extension(material, "KHR_materials_volume")["thicknessFactor"].number(0) > 0);
+}
+
 // The index of refraction; 0 stands for an infinite one.
 double index_of(const View& material) {
   const double ior = extension(material, "KHR_materials_ior")["ior"].number(1.5);
@@ -233,10 +238,9 @@ std::string Materials::metal_part(const View& material, const std::string& name)
   return add(std::move(*m), name, material);
 }
 
-// The transmissive part. Without KHR_materials_volume the surface is a thin pane.
+// The transmissive part.
 std::string Materials::clear_part(const View& material, const std::string& name) {
-  const View volume = extension(material, "KHR_materials_volume");
-  const bool pane = !(volume["thicknessFactor"].number(0) > 0);
+  const bool pane = is_pane(material);
   Maker m(pane ? "thindielectric" : "dielectric", warnings_.where());
   m.number("eta", index_of(material));
   add_transmittance(material, pane, *m);
@@ -249,9 +253,9 @@ std::string Materials::clear_part(const View& material, const std::string& name)
 MediumReference Materials::inside_of(const View& material, const std::string& name) {
   const View volume = extension(material, "KHR_materials_volume");
   const double distance = volume["attenuationDistance"].number(0);
-  const bool body = volume["thicknessFactor"].number(0) > 0 &&
-                    extension(material, "KHR_materials_transmission")["transmissionFactor"].number(0) > 0;
-  if (!body || !(distance > 0)) return {};
+  const bool opaque =
+      !(extension(material, "KHR_materials_transmission")["transmissionFactor"].number(0) > 0);
+  if (opaque || is_pane(material) || !(distance > 0)) return {};
   constexpr double kDarkest = 1e-6;  // of a colour without a component: so that the coefficient is finite
   const glm::dvec3 left = glm::clamp(colour(volume["attenuationColor"].numbers(3, {1, 1, 1})), kDarkest, 1.0);
   if (left == glm::dvec3(1)) return {};

@@ -92,14 +92,13 @@ class ViewMaker {
 
   void add_sky_image() {
     std::error_code ignored;
-    std::filesystem::path path = std::filesystem::absolute(options_.sky, ignored);
-    // A folder may have several names: below --root, that without links is known.
-    path = std::filesystem::weakly_canonical(path.parent_path(), ignored) / path.filename();
+    const std::filesystem::path path = std::filesystem::absolute(options_.sky, ignored);
     // A file that may not be read is refused when the light is made: a partial result may have named it.
-    if (const ReadableFile file = diagnostics_.files.root().find(path); !file.refused() && !file.exists())
+    const ReadableFile file = diagnostics_.files.root().find(path);
+    if (!file.refused() && !file.exists())
       return complain(fmt::format("--sky: there is no file \"{}\"", options_.sky));
     DirectiveMaker<LightDescription> sky("infinite", where());
-    sky.text("filename", path.string());
+    sky.text("filename", (file.refused() ? path : file.place()).string());
     // The map's axis +z is up: in the world that is +y. The middle of the map lies ahead of a camera at +z
     // that looks along -z.
     sky->light_to_world = glm::dmat4(glm::dvec4(0, 0, 1, 0), glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),

@@ -144,6 +144,7 @@ class Builder {
 std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::optional<size_t> object,
                                         MaterialTable& materials) {
   const uint32_t material = materials.resolve(shape.material, diagnostics_);
+  const MediumInterface media = media_->resolve(shape.media, diagnostics_);
   const TypeSpec* spec = find_type(category("Shape"), shape, diagnostics_);
   bool ok = spec && check_parameters("shape", *spec, shape, warned_, diagnostics_);
   if (!ok) return std::nullopt;
@@ -157,8 +158,7 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
                            "the area light is ignored: material \"interface\" is not a surface",
                            {{description_.area_lights[*shape.area_light].location, "the area light"}});
     }
-    if (media_->resolve(shape.media, diagnostics_).is_transition() &&
-        warned_.insert("inside interfaces").second)
+    if (media.is_transition() && warned_.insert("inside interfaces").second)
       diagnostics_.warning(shape.location,
                            "media inside surfaces of material \"interface\" are not rendered");
     return std::nullopt;
@@ -166,7 +166,7 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
   Item& item = items_.emplace_back();
   item.description = &shape;
   item.material = material;
-  item.media = media_->resolve(shape.media, diagnostics_);
+  item.media = media;
   item.object = object;
   set_alpha(shape, item);
   return items_.size() - 1;

@@ -43,10 +43,11 @@ MediumIndex MediumTable::make(const MediumDescription& description, WarnedOnce& 
   return static_cast<MediumIndex>(media_.size() - 1);
 }
 
-MediumIndex MediumTable::resolve(const MediumReference& reference, DiagnosticList& diagnostics) const {
+MediumIndex MediumTable::resolve(const MediumReference& reference, DiagnosticList& diagnostics) {
   if (reference.name.empty()) return kVacuum;
   const auto found = by_name_.find(reference.name);
   if (found != by_name_.end()) return found->second;
+  if (!reported_.insert(reference.name).second) return kVacuum;
   std::vector<std::string_view> names;
   for (const auto& [name, index] : by_name_) names.push_back(name);
   diagnostics.error(reference.location, fmt::format("no medium is named `{}`{}", reference.name,

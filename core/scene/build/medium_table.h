@@ -2,6 +2,7 @@
 // The media of a description, by name.
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,9 @@ class MediumTable {
   MediumTable(const SceneDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
 
   // The vacuum where no medium is named, and for one that changes no light; with an error where there is none
-  // of that name.
-  MediumIndex resolve(const MediumReference& reference, DiagnosticList& diagnostics) const;
-  MediumInterface resolve(const MediaReference& references, DiagnosticList& diagnostics) const {
+  // of that name, once a name.
+  MediumIndex resolve(const MediumReference& reference, DiagnosticList& diagnostics);
+  MediumInterface resolve(const MediaReference& references, DiagnosticList& diagnostics) {
     return {resolve(references.inside, diagnostics), resolve(references.outside, diagnostics)};
   }
 
@@ -30,6 +31,7 @@ class MediumTable {
 
   std::vector<Medium> media_;
   std::map<std::string_view, MediumIndex, std::less<>> by_name_;
+  std::set<std::string_view> reported_;  // undefined names
 };
 
 }  // namespace kaustik
