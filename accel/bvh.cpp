@@ -253,6 +253,7 @@ Bvh::Bvh(const Scene& scene, int threads) : scene_(&scene), impl_(std::make_uniq
     impl_->set_scale(scene.bounds);
     impl_->add_shapes(scene);
     impl_->commit(threads);
+    if (scene.interfaces) interfaces_ = std::make_unique<const Bvh>(*scene.interfaces, threads);
   } catch (const std::bad_alloc&) {
     throw_embree(RTC_ERROR_OUT_OF_MEMORY, "building the BVH");
   }
@@ -347,7 +348,8 @@ bool Bvh::intersect(const Ray& ray, SurfaceInteraction* si) const {
 }
 
 uint64_t Bvh::memory_bytes() const {
-  return static_cast<uint64_t>(std::max<int64_t>(0, impl_->bytes.load(std::memory_order_relaxed)));
+  const int64_t own = std::max<int64_t>(0, impl_->bytes.load(std::memory_order_relaxed));
+  return static_cast<uint64_t>(own) + (interfaces_ ? interfaces_->memory_bytes() : 0);
 }
 
 }  // namespace kaustik::accel

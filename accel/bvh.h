@@ -38,12 +38,15 @@ class Bvh {
   bool intersect(const Ray& ray, SurfaceInteraction* si) const;
 
   const Scene& scene() const { return *scene_; }
+  // The BVH of scene().interfaces, which are no part of this one; null if there are none.
+  const Bvh* interfaces() const { return interfaces_.get(); }
   uint64_t memory_bytes() const;  // as Embree reports it
 
  private:
   struct Impl;
   const Scene* scene_;
   std::unique_ptr<Impl> impl_;
+  std::unique_ptr<const Bvh> interfaces_;
 };
 
 }  // namespace kaustik::accel

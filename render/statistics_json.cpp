@@ -91,6 +91,7 @@ Json needs_json(const SceneNeeds& needs) {
           {"sky_alone", needs.sky_alone},
           {"any_light", needs.any_light},
           {"media", needs.media},
+          {"scattering", needs.scattering},
           {"left_out", needs.left_out()}};
 }
 
@@ -134,8 +135,11 @@ std::string statistics_json(const RenderResult& result, const RenderSettings& se
   out["error"] = error_json(result, settings);
   out["energy"] = energy_json(s);
   out["radius"] = s.radius;
-  out["radii"] = {
-      {"direct", s.direct_radius}, {"caustic", s.caustic_radius}, {"indirect", s.indirect_radius}};
+  out["radii"] = {{"direct", s.direct_radius},
+                  {"caustic", s.caustic_radius},
+                  {"indirect", s.indirect_radius},
+                  {"medium_caustic", s.medium_caustic_radius},
+                  {"medium_indirect", s.medium_indirect_radius}};
   out["seconds"] = seconds_json(s, times);
   out["peak_memory_bytes"] = peak_memory_bytes();
   out["memory"] = memory;

@@ -50,6 +50,10 @@ void report_radii(const render::RenderStatistics& s, const Console& console) {
     radii.push_back(fmt::format("direct {:.4g} m", s.direct_radius));
   if (stored(PhotonKind::kCaustic)) radii.push_back(fmt::format("caustic {:.4g} m", s.caustic_radius));
   if (stored(PhotonKind::kIndirect)) radii.push_back(fmt::format("indirect {:.4g} m", s.indirect_radius));
+  if (stored(PhotonKind::kMediumCaustic))
+    radii.push_back(fmt::format("medium-caustic {:.4g} m", s.medium_caustic_radius));
+  if (stored(PhotonKind::kMediumIndirect))
+    radii.push_back(fmt::format("medium-indirect {:.4g} m", s.medium_indirect_radius));
   if (!radii.empty())
     console.note(
         fmt::format("gather radius{}: {}", s.passes > 1 ? " of the first pass" : "", fmt::join(radii, ", ")));
@@ -71,7 +75,8 @@ void report_times(const render::RenderStatistics& s, const render::OuterTimes& t
 
 std::string by_kind(const std::array<uint64_t, photon::kPhotonKinds>& counts) {
   std::string text;
-  for (size_t k = 0; k < counts.size(); ++k)
+  const size_t in_media = size_t(photon::PhotonKind::kMediumCaustic);
+  for (size_t k = 0; k < counts.size() && (k < in_media || counts[k] > 0); ++k)
     text += fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(counts[k]));
   return text;
 }

@@ -24,7 +24,9 @@ std::array<KindOfMap, photon::kPhotonKinds> all_maps(const render::PhotonMaps& m
   return {{{PhotonKind::kDirect, maps.direct.map},
            {PhotonKind::kShadow, maps.shadow},
            {PhotonKind::kCaustic, maps.caustic.map},
-           {PhotonKind::kIndirect, maps.indirect.map}}};
+           {PhotonKind::kIndirect, maps.indirect.map},
+           {PhotonKind::kMediumCaustic, maps.medium_caustic.map},
+           {PhotonKind::kMediumIndirect, maps.medium_indirect.map}}};
 }
 
 template <class T>

@@ -7,9 +7,16 @@
 
 namespace kaustik {
 
-// A medium that is the same everywhere and only absorbs.
+// A medium that is the same everywhere.
 struct Medium {
   Rgb sigma_a{0};  // absorption coefficient, 1/m, not negative
+  Rgb sigma_s{0};  // scattering coefficient, 1/m, not negative
+  // Mean cosine of the angle by which light is deflected, for the phase function of Henyey and Greenstein; at
+  // most kLargestG away from zero.
+  float g = 0;
+
+  Rgb sigma_t() const { return sigma_a + sigma_s; }  // extinction coefficient, 1/m
+  bool scatters() const { return !is_black(sigma_s); }
 };
 
 // Index into Scene::media. Photons on their way keep it in eight bits (photon/trace/lanes/walk_state.h).
@@ -25,11 +32,16 @@ struct MediumInterface {
   bool is_transition() const { return inside != outside; }
 };
 
-// The share of light that is left after `distance` metres, which may be infinite (Beer and Lambert; Pharr
-// 2023, section 11.2).
+// exp(-sigma * distance) of each channel; the distance may be infinite.
+inline Rgb exponential(const Rgb& sigma, float distance) {
+  const auto left = [&](float s) { return s > 0 ? std::exp(-s * distance) : 1.0f; };
+  return {left(sigma.x), left(sigma.y), left(sigma.z)};
+}
+
+// The share of light that is neither absorbed nor scattered along `distance` metres, which may be infinite
+// (Beer and Lambert; Pharr 2023, section 11.2).
 inline Rgb transmittance(const Medium& medium, float distance) {
-  const auto left = [&](float sigma) { return sigma > 0 ? std::exp(-sigma * distance) : 1.0f; };
-  return {left(medium.sigma_a.x), left(medium.sigma_a.y), left(medium.sigma_a.z)};
+  return exponential(medium.sigma_t(), distance);
 }
 
 }  // namespace kaustik

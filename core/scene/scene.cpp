@@ -41,9 +41,11 @@ SceneNeeds needs_of(const Scene& scene) {
     needs.glossy |= parts.glossy && !parts.diffuse && !transmits(material.typical());
     needs.diffuse |= parts.diffuse;
   }
-  needs.media = scene.camera_medium != kVacuum || !scene.light_media.empty() ||
+  needs.media = scene.interfaces || scene.camera_medium != kVacuum || !scene.light_media.empty() ||
                 std::any_of(scene.shapes.begin(), scene.shapes.end(),
                             [](const Shape& s) { return s.media.is_transition(); });
+  needs.scattering = needs.media && std::any_of(scene.media.begin(), scene.media.end(),
+                                                [](const Medium& m) { return m.scatters(); });
   needs.any_light = !scene.lights.empty();
   needs.infinite_light = !scene.infinite_lights.empty();
   needs.sky_alone = needs.any_light && scene.infinite_lights.size() == scene.lights.size();
@@ -52,11 +54,24 @@ SceneNeeds needs_of(const Scene& scene) {
   return needs;
 }
 
+std::vector<uint32_t> strongest_lights(const Scene& scene) {
+  std::vector<std::pair<float, uint32_t>> by_power;
+  for (uint32_t i = 0; i < scene.lights.size(); ++i)
+    if (const auto bounds = bounds_of(scene.lights[i]); bounds && bounds->phi > 0)
+      by_power.emplace_back(-bounds->phi, i);
+  std::sort(by_power.begin(), by_power.end());
+  std::vector<uint32_t> strongest;
+  for (size_t k = 0; k < std::min(by_power.size(), kMostStrongLights); ++k)
+    strongest.push_back(by_power[k].second);
+  return strongest;
+}
+
 }  // namespace
 
 void finalize_scene(Scene& scene) {
   scene.bounds = Bounds3();
   for (const Shape& shape : scene.shapes) scene.bounds.add(bounds_of(shape));
+  if (scene.interfaces) scene.bounds.add(scene.interfaces->bounds);
   set_scene_sphere(scene.lights, scene.bounds);
   scene.light_power = light_power_distribution(scene.lights);
   scene.light_sampler = LightSampler(scene.lights);
@@ -67,6 +82,8 @@ void finalize_scene(Scene& scene) {
     if (is_infinite(scene.lights[i])) scene.infinite_lights.push_back(static_cast<uint32_t>(i));
   }
   scene.needs = needs_of(scene);
+  scene.strongest_lights.clear();
+  if (scene.needs.scattering) scene.strongest_lights = strongest_lights(scene);
 }
 
 }  // namespace kaustik

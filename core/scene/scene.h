@@ -14,6 +14,9 @@
 
 namespace kaustik {
 
+// Enough for the lights that matter along a ray through fog; each takes a few arc tangents.
+inline constexpr size_t kMostStrongLights = 8;
+
 struct Scene {
   // World coordinates minus this origin (metres) are the coordinates of everything below. Zero unless the
   // scene lies far from the world's origin (core/scene/build/local_origin.h).
@@ -27,12 +30,17 @@ struct Scene {
   std::vector<std::string> surface_group_names;
   std::vector<Medium> media;  // by MediumIndex; the first is the vacuum. Empty where there are no others
   MediumIndex camera_medium = kVacuum;
+  // Surfaces that rays do not meet, and that separate media: a scene of their shapes and bounds alone. Null
+  // if there are none.
+  std::shared_ptr<const Scene> interfaces;
   std::vector<Light> lights;
   std::vector<MediumIndex> light_media;   // where each light shines; empty where all do so in the vacuum
   DiscreteDistribution light_power;       // probabilities for photon emission
   LightSampler light_sampler;             // for next-event estimation
   std::vector<uint32_t> infinite_lights;  // indices into lights
-  Bounds3 bounds;                         // of all shapes
+  // The lights with a place and most power, at most kMostStrongLights; empty where no medium scatters.
+  std::vector<uint32_t> strongest_lights;
+  Bounds3 bounds;  // of all shapes
   SceneNeeds needs;
   std::shared_ptr<const void> keeps;  // temporary files that must exist while the scene is rendered
 };

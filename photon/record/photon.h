@@ -9,20 +9,22 @@
 
 namespace kaustik::photon {
 
-// Class of the path that brought the photon, in Heckbert's notation: direct L D, shadow (behind the first
-// surface of a straight path), caustic L S+ D, indirect L (S|D)* D (S|D)* D.
-enum class PhotonKind : uint8_t { kDirect, kShadow, kCaustic, kIndirect };
-inline constexpr int kPhotonKinds = 4;
-inline constexpr std::array<std::string_view, kPhotonKinds> kPhotonKindNames = {"direct", "shadow", "caustic",
-                                                                                "indirect"};
+// Class of the path that brought the photon, in Heckbert's notation, with M for scattering by a medium:
+// direct L D, shadow (behind the first surface of a straight path), caustic L S+ D, indirect L (S|D|M)* (D|M)
+// (S|D)* D, caustic in a medium L S+ M, indirect in a medium L (S|D|M)* (D|M) S* M. Light that a medium
+// scatters straight from a lamp leaves no photon.
+enum class PhotonKind : uint8_t { kDirect, kShadow, kCaustic, kIndirect, kMediumCaustic, kMediumIndirect };
+inline constexpr int kPhotonKinds = 6;
+inline constexpr std::array<std::string_view, kPhotonKinds> kPhotonKindNames = {
+    "direct", "shadow", "caustic", "indirect", "medium-caustic", "medium-indirect"};
 
 // Photon with the exact values that were traced.
 struct Photon {
   Point3 p{0};
   Vector3 wi{0};  // unit, towards where the photon came from
-  Rgb flux{0};    // watts, already divided by the number of photons emitted
-  Normal3 n{0};   // geometric normal, unit, on the side of wi
-  uint32_t surface_group = 0;
+  Rgb flux{0};    // watts, already divided by the number of photons emitted; in a medium what it scatters
+  Normal3 n{0};   // geometric normal, unit, on the side of wi; wi itself in a medium
+  uint32_t surface_group = 0;  // in a medium: its index
 };
 
 }  // namespace kaustik::photon

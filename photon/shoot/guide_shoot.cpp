@@ -26,7 +26,8 @@ struct Start {
 };
 
 KindMask only(PhotonKind kind) {
-  return {.caustic = kind == PhotonKind::kCaustic, .indirect = kind == PhotonKind::kIndirect};
+  const bool caustic = kind == PhotonKind::kCaustic, indirect = kind == PhotonKind::kIndirect;
+  return {.caustic = caustic, .indirect = indirect, .medium_caustic = caustic, .medium_indirect = indirect};
 }
 
 class GuideLearner {

@@ -23,7 +23,9 @@ constexpr double kMostInMap = std::numeric_limits<uint32_t>::max() - 1.0;
 // Upper bound of the photons that one emitted photon stores. Shadow photons: one for each surface along its
 // ray; 64 is more than any real scene has.
 double most_stored(const TraceSettings& settings) {
-  return (settings.kinds.indirect ? settings.max_bounces : 1) + (settings.kinds.shadow ? 64 : 0);
+  const int each = 1 + (settings.kinds.medium_caustic || settings.kinds.medium_indirect ? 1 : 0);
+  return each * (settings.kinds.indirect || settings.kinds.medium_indirect ? settings.max_bounces : 1) +
+         (settings.kinds.shadow ? 64 : 0);
 }
 
 // Includes the photons of guided emission: about one caustic photon each, apart from the few that a coat

@@ -15,12 +15,13 @@ class EmissionGuide;
 
 struct KindMask {
   bool direct = false, shadow = false, caustic = false, indirect = false;
+  bool medium_caustic = false, medium_indirect = false;
   bool& operator[](PhotonKind k) {
-    bool* const kinds[] = {&direct, &shadow, &caustic, &indirect};
+    bool* const kinds[] = {&direct, &shadow, &caustic, &indirect, &medium_caustic, &medium_indirect};
     return *kinds[static_cast<int>(k)];
   }
   bool operator[](PhotonKind k) const { return const_cast<KindMask&>(*this)[k]; }
-  bool any() const { return direct || shadow || caustic || indirect; }
+  bool any() const { return direct || shadow || caustic || indirect || medium_caustic || medium_indirect; }
 };
 
 struct TraceSettings {

@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <variant>
 
+#include "accel/media_walk.h"
 #include "core/scene/bsdf_at.h"
-#include "core/scene/media.h"
 #include "photon/trace/lanes/walker_queue.h"
 #include "photon/trace/shading_correction.h"
 #include "photon/trace/tracer.h"
@@ -166,11 +166,12 @@ class Tracer {
     queue.take(count, lanes_, walkers_);
     intersect_lanes(bvh_, lanes_.ray, count, &lanes_.hit);
     if (surfaces_.many_triangles()) prefetch_triangles(surfaces_, lanes_.hit, count);
-    if (scene_.needs.media) absorb(count);
+    if (scene_.needs.scattering) draw_medium_numbers(count);
+    if (scene_.needs.media) pass_media(count);
     const uint32_t traits = fill_lanes(count);
     locate_lanes(lanes_, surfaces_.shapes(), count);
     const bool chooses_lobes = traits & (kSpecularTrait | kScalarTrait);
-    if (settings_.kinds.indirect || (settings_.kinds.caustic && chooses_lobes)) {
+    if (follows_indirect_ || (follows_caustics_ && chooses_lobes)) {
       // Diffuse reflection does not need the fourth number.
       draw_vertex_numbers(count, chooses_lobes ? 4 : 3);
       scatter_lanes(lanes_, numbers_, units_per_watt_, count);
@@ -183,31 +184,46 @@ class Tracer {
     push(lanes_.next, lanes_.next_flux, count);
   }
 
-  // Leaves the flux that the media between the photons and their hits do not absorb.
-  void absorb(size_t count) {
-    for (size_t k = 0; k < count; ++k) {
-      const WalkState& state = walkers_.state[k];
-      if (state.medium() == kVacuum) continue;
-      const float distance = lanes_.hit.valid(k) ? lanes_.hit.t[k] : kInfinity;
-      const Rgb flux = transmittance(scene_, state.medium(), distance) * get_lane(lanes_.flux, k);
-      set_lane(lanes_.flux, k, flux);
-      if (state.is_straight()) continue;
-      const int32_t energy = energy_of(flux, units_per_watt_);
-      counters_.energy.in_media += walkers_.energy[k] - energy;
-      walkers_.energy[k] = energy;
-    }
+  // Media: photon/trace/tracer_media-inl.h.
+  // Takes the photons through the media between them and their hits.
+  void pass_media(size_t count);
+  // Straight rays are not scattered.
+  void attenuate(size_t k, float distance);
+  // Takes a photon to its hit, or to where a medium scatters it.
+  void go_through_media(size_t k, float distance);
+  // Sets the flux that arrives; the rest stays in the media.
+  void arrive_behind_media(size_t k, const Rgb& flux);
+  // A caustic leaves one photon on each of its segments in a medium, however thin the medium is. flux: at the
+  // beginning of the segment.
+  void leave_caustic_on_the_way(size_t k, MediumIndex m, float begin, float end, const Rgb& flux);
+  void leave_in_medium(size_t k, PhotonKind kind, MediumIndex medium, const Point3& p, const Rgb& scattered);
+  // flux: what the medium scatters at p.
+  void scatter_in_medium(size_t k, MediumIndex m, const Point3& p, const Rgb& flux, float u_roulette);
+  // Queues what goes on from a point in a medium. scale: what Russian roulette makes of the flux, or zero.
+  void go_on_in_medium(size_t k, float g, const Point3& p, float scale);
+  // Makes a segment that ends in a medium one that meets nothing and carries nothing.
+  void end_before_hit(size_t k);
+
+  // Sobol sets of a vertex; where media scatter, each is followed by one for the medium before the vertex.
+  uint32_t vertex_set(size_t k) const {
+    // Straight rays use no random numbers, so any set will do for them.
+    const uint32_t rays = walkers_.state[k].is_straight() ? 0 : walkers_.state[k].rays();
+    return kFirstVertexSet + (scene_.needs.scattering ? 2 * rays : rays);
   }
 
-  void draw_vertex_numbers(size_t count, int dimensions) {
+  void draw_medium_numbers(size_t count) { draw_numbers(count, 4, 1, &medium_numbers_); }
+  void draw_vertex_numbers(size_t count, int dimensions) { draw_numbers(count, dimensions, 0, &numbers_); }
+
+  // Draws the numbers of the sets `after` the photons' vertex sets.
+  void draw_numbers(size_t count, int dimensions, uint32_t after, SobolLanes* numbers) {
     uint32_t last = 0;
     for (size_t k = 0; k < count; ++k) {
-      // Straight rays use no random numbers, so any set will do for them.
-      sets_[k] = kFirstVertexSet + (walkers_.state[k].is_straight() ? 0 : walkers_.state[k].rays());
+      sets_[k] = vertex_set(k) + after;
       last = std::max(last, sets_[k]);
     }
     std::fill(sets_.begin() + static_cast<std::ptrdiff_t>(count), sets_.end(), kFirstVertexSet);
     keys_.make(last);
-    draw_sobol_lanes(keys_, sets_.data(), walkers_.reversed_index, count, dimensions, &numbers_);
+    draw_sobol_lanes(keys_, sets_.data(), walkers_.reversed_index, count, dimensions, numbers);
   }
 
   // Copies each hit's surface to lanes_; returns all traits of these surfaces combined.
@@ -262,7 +278,7 @@ class Tracer {
           const bool gathers = lobes.diffuse || scene_.materials[si.material].lobes().diffuse || glossy;
           leave_photon(k, si, photon, !gathers);
           if (walkers_.state[k].is_straight()) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
-          const bool wanted = settings_.kinds.indirect || (lobes.specular && settings_.kinds.caustic);
+          const bool wanted = follows_indirect_ || (lobes.specular && follows_caustics_);
           if (wanted && !is_last(k)) scatter_alone(k, bsdf, si, photon);
         },
         *bsdf_at);
@@ -276,7 +292,7 @@ class Tracer {
     const bool leaves = met & !specular & settings_.kinds[kind] & (lanes_.cos_in[k] != 0);
     left_[k] = leaves ? static_cast<uint8_t>(kind) : kNothing;
     counters_.stored[static_cast<size_t>(kind)] += leaves;
-    const bool wanted = settings_.kinds.indirect | (specular & settings_.kinds.caustic);
+    const bool wanted = follows_indirect_ | (specular & follows_caustics_);
     const bool asked = met & wanted & !walkers_.state[k].is_straight() & !is_last(k);
     scatters_[k] = asked;
     counters_.dropped_invalid += asked & (lanes_.fate[k] == VertexLanes::kInvalid);
@@ -381,7 +397,7 @@ class Tracer {
     const auto sample =
         bsdf.sample_f(wo_local, B::kDrawsLobe ? u(2) : 0, {u(0), u(1)}, TransportMode::kImportance);
     if (!sample) return false;
-    scatters_[k] = sample->specular || settings_.kinds.indirect;
+    scatters_[k] = sample->specular || follows_indirect_;
     if (!scatters_[k]) return false;
     WalkState& state = walkers_.state[k];
     state = sample->specular ? state.behind_specular() : state.behind_diffuse();
@@ -408,9 +424,13 @@ class Tracer {
   const Scene& scene_;
   const SurfaceTable& surfaces_;
   const Accel& bvh_;
+  const accel::Bvh* interfaces_ = accel::interfaces_of(bvh_);
   const TraceSettings& settings_;
   Sink& sink_;
   TraceCounters& counters_;
+  // What the paths must be followed for.
+  const bool follows_caustics_ = settings_.kinds.caustic || settings_.kinds.medium_caustic;
+  const bool follows_indirect_ = settings_.kinds.indirect || settings_.kinds.medium_indirect;
   int unit_exponent_;  // of the energy ledger
   float units_per_watt_ = std::ldexp(1.0f, -unit_exponent_);
   SobolKeyTable keys_;
@@ -418,7 +438,7 @@ class Tracer {
   // State of the group that takes a step. Lanes are zero-initialised, because leftovers of the stack may be
   // denormals, which are slow to compute with.
   VertexLanes lanes_{};
-  SobolLanes numbers_{};
+  SobolLanes numbers_{}, medium_numbers_{};
   EmissionLanes starts_{};
   LaneColumn weights_{};  // 1/p of guided starts
   WalkerLanes walkers_{};
@@ -431,6 +451,11 @@ class Tracer {
 };
 
 }  // namespace detail
+}  // namespace kaustik::photon
+
+#include "photon/trace/tracer_media-inl.h"
+
+namespace kaustik::photon {
 
 template <class Accel, class Sink>
 void trace_photons(const Scene& scene, const SurfaceTable& surfaces, const Accel& bvh,

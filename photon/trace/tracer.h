@@ -14,8 +14,9 @@
 // straight ray behind any first surface leaves them, since mirrors and glass block direct light. A straight
 // ray passes through specular surfaces.
 //
-// Media absorb light on its way. Straight rays stay in the medium where their light shines, as direct light
-// without occlusion does. Not handled: media that scatter.
+// Media absorb light on its way, and scatter it, which counts like scattering by diffuse lobes: M in the
+// classes of photon/record/photon.h. Where no indirect light is wanted, what is scattered is lost. Straight
+// rays stay in the medium where their light shines, as direct light without occlusion does.
 
 #include <cstdint>
 
@@ -43,7 +44,8 @@ inline constexpr uint64_t kGroupSize = kPhotonLanes;
 // called with whole lanes: see RecordSink. The order of the calls is a pure function of (scene, settings,
 // first, end). The photons that one index leaves are a pure function of (scene, settings, index), with two
 // exceptions:
-//   - leaving out a kind may shorten the path, which does not change the photons of the other kinds;
+//   - leaving out a kind may shorten the path, which does not change the photons of the other kinds, unless
+//     media scatter: without indirect kinds their share is taken from every photon instead of some photons;
 //   - where a ray meets two surfaces at exactly the same distance, as at an edge, the other photons of
 //     its packet may decide which of the two is reported.
 // Photons without flux are skipped; those of invalid flux are skipped and counted. counters are added to.

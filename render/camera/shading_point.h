@@ -5,6 +5,7 @@
 
 #include "core/sampling/sampler.h"
 #include "core/scene/bsdf_at.h"
+#include "core/scene/media.h"
 
 namespace kaustik::render {
 
@@ -45,6 +46,18 @@ inline Rgb f_cos(const ShadingPoint& x, const Vector3& wi, LobePart part = LobeP
 // Density of scatter() per solid angle, given the lobes that were chosen.
 inline float scatter_pdf(const ShadingPoint& x, const Vector3& wi, LobePart part = LobePart::kDiffuse) {
   return pdf(*x.bsdf, x.wo_local, x.frame.to_local(wi), part);
+}
+
+inline const Point3& position(const ShadingPoint& x) {
+  return x.si.p;
+}
+// Ray that leaves in direction w, which need not be of unit length.
+inline Ray spawn(const ShadingPoint& x, const Vector3& w, float t_max = kInfinity) {
+  return x.si.spawn(w, t_max);
+}
+// The medium of a ray that leaves in direction w.
+inline MediumIndex medium_towards(const Scene& scene, const ShadingPoint& x, const Vector3& w) {
+  return medium_beyond(scene, x.si, w, x.medium);
 }
 
 namespace detail {

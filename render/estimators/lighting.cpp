@@ -2,7 +2,7 @@
 
 #include "render/estimators/lighting.h"
 
-#include "core/scene/media.h"
+#include "accel/media_walk.h"
 
 namespace kaustik::render {
 
@@ -18,9 +18,10 @@ float power_heuristic(float pdf, float other) {
 
 // Ray towards the light sample, ending just before the light: p_light is already offset, and t is in units of
 // |d|.
-Ray shadow_ray(const SurfaceInteraction& si, const LightSample& s) {
-  if (s.infinite) return si.spawn(s.wi);
-  Ray ray = si.spawn(s.wi, 1);
+template <class Point>
+Ray shadow_ray(const Point& x, const LightSample& s) {
+  if (s.infinite) return spawn(x, s.wi);
+  Ray ray = spawn(x, s.wi, 1);
   ray.d = s.p_light - ray.o;
   return ray;
 }
@@ -33,11 +34,16 @@ photon::VisibilityPrediction predicted(const RenderContext& ctx, const ShadingPo
   if (!ctx.visibility || part == LobePart::kGlossy || transmits(*x.bsdf)) return {};
   return ctx.visibility->predict(light, x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n);
 }
+photon::VisibilityPrediction predicted(const RenderContext& /*ctx*/, const MediumPoint& /*x*/,
+                                       LobePart /*part*/, uint32_t /*light*/) {
+  return {};
+}
 
-float trace_visibility(const RenderContext& ctx, const ShadingPoint& x, const LightSample& s,
+template <class Point>
+float trace_visibility(const RenderContext& ctx, const Point& x, const LightSample& s,
                        TileCounters& counters) {
   ++counters.rays.shadow;
-  return ctx.bvh.occluded(shadow_ray(x.si, s)) ? 0 : 1;
+  return ctx.bvh.occluded(shadow_ray(x, s)) ? 0 : 1;
 }
 
 bool dark(const Scene& scene) {
@@ -85,16 +91,19 @@ std::optional<LightSample> sample_guided(const Light& light, const LightReceiver
   return s;
 }
 
-// What the medium between x and the light sample does not absorb.
-Rgb left_of_light(const Scene& scene, const ShadingPoint& x, const LightSample& s) {
-  const MediumIndex medium = medium_beyond(scene, x.si, s.wi, x.medium);
-  return transmittance(scene, medium, s.infinite ? kInfinity : glm::distance(x.si.p, s.p_light));
+// What the media between x and the light sample let pass.
+template <class Point>
+Rgb left_of_light(const accel::Bvh& bvh, const Point& x, const LightSample& s) {
+  MediumIndex medium = medium_towards(bvh.scene(), x, s.wi);
+  const float distance = s.infinite ? kInfinity : glm::distance(position(x), s.p_light);
+  return accel::transmittance(bvh, spawn(x, s.wi), distance, &medium);
 }
 
 // Samples one light; nothing if it contributes nothing. expected: the expected number of samples of this
 // light.
+template <class Point>
 std::optional<WeightedLightSample> sample_light(const RenderContext& ctx, uint32_t light, float expected,
-                                                const ShadingPoint& x, LightWeight weight, LobePart part,
+                                                const Point& x, LightWeight weight, LobePart part,
                                                 const Point2& u) {
   const Light& from = ctx.scene.lights[light];
   const LightReceiver receiver = x.receiver();
@@ -107,7 +116,7 @@ std::optional<WeightedLightSample> sample_light(const RenderContext& ctx, uint32
   const bool shared = weight == LightWeight::kMis && !is_delta(from);
   const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
   WeightedLightSample weighted{*s, f * s->Li * (w / pdf)};
-  if (ctx.scene.needs.media) weighted.contribution *= left_of_light(ctx.scene, x, *s);
+  if (ctx.scene.needs.media) weighted.contribution *= left_of_light(ctx.bvh, x, *s);
   return weighted;
 }
 
@@ -126,7 +135,8 @@ class CompetingSamples {
   }
 
   // u_ray in [0, 1) decides about the shadow ray.
-  Rgb estimate(const RenderContext& ctx, const ShadingPoint& x, float u_ray, TileCounters& counters) const {
+  template <class Point>
+  Rgb estimate(const RenderContext& ctx, const Point& x, float u_ray, TileCounters& counters) const {
     if (!(u_ray < p_)) return sum_;
     float at = u_ray / p_ * all_;
     for (size_t i = 0; i < count_; ++i) {
@@ -159,7 +169,8 @@ Point2 shifted(const Point2& u, uint32_t k) {
 
 // Samples a light by itself: the predicted V, corrected by a shadow ray with probability p. Where V is
 // predicted for sure, a hidden light needs no sample and a visible one no ray.
-Rgb sample_one_light(const RenderContext& ctx, uint32_t light, const ShadingPoint& x, LightWeight weight,
+template <class Point>
+Rgb sample_one_light(const RenderContext& ctx, uint32_t light, const Point& x, LightWeight weight,
                      float u_ray, const Point2& u, TileCounters& counters, LobePart part) {
   const photon::VisibilityPrediction prediction = predicted(ctx, x, part, light);
   const bool traced = u_ray < prediction.p;
@@ -172,7 +183,8 @@ Rgb sample_one_light(const RenderContext& ctx, uint32_t light, const ShadingPoin
 }
 
 // Draws kLightChoices lights, stratified by u_light.
-Rgb sample_chosen_lights(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, float u_light,
+template <class Point>
+Rgb sample_chosen_lights(const RenderContext& ctx, const Point& x, LightWeight weight, float u_light,
                          float u_ray, const Point2& u, TileCounters& counters, LobePart part) {
   CompetingSamples samples;
   for (uint32_t k = 0; k < kLightChoices; ++k) {
@@ -192,10 +204,9 @@ Rgb unoccluded_from(const RenderContext& ctx, uint32_t light, const ShadingPoint
   return s ? s->contribution : Rgb(0);
 }
 
-}  // namespace
-
-Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
-                  TileCounters& counters, LobePart part) {
+template <class Point>
+Rgb sample_direct_at(const RenderContext& ctx, const Point& x, LightWeight weight, Sampler& sampler,
+                     TileCounters& counters, LobePart part) {
   const float u_light = sampler.next_1d();
   const Point2 u = sampler.next_2d();
   const Scene& scene = ctx.scene;
@@ -208,6 +219,18 @@ Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight w
   }
   const float u_ray = sampler.next_1d();
   return sample_chosen_lights(ctx, x, weight, u_light, u_ray, u, counters, part);
+}
+
+}  // namespace
+
+Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
+                  TileCounters& counters, LobePart part) {
+  return sample_direct_at(ctx, x, weight, sampler, counters, part);
+}
+
+Rgb sample_direct(const RenderContext& ctx, const MediumPoint& x, LightWeight weight, Sampler& sampler,
+                  TileCounters& counters) {
+  return sample_direct_at(ctx, x, weight, sampler, counters, LobePart::kDiffuse);
 }
 
 bool direct_needs_bsdf_sample(const Scene& scene, const ShadingPoint& x) {

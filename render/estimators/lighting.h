@@ -2,6 +2,7 @@
 // Light that arrives straight from the lights: next-event estimation, emission met by rays, and the MIS
 // weights that combine the two.
 
+#include "render/camera/medium_point.h"
 #include "render/camera/shading_point.h"
 #include "render/estimators/render_context.h"
 
@@ -23,6 +24,10 @@ enum class LightWeight {
 // drawn depends on the number of lights only. part: the lobes of f that count.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
                   TileCounters& counters, LobePart part = LobePart::kDiffuse);
+
+// The same with the phase function of a point in a medium in place of f and the cosine.
+Rgb sample_direct(const RenderContext& ctx, const MediumPoint& x, LightWeight weight, Sampler& sampler,
+                  TileCounters& counters);
 
 // Number of samples that compete for the shadow ray where the scene has more lights than can all be sampled.
 inline constexpr uint32_t kLightChoices = 4;

@@ -1,8 +1,10 @@
-// The path loop: emission, light samples, BSDF sample, Russian roulette.
+// The path loop: emission, light samples, scattering by surfaces and media, Russian roulette.
 
 #include "render/estimators/path_integrator.h"
 
-#include "core/scene/media.h"
+#include "accel/media_walk.h"
+#include "core/medium/free_path.h"
+#include "render/estimators/scattered_light.h"
 
 namespace kaustik::render {
 
@@ -13,7 +15,8 @@ struct PathState {
   Rgb beta{1};                   // throughput since x
   float roulette = 1;            // largest component of the throughput without the eta^2 of refractions
   int events = 1;                // scattering events since x, x included
-  int diffuse = 0;               // scattering events by diffuse lobes, x included
+  int diffuse = 0;               // scattering events by diffuse lobes or media, x included
+  bool from_medium = false;      // the last of these was in a medium
   bool specular = false;         // the last event was specular
   bool has_pdf = false;          // that event was by no delta lobe, so lights were sampled there too
   LightReceiver ref;             // where that event was
@@ -32,13 +35,16 @@ bool follows_indirect(PathReach reach) {
 }
 
 // Where light that the path meets is added; null when another estimator accounts for it. specular: whether
-// the event that leads to the light is specular.
+// the event that leads to the light is specular. Maps hold no light that arrives in media.
 Rgb* owner_of_light(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
-  if (path.diffuse == 1) {
-    if (specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
-    return samples_lights(ctx.plan.direct) ? &light->direct : nullptr;
-  }
-  return specular && caustics_by_map(ctx) ? nullptr : &light->indirect;
+  if (path.diffuse > 1)
+    return specular && caustics_by_map(ctx) && !path.from_medium ? nullptr : &light->indirect;
+  if (path.from_medium)
+    return specular && ctx.plan.caustics == CausticEstimator::kOff ? nullptr
+           : specular                                              ? &light->caustic
+                                                                   : &light->direct;
+  if (specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
+  return samples_lights(ctx.plan.direct) ? &light->direct : nullptr;
 }
 
 void add_light(const RenderContext& ctx, const PathState& path, const SurfaceInteraction& si, const Ray& ray,
@@ -81,11 +87,62 @@ Rgb arriving_at_end(const RenderContext& ctx, const ShadingPoint& y, Sampler& sa
   return sum;
 }
 
-// Leaves of the throughput what the ray's medium does not absorb along the way.
-void absorb(const Scene& scene, float distance, PathState* path) {
-  const Rgb left = transmittance(scene, path->medium, distance);
-  path->beta *= left;
-  path->roulette *= max_component(left);
+// Takes the path through the media between the ray's start and `distance` as far as one of them scatters it;
+// then returns the point. Either way the throughput takes its weight. Draws two dimensions.
+std::optional<MediumPoint> scatter_in_media(const RenderContext& ctx, const Ray& ray, float distance,
+                                            PathState* path, Sampler& sampler) {
+  FreePath way(path->beta, sampler.next_2d());
+  std::optional<MediumPoint> met;
+  Rgb weight;
+  path->medium = accel::walk_media(ctx.bvh.interfaces(), ray, distance, path->medium,
+                                   [&](MediumIndex m, float begin, float end) {
+                                     if (m == kVacuum) return true;
+                                     const Medium& medium = ctx.scene.media[m];
+                                     const auto t = way.pass(medium, end - begin);
+                                     if (!t) return true;
+                                     met = MediumPoint{ray.at(begin + *t), -ray.d, medium.g, m};
+                                     weight = way.scattered(medium);
+                                     return false;
+                                   });
+  if (!met) weight = way.passed();
+  const float before = max_component(path->beta);
+  path->beta *= weight;
+  path->roulette *= before > 0 ? max_component(path->beta) / before : 0;
+  return met;
+}
+
+// Adds what the media along the ray scatter towards its start, and leaves of the throughput what they let
+// pass.
+void gather_in_media(const RenderContext& ctx, const Ray& ray, float distance, bool scattered,
+                     PathState* path, PathLight* light, Sampler& sampler, TileCounters& counters) {
+  path->medium = accel::walk_media(
+      ctx.bvh.interfaces(), ray, distance, path->medium, [&](MediumIndex m, float begin, float end) {
+        if (m == kVacuum) return true;
+        if (scattered) {
+          const Beam beam{{ray.at(begin), ray.d}, end - begin, m};
+          const PathLight of = scattered_light(ctx, beam, path->beta, SampleLight::kAll, sampler, counters);
+          light->indirect += path->beta * (of.direct + of.caustic + of.indirect);
+        }
+        const Rgb left = transmittance(ctx.scene, m, end - begin);
+        path->beta *= left;
+        path->roulette *= max_component(left);
+        return true;
+      });
+}
+
+// Continues the path from a point in a medium. Draws a pair of dimensions.
+void continue_path(const MediumPoint& m, PathState* path, Ray* ray, Sampler& sampler) {
+  const Vector3 wi = sample_phase(-m.wo, m.g, sampler.next_2d());
+  path->specular = false;
+  path->from_medium = true;
+  ++path->diffuse;
+  path->segment = 0;
+  path->has_pdf = true;
+  path->ref = m.receiver();
+  path->pdf = scatter_pdf(m, wi);
+  path->medium = m.medium;
+  path->from = m.p;
+  *ray = spawn(m, wi);
 }
 
 // Samples a scattering event and continues the path; false where it ends.
@@ -97,7 +154,7 @@ bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, Path
   if (!s->transmission) path->roulette *= max_component(s->weight);
   path->specular = s->specular;
   path->diffuse += !s->specular;
-  if (!s->specular) path->segment = 0;
+  if (!s->specular) path->segment = 0, path->from_medium = false;
   path->has_pdf = !s->specular || s->glossy;
   path->ref = v.receiver();
   path->pdf = s->pdf;
@@ -143,34 +200,75 @@ std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, Pa
   return specular_only ? Scatter::kSpecular : Scatter::kEither;
 }
 
-}  // namespace
+// Adds the light that arrives at m, and goes on from there; false where the path ends.
+bool visit(const RenderContext& ctx, const MediumPoint& m, PathState* path, Ray* ray, PathLight* light,
+           Sampler& sampler, TileCounters& counters) {
+  if (++path->events > ctx.settings.max_bounces || is_black(path->beta)) return false;
+  light->indirect += path->beta * sample_direct(ctx, m, LightWeight::kMis, sampler, counters);
+  if (!survives(path, sampler)) return false;
+  continue_path(m, path, ray, sampler);
+  return true;
+}
 
-PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
-                     TileCounters& counters) {
+// Passes the media between the ray's start and what lies behind them. Paths that are followed to the maps
+// take what media scatter towards them with them. Those that are followed to their end may be scattered; then
+// the point is returned.
+std::optional<MediumPoint> pass_media(const RenderContext& ctx, const Ray& ray, float distance,
+                                      PathReach reach, PathState* path, PathLight* light, Sampler& sampler,
+                                      TileCounters& counters) {
+  if (!ctx.scene.needs.media || (path->medium == kVacuum && !ctx.scene.interfaces)) return {};
+  if (reach == PathReach::kRoulette && ctx.scene.needs.scattering)
+    return scatter_in_media(ctx, ray, distance, path, sampler);
+  gather_in_media(ctx, ray, distance, follows_indirect(reach), path, light, sampler, counters);
+  return {};
+}
+
+// Follows a path from its first ray to its end.
+PathLight follow(const RenderContext& ctx, PathState path, Ray ray, PathReach reach, Sampler& sampler,
+                 TileCounters& counters) {
   PathLight light;
-  PathState path;
-  path.from = x.si.p;
-  Ray ray;
-  if (!continue_path(ctx.scene, x, Scatter::kDiffuse, &path, &ray, sampler)) return light;
   while (true) {
     // A ray that looks for lights alone counts as the shadow ray whose work it shares.
     ++(reach == PathReach::kLights ? counters.rays.shadow : counters.rays.bounce);
     SurfaceInteraction si;
-    if (!ctx.bvh.intersect(ray, &si)) {
-      if (path.medium != kVacuum) absorb(ctx.scene, kInfinity, &path);
+    const bool met = ctx.bvh.intersect(ray, &si);
+    const float distance = met ? glm::distance(si.p, path.from) : kInfinity;
+    if (const auto m = pass_media(ctx, ray, distance, reach, &path, &light, sampler, counters)) {
+      if (!visit(ctx, *m, &path, &ray, &light, sampler, counters)) return light;
+      continue;
+    }
+    if (!met) {
       add_escape(ctx, path, ray, &light);
       return light;
     }
-    if (path.medium != kVacuum) absorb(ctx.scene, glm::distance(si.p, path.from), &path);
     add_light(ctx, path, si, ray, &light);
     if (reach == PathReach::kLights || ++path.events > ctx.settings.max_bounces) return light;
-    path.segment += glm::distance(si.p, path.from);
+    path.segment += distance;
     path.from = si.p;
     ShadingPoint y(ctx.scene, si, -ray.d);
     y.medium = path.medium;
     const std::optional<Scatter> part = visit(ctx, y, reach, &path, &light, sampler, counters);
     if (!part || !continue_path(ctx.scene, y, *part, &path, &ray, sampler)) return light;
   }
+}
+
+}  // namespace
+
+PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
+                     TileCounters& counters) {
+  PathState path;
+  path.from = x.si.p;
+  Ray ray;
+  if (!continue_path(ctx.scene, x, Scatter::kDiffuse, &path, &ray, sampler)) return {};
+  return follow(ctx, path, ray, reach, sampler, counters);
+}
+
+PathLight trace_path(const RenderContext& ctx, const MediumPoint& x, PathReach reach, Sampler& sampler,
+                     TileCounters& counters) {
+  PathState path;
+  Ray ray;
+  continue_path(x, &path, &ray, sampler);
+  return follow(ctx, path, ray, reach, sampler, counters);
 }
 
 }  // namespace kaustik::render

@@ -42,4 +42,10 @@ inline Rgb disc_factor(const RenderContext& ctx, const ShadingPoint& x) {
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
                      TileCounters& counters);
 
+// The same from a point in a medium, by its phase function. What media scatter counts as diffuse: light that
+// meets x through specular surfaces is a caustic. Since maps hold no light that arrives in media, paths find
+// all of it, whatever the plan, unless caustics are off.
+PathLight trace_path(const RenderContext& ctx, const MediumPoint& x, PathReach reach, Sampler& sampler,
+                     TileCounters& counters);
+
 }  // namespace kaustik::render

@@ -2,6 +2,7 @@
 //
 //   L(ray) = Le + Lr                                          the rendering equation (Kajiya 1986)
 //   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
+//   In media, light that they scatter along the chain is added  scattered_light
 //   Lr = direct + caustic + indirect at points x of the chain, by their diffuse lobes; the chain ends at a
 //        point that has no specular lobes
 //        direct    L D S* E                 light samples, photons or both                   add_direct
@@ -14,9 +15,10 @@
 
 #include <array>
 
-#include "core/scene/media.h"
+#include "accel/media_walk.h"
 #include "render/estimators/disc_pilots.h"
 #include "render/estimators/glossy_tails.h"
+#include "render/estimators/scattered_light.h"
 #include "render/explore/surroundings.h"
 
 namespace kaustik::render {
@@ -292,8 +294,8 @@ class CameraPath {
 
   // Adds the light at the end of a branch and continues the branch if the surface has specular lobes.
   void visit(Branch& branch, const Hit& hit) {
-    if (branch.medium != kVacuum)
-      branch.beta *= transmittance(ctx_.scene, branch.medium, hit.valid() ? hit.t : kInfinity);
+    if (branch.medium != kVacuum || ctx_.scene.interfaces)
+      pass_media(branch, hit.valid() ? hit.t : kInfinity);
     const bool sees_lights = branch.tail != Tail::kBehind;
     if (!hit.valid()) {
       if (sees_lights) add_emission(branch, escape_seen(ctx_, branch.last, branch.ray));
@@ -325,6 +327,24 @@ class CameraPath {
     here.cone = cone, here.length = length, here.shown = branch.shown || end;
     if (parts.glossy || parts.diffuse || !split(here, x))
       continue_specular(here, x, is_blurred(ctx_, branch, hit.t));
+  }
+
+  // Adds what media scatter along the branch's ray, and takes away what does not get through.
+  void pass_media(Branch& branch, float distance) {
+    branch.medium = accel::walk_media(
+        ctx_.bvh.interfaces(), branch.ray, distance, branch.medium,
+        [&](MediumIndex medium, float begin, float end) {
+          if (medium != kVacuum)
+            pass_medium(branch, {{branch.ray.at(begin), branch.ray.d}, end - begin, medium});
+          return true;
+        });
+  }
+  void pass_medium(Branch& branch, const Beam& beam) {
+    const PathLight light = scattered_light(ctx_, beam, branch.beta, maps_.sample.light, sampler_, counters_);
+    result_->direct += branch.beta * light.direct;
+    result_->caustic += branch.beta * light.caustic;
+    result_->indirect += branch.beta * light.indirect;
+    branch.beta *= transmittance(ctx_.scene, beam.medium, beam.distance);
   }
 
   void add_emission(const Branch& branch, const Rgb& Le) {

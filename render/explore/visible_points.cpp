@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "accel/media_walk.h"
 #include "core/parallel/parallel.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
-#include "core/scene/media.h"
 #include "photon/emission/emission.h"
 #include "render/camera/shading_point.h"
 
@@ -26,6 +26,7 @@ std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, Med
   for (int events = 0; events <= input.settings.max_bounces; ++events) {
     SurfaceInteraction si;
     if (!input.bvh.intersect(ray, &si)) return {};
+    if (scene.interfaces) accel::transmittance(input.bvh, ray, glm::distance(si.p, ray.o), &medium);
     const ShadingPoint x(scene, si, -ray.d);
     if (!x.specular()) {
       const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;

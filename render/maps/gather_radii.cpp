@@ -8,6 +8,7 @@ namespace kaustik::render {
 
 void note_radii(const GatherRadii& radii, RenderStatistics* s) {
   s->direct_radius = radii.direct, s->caustic_radius = radii.caustic, s->indirect_radius = radii.indirect;
+  s->medium_caustic_radius = radii.medium_caustic, s->medium_indirect_radius = radii.medium_indirect;
   s->radius = std::max({radii.direct, radii.caustic, radii.indirect});
 }
 

@@ -13,6 +13,9 @@ struct GatherRadii {
   // If > 0, the map's radius shrinks to the k-th nearest photon, with k counted over all passes. Set where
   // the user gave neither a radius nor --nearest.
   uint32_t caustic_nearest = 0, direct_nearest = 0;
+  float medium_caustic = 0, medium_indirect = 0;
+  // The same for rays through media: with k photons in reach.
+  uint32_t medium_caustic_nearest = 0, medium_indirect_nearest = 0;
   bool operator==(const GatherRadii&) const = default;
 };
 

@@ -53,9 +53,15 @@ photon::EstimateSettings estimate_settings(const RenderSettings& settings, const
 GatherRadii settle_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {
   const photon::KindMask kinds = kinds_needed(input.plan);
   const GatherRadii radii = choose_radii(input, pass, maps);
-  return {kinds.direct || kinds.shadow ? radii.direct : 0, kinds.caustic ? radii.caustic : 0,
-          kinds.indirect ? radii.indirect : 0, kinds.caustic ? radii.caustic_nearest : 0,
-          radii.direct_nearest};
+  return {kinds.direct || kinds.shadow ? radii.direct : 0,
+          kinds.caustic ? radii.caustic : 0,
+          kinds.indirect ? radii.indirect : 0,
+          kinds.caustic ? radii.caustic_nearest : 0,
+          radii.direct_nearest,
+          kinds.medium_caustic ? radii.medium_caustic : 0,
+          kinds.medium_indirect ? radii.medium_indirect : 0,
+          kinds.medium_caustic ? radii.medium_caustic_nearest : 0,
+          kinds.medium_indirect ? radii.medium_indirect_nearest : 0};
 }
 
 // The smallest 2^(k/2) metres that is at least the radius. So passes whose radii differ little share the
@@ -153,6 +159,15 @@ void PassPhotons::set_estimates(const RenderInput& input, const PassShare& pass)
   maps_.direct.estimate.radius = shrunk(radii_->direct);
   maps_.caustic.estimate.radius = shrunk(radii_->caustic);
   maps_.indirect.estimate.radius = shrunk(radii_->indirect);
+  const auto set_beams = [&](uint32_t nearest, GatherMap* gather) {
+    gather->estimate.kernel = maps_.indirect.estimate.kernel;
+    gather->estimate.nearest = 0;
+    set_nearest(nearest, gather);
+  };
+  set_beams(radii_->medium_caustic_nearest, &maps_.medium_caustic);
+  set_beams(radii_->medium_indirect_nearest, &maps_.medium_indirect);
+  maps_.medium_caustic.estimate.radius = shrunk(radii_->medium_caustic);
+  maps_.medium_indirect.estimate.radius = shrunk(radii_->medium_indirect);
   // M0 is a limit, so it is rounded down.
   maps_.lecture = {shrunk(radii_->direct), share(settings.node_photons, pass),
                    static_cast<uint32_t>(settings.min_photons / pass.shares)};

@@ -21,12 +21,14 @@ struct GatherMap {
 // Maps of kinds that the plan does not need are empty.
 struct PhotonMaps {
   GatherMap direct, caustic, indirect;
+  GatherMap medium_caustic, medium_indirect;  // gathered along rays: only the radius of the estimate is used
   photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which gathers from it with direct.estimate
   photon::LectureSettings lecture;
   const Surroundings* surroundings = nullptr;  // for `final-gather`; null for other estimators
 
   photon::PhotonMap& of(photon::PhotonKind kind) {
-    photon::PhotonMap* const maps[] = {&direct.map, &shadow, &caustic.map, &indirect.map};
+    photon::PhotonMap* const maps[] = {
+        &direct.map, &shadow, &caustic.map, &indirect.map, &medium_caustic.map, &medium_indirect.map};
     return *maps[size_t(kind)];
   }
   const photon::PhotonMap& of(photon::PhotonKind kind) const {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <optional>
+#include <utility>
 
 #include "core/parallel/work_span.h"
 #include "render/explore/visible_density.h"
@@ -43,8 +44,12 @@ struct Shoot {
 
 // Moves a kind from one shoot to another.
 void take(PhotonKind kind, Shoot* from, Shoot* to) {
-  from->trace.kinds[kind] = false;
-  to->trace.kinds[kind] = true;
+  to->trace.kinds[kind] = std::exchange(from->trace.kinds[kind], false);
+}
+
+// The kind that the same paths leave in media.
+PhotonKind in_medium(PhotonKind kind) {
+  return kind == PhotonKind::kCaustic ? PhotonKind::kMediumCaustic : PhotonKind::kMediumIndirect;
 }
 
 // One shoot for each guided kind, and one for all others.
@@ -58,6 +63,7 @@ std::vector<Shoot> plan_shoots(const RenderInput& input, const PassShare& pass, 
     guided.trace.guide = &learned->guide;
     guided.trace.photons = photons;
     take(kind, &others, &guided);
+    take(in_medium(kind), &others, &guided);
     shoots.push_back(guided);
   };
   guide(PhotonKind::kIndirect, guides.indirect, pass.photons);
@@ -96,7 +102,7 @@ photon::TraceSettings trace_settings(const RenderSettings& settings, const Estim
 uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons) {
   photon::KindMask kinds = kinds_needed(plan);
   if (!kinds.caustic || settings.guide == Guide::kOff) return 0;
-  kinds.caustic = false;
+  kinds.caustic = kinds.medium_caustic = false;
   return kinds.any() ? (photons + 1) / 2 : photons;
 }
 
@@ -105,7 +111,8 @@ void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatisti
   const photon::KindMask kinds = kinds_needed(input.plan);
   const PhaseWatch watch;
   const auto learn = [&](PhotonKind kind, bool beside_others, auto* guide) {
-    if (!kinds[kind]) return;
+    // Visible surfaces, by which indirect photons are guided, say nothing about photons in media.
+    if (!kinds[kind] || (kind == PhotonKind::kIndirect && kinds.medium_indirect)) return;
     if (!*guide) *guide = learn_guide(input, kind, beside_others);
     statistics->guide_photons += (*guide)->emitted;
     statistics->guide_hits += (*guide)->hits;
@@ -113,7 +120,7 @@ void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatisti
   };
   statistics->guide_photons = statistics->guide_hits = statistics->guide_boxes = 0;
   learn(PhotonKind::kIndirect, false, &guides->indirect);
-  const bool uniform_indirect = kinds.indirect && guides->indirect->guide.empty();
+  const bool uniform_indirect = kinds.indirect && (!guides->indirect || guides->indirect->guide.empty());
   learn(PhotonKind::kCaustic, uniform_indirect || kinds.direct || kinds.shadow, &guides->caustic);
   statistics->photon_trace_s += watch.end("photon_trace");
 }

@@ -7,7 +7,9 @@
 #include <numeric>
 
 #include "core/parallel/parallel.h"
+#include "photon/estimate/beam_estimate.h"
 #include "photon/gather/nearest.h"
+#include "render/explore/pilot_beams.h"
 #include "render/explore/surroundings.h"
 #include "render/explore/visible_points.h"
 
@@ -29,6 +31,9 @@ struct RadiusRule {
 constexpr RadiusRule kDirectRule{160, 64};
 constexpr RadiusRule kIndirectRule{500, 200};
 constexpr RadiusRule kCausticRule{232, kFewestInReach};
+// Photons in reach of a ray through a medium; the kernel lies across the ray, so that the same rule holds.
+constexpr RadiusRule kMediumIndirectRule{200, 64};
+constexpr RadiusRule kMediumCausticRule{100, 32};
 // Where surfaces are near each other, indirect light is not smooth. A disc's bias is in proportion to (r/c)^2
 // at a place of clearance c, so that k ~ (c/r)^(4/3) balances it with the noise: k is smaller by that where r
 // exceeds kShareOfClearance of the clearance that a quarter of the points do not have, and at least kLeastOfK
@@ -125,11 +130,48 @@ float indirect_radius(const PhotonMaps& maps, const std::vector<VisiblePoint>& p
   return std::min(radius, auto_radius(map, points, reach, fewer, pass));
 }
 
+// Which ray the radius of photons in media is chosen for, of those that pass any.
+enum class RayChoice {
+  kMedian,       // half of the rays have fewer photons in reach
+  kMedianPhoton  // half of the photons in reach of rays belong to rays with fewer: caustics fill little of
+                 // the picture
+};
+
+uint64_t chosen_count(std::vector<uint64_t> counts, RayChoice choice) {
+  std::erase(counts, uint64_t{0});
+  if (counts.empty()) return 0;
+  std::sort(counts.begin(), counts.end());
+  if (choice == RayChoice::kMedian) return counts[counts.size() / 2];
+  std::vector<uint64_t> sums(counts.size());
+  std::partial_sum(counts.begin(), counts.end(), sums.begin());
+  const auto half = std::lower_bound(sums.begin(), sums.end(), (sums.back() + 1) / 2);
+  return counts[size_t(half - sums.begin())];
+}
+
+// The radius at which the chosen ray has k photons in reach. Their number grows with the square of the
+// radius.
+float beam_radius(const photon::PhotonMap& map, const std::vector<Beam>& beams, float reach, uint32_t k,
+                  RayChoice choice) {
+  if (map.empty() || beams.empty()) return reach / 64;
+  float radius = reach / 256;
+  std::vector<uint64_t> counts(beams.size());
+  for (int round = 0; round < 3; ++round) {
+    parallel::for_index(size_t{0}, beams.size(), [&](size_t i) {
+      const Beam& beam = beams[i];
+      counts[i] = photon::count_along(map, {beam.ray, beam.distance, radius, beam.medium});
+    });
+    const uint64_t count = chosen_count(counts, choice);
+    if (count == 0) return radius;
+    radius = std::min(radius * float(std::sqrt(double(k) / double(count))), reach / 8);
+  }
+  return radius;
+}
+
 }  // namespace
 
 GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {
   const RenderSettings& settings = input.settings;
-  if (settings.radius) return {*settings.radius, *settings.radius, *settings.radius, 0};
+  if (const auto r = settings.radius) return {*r, *r, *r, 0, 0, *r, *r, 0, 0};
   const float reach = 2 * input.scene.bounds.radius(), f = settings.radius_factor;
   const auto visible = visible_points(input, kPilotPoints);
   const auto choose = [&](const photon::PhotonMap& map, const auto& points, uint32_t k) {
@@ -144,11 +186,23 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   const auto scaled = [&](double k) {
     return uint32_t(std::lround(std::clamp(k * double(f) * double(f), double(kFewestInReach), 1e9)));
   };
+  const std::vector<Beam> beams =
+      input.plan.media_by_photons ? pilot_beams(input, kPilotPoints) : std::vector<Beam>{};
+  const auto along = [&](const photon::PhotonMap& map, uint32_t k, RayChoice choice) {
+    return f * beam_radius(map, beams, reach, photons_in_reach(k, pass.shares), choice);
+  };
+  const uint32_t medium_caustic = photons_to_reach(kMediumCausticRule, maps.medium_caustic.map, pass);
+  const uint32_t medium_indirect = photons_to_reach(kMediumIndirectRule, maps.medium_indirect.map, pass);
   const bool by_photons = input.plan.direct == DirectEstimator::kPhotons;
   return {choose(direct, signed_light ? photon_points(direct) : visible, of_direct),
           kCausticReach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
-          f * indirect_radius(maps, visible, reach, pass), scaled(caustic),
-          by_photons ? scaled(kDirectDensity * of_direct) : 0};
+          f * indirect_radius(maps, visible, reach, pass),
+          scaled(caustic),
+          by_photons ? scaled(kDirectDensity * of_direct) : 0,
+          kCausticReach * along(maps.medium_caustic.map, medium_caustic, RayChoice::kMedianPhoton),
+          along(maps.medium_indirect.map, medium_indirect, RayChoice::kMedian),
+          scaled(medium_caustic),
+          scaled(2.0 * medium_indirect)};
 }
 
 }  // namespace kaustik::render

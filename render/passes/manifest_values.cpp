@@ -90,7 +90,11 @@ Json radii_json(const std::optional<GatherRadii>& radii) {
           {"caustic", hex_text(radii->caustic)},
           {"indirect", hex_text(radii->indirect)},
           {"caustic_nearest", radii->caustic_nearest},
-          {"direct_nearest", radii->direct_nearest}};
+          {"direct_nearest", radii->direct_nearest},
+          {"medium_caustic", hex_text(radii->medium_caustic)},
+          {"medium_indirect", hex_text(radii->medium_indirect)},
+          {"medium_caustic_nearest", radii->medium_caustic_nearest},
+          {"medium_indirect_nearest", radii->medium_indirect_nearest}};
 }
 
 std::optional<GatherRadii> radii_from(const Json& json) {
@@ -103,6 +107,9 @@ std::optional<GatherRadii> radii_from(const Json& json) {
   GatherRadii radii{radius("direct"), radius("caustic"), radius("indirect")};
   take_whole(json, "caustic_nearest", &radii.caustic_nearest);
   take_whole(json, "direct_nearest", &radii.direct_nearest);
+  take_whole(json, "medium_caustic_nearest", &radii.medium_caustic_nearest);
+  take_whole(json, "medium_indirect_nearest", &radii.medium_indirect_nearest);
+  radii.medium_caustic = radius("medium_caustic"), radii.medium_indirect = radius("medium_indirect");
   return radii;
 }
 

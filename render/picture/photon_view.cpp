@@ -24,7 +24,8 @@ struct PixelCount {
 
 // One for each kind, which people who see few colours can tell apart, too (Okabe and Ito 2008).
 constexpr std::array<glm::u8vec3, photon::kPhotonKinds> kKindColours = {
-    glm::u8vec3{240, 228, 66}, photon::kShadowColour, glm::u8vec3{230, 90, 0}, glm::u8vec3{0, 190, 140}};
+    glm::u8vec3{240, 228, 66}, photon::kShadowColour,      glm::u8vec3{230, 90, 0},
+    glm::u8vec3{0, 190, 140},  glm::u8vec3{204, 121, 167}, glm::u8vec3{86, 180, 233}};
 constexpr glm::u8vec3 kWhite{255};
 
 // The line of sight to a photon must be free up to this fraction of its length, since the photon's position

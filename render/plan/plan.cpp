@@ -49,7 +49,8 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
   if (!needs.any_light) plan->notes.push_back("no light: the image is black");
   // Caustics are the only class that may be empty by construction: without specular surfaces, light, or
   // surfaces that receive it.
-  const bool received = needs.diffuse || plan->glossy_tails;
+  const bool scattered = needs.diffuse || needs.scattering;
+  const bool received = scattered || plan->glossy_tails;
   const bool empty = !needs.specular || !needs.any_light || !received;
   if (empty && plan->caustics != Caustic::kOff && !settings.caustics) {
     plan->caustics = Caustic::kOff;
@@ -59,11 +60,22 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
         : !needs.any_light ? "no light: no caustic pass"
                            : "no diffuse surface: no caustic pass");
   }
-  if ((!needs.any_light || !needs.diffuse) && plan->indirect != Indirect::kOff && !settings.indirect) {
+  if ((!needs.any_light || !scattered) && plan->indirect != Indirect::kOff && !settings.indirect) {
     plan->indirect = Indirect::kOff;
     plan->notes.push_back(!needs.any_light ? "no light: no indirect light"
                                            : "no diffuse surface: no indirect light");
   }
+}
+
+// Media follow the estimator of indirect light.
+void choose_for_media(const SceneNeeds& needs, EstimatorPlan* plan) {
+  if (!needs.scattering) return;
+  plan->media_by_photons = reads_indirect_photons(*plan);
+  plan->notes.push_back(
+      plan->media_by_photons
+          ? "media scatter light: single scattering comes from light samples along rays, all "
+            "else from photons in the media"
+          : "media scatter light: paths are scattered in them");
 }
 
 void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* notes) {
@@ -118,6 +130,7 @@ EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs)
   plan.glossy_tails = settings.method == Method::kAuto && plan.caustics == Caustic::kPhotons &&
                       needs.glossy && needs.any_light;
   leave_out(settings, needs, &plan);
+  choose_for_media(needs, &plan);
   plan.notes.insert(plan.notes.begin(),
                     fmt::format("method {}: direct {}, caustics {}, indirect {}", name_of(settings.method),
                                 name_of(plan.direct), name_of(plan.caustics), name_of(plan.indirect)));
@@ -132,6 +145,8 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
   kinds.shadow = plan.direct == DirectEstimator::kLecture || plan.direct == DirectEstimator::kSigned;
   kinds.caustic = plan.caustics == CausticEstimator::kPhotons;
   kinds.indirect = reads_indirect_photons(plan);
+  kinds.medium_caustic = plan.media_by_photons && plan.caustics != CausticEstimator::kOff;
+  kinds.medium_indirect = plan.media_by_photons;
   return kinds;
 }
 

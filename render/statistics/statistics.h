@@ -64,6 +64,7 @@ struct RenderStatistics {
   // map.
   float radius = 0;
   float direct_radius = 0, caustic_radius = 0, indirect_radius = 0;  // 0 if the map was not built
+  float medium_caustic_radius = 0, medium_indirect_radius = 0;       // also 0 then
   uint64_t photon_bytes = 0;  // maps of a pass with their index; maximum over passes
   uint64_t octree_nodes = 0;  // in all maps
   uint64_t passes = 0;        // number of finished passes

@@ -4,11 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "core/stopwatch.h"
 #include "render/statistics_json.h"
 #include "render/tiles/tiles.h"
 #include "tests/render/support/image_statistics.h"
@@ -149,15 +148,21 @@ TEST(Render, CancelledTileKeepsItsFirstSamples) {
   const accel::Bvh bvh(scene);
   RenderSettings settings;
   settings.method = Method::kRaytrace;
-  settings.spp = 4096;
+  settings.spp = 1024;
   settings.adaptive = 0;
-  const auto first = render(scene, bvh, settings);
+  // So many samples that the adaptive ones, of which there are three quarters as many, take longer than the
+  // tenth of a second between two calls: the second call that follows the first samples comes within the
+  // tile.
+  RenderResult first;
+  for (double seconds = 0; seconds < 1;) {
+    settings.spp *= 2;
+    const Stopwatch watch;
+    first = render(scene, bvh, settings);
+    seconds = watch.seconds();
+  }
   settings.adaptive = 0.75f;
-  // The callback takes longer than the time between two calls, so the next one comes within the tile.
-  const auto cut = render(scene, bvh, settings, [within = 0](const Progress& p) mutable {
-    std::this_thread::sleep_for(std::chrono::milliseconds(p.done == 1 ? 120 : 0));
-    return p.done < 1 || ++within < 2;
-  });
+  const auto cut = render(scene, bvh, settings,
+                          [within = 0](const Progress& p) mutable { return p.done < 1 || ++within < 2; });
   EXPECT_TRUE(cut.cancelled);
   EXPECT_EQ(cut.shown, Shown::kTiles);
   for (int y = 0; y < kTileSize; ++y)

@@ -67,6 +67,7 @@ float LightBounds::importance(const LightReceiver& x) const {
   const Angle emitted = reduced(from_cone, of_box);
   if (emitted.cos + kSlack < cos_e) return 0;
 
+  if (x.in_medium) return phi * typical(emitted.cos, from_cone.cos) / std::max(distance2, radius2);
   const float in = glm::dot(x.n, wi), at_center = x.two_sided ? std::abs(in) : in;
   const Angle received = reduced(Angle::of_cos(at_center), of_box);
   if (received.cos + kSlack < 0) return 0;

@@ -34,12 +34,12 @@
 
 namespace kaustik {
 
-// The point at which light arrives, with the normal of its lit side. two_sided: light from behind counts as
-// well.
+// The point at which light arrives, with the normal of its lit side.
 struct LightReceiver {
   Point3 p{0};
   Normal3 n{0, 0, 1};
-  bool two_sided = true;
+  bool two_sided = true;   // light from behind counts as well
+  bool in_medium = false;  // light counts the same from everywhere: n is any direction
 };
 
 // How area lights choose the directions of photons.

@@ -140,7 +140,7 @@ class Builder {
   LeftOut flat_shapes_, flat_instances_;
 };
 
-// Returns nothing if the shape is invalid or has an "interface" material.
+// Returns nothing if the shape is invalid, or has an "interface" material and separates no media.
 std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::optional<size_t> object,
                                         MaterialTable& materials) {
   const uint32_t material = materials.resolve(shape.material, diagnostics_);
@@ -158,10 +158,7 @@ std::optional<size_t> Builder::add_item(const ShapeDescription& shape, std::opti
                            "the area light is ignored: material \"interface\" is not a surface",
                            {{description_.area_lights[*shape.area_light].location, "the area light"}});
     }
-    if (media.is_transition() && warned_.insert("inside interfaces").second)
-      diagnostics_.warning(shape.location,
-                           "media inside surfaces of material \"interface\" are not rendered");
-    return std::nullopt;
+    if (!media.is_transition()) return std::nullopt;
   }
   Item& item = items_.emplace_back();
   item.description = &shape;
@@ -185,7 +182,8 @@ void Builder::set_alpha(const ShapeDescription& shape, Item& item) {
 void Builder::collect(MaterialTable& materials) {
   for (const ShapeDescription& shape : description_.shapes) {
     if (const auto item = add_item(shape, std::nullopt, materials)) {
-      placements_.push_back({*item, shape.object_to_world, shape.area_light.has_value(), true});
+      const bool light = shape.area_light && items_[*item].material != MaterialTable::kInterface;
+      placements_.push_back({*item, shape.object_to_world, light, true});
     }
   }
   std::map<std::string_view, std::vector<size_t>> items_of;
@@ -372,12 +370,18 @@ void Builder::place(Scene& scene) {
   });
   std::vector<std::string> names;
   std::vector<std::string> places;
+  auto interfaces = std::make_shared<Scene>();
   for (size_t i = 0; i < placed.size(); ++i) {
     const Item& item = items_[placements_[i].item];
     Shape& shape = placed[i].shape;
     if (!keep(placements_[i], placed[i])) continue;
-    shape.material = item.material;
     shape.media = item.media;
+    if (item.material == MaterialTable::kInterface) {
+      interfaces->bounds.add(bounds_of(shape));
+      interfaces->shapes.push_back(std::move(shape));
+      continue;
+    }
+    shape.material = item.material;
     shape.alpha = item.alpha;
     shape.alpha_texture = item.alpha_texture;
     if (placements_[i].light && !lights_->make(*item.description, shape, scene.lights)) continue;
@@ -386,6 +390,7 @@ void Builder::place(Scene& scene) {
     places.push_back(group_name(*item.description));
     scene.shapes.push_back(std::move(shape));
   }
+  if (!interfaces->shapes.empty()) scene.interfaces = std::move(interfaces);
   without_area_.report(diagnostics_);
   scene.surface_group_names.resize(assign_surface_groups(scene.shapes, names));
   for (size_t i = scene.shapes.size(); i-- > 0;)

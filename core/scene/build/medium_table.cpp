@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/diagnostics/nearest_name.h"
+#include "core/medium/phase_function.h"
+#include "core/medium/preset_media.h"
 
 namespace kaustik {
 
@@ -20,20 +22,36 @@ MediumTable::MediumTable(const SceneDescription& description, WarnedOnce& warned
   }
 }
 
+namespace {
+
+// The coefficients of the preset, or those that are given.
+Medium coefficients(const ParameterReader& p, DiagnosticList& diagnostics) {
+  const auto g = std::clamp(static_cast<float>(p.number("g")), -kLargestG, kLargestG);
+  if (!p.has("preset")) return {p.rgb("sigma_a"), p.rgb("sigma_s"), g};
+  std::vector<std::string_view> names;
+  for (const PresetMedium& m : preset_media()) {
+    if (m.name == p.text("preset")) return {m.sigma_a, m.sigma_s, g};
+    names.push_back(m.name);
+  }
+  diagnostics.error(p.location("preset"), fmt::format("there is no measured medium `{}`{}", p.text("preset"),
+                                                      name_hint(p.text("preset"), names)));
+  return {};
+}
+
+}  // namespace
+
 MediumIndex MediumTable::make(const MediumDescription& description, WarnedOnce& warned,
                               DiagnosticList& diagnostics) {
   const TypeSpec* spec = find_type(category("MakeNamedMedium"), description, diagnostics);
   if (!spec || !check_parameters("medium", *spec, description, warned, diagnostics)) return kVacuum;
   const ParameterReader p(description, *spec);
   const auto scale = static_cast<float>(p.number("scale"));
-  const Medium medium{scale * p.rgb("sigma_a")};
-  if (scale > 0 && !is_black(p.rgb("sigma_s")))
-    diagnostics.warning(
-        p.location("sigma_s"),
-        fmt::format("medium `{}` only absorbs light: scattering is not rendered", description.name));
-  if (!is_finite(medium.sigma_a))
-    diagnostics.error(p.location("scale"), "`scale` takes `sigma_a` beyond the range of floats");
-  if (is_black(medium.sigma_a)) return kVacuum;
+  Medium medium = coefficients(p, diagnostics);
+  medium.sigma_a *= scale;
+  medium.sigma_s *= scale;
+  if (!is_finite(medium.sigma_t()))
+    diagnostics.error(p.location("scale"), "`scale` takes coefficients beyond the range of floats");
+  if (is_black(medium.sigma_t())) return kVacuum;
   if (media_.empty()) media_.emplace_back();  // the vacuum
   if (media_.size() > kMostMedia) {
     diagnostics.error(description.name_location, fmt::format("there are more than {} media", kMostMedia));

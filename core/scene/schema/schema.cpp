@@ -105,7 +105,7 @@ std::vector<MaterialRow> make_material_rows() {
         {two_names("materials", "names of the first and the second material"),
          textured(number("amount", 0.5, "", kUnit, "probability of the second material"))}},
        nullptr},
-      {{"interface", "No surface at all: its shapes are left out.", {}}, nullptr},
+      {{"interface", "No surface for light: its shapes only separate media.", {}}, nullptr},
   };
   for (MaterialRow& row : approximated_material_rows()) rows.push_back(std::move(row));
   return rows;

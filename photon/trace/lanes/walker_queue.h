@@ -19,13 +19,14 @@ class WalkerQueue {
   size_t size() const { return size_; }
 
   // Adds one photon.
-  void push(const glm::vec3& o, const glm::vec3& d, const Rgb& flux, uint32_t reversed_index,
-            WalkState state) {
+  void push(const glm::vec3& o, const glm::vec3& d, const Rgb& flux, uint32_t reversed_index, WalkState state,
+            int32_t energy = 0) {
     const float floats[] = {o.x, o.y, o.z, d.x, d.y, d.z, flux.x, flux.y, flux.z};
     uint32_t words[12]{};
     std::memcpy(words, floats, sizeof(floats));
     words[9] = reversed_index;
     std::memcpy(words + 10, &state, sizeof(state));
+    std::memcpy(words + 11, &energy, sizeof(energy));
     for (int i = 0; i < 3; ++i) std::memcpy(part_[i][size_], words + 4 * i, sizeof(Part));
     ++size_;
   }

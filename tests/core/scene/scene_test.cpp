@@ -48,7 +48,16 @@ TEST(Scene, NeedsFollowFromSurfacesAndLights) {
   scene.shapes[0].media.inside = 1;
   finalize_scene(scene);
   EXPECT_TRUE(scene.needs.media);
+  EXPECT_FALSE(scene.needs.scattering);
+  EXPECT_THAT(scene.needs.left_out(),
+              ::testing::ElementsAre("no medium that scatters: media only absorb light"));
+  EXPECT_TRUE(scene.strongest_lights.empty());
+
+  scene.media[1].sigma_s = Rgb(0, 0, 1);
+  finalize_scene(scene);
+  EXPECT_TRUE(scene.needs.scattering);
   EXPECT_TRUE(scene.needs.left_out().empty());
+  EXPECT_THAT(scene.strongest_lights, ::testing::Each(::testing::Lt(scene.lights.size())));
 
   scene.shapes.pop_back();  // no shape uses the mirror material now
   scene.lights = {PointLight{}};

@@ -29,7 +29,7 @@ std::string refusal(const Scene& scene, const TraceSettings& settings, PhotonUse
 // The counts of two shoots of n photons each differ by less than 5 standard deviations sqrt(2 v), where v is
 // the variance of one: at most 16 times its mean for counts of 0 to 16 per photon.
 TEST(MemoryEstimate, MatchesWhatALargerShootStores) {
-  const Scene scene = test::full_room();
+  const Scene scene = test::foggy_room();
   const accel::Bvh bvh(scene);
   const TraceSettings settings = settings_for(2 * kEstimatePhotons, test::kAllKinds);
   const auto estimate = estimate_stored(scene, bvh, settings);

@@ -58,7 +58,7 @@ void sort_records(ShootResult& r) {
 
 // Blocks and groups change the order of the photons, but not the photons.
 TEST(Shoot, MatchesTheTracerPhotonByPhoton) {
-  const Scene scene = test::full_room();
+  const Scene scene = test::foggy_room();
   const accel::Bvh bvh(scene);
   const TraceSettings settings = settings_for(kPhotons, test::kAllKinds);
   ShootResult expected;
@@ -108,7 +108,7 @@ TEST(Shoot, FluxUnitIsThePowerOfTwoBelowTheMeanFlux) {
 }
 
 TEST(Shoot, ScalingByPowersOfTwoKeepsTheRecords) {
-  const Scene scene = test::full_room(), scaled = test::full_room(0x1p-12f);
+  const Scene scene = test::foggy_room(), scaled = test::foggy_room(0x1p-12f);
   const TraceSettings settings = settings_for(2000, test::kAllKinds);
   const ShootResult a = shoot(scene, accel::Bvh(scene), settings),
                     b = shoot(scaled, accel::Bvh(scaled), settings);

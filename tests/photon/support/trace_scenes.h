@@ -55,6 +55,20 @@ inline Scene full_room(float s = 1) {
   return scene;
 }
 
+// Fills the scene with a medium, which its lights shine in.
+inline void fill(Scene& scene, const Medium& medium) {
+  scene.media = {Medium{}, medium};
+  scene.light_media.assign(scene.lights.size(), 1);
+  finalize_scene(scene);
+}
+
+// The full room in a fog: every kind of photon of all.
+inline Scene foggy_room(float s = 1) {
+  Scene scene = full_room(s);
+  fill(scene, {Rgb(0.1f, 0.2f, 0) / s, Rgb(0.4f, 0.2f, 0.3f) / s, 0.3f});
+  return scene;
+}
+
 using Photons = std::array<std::vector<photon::Photon>, photon::kPhotonKinds>;
 
 struct Traced {
@@ -84,7 +98,7 @@ inline photon::TraceSettings settings_for(uint64_t photons, const photon::KindMa
   settings.kinds = kinds;
   return settings;
 }
-inline constexpr photon::KindMask kAllKinds{true, true, true, true};
+inline constexpr photon::KindMask kAllKinds{true, true, true, true, true, true};
 
 inline glm::dvec3 total_flux(const std::vector<photon::Photon>& photons) {
   glm::dvec3 sum(0);

@@ -67,14 +67,30 @@ TEST(EnergyLedger, BalancesToTheLastUnit) {
 // A room filled with a medium: what does not arrive at its walls was absorbed on the way, in whole units.
 TEST(EnergyLedger, MediaHaveAnEntry) {
   Scene scene = test::lit_room(Rgb(0), Rgb(1));
-  scene.media = {Medium{}, Medium{{0.5f, 1, 2}}};
-  scene.light_media.assign(scene.lights.size(), 1);
-  finalize_scene(scene);
+  test::fill(scene, Medium{{0.5f, 1, 2}});
   const EnergyLedger e = ledger_of(scene, settings_for(10'000, kAllKinds));
   EXPECT_EQ(e.unaccounted(), 0);
   EXPECT_GT(e.in_media, e.emitted / 4);
   EXPECT_GT(e.absorbed, e.emitted / 100);
   EXPECT_EQ(e.absorbed + e.in_media, e.emitted);
+}
+
+TEST(EnergyLedger, BalancesInMediaThatScatter) {
+  for (const float g : {0.0f, 0.9f}) {
+    Scene scene = open_room();
+    test::fill(scene, Medium{{0.1f, 0.5f, 0}, {0.7f, 0, 3}, g});
+    for (const int bounces : {1, 2, 16, 200}) {
+      TraceSettings settings = settings_for(10'000, kAllKinds);
+      settings.max_bounces = bounces;
+      const EnergyLedger e = ledger_of(scene, settings);
+      EXPECT_EQ(e.unaccounted(), 0);
+      EXPECT_EQ(e.invalid, 0);
+      EXPECT_NE(e.in_media, 0);
+      // Roulette neither gains nor loses on average: each photon takes part a few times, with its flux at
+      // most.
+      EXPECT_LT(std::abs(double(e.roulette)), 0.1 * double(e.emitted));
+    }
+  }
 }
 
 TEST(EnergyLedger, MatchesItsPhotonsOnAnyNumberOfThreads) {

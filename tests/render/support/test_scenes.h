@@ -33,11 +33,29 @@ inline Shape horizontal(const Point3& c, float half_x, float half_z, bool up, ui
   return up ? quad(a, b, d, e, material) : quad(a, e, d, b, material);
 }
 
-// Adds a medium that absorbs and returns its index.
-inline MediumIndex add_medium(Scene& scene, const Rgb& sigma_a) {
+// Adds a medium and returns its index.
+inline MediumIndex add_medium(Scene& scene, const Rgb& sigma_a, const Rgb& sigma_s = Rgb(0), float g = 0) {
   if (scene.media.empty()) scene.media.emplace_back();
-  scene.media.push_back({sigma_a});
+  scene.media.push_back({sigma_a, sigma_s, g});
   return static_cast<MediumIndex>(scene.media.size() - 1);
+}
+
+// Fills all space with a medium.
+inline void fill(Scene& scene, const Rgb& sigma_a, const Rgb& sigma_s = Rgb(0)) {
+  scene.camera_medium = add_medium(scene, sigma_a, sigma_s);
+  scene.light_media.assign(scene.lights.size(), scene.camera_medium);
+  for (Shape& shape : scene.shapes) shape.media = {scene.camera_medium, scene.camera_medium};
+  finalize_scene(scene);
+}
+
+// Adds a surface that rays pass and that separates media.
+inline void add_interface(Scene& scene, Shape shape, const MediumInterface& media) {
+  auto interfaces = std::make_shared<Scene>();
+  if (scene.interfaces) interfaces->shapes = scene.interfaces->shapes;
+  shape.media = media;
+  interfaces->shapes.push_back(std::move(shape));
+  for (const Shape& s : interfaces->shapes) interfaces->bounds.add(bounds_of(s));
+  scene.interfaces = std::move(interfaces);
 }
 
 // Puts the camera at eye, looking towards target; +x of the image is to the right of a viewer in a
@@ -82,11 +100,12 @@ inline Scene cornell(int size, float scale = 1) {
   return scene;
 }
 
-// The box with a sphere of coloured glass, filled by a thin medium.
+// The box with a sphere of coloured glass, filled by a thin fog.
 inline Scene coloured_cornell(int size, float scale = 1) {
   Scene scene = cornell(size, scale);
   const MediumIndex green = add_medium(scene, Rgb(2, 0.25f, 1) / scale);
-  const MediumIndex air = add_medium(scene, Rgb(0.1f, 0.1f, 0.2f) / scale);
+  const MediumIndex air =
+      add_medium(scene, Rgb(0.1f, 0.1f, 0.2f) / scale, Rgb(0.2f, 0.1f, 0.15f) / scale, 0.3f);
   scene.camera_medium = air;
   scene.light_media.assign(scene.lights.size(), air);
   for (Shape& shape : scene.shapes) {

@@ -12,14 +12,6 @@ using namespace test;
 
 const Rgb kSigma(0.125f, 0.5f, 2);
 
-// Fills all space.
-void fill(Scene& scene, const Rgb& sigma_a) {
-  scene.camera_medium = add_medium(scene, sigma_a);
-  scene.light_media.assign(scene.lights.size(), scene.camera_medium);
-  for (Shape& shape : scene.shapes) shape.media = {scene.camera_medium, scene.camera_medium};
-  finalize_scene(scene);
-}
-
 RenderSettings quick(Method method) {
   RenderSettings settings;
   settings.method = method;
@@ -71,6 +63,46 @@ TEST_P(PlaneInMedium, LightIsAbsorbedOnBothWays) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, PlaneInMedium,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
+
+// A slab of the medium between light and plane whose surfaces are not there: they block no light, and take
+// what the medium absorbs on both ways.
+class SlabBehindInterfaces : public ::testing::TestWithParam<Method> {};
+
+TEST_P(SlabBehindInterfaces, TakesItsShareOfDirectLight) {
+  Scene scene;
+  add_shape(scene, horizontal({0, 0, 0}, 4, 4, true, add_material(scene, Lambertian{Rgb(0.5f)})));
+  scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(3)});
+  const Point3 eye(2, 3, 1.5f), seen(0.5f, 0, 0.25f);
+  look_at(scene, eye, seen, {0, 1, 0}, 0.001f, 4, 4);
+  const MediumIndex inside = add_medium(scene, kSigma);
+  add_interface(scene, horizontal({0, 0.7f, 0}, 5, 5, true, 0), {inside, kVacuum});
+  add_interface(scene, horizontal({0, 0.3f, 0}, 5, 5, false, 0), {inside, kVacuum});
+  finalize_scene(scene);
+  const auto result = render_with_threads(scene, quick(GetParam()));
+  const double rho2 = 0.5 * 0.5 + 0.25 * 0.25, to_eye = double(glm::distance(eye, seen)) / 3;
+  const double clear = 0.5 * PointLightOverPlane{3, 1}.irradiance(rho2) / double(kPi);
+  for (int c = 0; c < 3; ++c) {
+    const double depth = double(kSigma[c]) * 0.4 * (std::sqrt(1 + rho2) + to_eye);
+    const double expected = clear * std::exp(-depth);
+    EXPECT_NEAR(double(result.film.at(1, 2).direct[c]), expected, expected * 1e-4 * (3 + depth)) << c;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Methods, SlabBehindInterfaces,
+                         ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
+
+// The box with a ball of smoke, bounded by nothing that light meets.
+TEST(MediaAgreement, SmokeAgreesWithPaths) {
+  Scene scene = cornell(kSize);
+  add_interface(scene, sphere({0, 1.2f, 0.1f}, 0.4f, 0),
+                {add_medium(scene, Rgb(0.5f, 0.2f, 0.1f), Rgb(2, 3, 4), -0.3f), kVacuum});
+  finalize_scene(scene);
+  const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
+  for (const Method method : {Method::kPhoton, Method::kAuto}) {
+    const Comparison c(scene, by_paths, method, 0.1f);
+    for (const Layer layer : {Layer::kDirect, Layer::kIndirect}) c.expect_agreement_everywhere(layer);
+    c.write_pictures("smoke_" + std::to_string(int(method)));
+  }
+}
 
 TEST(MediaAgreement, EachClassAgreesWithPaths) {
   const Scene scene = coloured_cornell(kSize);

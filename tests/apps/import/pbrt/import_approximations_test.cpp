@@ -91,14 +91,6 @@ TEST_F(ImportApproximations, MotionIsTakenAtTheShuttersOpening) {
   EXPECT_EQ(std::get<Sphere>(s.shapes[0].geometry).to_world.point({0, 0, 0}), Point3(1, 0, 2));
 }
 
-// Inside of nothing, a medium cannot be seen yet.
-TEST_F(ImportApproximations, MediaInsideInterfacesAreLeftOut) {
-  const Scene s = world(R"(MakeNamedMedium "smoke" "string type" "homogeneous" "rgb sigma_s" [ 0 0 0 ]
-    MediumInterface "smoke" "" Material "interface" Shape "sphere" Shape "disk")");
-  EXPECT_TRUE(s.shapes.empty());
-  EXPECT_EQ(diagnostics_.warning_count(), 1u);
-}
-
 // A sky has directions only, so a scale or translation in its matrix has no effect.
 TEST_F(ImportApproximations, SkiesKeepOnlyTheRotation) {
   const Scene s = world(R"(Transform [ 0 1 0 3 -1 0 0 0 0 0 1 8.87 5 5 5 1 ] LightSource "infinite"

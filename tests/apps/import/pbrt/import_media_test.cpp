@@ -65,7 +65,46 @@ TEST_F(ImportMedia, TheirNumberIsLimited) {
 
 TEST_F(ImportMedia, CoefficientsAreFinite) {
   EXPECT_EQ(first_lines(medium("m", "\"rgb sigma_a\" [ 1e30 1 1 ] \"float scale\" 1e30")),
-            "2:114: error: `scale` takes `sigma_a` beyond the range of floats\n");
+            "2:114: error: `scale` takes coefficients beyond the range of floats\n");
+}
+
+TEST_F(ImportMedia, TheyScatter) {
+  const Scene s = world(
+      R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 1 0 0 ] "rgb sigma_s" [ 1 2 3 ]
+      "float scale" 0.5 "float g" -0.25
+      MakeNamedMedium "ray" "string type" "homogeneous" "float g" 1
+      MediumInterface "fog" "ray" Shape "sphere")");
+  ASSERT_EQ(s.media.size(), 3u);
+  EXPECT_EQ(s.media[1].sigma_s, Rgb(0.5f, 1, 1.5f));
+  EXPECT_EQ(s.media[1].sigma_a, Rgb(0.5f, 0, 0));
+  EXPECT_EQ(s.media[1].g, -0.25f);
+  EXPECT_LT(s.media[2].g, 1) << "a phase function of no width has no value";
+  EXPECT_TRUE(s.needs.scattering);
+}
+
+// Coke by Narasimhan et al. 2006, in 1/mm for a scene in metres.
+TEST_F(ImportMedia, PresetsAreMeasuredMedia) {
+  const Scene s = world(R"(MakeNamedMedium "drink" "string type" "homogeneous" "string preset" "Coke"
+      "float scale" 1000 MediumInterface "drink" "" Shape "sphere")");
+  ASSERT_EQ(s.media.size(), 2u);
+  EXPECT_NEAR(s.media[1].sigma_a.x, 100.14f, 1e-3f);
+  EXPECT_NEAR(s.media[1].sigma_s.y, 0.08372f, 1e-6f);
+  EXPECT_EQ(first_lines(R"(MakeNamedMedium "d" "string type" "homogeneous" "string preset" "Cok")"),
+            "2:65: error: there is no measured medium `Cok`; did you mean `Coke`?\n");
+}
+
+// Surfaces that only separate media are not among those that rays meet.
+TEST_F(ImportMedia, InterfacesBoundMedia) {
+  const Scene s = world(medium("smoke", "\"rgb sigma_a\" [ 1 1 1 ]") + R"(MediumInterface "smoke" ""
+      Material "interface" Shape "sphere" AreaLightSource "diffuse" Shape "sphere"
+      MediumInterface "smoke" "smoke" Shape "disk")");
+  EXPECT_TRUE(s.shapes.empty());
+  EXPECT_TRUE(s.lights.empty());
+  ASSERT_TRUE(s.interfaces);
+  ASSERT_EQ(s.interfaces->shapes.size(), 2u);
+  EXPECT_EQ(s.interfaces->shapes[0].media.inside, 1);
+  EXPECT_FALSE(s.bounds.empty());
+  EXPECT_TRUE(s.needs.media);
 }
 
 TEST_F(ImportMedia, DefaultsAreThoseOfAttribute) {

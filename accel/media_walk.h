@@ -1,0 +1,55 @@
+#pragma once
+// The media along a ray. Surfaces that only separate media, those of material "interface", are not there for
+// rays (Scene::interfaces); here they are found.
+
+#include "accel/bvh.h"
+#include "core/scene/media.h"
+
+namespace kaustik::accel {
+
+// Accelerators of tests need not know interfaces.
+template <class Accel>
+const Bvh* interfaces_of(const Accel& accel) {
+  if constexpr (requires { accel.interfaces(); }) return accel.interfaces();
+  return nullptr;
+}
+
+// A ray passes at most this many interfaces, far more than a real scene has in a row.
+inline constexpr int kMostInterfaces = 1 << 12;
+
+// Calls part(medium, begin, end) for one part of the ray after the other, in metres from its start to
+// `distance`, which may be infinite. Each lies in one medium. Stops where it returns false. ray: of unit
+// direction; medium: where it starts. Returns the medium in which it ends.
+template <class Fn>
+MediumIndex walk_media(const Bvh* interfaces, const Ray& ray, float distance, MediumIndex medium,
+                       const Fn& part) {
+  float begin = 0;
+  if (interfaces) {
+    Ray rest{ray.o, ray.d, distance};
+    for (int i = 0; i < kMostInterfaces; ++i) {
+      const Hit hit = interfaces->intersect(rest);
+      if (!hit.valid()) break;
+      const SurfaceInteraction si = make_interaction(interfaces->scene().shapes, rest, hit);
+      const float end = std::min(begin + hit.t, distance);
+      if (!part(medium, begin, end)) return medium;
+      const MediumInterface& media = interfaces->scene().shapes[si.shape].media;
+      medium = glm::dot(ray.d, si.n) > 0 ? media.outside : media.inside;
+      begin = end;
+      rest = si.spawn(ray.d, distance - begin);
+    }
+  }
+  part(medium, begin, distance);
+  return medium;
+}
+
+// The share of light that gets from the ray's start to `distance`. medium: in, out: where it starts and ends.
+inline Rgb transmittance(const Bvh& bvh, const Ray& ray, float distance, MediumIndex* medium) {
+  Rgb left(1);
+  *medium = walk_media(bvh.interfaces(), ray, distance, *medium, [&](MediumIndex m, float begin, float end) {
+    left *= kaustik::transmittance(bvh.scene(), m, end - begin);
+    return true;
+  });
+  return left;
+}
+
+}  // namespace kaustik::accel

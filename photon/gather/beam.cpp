@@ -1,0 +1,249 @@
+// The search along a ray, compiled once per instruction set (Google Highway) and chosen at run time.
+
+#include "photon/gather/beam.h"
+
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "photon/gather/beam.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "hwy/contrib/math/math-inl.h"
+#include "photon/gather/flux_sum-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace kaustik::photon::HWY_NAMESPACE {
+
+// One axis of the ray, prepared for boxes that are widened by the radius.
+struct BeamAxis {
+  float origin, direction, inverse;
+  float before_near, behind_far;  // added to the sides of a box that the ray enters and leaves by
+  bool backwards;
+
+  BeamAxis(float o, float d, float radius) : origin(o), direction(d) {
+    // An axis along which the ray does not move decides all the same, with places that are very far.
+    constexpr float kHardlyMoves = 1e-20f;
+    inverse = 1 / (std::abs(d) < kHardlyMoves ? std::copysign(kHardlyMoves, d) : d);
+    backwards = std::signbit(d);
+    before_near = backwards ? radius : -radius;
+    behind_far = -before_near;
+  }
+  const float* near(const BoxNode& node, int axis) const { return backwards ? node.hi[axis] : node.lo[axis]; }
+  const float* far(const BoxNode& node, int axis) const { return backwards ? node.lo[axis] : node.hi[axis]; }
+};
+
+struct LaneBeam {
+  BeamAxis axes[3];
+  float distance, radius_squared;
+  uint32_t medium;
+
+  explicit LaneBeam(const BeamQuery& q)
+      : axes{{q.ray.o.x, q.ray.d.x, q.radius},
+             {q.ray.o.y, q.ray.d.y, q.radius},
+             {q.ray.o.z, q.ray.d.z, q.radius}},
+        distance(q.distance),
+        radius_squared(q.radius >= 0 ? q.radius * q.radius : -1.0f),
+        medium(q.medium & 0xffff) {}
+};
+
+// Mask of the boxes from b on that the beam meets. The sides of empty boxes are the wrong way round, so that
+// none meets them.
+HWY_INLINE Mask Meets(const LaneBeam& beam, const BoxNode& node, uint32_t b) {
+  const Floats d;
+  Vf enter = hn::Zero(d), leave = hn::Set(d, beam.distance);
+  for (int a = 0; a < 3; ++a) {
+    const BeamAxis& axis = beam.axes[a];
+    const auto at = [&](const float* side, float widened) HWY_ATTR {
+      const Vf place = hn::Add(hn::Sub(hn::Load(d, side + b), hn::Set(d, axis.origin)), hn::Set(d, widened));
+      return hn::Mul(place, hn::Set(d, axis.inverse));
+    };
+    enter = hn::Max(enter, at(axis.near(node, a), axis.before_near));
+    leave = hn::Min(leave, at(axis.far(node, a), axis.behind_far));
+  }
+  return hn::Le(enter, leave);
+}
+
+// Where the photons from i on are abreast of the ray, how far from it, and which of them count.
+struct BesideBeam {
+  Vf t, squared;
+  Mask counts;
+
+  HWY_INLINE BesideBeam(const LaneBeam& beam, const PhotonColumns& c, uint32_t i) {
+    const Floats d;
+    const Words u;
+    const float* const columns[] = {c.x, c.y, c.z};
+    Vf from[3];
+    t = hn::Zero(d);
+    for (int a = 0; a < 3; ++a) {
+      from[a] = hn::Sub(hn::LoadU(d, columns[a] + i), hn::Set(d, beam.axes[a].origin));
+      t = hn::Add(t, hn::Mul(from[a], hn::Set(d, beam.axes[a].direction)));
+    }
+    // From the vector across the ray, since the difference of two squares would cancel far from its start.
+    squared = hn::Zero(d);
+    for (int a = 0; a < 3; ++a) {
+      const Vf across = hn::Sub(from[a], hn::Mul(t, hn::Set(d, beam.axes[a].direction)));
+      squared = hn::Add(squared, hn::Mul(across, across));
+    }
+    const Mask abreast = hn::And(hn::Ge(t, hn::Zero(d)), hn::Le(t, hn::Set(d, beam.distance)));
+    const auto medium = hn::Eq(hn::ShiftRight<16>(hn::LoadU(u, c.surface + i)), hn::Set(u, beam.medium));
+    const Mask near = hn::Le(squared, hn::Set(d, beam.radius_squared));
+    counts = hn::And(hn::And(abreast, near), hn::RebindMask(d, medium));
+  }
+};
+
+// Visits the blocks below one node of a level.
+template <class Fn>
+void VisitAlong(const BoxTree& tree, const LaneBeam& beam, int level, uint32_t node, const Fn& visit) {
+  const Floats d;
+  uint32_t below[2 * BoxNode::kBoxes];
+  size_t found = 0;
+  for (uint32_t b = 0; b < BoxNode::kBoxes; b += uint32_t(hn::Lanes(d))) {
+    const Mask meets = Meets(beam, tree.level(level)[node], b);
+    found += StoreLanes(Words(), Numbers(node * BoxNode::kBoxes + b), meets, below + found);
+  }
+  for (size_t i = 0; i < found; ++i) {
+    if (level > 0)
+      VisitAlong(tree, beam, level - 1, below[i], visit);
+    else
+      visit(below[i] * BoxTree::kBlockPhotons);
+  }
+}
+
+// Calls visit(first photon of a block) for the blocks that the beam meets, in ascending order.
+template <class Fn>
+void VisitAlong(const PhotonMap& map, const LaneBeam& beam, const Fn& visit) {
+  VisitAlong(map.boxes(), beam, map.boxes().levels() - 1, 0, visit);
+}
+
+void SelectAlong(const PhotonMap& map, const BeamQuery& query, GatherCounters& counters, TakeBeamPhotons take,
+                 void* to) {
+  const Floats d;
+  const LaneBeam beam(query);
+  VisitAlong(map, beam, [&](uint32_t block) HWY_ATTR {
+    uint32_t index[2 * BoxTree::kBlockPhotons];
+    float t[2 * BoxTree::kBlockPhotons], squared[2 * BoxTree::kBlockPhotons];
+    size_t size = 0;
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(d))) {
+      const BesideBeam photons(beam, map.columns(), block + j);
+      StoreLanes(d, photons.t, photons.counts, t + size);
+      StoreLanes(d, photons.squared, photons.counts, squared + size);
+      size += StoreLanes(Words(), Numbers(block + j), photons.counts, index + size);
+    }
+    counters.candidates += BoxTree::kBlockPhotons;
+    counters.accepted += size;
+    if (size > 0) take(to, {index, t, squared, size});
+  });
+}
+
+uint64_t CountAlong(const PhotonMap& map, const BeamQuery& query) {
+  const LaneBeam beam(query);
+  uint64_t count = 0;
+  VisitAlong(map, beam, [&](uint32_t block) HWY_ATTR {
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(Floats())))
+      count += hn::CountTrue(Floats(), BesideBeam(beam, map.columns(), block + j).counts);
+  });
+  return count;
+}
+
+// Cosines between the directions of the photons from i on, towards where they came from, and the ray: those
+// of unpack_direction().
+HWY_INLINE Vf Cosines(const LaneBeam& beam, const PhotonColumns& c, uint32_t i) {
+  const Floats d;
+  const Words u;
+  const hn::RebindToSigned<Floats> s;
+  const Vu bits = hn::LoadU(u, c.direction + i);
+  const auto coordinate = [&](Vu part) HWY_ATTR {
+    return hn::ConvertTo(d, hn::Sub(hn::BitCast(s, hn::And(part, hn::Set(u, 0xffffu))), hn::Set(s, 0x7fff)));
+  };
+  Vf x = coordinate(bits), y = coordinate(hn::ShiftRight<16>(bits));
+  const Vf z = hn::Sub(hn::Sub(hn::Set(d, 32767.0f), hn::Abs(x)), hn::Abs(y));
+  const Vf fold = hn::Max(hn::Neg(z), hn::Zero(d));
+  x = hn::Sub(x, hn::CopySign(fold, x));
+  y = hn::Sub(y, hn::CopySign(fold, y));
+  const Vf dot = hn::MulAdd(
+      x, hn::Set(d, beam.axes[0].direction),
+      hn::MulAdd(y, hn::Set(d, beam.axes[1].direction), hn::Mul(z, hn::Set(d, beam.axes[2].direction))));
+  return hn::Div(dot, hn::Sqrt(LengthSquared(x, y, z)));
+}
+
+// phase() without its constant factor: the light goes on against the ray.
+HWY_INLINE Vf Phase(const LaneBeam& beam, const PhotonColumns& c, uint32_t i, float g) {
+  const Floats d;
+  const float a = std::abs(g);
+  const Vf cosine = Cosines(beam, c, i), one = hn::Set(d, 1.0f);
+  const Vf from_lobe = g < 0 ? hn::Add(one, cosine) : hn::Sub(one, cosine);
+  const Vf s = hn::MulAdd(hn::Set(d, 2 * a), from_lobe, hn::Set(d, (1 - a) * (1 - a)));
+  return hn::Div(one, hn::Mul(s, hn::Sqrt(s)));
+}
+
+glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Medium& medium, KernelType kernel,
+                       float slope, GatherCounters& counters) {
+  const LaneBeam beam(query);
+  const PhotonColumns& c = map.columns();
+  const Rgb sigma_t = medium.sigma_t();
+  const bool grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
+  glm::dvec3 sum(0);
+  with_kernel(kernel, [&]<KernelType kType>() HWY_ATTR {
+    VisitAlong(map, beam, [&](uint32_t block) HWY_ATTR {
+      const Floats d;
+      Vf of_block[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+      uint64_t accepted = 0;
+      for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(d))) {
+        const BesideBeam photons(beam, c, block + j);
+        if (hn::AllFalse(d, photons.counts)) continue;
+        accepted += hn::CountTrue(d, photons.counts);
+        const Rgb9e5Power power(c, block + j);
+        Vf weight = hn::Mul(Weight<kType>(photons.squared, hn::Set(d, slope)), power.scale);
+        if (medium.g != 0) weight = hn::Mul(weight, Phase(beam, c, block + j, medium.g));
+        weight = hn::IfThenElseZero(photons.counts, weight);
+        const Vf t = hn::IfThenElseZero(photons.counts, photons.t);
+        Vf left = hn::Zero(d);
+        for (int k = 0; k < 3; ++k) {
+          if (k == 0 || !grey) left = hn::Exp(d, hn::Mul(hn::Set(d, -sigma_t[k]), t));
+          of_block[k] = hn::MulAdd(hn::Mul(weight, left), power.component[k], of_block[k]);
+        }
+      }
+      counters.candidates += BoxTree::kBlockPhotons;
+      counters.accepted += accepted;
+      if (accepted == 0) return;
+      for (int k = 0; k < 3; ++k)
+        sum[k] += double(hn::GetLane(hn::SumOfLanes(d, of_block[k])) * Rgb9e5Power::kUnit[k]);
+    });
+  });
+  return sum;
+}
+
+}  // namespace kaustik::photon::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace kaustik::photon {
+
+HWY_EXPORT(SelectAlong);
+HWY_EXPORT(CountAlong);
+HWY_EXPORT(GatherAlong);
+
+void select_along(const PhotonMap& map, const BeamQuery& query, GatherCounters& counters,
+                  TakeBeamPhotons take, void* to) {
+  ++counters.queries;
+  if (!map.empty()) HWY_DYNAMIC_DISPATCH(SelectAlong)(map, query, counters, take, to);
+}
+
+uint64_t count_along(const PhotonMap& map, const BeamQuery& query) {
+  return map.empty() ? 0 : HWY_DYNAMIC_DISPATCH(CountAlong)(map, query);
+}
+
+Rgb gather_along(const PhotonMap& map, const BeamQuery& query, const Medium& medium, const KernelSpec& kernel,
+                 GatherCounters& counters) {
+  ++counters.queries;
+  const KernelTerms terms = kernel_terms(kernel, query.radius);
+  if (map.empty() || !(terms.scale > 0)) return Rgb(0);
+  const glm::dvec3 sum =
+      HWY_DYNAMIC_DISPATCH(GatherAlong)(map, query, medium, kernel.type, terms.slope, counters);
+  const double of_phase = double(0.25f * kInvPi * (1 - medium.g * medium.g));
+  return Rgb(sum * (of_phase * double(terms.scale) * double(map.flux_unit())));
+}
+
+}  // namespace kaustik::photon
+#endif

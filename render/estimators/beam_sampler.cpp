@@ -1,0 +1,67 @@
+#include "render/estimators/beam_sampler.h"
+
+#include <algorithm>
+
+namespace kaustik::render {
+
+BeamSampler::BeamSampler(const Scene& scene, const Medium& medium, const Ray& ray, float distance,
+                         const Rgb& light)
+    : extinction_(medium, light, distance), distance_(distance) {
+  for (const uint32_t i : scene.strongest_lights)
+    if (const auto bounds = bounds_of(scene.lights[i])) add(*bounds, ray);
+}
+
+void BeamSampler::add(const LightBounds& light, const Ray& ray) {
+  const Vector3 to_light = light.box.center() - ray.o;
+  Near near{};
+  near.along = glm::dot(to_light, ray.d);
+  // Within a light's own extent, its distance varies little.
+  const float radius2 = 0.25f * length_squared(light.box.diagonal());
+  const float beside2 = length_squared(to_light - near.along * ray.d) + radius2;
+  // A ray right through a point light: any distance that is small.
+  near.beside = std::sqrt(std::max(beside2, 1e-12f * length_squared(to_light)));
+  if (!(near.beside > 0)) return;
+  near.begin = std::atan(-near.along / near.beside);
+  near.end = std::atan((distance_ - near.along) / near.beside);
+  near.power = light.phi * (near.end - near.begin) / near.beside;
+  if (!(near.power > 0) || !(near.power < kInfinity)) return;
+  power_ += near.power;
+  near_[lights_++] = near;
+}
+
+BeamSampler::Sample BeamSampler::sample(const Point2& u) const {
+  if (!(opacity() > 0)) return {};
+  const bool by_light = lights_ > 0 && u.x < 0.5f;
+  const float v = lights_ == 0 ? u.x : std::min(by_light ? 2 * u.x : 2 * u.x - 1, kOneMinusEpsilon);
+  const float t = by_light ? sample_lights({v, u.y}) : extinction_.sample({v, u.y});
+  if (!(t >= 0) || !(t <= distance_) || !(t < kInfinity)) return {};
+  const float density = pdf(t);
+  return {t, density > 0 ? extinction_.scattered(t) / density : Rgb(0)};
+}
+
+float BeamSampler::sample_lights(const Point2& u) const {
+  size_t k = 0;
+  float v = u.x * power_;
+  for (; k + 1 < lights_ && v >= near_[k].power; ++k) v -= near_[k].power;
+  const Near& near = near_[k];
+  return near.along + near.beside * std::tan(near.begin + u.y * (near.end - near.begin));
+}
+
+float BeamSampler::pdf(float t) const {
+  if (lights_ == 0) return extinction_.pdf(t);
+  return 0.5f * (extinction_.pdf(t) + pdf_lights(t));
+}
+
+// Lights are chosen in proportion to power times the integral of 1/r^2, so that the mixture's density is the
+// sum of power / r^2.
+float BeamSampler::pdf_lights(float t) const {
+  float sum = 0;
+  for (size_t k = 0; k < lights_; ++k) {
+    const Near& near = near_[k];
+    const float from = t - near.along, r2 = near.beside * near.beside + from * from;
+    sum += near.power * near.beside / ((near.end - near.begin) * r2);
+  }
+  return sum / power_;
+}
+
+}  // namespace kaustik::render

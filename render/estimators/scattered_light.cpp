@@ -1,0 +1,64 @@
+#include "render/estimators/scattered_light.h"
+
+#include "photon/estimate/beam_estimate.h"
+#include "render/estimators/beam_sampler.h"
+
+namespace kaustik::render {
+
+namespace {
+
+// How far paths that start in media are followed.
+PathReach reach_of(const RenderContext& ctx, const MediumPoint& m) {
+  const EstimatorPlan& plan = ctx.plan;
+  if (plan.media_by_photons)
+    return ctx.scene.light_sampler.any_near(m.receiver()) ? PathReach::kLights : PathReach::kNone;
+  if (plan.indirect != IndirectEstimator::kOff) return PathReach::kRoulette;
+  return plan.caustics != CausticEstimator::kOff ? PathReach::kSpecular : PathReach::kNone;
+}
+
+// Media that scatter less of the ray's light than this are sampled less often.
+constexpr float kDim = 0.02f;
+
+// One sample of what arrives at a point of the ray, over its density.
+PathLight sampled(const RenderContext& ctx, const Beam& beam, const Rgb& beta, Sampler& sampler,
+                  TileCounters& counters) {
+  const Medium& medium = ctx.scene.media[beam.medium];
+  const BeamSampler points(ctx.scene, medium, beam.ray, beam.distance, beta);
+  const Point2 u = sampler.next_2d();
+  const float q = std::min(points.opacity() * max_component(beta) / kDim, 1.0f);
+  if (!(sampler.next_1d() < q)) return {};
+  const BeamSampler::Sample at = points.sample(u);
+  if (is_black(at.weight)) return {};
+  const MediumPoint m{beam.ray.at(at.t), -beam.ray.d, medium.g, beam.medium};
+  const PathReach reach = reach_of(ctx, m);
+  const LightWeight weight = reach == PathReach::kNone ? LightWeight::kAlone : LightWeight::kMis;
+  PathLight light;
+  light.direct = sample_direct(ctx, m, weight, sampler, counters);
+  if (reach != PathReach::kNone) {
+    const PathLight path = trace_path(ctx, m, reach, sampler, counters);
+    light.direct += path.direct, light.caustic = path.caustic, light.indirect = path.indirect;
+  }
+  const Rgb factor = at.weight / q;
+  return {factor * light.direct, factor * light.caustic, factor * light.indirect};
+}
+
+Rgb gathered(const RenderContext& ctx, const Beam& beam, const GatherMap& gather, TileCounters& counters) {
+  const photon::BeamQuery query{beam.ray, beam.distance, gather.estimate.radius, beam.medium};
+  return photon::estimate_beam(gather.map, query, ctx.scene.media[beam.medium], gather.estimate.kernel,
+                               gather.estimate.nearest, counters.gather);
+}
+
+}  // namespace
+
+PathLight scattered_light(const RenderContext& ctx, const Beam& beam, const Rgb& beta, SampleLight light,
+                          Sampler& sampler, TileCounters& counters) {
+  if (!ctx.scene.media[beam.medium].scatters()) return {};
+  PathLight sum = sampled(ctx, beam, beta, sampler, counters);
+  if (ctx.plan.media_by_photons && light == SampleLight::kAll) {
+    sum.caustic += gathered(ctx, beam, ctx.maps.medium_caustic, counters);
+    sum.indirect += gathered(ctx, beam, ctx.maps.medium_indirect, counters);
+  }
+  return sum;
+}
+
+}  // namespace kaustik::render

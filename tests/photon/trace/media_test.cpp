@@ -1,0 +1,95 @@
+// Tests photons in media that scatter.
+
+#include <gtest/gtest.h>
+
+#include "photon/shoot/shoot.h"
+#include "tests/photon/support/trace_scenes.h"
+#include "tests/support/packed_flux.h"
+#include "tests/support/statistics.h"
+
+namespace kaustik::photon {
+namespace {
+
+using namespace test;
+
+constexpr double kErrors = 5;  // standard errors
+
+double total_flux(const PhotonBuffer& buffer, int c) {
+  double sum = 0;
+  for (const PhotonRecord& record : buffer.records) sum += double(unpack(record, buffer.flux_unit).flux[c]);
+  return sum;
+}
+
+// A lamp in a medium without end. Of its power, the n-th scattering leaves albedo^n; the first leaves no
+// photon.
+TEST(PhotonsInMedia, LeaveAGeometricSeries) {
+  Scene scene;
+  scene.materials = {Lambertian{Rgb(0)}};
+  scene.shapes = {sphere({1e4f, 0, 0}, 1, 0)};  // the scene must not be empty
+  scene.lights = {PointLight{{0, 0, 0}, Rgb(1, 2, 3)}};
+  const Medium medium{{1, 0.5f, 0.25f}, {1, 1.5f, 0.75f}, 0.4f};
+  fill(scene, medium);
+  std::vector<double> found[3];
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    TraceSettings settings = settings_for(20'000, kAllKinds);
+    settings.seed = seed;
+    settings.max_bounces = 12;
+    const ShootResult shot = shoot(scene, accel::Bvh(scene), settings);
+    EXPECT_EQ(shot.counters.energy.unaccounted(), 0);
+    for (int c = 0; c < 3; ++c)
+      found[c].push_back(total_flux(shot.buffers[size_t(PhotonKind::kMediumIndirect)], c));
+    EXPECT_TRUE(shot.buffers[size_t(PhotonKind::kMediumCaustic)].records.empty());
+  }
+  for (int c = 0; c < 3; ++c) {
+    const double albedo = double(medium.sigma_s[c] / medium.sigma_t()[c]);
+    double expected = 0;
+    for (int n = 2; n <= 12; ++n) expected += 4 * double(kPi) * (c + 1) * std::pow(albedo, n);
+    const Estimate e = estimate_of(found[c]);
+    EXPECT_NEAR(e.mean, expected, kErrors * e.standard_error + 6 * kPackedFluxError * expected) << c;
+    EXPECT_LT(e.standard_error, 0.02 * expected);
+  }
+}
+
+// A caustic in a thin medium leaves a photon on each of its segments, wherever the photon itself is
+// scattered.
+TEST(PhotonsInMedia, CausticsLeaveOneOnEachSegment) {
+  Scene scene = full_room();
+  for (Shape& shape : scene.shapes)
+    shape.media = {kVacuum, std::holds_alternative<Dielectric>(scene.materials[shape.material].typical())
+                                ? MediumIndex(1)
+                                : kVacuum};
+  fill(scene, {Rgb(0.01f), Rgb(0.02f)});
+  scene.camera_medium = 1;
+  KindMask caustics;
+  caustics.caustic = caustics.medium_caustic = true;
+  const ShootResult shot = shoot(scene, accel::Bvh(scene), settings_for(20'000, caustics));
+  const auto stored = shot.counters.stored;
+  EXPECT_GE(stored[size_t(PhotonKind::kMediumCaustic)], stored[size_t(PhotonKind::kCaustic)]);
+  EXPECT_GT(stored[size_t(PhotonKind::kCaustic)], 500u);
+  // In a medium so thin, the flux that a segment leaves is that of the photon times sigma_s times its length,
+  // of a room 2 m wide.
+  const PhotonBuffer &in_medium = shot.buffers[size_t(PhotonKind::kMediumCaustic)],
+                     &on_walls = shot.buffers[size_t(PhotonKind::kCaustic)];
+  const double ratio = total_flux(in_medium, 0) / total_flux(on_walls, 0);
+  EXPECT_GT(ratio, 0.02 * 0.5);
+  EXPECT_LT(ratio, 0.02 * 4);
+}
+
+// What is stored in the medium names it, and lies in it.
+TEST(PhotonsInMedia, KnowTheirMedium) {
+  Scene scene = full_room();
+  fill(scene, {Rgb(0.2f), Rgb(0.5f)});
+  const ShootResult shot = shoot(scene, accel::Bvh(scene), settings_for(5'000, kAllKinds));
+  for (const PhotonKind kind : {PhotonKind::kMediumCaustic, PhotonKind::kMediumIndirect}) {
+    const PhotonBuffer& buffer = shot.buffers[size_t(kind)];
+    EXPECT_GT(buffer.records.size(), 100u);
+    for (const PhotonRecord& record : buffer.records) {
+      const Photon photon = unpack(record, buffer.flux_unit);
+      EXPECT_EQ(photon.surface_group, 1u);
+      EXPECT_LE(max_abs_component(photon.p), 1.0001f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kaustik::photon

@@ -1,0 +1,167 @@
+// Tests media that scatter against closed forms: single scattering, the furnace, and the half space.
+
+#include <gtest/gtest.h>
+
+#include "core/medium/phase_function.h"
+#include "tests/render/support/class_agreement.h"
+
+namespace kaustik::render {
+namespace {
+
+using namespace test;
+
+constexpr int kTests = 8;  // pixels along each side of small pictures, all of the same expected value
+
+using Layers = std::vector<Rgb PixelResult::*>;
+const Layers kAllLayers = {&PixelResult::emitted, &PixelResult::direct, &PixelResult::caustic,
+                           &PixelResult::indirect};
+
+// Mean over the pixels of the sum of some layers, and its standard error from renders of different seeds,
+// since the pixels of one share photons.
+Estimate mean_of(const std::vector<Film>& renders, const Layers& layers, int c) {
+  std::vector<double> means;
+  for (const Film& film : renders) {
+    double sum = 0;
+    for (int y = 0; y < film.height(); ++y)
+      for (int x = 0; x < film.width(); ++x)
+        for (const auto layer : layers) sum += double((film.at(x, y).*layer)[c]);
+    means.push_back(sum / (film.width() * film.height()));
+  }
+  return estimate_of(means);
+}
+
+RenderSettings settings_for(Method method, int spp, uint64_t photons = 100'000) {
+  RenderSettings settings;
+  settings.method = method;
+  settings.spp = spp;
+  settings.adaptive = 0;
+  settings.photons = photons;
+  return settings;
+}
+
+// Single scattering of a point light beside the view, in a medium without end but for a black wall at z = -4:
+//   L = I int_0^8 exp(-sigma_t (t + r)) sigma_s p(angle) / r^2 dt.
+class SingleScattering : public ::testing::TestWithParam<Method> {};
+
+TEST_P(SingleScattering, OfAPointLightIsAnIntegral) {
+  const Medium medium{{0.1f, 0.2f, 0}, {0.2f, 0.4f, 0.1f}, 0.5f};
+  const glm::dvec3 lamp(0.7, 0.2, 1);
+  Scene scene;
+  add_shape(scene, quad({-9, -9, -4}, {9, -9, -4}, {9, 9, -4}, {-9, 9, -4},
+                        add_material(scene, Lambertian{Rgb(0)})));
+  scene.lights.push_back(PointLight{Point3(lamp), Rgb(2)});
+  look_at(scene, {0, 0, 4}, {0, 0, -4}, {0, 1, 0}, 0.01f, kTests, kTests);
+  scene.media = {Medium{}, medium};
+  scene.camera_medium = 1;
+  scene.light_media = {1};
+  finalize_scene(scene);
+  const std::vector<Film> found = films(scene, settings_for(GetParam(), 16));
+  for (int c = 0; c < 3; ++c) {
+    const double sigma = double(medium.sigma_t()[c]);
+    double expected = 0;
+    constexpr int kSteps = 20'000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double t = 8.0 * (i + 0.5) / kSteps;
+      const glm::dvec3 from = glm::dvec3(0, 0, 4 - t) - lamp;
+      const double r = glm::length(from), cosine = from.z / r;  // the light goes on along +z
+      expected += double(medium.sigma_s[c]) * std::exp(-sigma * (t + r)) / (r * r) *
+                  double(phase(float(cosine), medium.g)) * 2 * 8.0 / kSteps;
+    }
+    const Estimate direct = mean_of(found, {&PixelResult::direct}, c);
+    EXPECT_NEAR(direct.mean, expected, kErrors * direct.standard_error + 1e-4 * expected) << c;
+    EXPECT_LT(direct.standard_error, 0.01 * expected) << c;
+  }
+  write_if_failed(found[0], "single_scattering");
+}
+INSTANTIATE_TEST_SUITE_P(Methods, SingleScattering,
+                         ::testing::Values(Method::kRaytrace, Method::kMc, Method::kPhoton, Method::kAuto));
+
+// Black walls of radiance 1 around a medium that absorbs nothing: the radiance is 1 everywhere and into all
+// directions. Near the walls a part of the kernel lies behind them: a tenth of a metre of some 2 m.
+class FurnaceOfAMedium : public ::testing::TestWithParam<Method> {};
+
+TEST_P(FurnaceOfAMedium, RadianceIsOne) {
+  Scene scene;
+  const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
+  const Point3 corner[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                           {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  const int faces[6][4] = {{0, 1, 2, 3}, {5, 4, 7, 6}, {4, 0, 3, 7},
+                           {1, 5, 6, 2}, {4, 5, 1, 0}, {3, 2, 6, 7}};
+  for (const auto& f : faces)
+    make_light(scene, add_shape(scene, quad(corner[f[0]], corner[f[1]], corner[f[2]], corner[f[3]], black)),
+               Rgb(1));
+  scene.media = {Medium{}, Medium{Rgb(0), {0.5f, 1, 2}, -0.3f}};
+  scene.camera_medium = 1;
+  scene.light_media.assign(scene.lights.size(), 1);
+  look_at(scene, {0.2f, -0.1f, 0.3f}, {-0.3f, 0.2f, -1}, {0, 1, 0}, 40, kTests, kTests);
+  finalize_scene(scene);
+  RenderSettings settings = settings_for(GetParam(), 64, 200'000);
+  settings.max_bounces = 200;
+  settings.radius = 0.1f;
+  const std::vector<Film> found = films(scene, settings);
+  for (int c = 0; c < 3; ++c) {
+    const Estimate all = mean_of(found, kAllLayers, c);
+    const double bias = GetParam() == Method::kMc ? 1e-4 : 0.03;
+    EXPECT_NEAR(all.mean, 1, kErrors * all.standard_error + bias) << c;
+    EXPECT_LT(all.standard_error, 0.02) << c;
+  }
+  write_if_failed(found[0], "furnace_of_a_medium");
+}
+INSTANTIATE_TEST_SUITE_P(Methods, FurnaceOfAMedium,
+                         ::testing::Values(Method::kMc, Method::kPhoton, Method::kAuto));
+
+// Chandrasekhar's H for isotropic scattering (1960, Radiative Transfer, section 16), by iteration of
+//   1 / H(mu) = sqrt(1 - albedo) + albedo / 2 int_0^1 x H(x) / (mu + x) dx.
+double chandrasekhar_h(double albedo, double mu) {
+  constexpr int kPoints = 400;
+  std::vector<double> h(kPoints, 1);
+  const auto x_of = [](int i) { return (i + 0.5) / kPoints; };
+  const auto next = [&](double at) {
+    double sum = 0;
+    for (int i = 0; i < kPoints; ++i) sum += x_of(i) * h[size_t(i)] / (at + x_of(i));
+    return 1 / (std::sqrt(1 - albedo) + albedo / 2 * sum / kPoints);
+  };
+  for (int round = 0; round < 60; ++round) {
+    std::vector<double> better(h.size());
+    for (int i = 0; i < kPoints; ++i) better[size_t(i)] = next(x_of(i));
+    h = better;
+  }
+  return next(mu);
+}
+
+// A half space under a sky of radiance 1, whose boundary neither reflects nor bends: what it sends back is
+// 1 - sqrt(1 - albedo) H(mu).
+class HalfSpace : public ::testing::TestWithParam<Method> {};
+
+TEST_P(HalfSpace, ReflectsByChandrasekharsH) {
+  const Rgb albedo(0.3f, 0.6f, 0.9f);
+  Scene scene;
+  const uint32_t clear = add_material(scene, Dielectric{1});
+  scene.media = {Medium{}, Medium{1.0f - albedo, albedo}};
+  add_shape(scene, horizontal({0, 0, 0}, 12, 12, true, clear)).media = {1, kVacuum};
+  add_shape(scene, horizontal({0, -12, 0}, 12, 12, false, add_material(scene, Lambertian{Rgb(0)})));
+  scene.lights.push_back(InfiniteLight{Rgb(1)});
+  const float mu = 0.6f;
+  // Parallel rays onto the middle of the plane.
+  look_at(scene, {0, 8 * mu, 8 * std::sqrt(1 - mu * mu)}, {0, 0, 0}, {0, 1, 0}, 90, kTests, kTests);
+  scene.camera.projection = OrthographicProjection{};
+  scene.camera.screen_window = {-3, 3, -3, 3};
+  finalize_scene(scene);
+  RenderSettings settings = settings_for(GetParam(), GetParam() == Method::kMc ? 256 : 4, 500'000);
+  settings.max_bounces = 300;
+  settings.radius = 0.1f;
+  const std::vector<Film> found = films(scene, settings);
+  for (int c = 0; c < 3; ++c) {
+    const double expected =
+        1 - std::sqrt(1 - double(albedo[c])) * chandrasekhar_h(double(albedo[c]), double(mu));
+    const Estimate all = mean_of(found, kAllLayers, c);
+    const double bias = GetParam() == Method::kMc ? 1e-3 : 0.1;
+    EXPECT_NEAR(all.mean, expected, kErrors * all.standard_error + bias * expected) << c;
+    EXPECT_LT(all.standard_error, 0.03 * expected) << c;
+  }
+  write_if_failed(found[0], "half_space");
+}
+INSTANTIATE_TEST_SUITE_P(Methods, HalfSpace, ::testing::Values(Method::kMc, Method::kPhoton));
+
+}  // namespace
+}  // namespace kaustik::render
