@@ -76,8 +76,9 @@ void report_times(const render::RenderStatistics& s, const render::OuterTimes& t
 std::string by_kind(const std::array<uint64_t, photon::kPhotonKinds>& counts) {
   std::string text;
   const size_t in_media = size_t(photon::PhotonKind::kMediumCaustic);
-  for (size_t k = 0; k < counts.size() && (k < in_media || counts[k] > 0); ++k)
-    text += fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(counts[k]));
+  for (size_t k = 0; k < counts.size(); ++k)
+    if (k < in_media || counts[k] > 0)
+      text += fmt::format("{}{} {}", k == 0 ? "" : ", ", photon::kPhotonKindNames[k], grouped(counts[k]));
   return text;
 }
 

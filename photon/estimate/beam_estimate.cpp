@@ -6,6 +6,7 @@ namespace kaustik::photon {
 
 Rgb estimate_beam(const PhotonMap& map, BeamQuery query, const Medium& medium, const KernelSpec& kernel,
                   uint32_t nearest, GatherCounters& counters) {
+  if (map.empty()) return Rgb(0);
   if (const uint64_t count = nearest > 0 ? count_along(map, query) : 0; count > nearest)
     query.radius *= float(std::sqrt(double(nearest) / double(count)));
   return gather_along(map, query, medium, kernel, counters);

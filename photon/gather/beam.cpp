@@ -236,11 +236,12 @@ uint64_t count_along(const PhotonMap& map, const BeamQuery& query) {
 
 Rgb gather_along(const PhotonMap& map, const BeamQuery& query, const Medium& medium, const KernelSpec& kernel,
                  GatherCounters& counters) {
-  ++counters.queries;
   const KernelTerms terms = kernel_terms(kernel, query.radius);
   if (map.empty() || !(terms.scale > 0)) return Rgb(0);
+  const uint64_t before = counters.candidates;
   const glm::dvec3 sum =
       HWY_DYNAMIC_DISPATCH(GatherAlong)(map, query, medium, kernel.type, terms.slope, counters);
+  counters.queries += 1 + (counters.candidates - before) / kCandidatesOfQuery;
   const double of_phase = double(0.25f * kInvPi * (1 - medium.g * medium.g));
   return Rgb(sum * (of_phase * double(terms.scale) * double(map.flux_unit())));
 }

@@ -35,6 +35,10 @@ void select_along(const PhotonMap& map, const BeamQuery& query, GatherCounters& 
 // Number of photons that count.
 uint64_t count_along(const PhotonMap& map, const BeamQuery& query);
 
+// A gather along a ray counts as one query and one more for so many candidates: it takes as long as that many
+// gathers on a disc, and adaptive samples go by the number of queries.
+inline constexpr uint64_t kCandidatesOfQuery = 256;
+
 // Sum over the photons that count of  exp(-sigma_t t) p(wi, -d) K(distance) flux, in W/(m^2 sr), where d is
 // the ray's direction. The order of the sum is fixed.
 Rgb gather_along(const PhotonMap& map, const BeamQuery& query, const Medium& medium, const KernelSpec& kernel,

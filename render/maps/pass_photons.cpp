@@ -94,11 +94,15 @@ uint64_t visibility_photons(const Camera& camera, const RenderSettings& settings
 
 }  // namespace
 
-// Builds all maps in one cube, since the lecture's test compares direct and shadow photons of the same cell.
+// Builds the maps of surfaces in one cube, since the lecture's test compares direct and shadow photons of the
+// same cell. Fog may reach far beyond the scene's surfaces, and so do photons there.
 void PassPhotons::build_maps(const RenderInput& input, photon::ShootResult&& shot) {
   const photon::MapSettings in_scene{input.scene.bounds};
-  for (size_t k = 0; k < photon::kPhotonKinds; ++k)
-    maps_.of(PhotonKind(k)) = photon::PhotonMap::build(std::move(shot.buffers[k]), in_scene);
+  for (size_t k = 0; k < photon::kPhotonKinds; ++k) {
+    const bool in_medium = k >= size_t(PhotonKind::kMediumCaustic);
+    maps_.of(PhotonKind(k)) =
+        photon::PhotonMap::build(std::move(shot.buffers[k]), in_medium ? photon::MapSettings{} : in_scene);
+  }
 }
 
 void PassPhotons::free_maps() {
