@@ -26,6 +26,7 @@ uint64_t forecast_bytes(const Scene& scene) {
     if (instance) bytes += kInstance;
     if (mesh && (!instance || shared.insert(mesh).second)) bytes += bytes_of(*mesh);
   }
+  if (scene.interfaces) bytes += forecast_bytes(*scene.interfaces);
   return bytes;
 }
 

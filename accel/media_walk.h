@@ -16,6 +16,8 @@ const Bvh* interfaces_of(const Accel& accel) {
 
 // A ray passes at most this many interfaces, far more than a real scene has in a row.
 inline constexpr int kMostInterfaces = 1 << 12;
+// Interfaces this near to an end of a ray, as a share of its coordinates, are part of the surface there.
+inline constexpr float kSlack = 0x1p-18f;
 
 // Calls part(medium, begin, end) for one part of the ray after the other, in metres from its start to
 // `distance`, which may be infinite. Each lies in one medium. Stops where it returns false. ray: of unit
@@ -31,11 +33,16 @@ MediumIndex walk_media(const Bvh* interfaces, const Ray& ray, float distance, Me
       if (!hit.valid()) break;
       const SurfaceInteraction si = make_interaction(interfaces->scene().shapes, rest, hit);
       const float end = std::min(begin + hit.t, distance);
+      // Where an interface lies in the surface that the ray leaves or meets, such as the bottom of smoke that
+      // stands on a floor, rounding would decide about it.
+      const float slack = kSlack * (max_abs_component(ray.o) + end);
+      if (distance - end <= slack) break;
+      rest = si.spawn(ray.d, distance - end);
+      if (end <= slack) continue;
       if (!part(medium, begin, end)) return medium;
       const MediumInterface& media = interfaces->scene().shapes[si.shape].media;
       medium = glm::dot(ray.d, si.n) > 0 ? media.outside : media.inside;
       begin = end;
-      rest = si.spawn(ray.d, distance - begin);
     }
   }
   part(medium, begin, distance);

@@ -88,6 +88,19 @@ Json lights_json(const Scene& scene) {
   return out;
 }
 
+// The vacuum is left out.
+Json media_json(const Scene& scene) {
+  Json out = Json::array();
+  for (size_t i = 1; i < scene.media.size(); ++i) {
+    const Medium& medium = scene.media[i];
+    out.push_back({{"name", scene.medium_names[i]},
+                   {"sigma_a", triple(medium.sigma_a)},
+                   {"sigma_s", triple(medium.sigma_s)},
+                   {"g", medium.g}});
+  }
+  return out;
+}
+
 Json groups_json(const Scene& scene) {
   const std::vector<uint64_t> uses = uses_of(scene, scene.surface_group_names.size(), &Shape::surface_group);
   Json out = Json::array();
@@ -109,6 +122,8 @@ Json info_json(const std::string& path, const Job& job) {
   out["origin"] = triple(scene.origin);
   out["materials"] = materials_json(scene);
   out["lights"] = lights_json(scene);
+  out["media"] = media_json(scene);
+  out["interfaces"] = scene.interfaces ? scene.interfaces->shapes.size() : 0;
   out["surface_groups"] = groups_json(scene);
   out["needs"] = render::needs_json(scene.needs);
   out["plan"] = {{"direct", render::name_of(plan.direct)},
@@ -158,6 +173,14 @@ std::string info_text(const std::string& path, const Job& job) {
   for (const Light& light : scene.lights) {
     text += fmt::format("light      {}, power {} W\n", name_of(light), triple_text(power(light)));
   }
+  for (size_t i = 1; i < scene.media.size(); ++i) {
+    const Medium& medium = scene.media[i];
+    text += fmt::format("medium     {}: absorbs {}, scatters {} 1/m, g {:.3g}\n", scene.medium_names[i],
+                        triple_text(medium.sigma_a), triple_text(medium.sigma_s), medium.g);
+  }
+  if (scene.interfaces)
+    text += fmt::format("interface  {}, which only separate media\n",
+                        counted(scene.interfaces->shapes.size(), "shape"));
   for (const Json& g : groups_json(scene)) {
     const uint64_t shapes = g["shapes"].get<uint64_t>();
     text += fmt::format("surface    {}: {}{}\n", g["name"].get<std::string>(), counted(shapes, "shape"),

@@ -34,7 +34,7 @@ struct PhotonsOptions {
 };
 
 photon::KindMask mask_of(const std::vector<std::string>& kinds) {
-  if (kinds.empty()) return {true, true, true, true};
+  if (kinds.empty()) return {true, true, true, true, true, true};
   photon::KindMask mask;
   for (const std::string& name : kinds) {
     const auto& names = photon::kPhotonKindNames;
@@ -152,7 +152,8 @@ Command make_photons_command() {
       .choices = choices_of(render::kPhotonColoursNames);
   command
       .add_list("--kinds", "NAMES", options->kinds,
-                "Kinds of photons, separated by commas: direct, shadow, caustic, indirect. Default: all")
+                "Kinds of photons, separated by commas: direct, shadow, caustic, indirect, "
+                "medium-caustic, medium-indirect. Default: all")
       .choices = choices_of(photon::kPhotonKindNames);
   add_isa_option(command);
   command.add_quiet();

@@ -20,6 +20,13 @@ struct KindOfMap {
   PhotonKind kind;
   const photon::PhotonMap& map;
 };
+// The page has a colour for each kind on surfaces: photons in media have those of their kind there.
+uint32_t colour_of(PhotonKind kind) {
+  if (kind == PhotonKind::kMediumCaustic) kind = PhotonKind::kCaustic;
+  if (kind == PhotonKind::kMediumIndirect) kind = PhotonKind::kIndirect;
+  return uint32_t(kind);
+}
+
 std::array<KindOfMap, photon::kPhotonKinds> all_maps(const render::PhotonMaps& maps) {
   return {{{PhotonKind::kDirect, maps.direct.map},
            {PhotonKind::kShadow, maps.shadow},
@@ -148,7 +155,7 @@ std::string cloud_bytes(const render::PhotonMaps& maps, uint64_t most) {
       const photon::Photon p = of.map.photon(i);
       append(p.p, &rows);
       append(p.flux, &rows);
-      append(uint32_t(of.kind), &rows);
+      append(colour_of(of.kind), &rows);
     }
   return with_count(count, rows);
 }
@@ -164,7 +171,7 @@ std::string cell_bytes(const render::PhotonMaps& maps, uint64_t most) {
       append(bounds.min, &rows);
       append(bounds.max, &rows);
       append(uint32_t(depth), &rows);
-      append(uint32_t(of.kind), &rows);
+      append(colour_of(of.kind), &rows);
       ++count;
       return true;
     });

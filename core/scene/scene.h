@@ -29,6 +29,7 @@ struct Scene {
   std::vector<std::string> material_names;     // for `kaustik info`
   std::vector<std::string> surface_group_names;
   std::vector<Medium> media;  // by MediumIndex; the first is the vacuum. Empty where there are no others
+  std::vector<std::string> medium_names;  // by MediumIndex, for messages and `kaustik info`
   MediumIndex camera_medium = kVacuum;
   // Surfaces that rays do not meet, and that separate media: a scene of their shapes and bounds alone. Null
   // if there are none.

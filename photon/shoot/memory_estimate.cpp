@@ -28,6 +28,14 @@ double most_stored(const TraceSettings& settings) {
          (settings.kinds.shadow ? 64 : 0);
 }
 
+// Caustic photons leave one in a medium for each of their segments there; those behind a lens have a few.
+constexpr double kSegmentsOfCaustic = 4;
+
+// All photons that guided emission may leave.
+double most_guided(const TraceSettings& settings, uint64_t guided) {
+  return static_cast<double>(guided) * (settings.kinds.medium_caustic ? 1 + kSegmentsOfCaustic : 1);
+}
+
 // Includes the photons of guided emission: about one caustic photon each, apart from the few that a coat
 // reflects.
 std::array<double, kPhotonKinds> estimate_all(const Scene& scene, const accel::Bvh& bvh,
@@ -35,6 +43,10 @@ std::array<double, kPhotonKinds> estimate_all(const Scene& scene, const accel::B
   auto stored = estimate_stored(scene, bvh, settings);
   double& caustic = stored[static_cast<size_t>(PhotonKind::kCaustic)];
   caustic = std::max(caustic, static_cast<double>(guided));
+  if (settings.kinds.medium_caustic) {
+    double& in_media = stored[static_cast<size_t>(PhotonKind::kMediumCaustic)];
+    in_media = std::max(in_media, kSegmentsOfCaustic * static_cast<double>(guided));
+  }
   return stored;
 }
 
@@ -85,7 +97,7 @@ uint64_t forecast_bytes(const Scene& scene, const accel::Bvh& bvh, const TraceSe
 void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,
                   uint64_t limit, uint64_t guided) {
   const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
-  const double most = photons * most_stored(settings) + static_cast<double>(guided);
+  const double most = photons * most_stored(settings) + most_guided(settings, guided);
   if (most <= kMostInMap && peak_bytes({most}, use) <= bytes_limit) return;
 
   const auto stored = estimate_all(scene, bvh, settings, guided);
@@ -108,7 +120,7 @@ void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
 uint64_t shoots_that_fit(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
                          uint64_t limit, uint64_t guided) {
   const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
-  const double most = photons * most_stored(settings) + static_cast<double>(guided);
+  const double most = photons * most_stored(settings) + most_guided(settings, guided);
   if (most <= kMostInMap && peak_bytes({most}, PhotonUse::kMaps) <= bytes_limit) return 1;
   // A pass may store somewhat more than its share of the estimate.
   constexpr double kMargin = 1.05;

@@ -407,7 +407,7 @@ class Tracer {
     lanes_.scattered_energy[k] = energy_of(next, units_per_watt_);
     const float scale = roulette(photon.flux, next, u(B::kDrawsLobe ? 3 : 2));
     if (scale == 0) return false;
-    state = state.in(medium_beyond(scene_, si, on.wi, state.medium()));
+    state = state.in(medium_beyond(scene_, si, wo, on.wi, state.medium()));
     lanes_.set_next(k, si.spawn(unit(on.wi)), scale * next);
     lanes_.next_energy[k] = energy_of(scale * next, units_per_watt_);
     return true;

@@ -34,25 +34,29 @@ void Tracer<Accel, Sink>::go_through_media(size_t k, float distance) {
   const Rgb flux = get_lane(lanes_.flux, k);
   const Ray ray = lanes_.ray.get(k);
   const WalkState state = walkers_.state[k];
+  const bool leaves = settings_.kinds.medium_caustic && state.kind() == PhotonKind::kCaustic;
   FreePath way(flux, {medium_numbers_.u[0][k], medium_numbers_.u[1][k]});
-  Rgb clear(1);
-  bool scattered = false;
+  Rgb clear(1);  // what gets through, for photons that are left on the way
+  std::optional<float> scattered;
+  MediumIndex scattering = kVacuum;
   const auto part = [&](MediumIndex m, float begin, float end) {
     if (m == kVacuum) return true;
     const Medium& medium = scene_.media[m];
-    leave_caustic_on_the_way(k, m, begin, end, (follows_indirect_ ? way.transmittance() : clear) * flux);
-    if (!follows_indirect_) {
-      clear *= transmittance(medium, end - begin);
-      return true;
-    }
+    if (leaves) leave_caustic_on_the_way(k, m, begin, end, clear * flux);
+    clear *= transmittance(medium, end - begin);
+    if (!follows_indirect_ || scattered) return true;
     const std::optional<float> t = way.pass(medium, end - begin);
     if (!t) return true;
-    scattered = true;
-    scatter_in_medium(k, m, ray.at(begin + *t), way.scattered(medium) * flux, way.rest());
-    return false;
+    scattered = begin + *t;
+    scattering = m;
+    return leaves;  // where the photon itself is scattered does not matter to a caustic
   };
   const MediumIndex end = accel::walk_media(interfaces_, ray, distance, state.medium(), part);
-  if (scattered) return end_before_hit(k);
+  if (scattered) {
+    const Rgb left = way.scattered(scene_.media[scattering]) * flux;
+    scatter_in_medium(k, scattering, ray.at(*scattered), left, way.rest());
+    return end_before_hit(k);
+  }
   walkers_.state[k] = state.in(end);
   arrive_behind_media(k, (follows_indirect_ ? way.passed() : clear) * flux);
 }
@@ -68,7 +72,6 @@ void Tracer<Accel, Sink>::arrive_behind_media(size_t k, const Rgb& flux) {
 template <class Accel, class Sink>
 void Tracer<Accel, Sink>::leave_caustic_on_the_way(size_t k, MediumIndex m, float begin, float end,
                                                    const Rgb& flux) {
-  if (!settings_.kinds.medium_caustic || walkers_.state[k].kind() != PhotonKind::kCaustic) return;
   const Medium& medium = scene_.media[m];
   const ScatteringPlace place(medium, flux, end - begin);
   if (!medium.scatters() || !(place.opacity() > 0)) return;

@@ -57,7 +57,7 @@ inline Ray spawn(const ShadingPoint& x, const Vector3& w, float t_max = kInfinit
 }
 // The medium of a ray that leaves in direction w.
 inline MediumIndex medium_towards(const Scene& scene, const ShadingPoint& x, const Vector3& w) {
-  return medium_beyond(scene, x.si, w, x.medium);
+  return medium_beyond(scene, x.si, x.wo, w, x.medium);
 }
 
 namespace detail {

@@ -21,9 +21,11 @@ void BeamSampler::add(const LightBounds& light, const Ray& ray) {
   // A ray right through a point light: any distance that is small.
   near.beside = std::sqrt(std::max(beside2, 1e-12f * length_squared(to_light)));
   if (!(near.beside > 0)) return;
-  near.begin = std::atan(-near.along / near.beside);
-  near.end = std::atan((distance_ - near.along) / near.beside);
-  near.power = light.phi * (near.end - near.begin) / near.beside;
+  // The angle between the ray's ends, as seen from the light: not a difference of two angles, which would
+  // cancel for lights that are far away.
+  const float b = near.beside, s = -near.along, L = distance_;
+  near.angle = L < kInfinity ? std::atan2(b * L, b * b + s * (s + L)) : std::atan2(b, s);
+  near.power = light.phi * near.angle / b;
   if (!(near.power > 0) || !(near.power < kInfinity)) return;
   power_ += near.power;
   near_[lights_++] = near;
@@ -44,7 +46,9 @@ float BeamSampler::sample_lights(const Point2& u) const {
   float v = u.x * power_;
   for (; k + 1 < lights_ && v >= near_[k].power; ++k) v -= near_[k].power;
   const Near& near = near_[k];
-  return near.along + near.beside * std::tan(near.begin + u.y * (near.end - near.begin));
+  const float theta = u.y * near.angle, sine = std::sin(theta), cosine = std::cos(theta);
+  const float b = near.beside, s = -near.along;
+  return std::clamp((b * b + s * s) * sine / (b * cosine - s * sine), 0.0f, distance_);
 }
 
 float BeamSampler::pdf(float t) const {
@@ -59,7 +63,7 @@ float BeamSampler::pdf_lights(float t) const {
   for (size_t k = 0; k < lights_; ++k) {
     const Near& near = near_[k];
     const float from = t - near.along, r2 = near.beside * near.beside + from * from;
-    sum += near.power * near.beside / ((near.end - near.begin) * r2);
+    sum += near.power * near.beside / (near.angle * r2);
   }
   return sum / power_;
 }

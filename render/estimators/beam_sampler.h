@@ -34,8 +34,8 @@ class BeamSampler {
   // A light seen from the ray: at distance `along` of the ray's start and `beside` it.
   struct Near {
     float along, beside;
-    float begin, end;  // angles of the ray's ends, seen from the light
-    float power;       // share of the light in the chosen points, times the integral of 1/r^2
+    float angle;  // between the ray's ends, seen from the light
+    float power;  // share of the light in the chosen points, times the integral of 1/r^2
   };
 
   void add(const LightBounds& light, const Ray& ray);

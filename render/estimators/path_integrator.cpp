@@ -35,16 +35,12 @@ bool follows_indirect(PathReach reach) {
 }
 
 // Where light that the path meets is added; null when another estimator accounts for it. specular: whether
-// the event that leads to the light is specular. Maps hold no light that arrives in media.
+// the event that leads to the light is specular. Points in media that paths meet read no map.
 Rgb* owner_of_light(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
   if (path.diffuse > 1)
     return specular && caustics_by_map(ctx) && !path.from_medium ? nullptr : &light->indirect;
-  if (path.from_medium)
-    return specular && ctx.plan.caustics == CausticEstimator::kOff ? nullptr
-           : specular                                              ? &light->caustic
-                                                                   : &light->direct;
   if (specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
-  return samples_lights(ctx.plan.direct) ? &light->direct : nullptr;
+  return path.from_medium || samples_lights(ctx.plan.direct) ? &light->direct : nullptr;
 }
 
 void add_light(const RenderContext& ctx, const PathState& path, const SurfaceInteraction& si, const Ray& ray,
@@ -158,7 +154,7 @@ bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, Path
   path->has_pdf = !s->specular || s->glossy;
   path->ref = v.receiver();
   path->pdf = s->pdf;
-  path->medium = medium_beyond(scene, v.si, s->wi, v.medium);
+  path->medium = medium_towards(scene, v, s->wi);
   *ray = v.si.spawn(s->wi);
   return true;
 }
@@ -217,7 +213,7 @@ std::optional<MediumPoint> pass_media(const RenderContext& ctx, const Ray& ray, 
                                       PathReach reach, PathState* path, PathLight* light, Sampler& sampler,
                                       TileCounters& counters) {
   if (!ctx.scene.needs.media || (path->medium == kVacuum && !ctx.scene.interfaces)) return {};
-  if (reach == PathReach::kRoulette && ctx.scene.needs.scattering)
+  if (reach == PathReach::kRoulette && ctx.scene.needs.scattering && !ctx.plan.medium_indirect)
     return scatter_in_media(ctx, ray, distance, path, sampler);
   gather_in_media(ctx, ray, distance, follows_indirect(reach), path, light, sampler, counters);
   return {};

@@ -43,8 +43,8 @@ PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach 
                      TileCounters& counters);
 
 // The same from a point in a medium, by its phase function. What media scatter counts as diffuse: light that
-// meets x through specular surfaces is a caustic. Since maps hold no light that arrives in media, paths find
-// all of it, whatever the plan, unless caustics are off.
+// meets x through specular surfaces is a caustic. Points in media
+// that the path meets later read no map: it finds the lights itself, through specular surfaces, too.
 PathLight trace_path(const RenderContext& ctx, const MediumPoint& x, PathReach reach, Sampler& sampler,
                      TileCounters& counters);
 

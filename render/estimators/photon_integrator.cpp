@@ -322,7 +322,8 @@ class CameraPath {
         add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_, maps_);
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy && branch.tail == Tail::kNone) add_glossy(branch, x);
-    if (branch.tail != Tail::kNone && !ctx_.scene.needs.diffuse) return;  // nothing else can be met
+    if (branch.tail != Tail::kNone && !ctx_.scene.needs.diffuse && !ctx_.scene.needs.scattering)
+      return;  // nothing else can be met
     Branch here = branch;
     here.cone = cone, here.length = length, here.shown = branch.shown || end;
     if (parts.glossy || parts.diffuse || !split(here, x))
@@ -376,7 +377,7 @@ class CameraPath {
     if (tail == Tail::kNone && s->glossy && gathers_tail(ctx_, x) && in_tail(x, s->wi)) tail = Tail::kLeft;
     push({x.si.spawn(s->wi), from.cone, beta, from.share, from.events + 1,
           LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred, from.length, from.shown,
-          medium_beyond(ctx_.scene, x.si, s->wi, x.medium)});
+          medium_towards(ctx_.scene, x, s->wi)});
   }
 
   // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
@@ -391,7 +392,7 @@ class CameraPath {
     for (const BsdfSample* s : {&*reflected, &*refracted})
       push({x.si.spawn(s->wi), from.cone, from.beta * s->weight * s->pdf, from.share * s->pdf,
             from.events + 1, LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.blurred,
-            from.length, from.shown, medium_beyond(ctx_.scene, x.si, s->wi, x.medium)});
+            from.length, from.shown, medium_towards(ctx_.scene, x, s->wi)});
     return true;
   }
 

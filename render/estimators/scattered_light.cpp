@@ -10,10 +10,10 @@ namespace {
 // How far paths that start in media are followed.
 PathReach reach_of(const RenderContext& ctx, const MediumPoint& m) {
   const EstimatorPlan& plan = ctx.plan;
-  if (plan.media_by_photons)
-    return ctx.scene.light_sampler.any_near(m.receiver()) ? PathReach::kLights : PathReach::kNone;
-  if (plan.indirect != IndirectEstimator::kOff) return PathReach::kRoulette;
-  return plan.caustics != CausticEstimator::kOff ? PathReach::kSpecular : PathReach::kNone;
+  const bool paths = !plan.medium_indirect && plan.indirect != IndirectEstimator::kOff;
+  if (paths) return PathReach::kRoulette;
+  if (plan.caustics == CausticEstimator::kPaths) return PathReach::kSpecular;
+  return ctx.scene.light_sampler.any_near(m.receiver()) ? PathReach::kLights : PathReach::kNone;
 }
 
 // Media that scatter less of the ray's light than this are sampled less often.
@@ -54,10 +54,9 @@ PathLight scattered_light(const RenderContext& ctx, const Beam& beam, const Rgb&
                           Sampler& sampler, TileCounters& counters) {
   if (!ctx.scene.media[beam.medium].scatters()) return {};
   PathLight sum = sampled(ctx, beam, beta, sampler, counters);
-  if (ctx.plan.media_by_photons && light == SampleLight::kAll) {
-    sum.caustic += gathered(ctx, beam, ctx.maps.medium_caustic, counters);
-    sum.indirect += gathered(ctx, beam, ctx.maps.medium_indirect, counters);
-  }
+  if (light == SampleLight::kTraced) return sum;
+  if (ctx.plan.medium_caustics) sum.caustic += gathered(ctx, beam, ctx.maps.medium_caustic, counters);
+  if (ctx.plan.medium_indirect) sum.indirect += gathered(ctx, beam, ctx.maps.medium_indirect, counters);
   return sum;
 }
 

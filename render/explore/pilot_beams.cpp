@@ -33,7 +33,7 @@ void follow(const RenderInput& input, Ray ray, MediumIndex medium, Sampler& samp
     const auto s = scatter(x, sampler);
     if (!s) return;
     ray = si.spawn(s->wi);
-    medium = medium_beyond(scene, si, s->wi, medium);
+    medium = medium_beyond(scene, si, x.wo, s->wi, medium);
   }
 }
 

@@ -35,7 +35,7 @@ std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, Med
     const auto s = scatter(x, sampler);
     if (!s) return {};
     ray = si.spawn(s->wi);
-    medium = medium_beyond(scene, si, s->wi, medium);
+    medium = medium_beyond(scene, si, x.wo, s->wi, medium);
   }
   return {};
 }

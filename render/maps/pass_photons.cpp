@@ -153,7 +153,16 @@ void PassPhotons::set_estimates(const RenderInput& input, const PassShare& pass)
   };
   set_nearest(radii_->caustic_nearest, &maps_.caustic);
   set_nearest(radii_->direct_nearest, &maps_.direct);
-  for (GatherMap* gather : gather_maps(maps_)) {
+  const auto set_beams = [&](uint32_t nearest, GatherMap* gather) {
+    gather->estimate = {};
+    gather->estimate.kernel = maps_.indirect.estimate.kernel;
+    if (settings.nearest > 0) gather->estimate.nearest = photons_in_reach(settings.nearest, pass.shares);
+    set_nearest(nearest, gather);
+  };
+  set_beams(radii_->medium_caustic_nearest, &maps_.medium_caustic);
+  set_beams(radii_->medium_indirect_nearest, &maps_.medium_indirect);
+  for (GatherMap* gather :
+       {&maps_.direct, &maps_.caustic, &maps_.indirect, &maps_.medium_caustic, &maps_.medium_indirect}) {
     uint32_t& nearest = gather->estimate.nearest;
     // Below kFewestInReach only r0 shrinks on: the K-th photon itself does not count, so K = 1 would see
     // none.
@@ -163,13 +172,6 @@ void PassPhotons::set_estimates(const RenderInput& input, const PassShare& pass)
   maps_.direct.estimate.radius = shrunk(radii_->direct);
   maps_.caustic.estimate.radius = shrunk(radii_->caustic);
   maps_.indirect.estimate.radius = shrunk(radii_->indirect);
-  const auto set_beams = [&](uint32_t nearest, GatherMap* gather) {
-    gather->estimate.kernel = maps_.indirect.estimate.kernel;
-    gather->estimate.nearest = 0;
-    set_nearest(nearest, gather);
-  };
-  set_beams(radii_->medium_caustic_nearest, &maps_.medium_caustic);
-  set_beams(radii_->medium_indirect_nearest, &maps_.medium_indirect);
   maps_.medium_caustic.estimate.radius = shrunk(radii_->medium_caustic);
   maps_.medium_indirect.estimate.radius = shrunk(radii_->medium_indirect);
   // M0 is a limit, so it is rounded down.

@@ -186,8 +186,9 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   const auto scaled = [&](double k) {
     return uint32_t(std::lround(std::clamp(k * double(f) * double(f), double(kFewestInReach), 1e9)));
   };
-  const std::vector<Beam> beams =
-      input.plan.media_by_photons ? pilot_beams(input, kPilotPoints) : std::vector<Beam>{};
+  const std::vector<Beam> beams = input.plan.medium_caustics || input.plan.medium_indirect
+                                      ? pilot_beams(input, kPilotPoints)
+                                      : std::vector<Beam>{};
   const auto along = [&](const photon::PhotonMap& map, uint32_t k, RayChoice choice) {
     return f * beam_radius(map, beams, reach, photons_in_reach(k, pass.shares), choice);
   };

@@ -107,9 +107,11 @@ std::optional<GatherRadii> radii_from(const Json& json) {
   GatherRadii radii{radius("direct"), radius("caustic"), radius("indirect")};
   take_whole(json, "caustic_nearest", &radii.caustic_nearest);
   take_whole(json, "direct_nearest", &radii.direct_nearest);
+  if (!json.contains("medium_caustic")) return radii;  // from before there were photons in media
   take_whole(json, "medium_caustic_nearest", &radii.medium_caustic_nearest);
   take_whole(json, "medium_indirect_nearest", &radii.medium_indirect_nearest);
-  radii.medium_caustic = radius("medium_caustic"), radii.medium_indirect = radius("medium_indirect");
+  radii.medium_caustic = radius("medium_caustic");
+  radii.medium_indirect = radius("medium_indirect");
   return radii;
 }
 
@@ -126,7 +128,10 @@ Json statistics_values(const RenderStatistics& s) {
 RenderStatistics statistics_from(const Json& json) {
   RenderStatistics s;
   const Json &counts = json.at("counts"), &energy = json.at("energy");
-  for_each_count(s, [&](const std::string& name, uint64_t& n) { take_whole(counts, name, &n); });
+  for_each_count(s, [&](const std::string& name, uint64_t& n) {
+    // Files from before there were photons in media are read, too.
+    if (counts.contains(name) || name.find("_medium-") == name.npos) take_whole(counts, name, &n);
+  });
   for_each_time(s, [&](const std::string& name, double& t) { json.at("seconds").at(name).get_to(t); });
   photon::EnergyLedger& e = s.photons.energy;
   for_each_energy(e, [&](const std::string& name, int64_t& n) { take_whole(energy, name, &n); });

@@ -67,12 +67,13 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
   }
 }
 
-// Media follow the estimator of indirect light.
+// Media follow the estimators of surfaces.
 void choose_for_media(const SceneNeeds& needs, EstimatorPlan* plan) {
   if (!needs.scattering) return;
-  plan->media_by_photons = reads_indirect_photons(*plan);
+  plan->medium_caustics = plan->caustics == Caustic::kPhotons;
+  plan->medium_indirect = reads_indirect_photons(*plan);
   plan->notes.push_back(
-      plan->media_by_photons
+      plan->medium_indirect
           ? "media scatter light: single scattering comes from light samples along rays, all "
             "else from photons in the media"
           : "media scatter light: paths are scattered in them");
@@ -145,8 +146,8 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
   kinds.shadow = plan.direct == DirectEstimator::kLecture || plan.direct == DirectEstimator::kSigned;
   kinds.caustic = plan.caustics == CausticEstimator::kPhotons;
   kinds.indirect = reads_indirect_photons(plan);
-  kinds.medium_caustic = plan.media_by_photons && plan.caustics != CausticEstimator::kOff;
-  kinds.medium_indirect = plan.media_by_photons;
+  kinds.medium_caustic = plan.medium_caustics;
+  kinds.medium_indirect = plan.medium_indirect;
   return kinds;
 }
 

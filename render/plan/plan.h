@@ -18,9 +18,9 @@ struct EstimatorPlan {
   // Light that arrives by way of specular surfaces in the faint directions of a glossy lobe comes from the
   // caustic map (render/estimators/glossy_tails.h).
   bool glossy_tails = false;
-  // Whether caustics and indirect light in media that scatter come from photons gathered along rays;
-  // otherwise paths find them.
-  bool media_by_photons = false;
+  // Whether light that media scatter comes from photons gathered along rays: caustics, and indirect light.
+  // Otherwise paths find it.
+  bool medium_caustics = false, medium_indirect = false;
   std::vector<std::string> notes;  // one sentence each: what was chosen or left out, and why
 };
 

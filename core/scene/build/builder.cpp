@@ -14,6 +14,7 @@
 #include "core/scene/build/light_table.h"
 #include "core/scene/build/local_origin.h"
 #include "core/scene/build/material_table.h"
+#include "core/scene/build/medium_check.h"
 #include "core/scene/build/medium_table.h"
 #include "core/scene/build/sensor_builder.h"
 #include "core/scene/build/surface_groups.h"
@@ -100,6 +101,8 @@ class Builder {
     scene.materials = std::move(materials.materials());
     scene.material_names = std::move(materials.names());
     scene.media = std::move(media_->media());
+    scene.medium_names = std::move(media_->names());
+    if (description_.camera) check_camera_medium(scene, description_.camera->location, diagnostics_);
     scene.textures = textures_->finish(scene.origin);
     finalize_scene(scene);
     return scene;

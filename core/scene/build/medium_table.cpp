@@ -52,12 +52,13 @@ MediumIndex MediumTable::make(const MediumDescription& description, WarnedOnce& 
   if (!is_finite(medium.sigma_t()))
     diagnostics.error(p.location("scale"), "`scale` takes coefficients beyond the range of floats");
   if (is_black(medium.sigma_t())) return kVacuum;
-  if (media_.empty()) media_.emplace_back();  // the vacuum
+  if (media_.empty()) media_.emplace_back(), names_.emplace_back("vacuum");
   if (media_.size() > kMostMedia) {
     diagnostics.error(description.name_location, fmt::format("there are more than {} media", kMostMedia));
     return kVacuum;
   }
   media_.push_back(medium);
+  names_.push_back(description.name);
   return static_cast<MediumIndex>(media_.size() - 1);
 }
 

@@ -25,11 +25,13 @@ class MediumTable {
 
   // By MediumIndex; empty if there is none but the vacuum.
   std::vector<Medium>& media() { return media_; }
+  std::vector<std::string>& names() { return names_; }
 
  private:
   MediumIndex make(const MediumDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
 
   std::vector<Medium> media_;
+  std::vector<std::string> names_;
   std::map<std::string_view, MediumIndex, std::less<>> by_name_;
   std::set<std::string_view> reported_;  // undefined names
 };

@@ -46,8 +46,10 @@ SurfaceRow make_row(const Shape& shape, const std::vector<Material>& materials) 
   row.flip = shape.flip_normal ? -1.0f : 1.0f;
   row.surface_group = shape.surface_group;
   set_geometry(row, shape);
-  if (shape.media.is_transition()) row.traits |= kScalarTrait;
   const Material& material = materials[shape.material];
+  // What only reflects leaves photons in their medium.
+  if (shape.media.is_transition() && std::holds_alternative<Dielectric>(material.typical()))
+    row.traits |= kScalarTrait;
   std::visit(
       [&](const auto& bsdf) {
         if constexpr (requires { set_bsdf(row, bsdf); }) {

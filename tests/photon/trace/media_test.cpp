@@ -75,6 +75,49 @@ TEST(PhotonsInMedia, CausticsLeaveOneOnEachSegment) {
   EXPECT_LT(ratio, 0.02 * 4);
 }
 
+// Behind one medium lies another: caustic photons are left there as often whether the photons themselves are
+// scattered in the first one or not.
+TEST(PhotonsInMedia, CausticsAreLeftBehindAMediumThatScatters) {
+  Scene scene = full_room();
+  const auto is_glass = [&](const Shape& s) {
+    return std::holds_alternative<Dielectric>(scene.materials[s.material].typical());
+  };
+  for (Shape& shape : scene.shapes)
+    if (is_glass(shape)) shape.media = {kVacuum, 1};
+  auto interfaces = std::make_shared<Scene>();
+  interfaces->shapes = {parallelogram({-1, -0.9f, -1}, {0, 0, 2}, {2, 0, 0})};  // above the floor, facing up
+  interfaces->shapes[0].media = {2, 1};
+  interfaces->bounds.add(bounds_of(interfaces->shapes[0]));
+  scene.interfaces = interfaces;
+  scene.media = {Medium{}, Medium{Rgb(0), Rgb(1)}, Medium{Rgb(0), Rgb(8)}};
+  scene.light_media.assign(scene.lights.size(), 1);
+  finalize_scene(scene);
+  const auto flux_below = [&](bool with_indirect) {
+    std::vector<double> found;
+    for (uint64_t seed = 0; seed < 8; ++seed) {
+      KindMask kinds;
+      kinds.medium_caustic = true;
+      kinds.indirect = kinds.medium_indirect = with_indirect;
+      TraceSettings settings = settings_for(20'000, kinds);
+      settings.seed = seed;
+      const ShootResult shot = shoot(scene, accel::Bvh(scene), settings);
+      const PhotonBuffer& buffer = shot.buffers[size_t(PhotonKind::kMediumCaustic)];
+      double sum = 0;
+      for (const PhotonRecord& record : buffer.records) {
+        const Photon photon = unpack(record, buffer.flux_unit);
+        if (photon.surface_group != 2) continue;
+        EXPECT_LE(photon.p.y, -0.9f + 1e-4f);
+        sum += double(photon.flux.x);
+      }
+      found.push_back(sum);
+    }
+    return estimate_of(found);
+  };
+  const Estimate apart = flux_below(false), together = flux_below(true);
+  EXPECT_NEAR(apart.mean, together.mean, kErrors * std::hypot(apart.standard_error, together.standard_error));
+  EXPECT_LT(together.standard_error, 0.1 * together.mean);
+}
+
 // What is stored in the medium names it, and lies in it.
 TEST(PhotonsInMedia, KnowTheirMedium) {
   Scene scene = full_room();

@@ -116,6 +116,21 @@ TEST(MediaAgreement, EachClassAgreesWithPaths) {
   }
 }
 
+// What reflects leaves light in its medium, whichever way round it is: walls whose inside is vacuum, too.
+TEST(MediaAgreement, OpaqueSurfacesDoNotChangeTheMedium) {
+  const RenderSettings settings = settings_of(Method::kAuto, 4, 0.1f, 1);
+  Scene scene = cornell(kSize);
+  fill(scene, Rgb(0.3f), Rgb(0.2f));
+  const Film same = render_with_threads(scene, settings).film;
+  for (Shape& shape : scene.shapes)
+    if (!std::holds_alternative<Dielectric>(scene.materials[shape.material].typical()))
+      shape.media = {kVacuum, scene.camera_medium};
+  finalize_scene(scene);
+  const Film walled = render_with_threads(scene, settings).film;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) EXPECT_EQ(same.at(x, y).radiance(), walled.at(x, y).radiance());
+}
+
 // Light from infinitely far is absorbed by a medium that fills all space, except for what it does not absorb
 // at all: by paths and by photons.
 TEST(MediaAgreement, SunsAreAbsorbedOnTheirInfiniteWay) {

@@ -93,6 +93,23 @@ TEST_F(ImportMedia, PresetsAreMeasuredMedia) {
             "2:65: error: there is no measured medium `Cok`; did you mean `Coke`?\n");
 }
 
+// A `MediumInterface` behind `Camera` leaves the camera in the vacuum.
+TEST_F(ImportMedia, ACameraOutsideTheLightsMediumIsWarnedOf) {
+  const std::string fog = medium("fog", "\"rgb sigma_a\" [ 1 1 1 ]");
+  const std::string rest = "WorldBegin LightSource \"point\" Shape \"sphere\" ";
+  load(fog + "Camera \"perspective\"\nMediumInterface \"\" \"fog\"\n" + rest);
+  EXPECT_THAT(
+      diagnostics_.format_all(),
+      ::testing::HasSubstr("the camera is in medium `vacuum` and light in `fog`, but no surface that lets"));
+  EXPECT_EQ(diagnostics_.warning_count(), 1u);
+  load(fog + "MediumInterface \"\" \"fog\"\nCamera \"perspective\"\n" + rest);
+  EXPECT_EQ(diagnostics_.warning_count(), 0u);
+  // Glass, or the boundary of the fog, leads from one to the other.
+  load(fog + "Camera \"perspective\"\nMediumInterface \"\" \"fog\"\n" + rest +
+       "MediumInterface \"fog\" \"\" Material \"interface\" Shape \"sphere\"");
+  EXPECT_EQ(diagnostics_.warning_count(), 0u);
+}
+
 // Surfaces that only separate media are not among those that rays meet.
 TEST_F(ImportMedia, InterfacesBoundMedia) {
   const Scene s = world(medium("smoke", "\"rgb sigma_a\" [ 1 1 1 ]") + R"(MediumInterface "smoke" ""
