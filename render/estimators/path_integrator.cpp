@@ -206,6 +206,13 @@ bool visit(const RenderContext& ctx, const MediumPoint& m, PathState* path, Ray*
   return true;
 }
 
+// Whether photons in media stand for light that paths cannot find there: what mirrors and glass make of point
+// lights. Paths that are scattered have the exact number of events instead.
+bool needs_photons_in_media(const RenderContext& ctx) {
+  const SceneNeeds& needs = ctx.scene.needs;
+  return ctx.plan.medium_indirect && needs.specular && needs.only_delta_lights;
+}
+
 // Passes the media between the ray's start and what lies behind them. Paths that are followed to the maps
 // take what media scatter towards them with them. Those that are followed to their end may be scattered; then
 // the point is returned.
@@ -213,7 +220,7 @@ std::optional<MediumPoint> pass_media(const RenderContext& ctx, const Ray& ray, 
                                       PathReach reach, PathState* path, PathLight* light, Sampler& sampler,
                                       TileCounters& counters) {
   if (!ctx.scene.needs.media || (path->medium == kVacuum && !ctx.scene.interfaces)) return {};
-  if (reach == PathReach::kRoulette && ctx.scene.needs.scattering && !ctx.plan.medium_indirect)
+  if (reach == PathReach::kRoulette && ctx.scene.needs.scattering && !needs_photons_in_media(ctx))
     return scatter_in_media(ctx, ray, distance, path, sampler);
   gather_in_media(ctx, ray, distance, follows_indirect(reach), path, light, sampler, counters);
   return {};
