@@ -20,12 +20,13 @@ inline constexpr int kMostInterfaces = 1 << 12;
 inline constexpr float kSlack = 0x1p-18f;
 
 // Calls part(medium, begin, end) for one part of the ray after the other, in metres from its start to
-// `distance`, which may be infinite. Each lies in one medium. Stops where it returns false. ray: of unit
-// direction; medium: where it starts. Returns the medium in which it ends.
+// `distance`, which may be infinite. Each lies in one medium; those in the vacuum are left out. Stops where
+// it returns false. ray: of unit direction; medium: where it starts. Returns the medium in which it ends.
 template <class Fn>
 MediumIndex walk_media(const Bvh* interfaces, const Ray& ray, float distance, MediumIndex medium,
                        const Fn& part) {
   float begin = 0;
+  const auto go_on = [&](float end) { return medium == kVacuum || part(medium, begin, end); };
   if (interfaces) {
     Ray rest{ray.o, ray.d, distance};
     for (int i = 0; i < kMostInterfaces; ++i) {
@@ -39,21 +40,22 @@ MediumIndex walk_media(const Bvh* interfaces, const Ray& ray, float distance, Me
       if (distance - end <= slack) break;
       rest = si.spawn(ray.d, distance - end);
       if (end <= slack) continue;
-      if (!part(medium, begin, end)) return medium;
+      if (!go_on(end)) return medium;
       const MediumInterface& media = interfaces->scene().shapes[si.shape].media;
       medium = glm::dot(ray.d, si.n) > 0 ? media.outside : media.inside;
       begin = end;
     }
   }
-  part(medium, begin, distance);
+  go_on(distance);
   return medium;
 }
 
 // The share of light that gets from the ray's start to `distance`. medium: in, out: where it starts and ends.
-inline Rgb transmittance(const Bvh& bvh, const Ray& ray, float distance, MediumIndex* medium) {
+inline Rgb transmittance(const Scene& scene, const Bvh* interfaces, const Ray& ray, float distance,
+                         MediumIndex* medium) {
   Rgb left(1);
-  *medium = walk_media(bvh.interfaces(), ray, distance, *medium, [&](MediumIndex m, float begin, float end) {
-    left *= kaustik::transmittance(bvh.scene(), m, end - begin);
+  *medium = walk_media(interfaces, ray, distance, *medium, [&](MediumIndex m, float begin, float end) {
+    left *= kaustik::transmittance(scene.media[m], end - begin);
     return true;
   });
   return left;

@@ -18,15 +18,10 @@ void Tracer<Accel, Sink>::pass_media(size_t count) {
 
 template <class Accel, class Sink>
 void Tracer<Accel, Sink>::attenuate(size_t k, float distance) {
-  Rgb flux = get_lane(lanes_.flux, k);
-  const WalkState state = walkers_.state[k];
-  const auto part = [&](MediumIndex m, float begin, float end) {
-    flux *= transmittance(scene_, m, end - begin);
-    return true;
-  };
-  walkers_.state[k] =
-      state.in(accel::walk_media(interfaces_, lanes_.ray.get(k), distance, state.medium(), part));
-  set_lane(lanes_.flux, k, flux);
+  MediumIndex medium = walkers_.state[k].medium();
+  const Rgb left = accel::transmittance(scene_, interfaces_, lanes_.ray.get(k), distance, &medium);
+  walkers_.state[k] = walkers_.state[k].in(medium);
+  set_lane(lanes_.flux, k, left * get_lane(lanes_.flux, k));
 }
 
 template <class Accel, class Sink>
@@ -40,7 +35,6 @@ void Tracer<Accel, Sink>::go_through_media(size_t k, float distance) {
   std::optional<float> scattered;
   MediumIndex scattering = kVacuum;
   const auto part = [&](MediumIndex m, float begin, float end) {
-    if (m == kVacuum) return true;
     const Medium& medium = scene_.media[m];
     if (leaves) leave_caustic_on_the_way(k, m, begin, end, clear * flux);
     clear *= transmittance(medium, end - begin);
@@ -73,8 +67,9 @@ template <class Accel, class Sink>
 void Tracer<Accel, Sink>::leave_caustic_on_the_way(size_t k, MediumIndex m, float begin, float end,
                                                    const Rgb& flux) {
   const Medium& medium = scene_.media[m];
+  if (!medium.scatters()) return;
   const ScatteringPlace place(medium, flux, end - begin);
-  if (!medium.scatters() || !(place.opacity() > 0)) return;
+  if (!(place.opacity() > 0)) return;
   const float t = place.sample({medium_numbers_.u[0][k], medium_numbers_.u[1][k]});
   const float density = place.pdf(t);
   if (!(density > 0)) return;

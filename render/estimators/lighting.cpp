@@ -96,7 +96,7 @@ template <class Point>
 Rgb left_of_light(const accel::Bvh& bvh, const Point& x, const LightSample& s) {
   MediumIndex medium = medium_towards(bvh.scene(), x, s.wi);
   const float distance = s.infinite ? kInfinity : glm::distance(position(x), s.p_light);
-  return accel::transmittance(bvh, spawn(x, s.wi), distance, &medium);
+  return accel::transmittance(bvh.scene(), bvh.interfaces(), spawn(x, s.wi), distance, &medium);
 }
 
 // Samples one light; nothing if it contributes nothing. expected: the expected number of samples of this

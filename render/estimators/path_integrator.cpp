@@ -92,7 +92,6 @@ std::optional<MediumPoint> scatter_in_media(const RenderContext& ctx, const Ray&
   Rgb weight;
   path->medium = accel::walk_media(ctx.bvh.interfaces(), ray, distance, path->medium,
                                    [&](MediumIndex m, float begin, float end) {
-                                     if (m == kVacuum) return true;
                                      const Medium& medium = ctx.scene.media[m];
                                      const auto t = way.pass(medium, end - begin);
                                      if (!t) return true;
@@ -113,7 +112,6 @@ void gather_in_media(const RenderContext& ctx, const Ray& ray, float distance, b
                      PathState* path, PathLight* light, Sampler& sampler, TileCounters& counters) {
   path->medium = accel::walk_media(
       ctx.bvh.interfaces(), ray, distance, path->medium, [&](MediumIndex m, float begin, float end) {
-        if (m == kVacuum) return true;
         if (scattered) {
           const Beam beam{{ray.at(begin), ray.d}, end - begin, m};
           const PathLight of = scattered_light(ctx, beam, path->beta, SampleLight::kAll, sampler, counters);

@@ -332,13 +332,12 @@ class CameraPath {
 
   // Adds what media scatter along the branch's ray, and takes away what does not get through.
   void pass_media(Branch& branch, float distance) {
-    branch.medium = accel::walk_media(
-        ctx_.bvh.interfaces(), branch.ray, distance, branch.medium,
-        [&](MediumIndex medium, float begin, float end) {
-          if (medium != kVacuum)
-            pass_medium(branch, {{branch.ray.at(begin), branch.ray.d}, end - begin, medium});
-          return true;
-        });
+    branch.medium =
+        accel::walk_media(ctx_.bvh.interfaces(), branch.ray, distance, branch.medium,
+                          [&](MediumIndex medium, float begin, float end) {
+                            pass_medium(branch, {{branch.ray.at(begin), branch.ray.d}, end - begin, medium});
+                            return true;
+                          });
   }
   void pass_medium(Branch& branch, const Beam& beam) {
     const PathLight light = scattered_light(ctx_, beam, branch.beta, maps_.sample.light, sampler_, counters_);

@@ -23,7 +23,7 @@ void follow(const RenderInput& input, Ray ray, MediumIndex medium, Sampler& samp
     const float distance = met ? glm::distance(si.p, ray.o) : kInfinity;
     medium = accel::walk_media(input.bvh.interfaces(), ray, distance, medium,
                                [&](MediumIndex m, float begin, float end) {
-                                 if (m != kVacuum && scene.media[m].scatters())
+                                 if (scene.media[m].scatters())
                                    beams->push_back({{ray.at(begin), ray.d}, end - begin, m});
                                  return true;
                                });

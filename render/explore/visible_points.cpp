@@ -26,7 +26,8 @@ std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, Med
   for (int events = 0; events <= input.settings.max_bounces; ++events) {
     SurfaceInteraction si;
     if (!input.bvh.intersect(ray, &si)) return {};
-    if (scene.interfaces) accel::transmittance(input.bvh, ray, glm::distance(si.p, ray.o), &medium);
+    medium = accel::walk_media(input.bvh.interfaces(), ray, glm::distance(si.p, ray.o), medium,
+                               [](MediumIndex, float, float) { return true; });
     const ShadingPoint x(scene, si, -ray.d);
     if (!x.specular()) {
       const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;

@@ -42,24 +42,36 @@ TEST_P(SlabOfMedium, LeavesBeerAndLambertsShare) {
 INSTANTIATE_TEST_SUITE_P(Methods, SlabOfMedium,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kPhoton, Method::kAuto));
 
-// A point light over a plane, everything in one medium: light passes r from the lamp to the plane and d from
-// there to the camera. The footprint of the view changes r and d by less than 1e-4 of themselves.
-class PlaneInMedium : public ::testing::TestWithParam<Method> {};
+// A point light over a plane, seen at one place, by which its light passes sqrt(1 + kRho2) to the plane and
+// kToEye to the camera. The footprint of the view changes both by less than 1e-4 of themselves.
+const Point3 kEye(2, 3, 1.5f), kSeen(0.5f, 0, 0.25f);
+const double kRho2 = 0.5 * 0.5 + 0.25 * 0.25, kToEye = double(glm::distance(kEye, kSeen));
 
-TEST_P(PlaneInMedium, LightIsAbsorbedOnBothWays) {
+Scene lamp_over_plane() {
   Scene scene;
   add_shape(scene, horizontal({0, 0, 0}, 4, 4, true, add_material(scene, Lambertian{Rgb(0.5f)})));
   scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(3)});
-  const Point3 eye(2, 3, 1.5f), seen(0.5f, 0, 0.25f);
-  look_at(scene, eye, seen, {0, 1, 0}, 0.001f, 4, 4);
-  fill(scene, kSigma);
-  const auto result = render_with_threads(scene, quick(GetParam()));
-  const double rho2 = 0.5 * 0.5 + 0.25 * 0.25, way = std::sqrt(1 + rho2) + double(glm::distance(eye, seen));
-  const double clear = 0.5 * PointLightOverPlane{3, 1}.irradiance(rho2) / double(kPi);
+  look_at(scene, kEye, kSeen, {0, 1, 0}, 0.001f, 4, 4);
+  return scene;
+}
+
+// Renders it and expects its direct light to be absorbed along `way` metres of the medium kSigma.
+void expect_absorbed(const Scene& scene, Method method, double way) {
+  const auto result = render_with_threads(scene, quick(method));
+  const double clear = 0.5 * PointLightOverPlane{3, 1}.irradiance(kRho2) / double(kPi);
   for (int c = 0; c < 3; ++c) {
     const double depth = double(kSigma[c]) * way, expected = clear * std::exp(-depth);
     EXPECT_NEAR(double(result.film.at(1, 2).direct[c]), expected, expected * 1e-4 * (3 + depth)) << c;
   }
+}
+
+// Everything lies in one medium.
+class PlaneInMedium : public ::testing::TestWithParam<Method> {};
+
+TEST_P(PlaneInMedium, LightIsAbsorbedOnBothWays) {
+  Scene scene = lamp_over_plane();
+  fill(scene, kSigma);
+  expect_absorbed(scene, GetParam(), std::sqrt(1 + kRho2) + kToEye);
 }
 INSTANTIATE_TEST_SUITE_P(Methods, PlaneInMedium,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
@@ -69,23 +81,13 @@ INSTANTIATE_TEST_SUITE_P(Methods, PlaneInMedium,
 class SlabBehindInterfaces : public ::testing::TestWithParam<Method> {};
 
 TEST_P(SlabBehindInterfaces, TakesItsShareOfDirectLight) {
-  Scene scene;
-  add_shape(scene, horizontal({0, 0, 0}, 4, 4, true, add_material(scene, Lambertian{Rgb(0.5f)})));
-  scene.lights.push_back(PointLight{{0, 1, 0}, Rgb(3)});
-  const Point3 eye(2, 3, 1.5f), seen(0.5f, 0, 0.25f);
-  look_at(scene, eye, seen, {0, 1, 0}, 0.001f, 4, 4);
+  Scene scene = lamp_over_plane();
   const MediumIndex inside = add_medium(scene, kSigma);
   add_interface(scene, horizontal({0, 0.7f, 0}, 5, 5, true, 0), {inside, kVacuum});
   add_interface(scene, horizontal({0, 0.3f, 0}, 5, 5, false, 0), {inside, kVacuum});
   finalize_scene(scene);
-  const auto result = render_with_threads(scene, quick(GetParam()));
-  const double rho2 = 0.5 * 0.5 + 0.25 * 0.25, to_eye = double(glm::distance(eye, seen)) / 3;
-  const double clear = 0.5 * PointLightOverPlane{3, 1}.irradiance(rho2) / double(kPi);
-  for (int c = 0; c < 3; ++c) {
-    const double depth = double(kSigma[c]) * 0.4 * (std::sqrt(1 + rho2) + to_eye);
-    const double expected = clear * std::exp(-depth);
-    EXPECT_NEAR(double(result.film.at(1, 2).direct[c]), expected, expected * 1e-4 * (3 + depth)) << c;
-  }
+  // The slab is 0.4 m high, the lamp 1 m up and the camera 3 m.
+  expect_absorbed(scene, GetParam(), 0.4 * (std::sqrt(1 + kRho2) + kToEye / 3));
 }
 INSTANTIATE_TEST_SUITE_P(Methods, SlabBehindInterfaces,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
