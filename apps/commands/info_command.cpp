@@ -76,6 +76,7 @@ Json materials_json(const Scene& scene) {
     out.push_back({{"name", name},
                    {"type", type_name(material)},
                    {"albedo", textured(scene, material) ? Json(nullptr) : triple(albedo(material.typical()))},
+                   {"disperses", material.dispersion() != nullptr},
                    {"shapes", uses[i]}});
   }
   return out;
@@ -167,8 +168,9 @@ std::string info_text(const std::string& path, const Job& job) {
   text += bounds_text(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
-    text += fmt::format("material   {}: {}, {}\n", name.empty() ? fmt::format("#{}", i) : name,
-                        type_name(scene.materials[i]), albedo_text(scene, scene.materials[i]));
+    text += fmt::format("material   {}: {}, {}{}\n", name.empty() ? fmt::format("#{}", i) : name,
+                        type_name(scene.materials[i]), albedo_text(scene, scene.materials[i]),
+                        scene.materials[i].dispersion() ? ", disperses" : "");
   }
   for (const Light& light : scene.lights) {
     text += fmt::format("light      {}, power {} W\n", name_of(light), triple_text(power(light)));

@@ -47,6 +47,16 @@ inline bool transmits(const Bsdf& bsdf) {
 inline bool lit_from_one_side(const Bsdf& bsdf) {
   return std::visit([]<class B>(const B&) { return B::kLitFromOneSide; }, bsdf);
 }
+// Whether all that the BSDF scatters has one wavelength, as at rough dispersive glass.
+inline bool scatters_one_wavelength(const Bsdf& bsdf) {
+  const auto* dielectric = std::get_if<Dielectric>(&bsdf);
+  return dielectric && dielectric->disperses && !dielectric->facets.smooth();
+}
+// Whether what the sample sends on has one wavelength from there on.
+inline bool selects_wavelength(const Bsdf& bsdf, const BsdfSample& s) {
+  const auto* dielectric = std::get_if<Dielectric>(&bsdf);
+  return dielectric && dielectric->selects_wavelength(s);
+}
 // The diffuse lobes as a product of a factor of wo (local) and one of wi; nothing where they are none.
 inline std::optional<SeparatedF> separated(const Bsdf& bsdf, const Vector3& wo) {
   return std::visit(

@@ -1,5 +1,5 @@
 #pragma once
-// Smooth and rough boundaries between dielectrics, such as glass and water. Not modelled: dispersion.
+// Smooth and rough boundaries between dielectrics, such as glass and water.
 // What lies behind the boundary absorbs as a medium does (core/medium/medium.h).
 
 #include "core/bsdf/bsdf_types.h"
@@ -21,6 +21,7 @@ struct Dielectric {
   float eta = 1.5f;  // of the inside (below the surface) relative to the outside
   Ggx facets{};      // smooth if eta is one, where there is no boundary
   LobeTints tints{};
+  bool disperses = false;  // eta is that of one wavelength
 
   bool anisotropic() const { return facets.anisotropic(); }
   Lobes lobes() const {
@@ -49,6 +50,11 @@ struct Dielectric {
     const float inverse = 1 / relative;
     const float scale = mode == TransportMode::kRadiance ? inverse * inverse : 1.0f;
     return BsdfSample{refracted(wo, inverse, cos_t), Rgb(scale), 1 - reflectance, true, true};
+  }
+  // Whether what the sample sends on has one wavelength from there on. Smooth surfaces reflect all light
+  // alike: the reflectance is that of the wavelength, but varies little.
+  bool selects_wavelength(const BsdfSample& s) const {
+    return disperses && (s.transmission || !facets.smooth());
   }
   Rgb albedo() const { return tints.tinted() ? tints.albedo(eta) : Rgb(1); }
 

@@ -44,6 +44,9 @@ inline float luminance(const Rgb& c) {
 inline bool is_black(const Rgb& c) {
   return c.x == 0 && c.y == 0 && c.z == 0;
 }
+inline bool is_grey(const Rgb& c) {
+  return c.x == c.y && c.y == c.z;
+}
 inline bool is_finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

@@ -3,6 +3,7 @@
 #include "core/scene/bsdf_at.h"
 
 #include "core/scene/shading_normal.h"
+#include "core/spectrum/refractive_index.h"
 
 namespace kaustik {
 
@@ -56,7 +57,8 @@ TexturePoint texture_point(const Scene& scene, const SurfaceInteraction& si, con
   return point_of(si, surface_parameters(scene.shapes[si.shape], si), footprint);
 }
 
-void BsdfAt::make(const Scene& scene, const Vector3& wo, const Footprint& footprint, SurfaceInteraction& si) {
+void BsdfAt::make(const Scene& scene, const Vector3& wo, const Footprint& footprint, float wavelength,
+                  SurfaceInteraction& si) {
   const Material& material = chosen(scene, si, wo, footprint);
   bsdf_ = &material.typical();
   if (material.constant_and_isotropic()) return;
@@ -70,7 +72,17 @@ void BsdfAt::make(const Scene& scene, const Vector3& wo, const Footprint& footpr
       bsdf_ = &*made_;
     }
   }
+  if (material.dispersion()) disperse(*material.dispersion(), wavelength);
   if (is_anisotropic(*bsdf_)) si.tangent = s.dpdu;
+}
+
+void BsdfAt::disperse(const Spectrum& eta, float wavelength) {
+  if (!made_) made_ = *bsdf_;
+  auto& dielectric = std::get<Dielectric>(*made_);
+  dielectric.disperses = true;
+  const double nm = wavelength == kNoWavelength ? kHeliumLine : static_cast<double>(wavelength);
+  dielectric.eta = static_cast<float>(eta.at(nm));
+  bsdf_ = &*made_;
 }
 
 }  // namespace kaustik

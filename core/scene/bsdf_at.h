@@ -2,6 +2,7 @@
 // The BSDF at a surface point.
 
 #include "core/scene/scene.h"
+#include "core/spectrum/wavelength.h"
 
 namespace kaustik {
 
@@ -15,15 +16,17 @@ struct Footprint {
 TexturePoint texture_point(const Scene& scene, const SurfaceInteraction& si, const Footprint& footprint = {});
 
 // The BSDF at a surface point that is seen, or lit by a photon, from wo (unit, world). Refers to the BSDF of
-// a constant material without a copy; otherwise makes one for the point and keeps it.
+// a constant material without a copy; otherwise makes one for the point and keeps it. wavelength: for
+// dispersion; kNoWavelength stands for that of the d line.
 class BsdfAt {
  public:
   // Replaces si.ns by the normal of the material's bump or normal map, if it has one, and sets si.tangent if
   // the BSDF is anisotropic.
-  BsdfAt(const Scene& scene, SurfaceInteraction& si, const Vector3& wo, const Footprint& footprint = {}) {
+  BsdfAt(const Scene& scene, SurfaceInteraction& si, const Vector3& wo, const Footprint& footprint = {},
+         float wavelength = kNoWavelength) {
     const Material& material = scene.materials[si.material];
     bsdf_ = &material.typical();
-    if (!material.constant_and_isotropic()) make(scene, wo, footprint, si);
+    if (!material.constant_and_isotropic()) make(scene, wo, footprint, wavelength, si);
   }
   BsdfAt(const BsdfAt&) = delete;
   BsdfAt& operator=(const BsdfAt&) = delete;
@@ -31,7 +34,9 @@ class BsdfAt {
   const Bsdf& operator*() const { return *bsdf_; }
 
  private:
-  void make(const Scene& scene, const Vector3& wo, const Footprint& footprint, SurfaceInteraction& si);
+  void make(const Scene& scene, const Vector3& wo, const Footprint& footprint, float wavelength,
+            SurfaceInteraction& si);
+  void disperse(const Spectrum& eta, float wavelength);
 
   std::optional<Bsdf> made_;
   const Bsdf* bsdf_;

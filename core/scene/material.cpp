@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/spectrum/refractive_index.h"
+
 namespace kaustik {
 
 namespace {
@@ -32,6 +34,13 @@ Material::Material(TexturedMaterial textured, const TextureSet& textures)
   };
   varies_ = std::any_of(textured.inputs.begin(), textured.inputs.end(), is_roughness);
   textured_ = std::make_shared<const TexturedMaterial>(std::move(textured));
+}
+
+void Material::disperse(std::shared_ptr<const Spectrum> eta) {
+  auto& dielectric = std::get<Dielectric>(bsdf_);
+  dielectric.eta = static_cast<float>(eta->at(kHeliumLine));
+  dielectric.disperses = true;
+  dispersion_ = std::move(eta);
 }
 
 }  // namespace kaustik

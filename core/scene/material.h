@@ -8,6 +8,7 @@
 #include "core/bsdf/bsdf.h"
 #include "core/scene/material_inputs.h"
 #include "core/scene/mixed_material.h"
+#include "core/spectrum/spectrum.h"
 
 namespace kaustik {
 
@@ -37,13 +38,19 @@ class Material {
   // `typical` is the BSDF of one of the two materials.
   Material(const MixedMaterial& mixed, const Bsdf& typical) : bsdf_(typical), mixed_(mixed) {}
 
-  bool constant() const { return !textured_ && !mixed_; }
+  // Makes the index of refraction of a material of Dielectric BSDFs depend on the wavelength.
+  void disperse(std::shared_ptr<const Spectrum> eta);
+
+  // Whether the BSDF is the same at every point and for all light.
+  bool constant() const { return !textured_ && !mixed_ && !dispersion_; }
   // Whether the material is constant and isotropic, so that its BSDF needs nothing but the shading frame.
   bool constant_and_isotropic() const { return constant() && !anisotropic_; }
   // The BSDF of a constant material; for other materials that of one point, to be used in summaries.
   const Bsdf& typical() const { return bsdf_; }
   // Null unless the material is textured.
   const TexturedMaterial* textured() const { return textured_.get(); }
+  // Index of refraction by wavelength; null unless it depends on that.
+  const Spectrum* dispersion() const { return dispersion_.get(); }
   // Null unless the material is a mixture.
   const MixedMaterial* mixed() const { return mixed_ ? &*mixed_ : nullptr; }
   // The kinds of lobes that its BSDFs can have.
@@ -56,6 +63,7 @@ class Material {
   Bsdf bsdf_;
   std::shared_ptr<const TexturedMaterial> textured_;
   std::optional<MixedMaterial> mixed_;
+  std::shared_ptr<const Spectrum> dispersion_;
   bool varies_ = false;       // between specular and diffuse
   bool anisotropic_ = false;  // for constant materials
 };

@@ -11,6 +11,7 @@ std::vector<std::string> SceneNeeds::left_out() const {
   if (!diffuse) lines.emplace_back("no diffuse surface: no photon map");
   if (!media) lines.emplace_back("no medium: space is empty");
   if (media && !scattering) lines.emplace_back("no medium that scatters: media only absorb light");
+  if (specular && !dispersion) lines.emplace_back("no dispersion: all light is RGB");
   if (any_light && !infinite_light) lines.emplace_back("no infinite light: escaped rays carry nothing");
   return lines;
 }

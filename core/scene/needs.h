@@ -18,6 +18,7 @@ struct SceneNeeds {
   bool any_light = false;
   bool media = false;       // some space is filled by more than vacuum
   bool scattering = false;  // some of the media scatter light
+  bool dispersion = false;  // some surface refracts light by its wavelength
 
   // One sentence for each effect left out, for example "no specular surface: no caustic pass".
   std::vector<std::string> left_out() const;

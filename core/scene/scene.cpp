@@ -30,6 +30,13 @@ bool scatters_nothing(const Material& material) {
   return diffuse && is_black(diffuse->reflectance);
 }
 
+bool disperses(const Scene& scene, const Material& material) {
+  if (const MixedMaterial* mixed = material.mixed())
+    return disperses(scene, scene.materials[mixed->first]) ||
+           disperses(scene, scene.materials[mixed->second]);
+  return material.dispersion();
+}
+
 SceneNeeds needs_of(const Scene& scene) {
   SceneNeeds needs;
   for (const Shape& shape : scene.shapes) {
@@ -40,6 +47,7 @@ SceneNeeds needs_of(const Scene& scene) {
     needs.delta |= parts.specular && !parts.glossy;
     needs.glossy |= parts.glossy && !parts.diffuse && !transmits(material.typical());
     needs.diffuse |= parts.diffuse;
+    needs.dispersion |= disperses(scene, material);
   }
   needs.media = scene.interfaces || scene.camera_medium != kVacuum || !scene.light_media.empty() ||
                 std::any_of(scene.shapes.begin(), scene.shapes.end(),

@@ -58,6 +58,20 @@ const glm::dmat3& xyz_to_ours() {
   return m;
 }
 
+const glm::dmat3& ours_to_white_xyz() {
+  static const glm::dmat3 m = [] {
+    const glm::dmat3& to_xyz = colour_spaces().front().to_xyz;
+    const glm::dvec3 white = to_xyz * glm::dvec3(1);
+    return glm::dmat3(to_xyz[0] / white, to_xyz[1] / white, to_xyz[2] / white);
+  }();
+  return m;
+}
+
+const glm::dmat3& white_xyz_to_ours() {
+  static const glm::dmat3 m = glm::inverse(ours_to_white_xyz());
+  return m;
+}
+
 glm::dmat3 adaptation(const glm::dvec3& from_white, const glm::dvec3& to_white) {
   const glm::dmat3 cones({0.8951, -0.7502, 0.0389}, {0.2664, 1.7135, -0.0685}, {-0.1614, 0.0367, 1.0296});
   const glm::dvec3 gain = (cones * to_white) / (cones * from_white);

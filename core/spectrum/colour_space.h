@@ -28,6 +28,9 @@ const ColourSpace* find_colour_space(std::string_view name);
 
 // From XYZ to linear Rec. 709 with the white of the tabulated D65, so that D65 is (1, 1, 1).
 const glm::dmat3& xyz_to_ours();
+// The same from XYZ in which D65 is (1, 1, 1), and back.
+const glm::dmat3& white_xyz_to_ours();
+const glm::dmat3& ours_to_white_xyz();
 // Maps XYZ under one white to XYZ of the same appearance under another (Bradford; Lam 1985). Both whites are
 // XYZ with Y = 1.
 glm::dmat3 adaptation(const glm::dvec3& from_white, const glm::dvec3& to_white);

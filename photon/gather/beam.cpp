@@ -177,12 +177,30 @@ HWY_INLINE Vf Phase(const LaneBeam& beam, const PhotonColumns& c, uint32_t i, fl
   return hn::Div(one, hn::Mul(s, hn::Sqrt(s)));
 }
 
+// The power of photons in RGB, which coloured media absorb.
+struct RgbOfPower {
+  Vf scale, component[3];
+
+  HWY_INLINE RgbOfPower(const Rgb9e5Power& power, bool converts) : scale(power.scale) {
+    const Floats d;
+    for (int k = 0; k < 3; ++k) component[k] = converts ? hn::Zero(d) : power.component[k];
+    if (!converts) return;
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        component[k] =
+            hn::MulAdd(power.component[j],
+                       hn::Set(d, float(white_xyz_to_ours()[j][k]) * Rgb9e5Power::kUnit[j]), component[k]);
+  }
+  static float unit(int k, bool converts) { return converts ? 1 : Rgb9e5Power::kUnit[k]; }
+};
+
 glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Medium& medium, KernelType kernel,
                        float slope, GatherCounters& counters) {
   const LaneBeam beam(query);
   const PhotonColumns& c = map.columns();
   const Rgb sigma_t = medium.sigma_t();
-  const bool grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
+  const bool grey = is_grey(sigma_t);
+  const bool converts = !grey && map.colours() == FluxColours::kXyz;
   glm::dvec3 sum(0);
   with_kernel(kernel, [&]<KernelType kType>() HWY_ATTR {
     VisitAlong(map, beam, [&](uint32_t block) HWY_ATTR {
@@ -193,7 +211,7 @@ glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Mediu
         const BesideBeam photons(beam, c, block + j);
         if (hn::AllFalse(d, photons.counts)) continue;
         accepted += hn::CountTrue(d, photons.counts);
-        const Rgb9e5Power power(c, block + j);
+        const RgbOfPower power(Rgb9e5Power(c, block + j), converts);
         Vf weight = hn::Mul(Weight<kType>(photons.squared, hn::Set(d, slope)), power.scale);
         if (medium.g != 0) weight = hn::Mul(weight, Phase(beam, c, block + j, medium.g));
         weight = hn::IfThenElseZero(photons.counts, weight);
@@ -208,7 +226,7 @@ glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Mediu
       counters.accepted += accepted;
       if (accepted == 0) return;
       for (int k = 0; k < 3; ++k)
-        sum[k] += double(hn::GetLane(hn::SumOfLanes(d, of_block[k])) * Rgb9e5Power::kUnit[k]);
+        sum[k] += double(hn::GetLane(hn::SumOfLanes(d, of_block[k])) * RgbOfPower::unit(k, converts));
     });
   });
   return sum;
@@ -243,7 +261,8 @@ Rgb gather_along(const PhotonMap& map, const BeamQuery& query, const Medium& med
       HWY_DYNAMIC_DISPATCH(GatherAlong)(map, query, medium, kernel.type, terms.slope, counters);
   counters.queries += 1 + (counters.candidates - before) / kCandidatesOfQuery;
   const double of_phase = double(0.25f * kInvPi * (1 - medium.g * medium.g));
-  return Rgb(sum * (of_phase * double(terms.scale) * double(map.flux_unit())));
+  const glm::dvec3 light = sum * (of_phase * double(terms.scale) * double(map.flux_unit()));
+  return Rgb(is_grey(medium.sigma_t()) ? rgb_of_flux(light, map.colours()) : light);
 }
 
 }  // namespace kaustik::photon

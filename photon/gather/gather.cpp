@@ -97,7 +97,7 @@ Rgb gather_flux(const PhotonMap& map, const GatherQuery& query, const KernelSpec
   const detail::GatherSum sum =
       HWY_DYNAMIC_DISPATCH(GatherPhotons)(map, detail::start_of(map, query), query, kernel.type, terms.slope);
   counters += {1, sum.candidates, sum.accepted};
-  return Rgb(sum.flux * double(terms.scale) * double(map.flux_unit()));
+  return Rgb(rgb_of_flux(sum.flux * double(terms.scale) * double(map.flux_unit()), map.colours()));
 }
 
 void detail::select_photons(const PhotonMap& map, const GatherQuery& query, GatherCounters& counters,

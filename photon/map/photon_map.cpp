@@ -74,14 +74,15 @@ PhotonMap::PhotonMap(PhotonMapParts parts)
       boxes_(parts.size, std::move(parts.boxes), std::move(parts.surfaces)),
       storage_(std::move(parts.columns)),
       size_(parts.size),
-      flux_unit_(parts.flux_unit) {
+      flux_unit_(parts.flux_unit),
+      colours_(parts.colours) {
   if (storage_.size() != kColumns * lines_of(size_))
     throw std::invalid_argument("these are not the columns of so many photons");
   find_columns();
 }
 
 PhotonMapParts PhotonMap::parts() const {
-  return {size_,           flux_unit_,        octree_.cube(), storage_,
+  return {size_,           flux_unit_,        colours_,       octree_.cube(),   storage_,
           octree_.nodes(), octree_.entries(), boxes_.nodes(), boxes_.surfaces()};
 }
 
@@ -90,6 +91,7 @@ PhotonMap PhotonMap::build(PhotonBuffer&& buffer, const MapSettings& settings) {
   PhotonBuffer taken = std::exchange(buffer, {});
   PhotonMap map;
   map.flux_unit_ = taken.flux_unit;
+  map.colours_ = taken.colours;
   const MortonCube cube = MortonCube::around(settings.bounds ? *settings.bounds : bounds_of(taken.records));
   sort_into_columns(taken.records, cube, map.allocate(taken.records.size()));
   parallel::invoke([&] { map.octree_ = Octree(cube, map.positions(), map.size_); },

@@ -27,6 +27,7 @@ struct alignas(64) ColumnLine {
 struct PhotonMapParts {
   uint64_t size = 0;
   float flux_unit = 1;
+  FluxColours colours = FluxColours::kRgb;
   MortonCube cube{};
   SharedArray<ColumnLine> columns{};  // x, y, z, direction, surface, power, consecutively
   SharedArray<OctreeNode> nodes{};
@@ -54,6 +55,7 @@ class PhotonMap {
   uint64_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   float flux_unit() const { return flux_unit_; }
+  FluxColours colours() const { return colours_; }
   const MortonCube& cube() const { return octree_.cube(); }
   const Octree& octree() const { return octree_; }
   const BoxTree& boxes() const { return boxes_; }
@@ -85,11 +87,12 @@ class PhotonMap {
   PhotonColumns columns_;
   uint64_t size_ = 0;
   float flux_unit_ = 1;
+  FluxColours colours_ = FluxColours::kRgb;
 };
 
 inline Photon PhotonMap::photon(uint64_t i) const {
   const PhotonColumns& c = columns_;
-  return unpack({c.x[i], c.y[i], c.z[i], c.direction[i], c.power[i], c.surface[i]}, flux_unit_);
+  return unpack({c.x[i], c.y[i], c.z[i], c.direction[i], c.power[i], c.surface[i]}, flux_unit_, colours_);
 }
 
 }  // namespace kaustik::photon

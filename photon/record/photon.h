@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/math/vec.h"
+#include "core/spectrum/wavelength.h"
 
 namespace kaustik::photon {
 
@@ -22,9 +23,12 @@ inline constexpr std::array<std::string_view, kPhotonKinds> kPhotonKindNames = {
 struct Photon {
   Point3 p{0};
   Vector3 wi{0};  // unit, towards where the photon came from
-  Rgb flux{0};    // watts, already divided by the number of photons emitted; in a medium what it scatters
-  Normal3 n{0};   // geometric normal, unit, on the side of wi; wi itself in a medium
-  uint32_t surface_group = 0;  // in a medium: its index
+  // Watts, already divided by the number of photons emitted; in a medium what it scatters. If the photon has
+  // a wavelength, then only the part of this light that has it arrives (core/spectrum/wavelength.h).
+  Rgb flux{0};
+  Normal3 n{0};                      // geometric normal, unit, on the side of wi; wi itself in a medium
+  uint32_t surface_group = 0;        // in a medium: its index
+  float wavelength = kNoWavelength;  // nm; records do not keep it
 };
 
 }  // namespace kaustik::photon

@@ -36,8 +36,7 @@ std::string header(uint64_t vertices, std::string_view coordinate) {
 
 float mean_luminance(const PhotonBuffer& buffer) {
   double sum = 0;
-  for (const PhotonRecord& record : buffer.records)
-    sum += double(luminance(unpack(record, buffer.flux_unit).flux));
+  for (size_t i = 0; i < buffer.records.size(); ++i) sum += double(luminance(buffer.photon(i).flux));
   return buffer.records.empty() ? 0 : float(sum / double(buffer.records.size()));
 }
 
@@ -52,7 +51,7 @@ void write_vertices(PendingFile& out, const PlyPhotons& photons, const glm::dvec
     bytes.resize((end - begin) * kBytes);
     char* at = bytes.data();
     for (size_t i = begin; i < end; ++i, at += kBytes) {
-      const Photon photon = unpack(buffer.records[i], buffer.flux_unit);
+      const Photon photon = buffer.photon(i);
       glm::vec<3, Coordinate> p(photon.p);
       if constexpr (std::is_same_v<Coordinate, double>) p += origin;
       const glm::u8vec3 c = photon_colour(photons.kind, photon.flux, mean);
@@ -72,7 +71,7 @@ glm::u8vec3 photon_colour(PhotonKind kind, const Rgb& flux, float mean_flux) {
   glm::u8vec3 colour(0);
   for (int c = 0; c < 3; ++c) {
     // Reinhard's curve, which maps the mean to one half, followed by a display gamma of 2.2.
-    const float v = mean_flux > 0 ? flux[c] / mean_flux : 0;
+    const float v = mean_flux > 0 ? std::max(flux[c], 0.0f) / mean_flux : 0;
     colour[c] = uint8_t(std::lround(255 * std::pow(v / (1 + v), 1 / 2.2f)));
   }
   return colour;

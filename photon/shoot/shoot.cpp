@@ -19,6 +19,10 @@ namespace kaustik::photon {
 
 namespace {
 
+FluxColours colours_of(const Scene& scene) {
+  return scene.needs.dispersion ? FluxColours::kXyz : FluxColours::kRgb;
+}
+
 struct Block {
   uint64_t first = 0, end = 0;  // photon indices
   RecordsByKind records;
@@ -31,7 +35,7 @@ void trace_block(const Scene& scene, const SurfaceTable& surfaces, const accel::
                  const TraceSettings& settings, float flux_unit, Block& block) {
   for (auto& records : block.records) records.clear();
   TraceCounters counters;
-  RecordSink sink(flux_unit, block.records);
+  RecordSink sink(flux_unit, block.records, colours_of(scene));
   trace_photons(scene, surfaces, bvh, settings, block.first, block.end, sink, counters);
   sink.flush();
   block.counters = counters;
@@ -134,7 +138,8 @@ ShootResult shoot(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
   ShootResult result;
   const float flux_unit = std::ldexp(flux_unit_of(scene, settings.photons),
                                      settings.guide ? settings.guide->middle_exponent() : 0);
-  for (PhotonBuffer& buffer : result.buffers) buffer.flux_unit = flux_unit;
+  for (PhotonBuffer& buffer : result.buffers)
+    buffer.flux_unit = flux_unit, buffer.colours = colours_of(scene);
   if (!settings.kinds.any()) return result;
 
   const SurfaceTable surfaces(scene);

@@ -13,15 +13,19 @@ using RecordsByKind = std::array<PhotonRecords, kPhotonKinds>;
 class RecordSink {
  public:
   // Appends to `records`, which must outlive the sink.
-  RecordSink(float flux_unit, RecordsByKind& records) : flux_unit_(flux_unit), records_(records) {
+  RecordSink(float flux_unit, RecordsByKind& records, FluxColours colours = FluxColours::kRgb)
+      : flux_unit_(flux_unit), colours_(colours), records_(records) {
     packers_.fill(RecordPacker(flux_unit));
   }
 
-  void operator()(PhotonKind kind, const Photon& photon) {
-    packers_[static_cast<size_t>(kind)].add(photon, records_[static_cast<size_t>(kind)]);
+  // index: of the photon.
+  void operator()(PhotonKind kind, const Photon& photon, uint64_t index) {
+    const bool converts = colours_ == FluxColours::kXyz;
+    packers_[static_cast<size_t>(kind)].add(converts ? in_xyz(photon, index) : photon,
+                                            records_[static_cast<size_t>(kind)]);
   }
-  // Adds the first `count` lanes with their flux at p. kind[k] is a PhotonKind, or kPhotonKinds for no
-  // photon.
+  // Adds the first `count` lanes with their flux at p, which is RGB. kind[k] is a PhotonKind, or kPhotonKinds
+  // for no photon.
   void operator()(const VertexLanes& lanes, const uint8_t* kind, size_t count);
   // Packs the photons that are still waiting.
   void flush() {
@@ -29,7 +33,10 @@ class RecordSink {
   }
 
  private:
+  Photon in_xyz(Photon photon, uint64_t index) const;
+
   float flux_unit_;
+  FluxColours colours_;
   RecordsByKind& records_;
   std::array<RecordPacker, kPhotonKinds> packers_;
 };

@@ -14,6 +14,7 @@
 
 #include "accel/media_walk.h"
 #include "core/scene/bsdf_at.h"
+#include "photon/trace/lanes/intersect_lanes.h"
 #include "photon/trace/lanes/walker_queue.h"
 #include "photon/trace/shading_correction.h"
 #include "photon/trace/tracer.h"
@@ -33,31 +34,6 @@ struct Arrival {
   Ray ray;
   Rgb flux;
 };
-
-// A hit names a triangle, whose vertices lie two dependent loads away and are often not in the cache.
-// Prefetching those of a whole group before the first is needed hides most of the latency. Must be inlined:
-// GCC 12 considers a function that only prefetches free of effects and drops the call.
-[[gnu::always_inline]] inline void prefetch_triangles(const SurfaceTable& surfaces,
-                                                      const accel::HitLanes& hits, size_t count) {
-  const auto triangle = [&](size_t k, const SurfaceRow& surface) {
-    return &surface.indices[hits.primitive[k] & surface.primitives];
-  };
-  for (size_t k = 0; k < count; ++k) __builtin_prefetch(triangle(k, surfaces.row(hits.shape[k])));
-  for (size_t k = 0; k < count; ++k) {
-    const SurfaceRow& surface = surfaces.row(hits.shape[k]);
-    for (uint32_t vertex : *triangle(k, surface)) __builtin_prefetch(&surface.P[vertex]);
-  }
-}
-
-// Intersects in packets if the accelerator supports them.
-template <class Accel>
-void intersect_lanes(const Accel& bvh, const accel::RayLanes& rays, size_t count, accel::HitLanes* hits) {
-  if constexpr (requires { bvh.intersect(rays, count, hits); }) {
-    bvh.intersect(rays, count, hits);
-  } else {
-    for (size_t k = 0; k < count; ++k) hits->set(k, bvh.intersect(rays.get(k)));
-  }
-}
 
 // Traces photons whose 64-bit indices have the same upper half.
 template <class Accel, class Sink>
@@ -139,18 +115,6 @@ class Tracer {
     push(starts_.ray, starts_.flux, count);
   }
 
-  // Sets the media in which the first `count` photons start. Light from infinitely far has come through
-  // them already.
-  void enter_media(size_t count) {
-    for (size_t k = 0; k < count; ++k) {
-      const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light).light;
-      const MediumIndex medium = medium_of_light(scene_, light);
-      walkers_.state[k] = WalkState().in(medium);
-      if (medium != kVacuum && !bounds_of(scene_.lights[light]))
-        set_lane(starts_.flux, k, transmittance(scene_, medium, kInfinity) * get_lane(starts_.flux, k));
-    }
-  }
-
   void weigh_starts(size_t count) {
     for (auto& channel : starts_.flux)
       for (size_t k = 0; k < count; ++k) channel[k] *= weights_[k];
@@ -185,6 +149,9 @@ class Tracer {
   }
 
   // Media: photon/trace/tracer_media-inl.h.
+  // Sets the media in which the first `count` photons start. Light from infinitely far has come through them
+  // already.
+  void enter_media(size_t count);
   // Takes the photons through the media between them and their hits.
   void pass_media(size_t count);
   // Straight rays are not scattered.
@@ -268,7 +235,8 @@ class Tracer {
     scatters_[k] = false;
     const Arrival photon{lanes_.ray.get(k), get_lane(lanes_.flux, k)};
     SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
-    const BsdfAt bsdf_at(scene_, si, -photon.ray.d);
+    const BsdfAt bsdf_at(scene_, si, -photon.ray.d, {},
+                         scene_.needs.dispersion ? wavelength_of(k) : kNoWavelength);
     std::visit(
         [&](const auto& bsdf) {
           const Lobes lobes = bsdf.lobes();
@@ -329,23 +297,31 @@ class Tracer {
 
   void leave_photons_of_lanes(size_t count) {
     if constexpr (requires { sink_(lanes_, left_.data(), count); }) {
-      sink_(lanes_, left_.data(), count);
-    } else {
-      for (size_t k = 0; k < count; ++k) {
-        if (left_[k] == kNothing) continue;
-        hand_over(k, static_cast<PhotonKind>(left_[k]),
-                  Photon{get_lane(lanes_.p, k), -get_lane(lanes_.ray.d, k), get_lane(lanes_.flux, k),
-                         get_lane(lanes_.facing, k), lanes_.surface_group[k]});
-      }
+      if (!scene_.needs.dispersion) return sink_(lanes_, left_.data(), count);
+    }
+    for (size_t k = 0; k < count; ++k) {
+      if (left_[k] == kNothing) continue;
+      hand_over(k, static_cast<PhotonKind>(left_[k]),
+                Photon{get_lane(lanes_.p, k), -get_lane(lanes_.ray.d, k), get_lane(lanes_.flux, k),
+                       get_lane(lanes_.facing, k), lanes_.surface_group[k]});
     }
   }
 
-  void hand_over(size_t k, PhotonKind kind, const Photon& photon) {
+  void hand_over(size_t k, PhotonKind kind, Photon photon) {
+    if (walkers_.state[k].is_dispersed()) photon.wavelength = wavelength_of(k);
     if constexpr (requires { sink_(kind, photon, uint64_t{0}); }) {
-      sink_(kind, photon, keys_.upper_half() << 32 | reverse_bits(walkers_.reversed_index[k]));
+      sink_(kind, photon, index_of(k));
     } else {
       sink_(kind, photon);
     }
+  }
+
+  uint64_t index_of(size_t k) const {
+    return keys_.upper_half() << 32 | reverse_bits(walkers_.reversed_index[k]);
+  }
+  // The one wavelength that the photon has once it is dispersed.
+  float wavelength_of(size_t k) const {
+    return sample_wavelength(Sampler(photon_stream(settings_), index_of(k), kWavelengthDimension).next_1d());
   }
 
   // Counts invalid fluxes, which must never reach a map.
@@ -401,6 +377,8 @@ class Tracer {
     if (!scatters_[k]) return false;
     WalkState& state = walkers_.state[k];
     state = sample->specular ? state.behind_specular() : state.behind_diffuse();
+    if constexpr (requires { bsdf.selects_wavelength(*sample); })
+      if (bsdf.selects_wavelength(*sample)) state = state.dispersed();
     const Onward on = onward(bsdf, si, frame, wo, wo_local, *sample);
     const Rgb next = on.weight * photon.flux;
     if (is_black(next) || !valid(next)) return false;

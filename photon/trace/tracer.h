@@ -32,6 +32,8 @@ namespace kaustik::photon {
 // Dimensions of a photon's random point: the first 8 are for emission, each vertex takes the next 4.
 inline constexpr uint32_t kEmissionDimensions = 8;
 inline constexpr uint32_t kVertexDimensions = 4;
+// The last of the dimensions for emission chooses the wavelength, for photons that meet dispersive glass.
+inline constexpr uint32_t kWavelengthDimension = kEmissionDimensions - 1;
 
 // A straight ray leaves at most this many shadow photons, far more than any real scene has surfaces in a row.
 inline constexpr uint32_t kMaxStraightSurfaces = 1 << 16;

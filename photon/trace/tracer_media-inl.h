@@ -8,6 +8,17 @@
 namespace kaustik::photon::detail {
 
 template <class Accel, class Sink>
+void Tracer<Accel, Sink>::enter_media(size_t count) {
+  for (size_t k = 0; k < count; ++k) {
+    const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light).light;
+    const MediumIndex medium = medium_of_light(scene_, light);
+    walkers_.state[k] = WalkState().in(medium);
+    if (medium != kVacuum && !bounds_of(scene_.lights[light]))
+      set_lane(starts_.flux, k, transmittance(scene_, medium, kInfinity) * get_lane(starts_.flux, k));
+  }
+}
+
+template <class Accel, class Sink>
 void Tracer<Accel, Sink>::pass_media(size_t count) {
   for (size_t k = 0; k < count; ++k) {
     if (walkers_.state[k].medium() == kVacuum && !interfaces_) continue;

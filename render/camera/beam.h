@@ -3,6 +3,7 @@
 
 #include "core/math/ray.h"
 #include "core/medium/medium.h"
+#include "core/spectrum/wavelength.h"
 
 namespace kaustik::render {
 
@@ -11,6 +12,7 @@ struct Beam {
   Ray ray;             // unit direction
   float distance = 0;  // metres, may be infinite
   MediumIndex medium = kVacuum;
+  float wavelength = kNoWavelength;  // of the light along the ray, if it has only one
 };
 
 }  // namespace kaustik::render

@@ -6,6 +6,7 @@
 #include "core/light/interface/light_types.h"
 #include "core/medium/phase_function.h"
 #include "core/scene/media.h"
+#include "core/spectrum/wavelength.h"
 
 namespace kaustik::render {
 
@@ -14,6 +15,7 @@ struct MediumPoint {
   Vector3 wo{0};  // unit, world, to the viewer (or to the previous vertex of the camera path)
   float g = 0;
   MediumIndex medium = kVacuum;
+  float wavelength = kNoWavelength;  // of light that leaves towards wo, if it has only one
 
   // The point as LightSampler sees it.
   LightReceiver receiver() const { return {p, wo, true, true}; }

@@ -16,12 +16,16 @@ struct ShadingPoint {
   Vector3 wo_local{0};
   BsdfAt bsdf;
   MediumIndex medium = kVacuum;  // on the side of wo; set by those who follow paths through media
+  // Of light that leaves towards wo, if it has only one. Set by those who follow paths through dispersive
+  // glass.
+  float wavelength = kNoWavelength;
 
   // If wo lies on different sides of the geometric and the shading surface of a non-specular material, the
-  // geometric normal is used for shading, since the interpolated one is meaningless there.
+  // geometric normal is used for shading, since the interpolated one is meaningless there. index_wavelength:
+  // for which dispersive surfaces have their BSDF.
   ShadingPoint(const Scene& scene, const SurfaceInteraction& interaction, const Vector3& to_viewer,
-               const Footprint& footprint = {})
-      : si(interaction), wo(to_viewer), bsdf(scene, si, to_viewer, footprint) {
+               const Footprint& footprint = {}, float index_wavelength = kNoWavelength)
+      : si(interaction), wo(to_viewer), bsdf(scene, si, to_viewer, footprint, index_wavelength) {
     if (!is_specular(*bsdf) && glm::dot(wo, si.n) * glm::dot(wo, si.ns) <= 0) si.ns = si.n;
     frame = si.shading_frame();
     wo_local = frame.to_local(wo);

@@ -12,19 +12,26 @@ namespace {
 
 // State of a path while it is traced.
 struct PathState {
-  Rgb beta{1};                   // throughput since x
-  float roulette = 1;            // largest component of the throughput without the eta^2 of refractions
-  int events = 1;                // scattering events since x, x included
-  int diffuse = 0;               // scattering events by diffuse lobes or media, x included
-  bool from_medium = false;      // the last of these was in a medium
-  bool specular = false;         // the last event was specular
-  bool has_pdf = false;          // that event was by no delta lobe, so lights were sampled there too
-  LightReceiver ref;             // where that event was
-  float pdf = 0;                 // density of the ray that left it
-  Point3 from{0};                // the point that the ray left
-  float segment = 0;             // length of the path since the last diffuse event, metres
-  MediumIndex medium = kVacuum;  // of the ray
+  Rgb beta{1};                       // throughput since x
+  float roulette = 1;                // largest component of the throughput without the eta^2 of refractions
+  int events = 1;                    // scattering events since x, x included
+  int diffuse = 0;                   // scattering events by diffuse lobes or media, x included
+  bool from_medium = false;          // the last of these was in a medium
+  bool specular = false;             // the last event was specular
+  bool has_pdf = false;              // that event was by no delta lobe, so lights were sampled there too
+  LightReceiver ref;                 // where that event was
+  float pdf = 0;                     // density of the ray that left it
+  Point3 from{0};                    // the point that the ray left
+  float segment = 0;                 // length of the path since the last diffuse event, metres
+  MediumIndex medium = kVacuum;      // of the ray
+  float wavelength = kNoWavelength;  // for which dispersive glass refracts
+  bool dispersed = false;            // the path has only this wavelength
 };
+
+// The wavelength of points that the path meets.
+float wavelength_of(const PathState& path) {
+  return path.dispersed ? path.wavelength : kNoWavelength;
+}
 
 bool caustics_by_map(const RenderContext& ctx) {
   return ctx.plan.caustics == CausticEstimator::kPhotons;
@@ -90,15 +97,15 @@ std::optional<MediumPoint> scatter_in_media(const RenderContext& ctx, const Ray&
   FreePath way(path->beta, sampler.next_2d());
   std::optional<MediumPoint> met;
   Rgb weight;
-  path->medium = accel::walk_media(ctx.bvh.interfaces(), ray, distance, path->medium,
-                                   [&](MediumIndex m, float begin, float end) {
-                                     const Medium& medium = ctx.scene.media[m];
-                                     const auto t = way.pass(medium, end - begin);
-                                     if (!t) return true;
-                                     met = MediumPoint{ray.at(begin + *t), -ray.d, medium.g, m};
-                                     weight = way.scattered(medium);
-                                     return false;
-                                   });
+  path->medium = accel::walk_media(
+      ctx.bvh.interfaces(), ray, distance, path->medium, [&](MediumIndex m, float begin, float end) {
+        const Medium& medium = ctx.scene.media[m];
+        const auto t = way.pass(medium, end - begin);
+        if (!t) return true;
+        met = MediumPoint{ray.at(begin + *t), -ray.d, medium.g, m, wavelength_of(*path)};
+        weight = way.scattered(medium);
+        return false;
+      });
   if (!met) weight = way.passed();
   const float before = max_component(path->beta);
   path->beta *= weight;
@@ -113,7 +120,7 @@ void gather_in_media(const RenderContext& ctx, const Ray& ray, float distance, b
   path->medium = accel::walk_media(
       ctx.bvh.interfaces(), ray, distance, path->medium, [&](MediumIndex m, float begin, float end) {
         if (scattered) {
-          const Beam beam{{ray.at(begin), ray.d}, end - begin, m};
+          const Beam beam{{ray.at(begin), ray.d}, end - begin, m, wavelength_of(*path)};
           const PathLight of = scattered_light(ctx, beam, path->beta, SampleLight::kAll, sampler, counters);
           light->indirect += path->beta * (of.direct + of.caustic + of.indirect);
         }
@@ -147,6 +154,7 @@ bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, Path
   path->beta *= s->weight;
   if (!s->transmission) path->roulette *= max_component(s->weight);
   path->specular = s->specular;
+  path->dispersed |= selects_wavelength(*v.bsdf, *s);
   path->diffuse += !s->specular;
   if (!s->specular) path->segment = 0, path->from_medium = false;
   path->has_pdf = !s->specular || s->glossy;
@@ -224,52 +232,78 @@ std::optional<MediumPoint> pass_media(const RenderContext& ctx, const Ray& ray, 
   return {};
 }
 
+// What a path collects before and after dispersive glass has refracted it.
+struct LightByDispersion {
+  PathLight before, after;
+
+  PathLight* of(const PathState& path) { return path.dispersed ? &after : &before; }
+  // The sum, where the path did not begin with one wavelength.
+  PathLight sum(float wavelength) const {
+    const auto join = [&](const Rgb& a, const Rgb& b) {
+      return is_black(b) ? a : a + at_wavelength(b, wavelength);
+    };
+    return {join(before.direct, after.direct), join(before.caustic, after.caustic),
+            join(before.indirect, after.indirect)};
+  }
+};
+
 // Follows a path from its first ray to its end.
-PathLight follow(const RenderContext& ctx, PathState path, Ray ray, PathReach reach, Sampler& sampler,
-                 TileCounters& counters) {
-  PathLight light;
+void follow(const RenderContext& ctx, PathState& path, Ray ray, PathReach reach, LightByDispersion& light,
+            Sampler& sampler, TileCounters& counters) {
   while (true) {
     // A ray that looks for lights alone counts as the shadow ray whose work it shares.
     ++(reach == PathReach::kLights ? counters.rays.shadow : counters.rays.bounce);
     SurfaceInteraction si;
     const bool met = ctx.bvh.intersect(ray, &si);
     const float distance = met ? glm::distance(si.p, path.from) : kInfinity;
-    if (const auto m = pass_media(ctx, ray, distance, reach, &path, &light, sampler, counters)) {
-      if (!visit(ctx, *m, &path, &ray, &light, sampler, counters)) return light;
+    if (const auto m = pass_media(ctx, ray, distance, reach, &path, light.of(path), sampler, counters)) {
+      if (!visit(ctx, *m, &path, &ray, light.of(path), sampler, counters)) return;
       continue;
     }
-    if (!met) {
-      add_escape(ctx, path, ray, &light);
-      return light;
-    }
-    add_light(ctx, path, si, ray, &light);
-    if (reach == PathReach::kLights || ++path.events > ctx.settings.max_bounces) return light;
+    if (!met) return add_escape(ctx, path, ray, light.of(path));
+    add_light(ctx, path, si, ray, light.of(path));
+    if (reach == PathReach::kLights || ++path.events > ctx.settings.max_bounces) return;
     path.segment += distance;
     path.from = si.p;
-    ShadingPoint y(ctx.scene, si, -ray.d);
-    y.medium = path.medium;
-    const std::optional<Scatter> part = visit(ctx, y, reach, &path, &light, sampler, counters);
-    if (!part || !continue_path(ctx.scene, y, *part, &path, &ray, sampler)) return light;
+    ShadingPoint y(ctx.scene, si, -ray.d, {}, path.wavelength);
+    path.dispersed |= scatters_one_wavelength(*y.bsdf);
+    y.medium = path.medium, y.wavelength = wavelength_of(path);
+    const std::optional<Scatter> part = visit(ctx, y, reach, &path, light.of(path), sampler, counters);
+    if (!part || !continue_path(ctx.scene, y, *part, &path, &ray, sampler)) return;
   }
+}
+
+// Follows the path from x, a point on a surface or in a medium. start: begins it.
+template <class Point, class Start>
+PathLight trace_from(const RenderContext& ctx, const Point& x, PathReach reach, Sampler& sampler,
+                     TileCounters& counters, const Start& start) {
+  PathState path;
+  path.from = position(x);
+  path.wavelength = x.wavelength;
+  path.dispersed = x.wavelength != kNoWavelength;
+  if (ctx.scene.needs.dispersion && !path.dispersed) path.wavelength = sample_wavelength(sampler.next_1d());
+  Ray ray;
+  LightByDispersion light;
+  if (start(&path, &ray)) follow(ctx, path, ray, reach, light, sampler, counters);
+  if (x.wavelength != kNoWavelength) return light.after;
+  return path.dispersed ? light.sum(path.wavelength) : light.before;
 }
 
 }  // namespace
 
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
                      TileCounters& counters) {
-  PathState path;
-  path.from = x.si.p;
-  Ray ray;
-  if (!continue_path(ctx.scene, x, Scatter::kDiffuse, &path, &ray, sampler)) return {};
-  return follow(ctx, path, ray, reach, sampler, counters);
+  return trace_from(ctx, x, reach, sampler, counters, [&](PathState* path, Ray* ray) {
+    return continue_path(ctx.scene, x, Scatter::kDiffuse, path, ray, sampler);
+  });
 }
 
 PathLight trace_path(const RenderContext& ctx, const MediumPoint& x, PathReach reach, Sampler& sampler,
                      TileCounters& counters) {
-  PathState path;
-  Ray ray;
-  continue_path(x, &path, &ray, sampler);
-  return follow(ctx, path, ray, reach, sampler, counters);
+  return trace_from(ctx, x, reach, sampler, counters, [&](PathState* path, Ray* ray) {
+    continue_path(x, path, ray, sampler);
+    return true;
+  });
 }
 
 }  // namespace kaustik::render

@@ -39,6 +39,9 @@ inline Rgb disc_factor(const RenderContext& ctx, const ShadingPoint& x) {
 // near, where the indirect map adds the light of all further events. Russian roulette starts at the third
 // non-specular point. Unbiased except for the maps' kernels. At most max_bounces scattering events from x to
 // the light, x included, apart from those of the map's photons. Requires reach > kNone.
+//
+// Light that dispersive glass refracts on the way has one wavelength. If x has one already, the path has
+// that, and the result is what at_wavelength() is then to be applied to; otherwise the path samples one.
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
                      TileCounters& counters);
 

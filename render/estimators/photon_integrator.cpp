@@ -14,12 +14,12 @@
 #include "render/estimators/photon_integrator.h"
 
 #include <array>
+#include <memory>
 
 #include "accel/media_walk.h"
-#include "render/estimators/disc_pilots.h"
 #include "render/estimators/glossy_tails.h"
+#include "render/estimators/point_plan.h"
 #include "render/estimators/scattered_light.h"
-#include "render/explore/surroundings.h"
 
 namespace kaustik::render {
 
@@ -60,80 +60,6 @@ bool lecture_trusts_photons(const RenderContext& ctx, const ShadingPoint& x, Lec
   counters.fallback_shadow += answer.outcome == photon::LectureOutcome::kShadow;
   counters.fallback_face += answer.outcome == photon::LectureOutcome::kFace;
   return answer.use_photons();
-}
-
-// How the light that the diffuse lobes of a point scatter is estimated.
-struct PointPlan {
-  bool indirect_disc = false;  // gather the indirect map at the point itself
-  PathReach path = PathReach::kNone;
-};
-
-// Least share of the indirect map's disc that must lie on the surface: that of a disc in a corner, where
-// three walls meet. On narrow surfaces the correction for the missing share is a guess, which may be wrong by
-// half.
-constexpr double kLeastSupport = 0.2;
-constexpr float kErrorOfGuess = 0.5f;
-
-// Relative error of a disc of radius r at a place of clearance c. The second derivative of the irradiance is
-// about 1 / (2 c)^2 of it, and the second-order term of its mean over the disc is r^2 / 8 times that:
-// r^2 / (32 c^2). Where the clearance is unknown, c = r.
-float error_of_disc(float radius, float clearance) {
-  const float ratio = clearance > 0 ? radius / clearance : 1;
-  return std::min(ratio * ratio / 32, kErrorOfGuess);
-}
-
-// Relative error of a disc whose correction is this factor: where discs are wrong by much, their error varies
-// as much within a cell of the correction.
-float error_of_correction(const Rgb& factor) {
-  const float f = luminance(factor);
-  return std::abs(f - 1) / std::max(f, 1.0f);
-}
-
-// Whether a disc at x is a better estimate than a final gather. blurred: the point is seen through a glossy
-// lobe that is wider than the disc, so that only the disc's support matters. share() gives the share of the
-// disc on the surface; it takes long, and often does not matter.
-template <class Share>
-bool disc_is_better(const RenderContext& ctx, const ShadingPoint& x, bool blurred, const Share& share) {
-  const Normal3 n = glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n;
-  const Place place = ctx.maps.surroundings->at(x.si.p, n);
-  const float error_of_path = place.noise / std::sqrt(float(ctx.settings.spp));
-  if (error_of_path >= kErrorOfGuess) return true;
-  const float radius = ctx.maps.indirect.estimate.radius;
-  if (error_of_correction(disc_factor(ctx, x)) > error_of_path) return false;
-  const float clearance = std::min(place.clearance, place.lit_clearance);
-  if (!blurred && error_of_disc(radius, clearance) > error_of_path) return false;
-  return share() >= kLeastSupport;
-}
-
-// Whether the indirect map's disc is taken at x. The points that share a disc share the answer.
-bool takes_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred, photon::EstimateBatch* batch) {
-  const photon::EstimateSettings& estimate = ctx.maps.indirect.estimate;
-  if (!ctx.maps.surroundings) return true;  // without photons, nothing is gathered
-  if (estimate.leaf) return disc_is_better(ctx, x, blurred, [] { return 1.0; });
-  const auto disc = batch->disc(ctx.maps.indirect.map, x.si, x.wo, *x.bsdf, estimate);
-  const uint8_t taken = blurred ? 1 : 2, refused = blurred ? 4 : 8;
-  uint8_t& note = batch->note(disc);
-  if (!(note & (taken | refused))) {
-    const auto share = [&] { return batch->share(disc, estimate); };
-    note |= disc_is_better(ctx, x, blurred, share) ? taken : refused;
-  }
-  return note & taken;
-}
-
-PointPlan plan_point(const RenderContext& ctx, const ShadingPoint& x, bool blurred,
-                     photon::EstimateBatch* batch) {
-  const EstimatorPlan& plan = ctx.plan;
-  PointPlan point;
-  if (samples_lights(plan.direct) && direct_needs_bsdf_sample(ctx.scene, x)) point.path = PathReach::kLights;
-  if (plan.caustics == CausticEstimator::kPaths) point.path = PathReach::kSpecular;
-  if (plan.indirect == IndirectEstimator::kPaths) point.path = PathReach::kRoulette;
-  if (plan.indirect == IndirectEstimator::kPhotons) point.indirect_disc = true;
-  if (plan.indirect != IndirectEstimator::kFinalGather) return point;
-  if ((blurred || !lobes(*x.bsdf).rough) && takes_disc(ctx, x, blurred, batch))
-    point.indirect_disc = true;
-  else
-    point.path = final_gather_reach(ctx);
-  return point;
 }
 
 // Adds beta times the direct light at x.
@@ -219,6 +145,7 @@ struct Branch {
   float length = 0;              // of the chain
   bool shown = false;            // the chain had a point with lobes that are no delta lobes
   MediumIndex medium = kVacuum;  // of the ray
+  bool dispersed = false;        // its light has only the sample's wavelength
 };
 
 // Emission that the ray meets. After a glossy lobe it has the MIS weight of BSDF sampling, since lights are
@@ -274,7 +201,15 @@ class CameraPath {
  public:
   CameraPath(const RenderContext& ctx, const CameraSample& sample, Sampler& sampler, TileCounters& counters,
              PixelResult* result)
-      : ctx_(ctx), sampler_(sampler), counters_(counters), result_(result), maps_{sample, counters, result} {}
+      : ctx_(ctx),
+        sampler_(sampler),
+        counters_(counters),
+        result_(result),
+        maps_{{sample, counters, result},
+              {sample, counters, sample.dispersed ? &sample.dispersed->light : nullptr}} {
+    if (!ctx.scene.needs.dispersion) return;
+    wavelength_ = sample.dispersed->wavelength = sample_wavelength(sampler.next_1d());
+  }
 
   void trace(const CameraSample& sample) {
     ++counters_.rays.camera;
@@ -306,8 +241,10 @@ class CameraPath {
     if (sees_lights) add_emission(branch, emission_seen(ctx_.scene, branch.last, si, branch.ray.d));
     const RayCone cone = branch.cone.after(hit.t);
     const bool constant = ctx_.scene.materials[si.material].constant();
-    ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n));
-    x.medium = branch.medium;
+    ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n),
+                   wavelength_);
+    branch.dispersed |= scatters_one_wavelength(*x.bsdf);
+    x.medium = branch.medium, x.wavelength = wavelength_of(branch);
     const Lobes parts = lobes(*x.bsdf);
     const float length = branch.length + hit.t;
     const bool end = parts.diffuse || parts.glossy || !parts.specular || branch.events == kMostFollowed;
@@ -319,7 +256,8 @@ class CameraPath {
     }
     if (parts.diffuse)
       if (const float weight = roulette_weight(gather_probability(branch.share), sampler_); weight > 0)
-        add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_, maps_);
+        add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_,
+                      maps_of(branch));
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy && branch.tail == Tail::kNone) add_glossy(branch, x);
     if (branch.tail != Tail::kNone && !ctx_.scene.needs.diffuse && !ctx_.scene.needs.scattering)
@@ -332,24 +270,27 @@ class CameraPath {
 
   // Adds what media scatter along the branch's ray, and takes away what does not get through.
   void pass_media(Branch& branch, float distance) {
-    branch.medium =
-        accel::walk_media(ctx_.bvh.interfaces(), branch.ray, distance, branch.medium,
-                          [&](MediumIndex medium, float begin, float end) {
-                            pass_medium(branch, {{branch.ray.at(begin), branch.ray.d}, end - begin, medium});
-                            return true;
-                          });
+    branch.medium = accel::walk_media(
+        ctx_.bvh.interfaces(), branch.ray, distance, branch.medium,
+        [&](MediumIndex medium, float begin, float end) {
+          pass_medium(branch,
+                      {{branch.ray.at(begin), branch.ray.d}, end - begin, medium, wavelength_of(branch)});
+          return true;
+        });
   }
   void pass_medium(Branch& branch, const Beam& beam) {
-    const PathLight light = scattered_light(ctx_, beam, branch.beta, maps_.sample.light, sampler_, counters_);
-    result_->direct += branch.beta * light.direct;
-    result_->caustic += branch.beta * light.caustic;
-    result_->indirect += branch.beta * light.indirect;
+    const MapEstimator& maps = maps_of(branch);
+    const PathLight light = scattered_light(ctx_, beam, branch.beta, maps.sample.light, sampler_, counters_);
+    maps.result->direct += branch.beta * light.direct;
+    maps.result->caustic += branch.beta * light.caustic;
+    maps.result->indirect += branch.beta * light.indirect;
     branch.beta *= transmittance(ctx_.scene, beam.medium, beam.distance);
   }
 
   void add_emission(const Branch& branch, const Rgb& Le) {
-    result_->emitted += branch.beta * Le;
-    if (branch.events > 0) result_->denoising_emitted += branch.beta * Le;
+    PixelResult* const result = maps_of(branch).result;
+    result->emitted += branch.beta * Le;
+    if (branch.events > 0) result->denoising_emitted += branch.beta * Le;
   }
 
   // Adds the light that the glossy lobes of x scatter straight from lights, and in their tails from the
@@ -363,9 +304,14 @@ class CameraPath {
             weight * photon::estimate_glossy_tail(ctx_.maps.caustic.map, x.si, x.wo, *x.bsdf,
                                                   ctx_.maps.caustic.estimate, kTailPdf, counters_.gather);
     }
-    result_->emitted += branch.beta * light;
-    result_->denoising_emitted += branch.beta * light;
+    PixelResult* const result = maps_of(branch).result;
+    result->emitted += branch.beta * light;
+    result->denoising_emitted += branch.beta * light;
   }
+
+  // Where the light of a branch is added.
+  const MapEstimator& maps_of(const Branch& branch) const { return maps_[branch.dispersed]; }
+  float wavelength_of(const Branch& branch) const { return branch.dispersed ? wavelength_ : kNoWavelength; }
 
   void continue_specular(const Branch& from, const ShadingPoint& x, bool blurred) {
     const auto s = scatter(x, sampler_, Scatter::kSpecular);
@@ -376,7 +322,7 @@ class CameraPath {
     if (tail == Tail::kNone && s->glossy && gathers_tail(ctx_, x) && in_tail(x, s->wi)) tail = Tail::kLeft;
     push({x.si.spawn(s->wi), from.cone, beta, from.share, from.events + 1,
           LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred, from.length, from.shown,
-          medium_towards(ctx_.scene, x, s->wi)});
+          medium_towards(ctx_.scene, x, s->wi), from.dispersed || selects_wavelength(*x.bsdf, *s)});
   }
 
   // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
@@ -391,22 +337,41 @@ class CameraPath {
     for (const BsdfSample* s : {&*reflected, &*refracted})
       push({x.si.spawn(s->wi), from.cone, from.beta * s->weight * s->pdf, from.share * s->pdf,
             from.events + 1, LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.blurred,
-            from.length, from.shown, medium_towards(ctx_.scene, x, s->wi)});
+            from.length, from.shown, medium_towards(ctx_.scene, x, s->wi),
+            from.dispersed || selects_wavelength(*x.bsdf, *s)});
     return true;
   }
 
-  void push(const Branch& branch) { branches_[waiting_++] = branch; }
+  void push(const Branch& branch) { std::construct_at(&branches_[static_cast<size_t>(waiting_++)], branch); }
 
   const RenderContext& ctx_;
   Sampler& sampler_;
   TileCounters& counters_;
   PixelResult* result_;
-  MapEstimator maps_;
-  std::array<Branch, kMostWaiting> branches_;
+  MapEstimator maps_[2];  // of light before and after dispersive glass has refracted it
+  float wavelength_ = kNoWavelength;
+  // Not initialised: most samples use few of them.
+  static_assert(std::is_trivially_destructible_v<Branch>);
+  union {
+    std::array<Branch, kMostWaiting> branches_;
+  };
   int waiting_ = 0;
 };
 
 }  // namespace
+
+void DispersedLight::add_to(PixelResult* sample) const {
+  const auto add = [&](const Rgb& part, Rgb* to) {
+    if (!is_black(part)) *to += at_wavelength(part, wavelength);
+  };
+  add(light.emitted, &sample->emitted);
+  add(light.direct, &sample->direct);
+  add(light.caustic, &sample->caustic);
+  add(light.indirect, &sample->indirect);
+  add(light.denoising_emitted, &sample->denoising_emitted);
+  add(light.bias, &sample->bias);
+  sample->photons += light.photons;
+}
 
 void trace_camera_ray(const RenderContext& ctx, const CameraSample& sample, Sampler& sampler,
                       TileCounters& counters, PixelResult* result) {

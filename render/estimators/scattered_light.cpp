@@ -29,7 +29,7 @@ PathLight sampled(const RenderContext& ctx, const Beam& beam, const Rgb& beta, S
   if (!(sampler.next_1d() < q)) return {};
   const BeamSampler::Sample at = points.sample(u);
   if (is_black(at.weight)) return {};
-  const MediumPoint m{beam.ray.at(at.t), -beam.ray.d, medium.g, beam.medium};
+  const MediumPoint m{beam.ray.at(at.t), -beam.ray.d, medium.g, beam.medium, beam.wavelength};
   const PathReach reach = reach_of(ctx, m);
   const LightWeight weight = reach == PathReach::kNone ? LightWeight::kAlone : LightWeight::kMis;
   PathLight light;

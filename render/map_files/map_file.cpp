@@ -98,6 +98,7 @@ void MapFile::read_manifest(std::string_view text) {
     Map map{.kind = kind_named(entry.at("kind").get<std::string>())};
     take_whole(entry, "photons", &map.photons);
     map.flux_unit = finite_from_hex(entry.at("flux_unit"));
+    if (entry.value("colours", "rgb") == "xyz") map.colours = photon::FluxColours::kXyz;
     map.cube = cube_from(entry.at("cube"));
     for (size_t a = 0; a < kArrays; ++a)
       map.arrays[a].bytes = whole_number<uint64_t>(entry.at("bytes").at(a), "bytes");
@@ -150,7 +151,8 @@ KeptPhotons MapFile::open() const {
   KeptPhotons out{.radii = radii_, .statistics = statistics_};
   for (const Map& map : maps_) {
     for (const Array& array : std::span(map.arrays).subspan(1)) check(array);
-    photon::PhotonMapParts parts{.size = map.photons, .flux_unit = map.flux_unit, .cube = map.cube};
+    photon::PhotonMapParts parts{
+        .size = map.photons, .flux_unit = map.flux_unit, .colours = map.colours, .cube = map.cube};
     parts.columns = array<photon::ColumnLine>(map.arrays[0]);
     parts.nodes = array<photon::OctreeNode>(map.arrays[1]);
     parts.entries = array<uint32_t>(map.arrays[2]);

@@ -80,6 +80,7 @@ class MapFile {
     photon::PhotonKind kind{};
     uint64_t photons = 0;
     float flux_unit = 1;
+    photon::FluxColours colours = photon::FluxColours::kRgb;
     photon::MortonCube cube{};
     std::array<Array, kArrays> arrays{};
   };

@@ -39,9 +39,7 @@ bool visible(const accel::Bvh& bvh, const Point3& eye, const Point3& p) {
 // Mean luminance of the flux, which scales photon_colour(). Summed in a fixed order.
 float mean_luminance(const photon::PhotonBuffer& buffer) {
   double sum = 0;
-  for (const photon::PhotonRecord& record : buffer.records) {
-    sum += luminance(photon::unpack(record, buffer.flux_unit).flux);
-  }
+  for (size_t i = 0; i < buffer.records.size(); ++i) sum += luminance(buffer.photon(i).flux);
   return buffer.records.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(buffer.records.size()));
 }
 
@@ -52,7 +50,7 @@ void count_photons(const accel::Bvh& bvh, const photon::PlyPhotons& photons, Pho
   const float mean_flux = mean_luminance(buffer);
   parallel::for_range(tbb::blocked_range<size_t>(0, buffer.records.size(), 4096), [&](const auto& range) {
     for (size_t i = range.begin(); i < range.end(); ++i) {
-      const photon::Photon photon = photon::unpack(buffer.records[i], buffer.flux_unit);
+      const photon::Photon photon = buffer.photon(i);
       Point2 raster;
       Point3 eye;
       if (!camera.project(photon.p, &raster, &eye)) continue;

@@ -13,10 +13,11 @@ bool valid(const Rgb& c, bool signed_light) {
 }
 
 // Estimators that subtract may give negative radiance, and are unbiased only if negative values are kept.
-bool valid_radiance(const PixelResult& s, DirectEstimator direct) {
-  const bool predicted = direct == DirectEstimator::kPredicted;
-  return valid(s.emitted, false) && valid(s.direct, predicted || direct == DirectEstimator::kSigned) &&
-         valid(s.caustic, false) && valid(s.indirect, predicted) && is_finite(s.bias);
+// So do spectral colours, which lie outside the gamut of RGB.
+bool valid_radiance(const PixelResult& s, DirectEstimator direct, bool dispersion) {
+  const bool predicted = direct == DirectEstimator::kPredicted || dispersion;
+  return valid(s.emitted, dispersion) && valid(s.direct, predicted || direct == DirectEstimator::kSigned) &&
+         valid(s.caustic, dispersion) && valid(s.indirect, predicted) && is_finite(s.bias);
 }
 
 void expose(const Sensor& sensor, PixelResult* s) {
@@ -33,6 +34,7 @@ class BlockSamples {
       : ctx_(ctx), pixels_(pixels), samples_(samples) {
     rays_.trace(ctx.bvh, ctx.settings.seed, pixels.x0, pixels.y0, samples.part, samples.first,
                 samples.end - samples.first);
+    if (ctx.scene.needs.dispersion) dispersed_.resize(taken_.size());
   }
 
   void shade(photon::EstimateBatch* batch, TileCounters& counters) {
@@ -44,19 +46,22 @@ class BlockSamples {
       // Once per pixel and pass: most of the estimate's noise is that of the photons, which all samples
       // share.
       const bool with_bias = ctx_.settings.estimate_bias.value_or(false) && i == ctx_.samples.first;
-      const CameraSample ray{rays_.ray(x, y, i), rays_.hit(x, y, i), with_bias, batch, samples_.light};
+      const CameraSample ray{rays_.ray(x, y, i), rays_.hit(x, y, i),  with_bias, batch,
+                             samples_.light,     dispersed_of(sample)};
       const auto gathers = [&] { return counters.gather.queries + batch->gathers(); };
       const uint64_t rays_before = counters.rays.all(), gathers_before = gathers();
       trace_camera_ray(ctx_, ray, sampler, counters, &sample.result);
       sample.rays = counters.rays.all() - rays_before, sample.gathers = gathers() - gathers_before;
     });
     batch->flush(counters.gather);
+    if (dispersed_.empty()) return;
+    for_each([&](int, int, uint64_t, Sample& sample) { dispersed_of(sample)->add_to(&sample.result); });
   }
 
   void add_to(const BlockSums& sums) {
     for_each([&](int x, int y, uint64_t i, Sample& sample) {
       PixelResult& result = sample.result;
-      if (valid_radiance(result, ctx_.plan.direct)) {
+      if (valid_radiance(result, ctx_.plan.direct, ctx_.scene.needs.dispersion)) {
         expose(ctx_.scene.sensor, &result);
         const int weight = rays_.weight(x, y, i);
         add_to(sums.film, x - sums.film->sums.x0(), y - sums.film->sums.y0(), i, result, weight);
@@ -73,6 +78,11 @@ class BlockSamples {
     PixelResult result;
     uint64_t rays = 0, gathers = 0;  // cost: rays traced, gathers from a map
   };
+
+  // Null if the scene does not need dispersion.
+  DispersedLight* dispersed_of(const Sample& sample) {
+    return dispersed_.empty() ? nullptr : &dispersed_[static_cast<size_t>(&sample - taken_.data())];
+  }
 
   // Adds sample i of pixel (x, y) of the window.
   void add_to(PassFilm* film, int x, int y, uint64_t i, const PixelResult& result, int weight) const {
@@ -105,6 +115,7 @@ class BlockSamples {
   SampleRange samples_;
   CameraRays rays_;
   std::array<Sample, accel::kRayLanes> taken_;
+  std::vector<DispersedLight> dispersed_;  // of taken_; empty if the scene does not need dispersion
 };
 
 }  // namespace

@@ -17,22 +17,17 @@ constexpr LeftOut kLeftOut[] = {
     {"KHR_materials_sheen", "sheenColorFactor", "is left out: cloth lacks its soft edges of light"},
     {"KHR_materials_iridescence", "iridescenceFactor",
      "is left out: reflections have no colours of thin films"},
-    {"KHR_materials_dispersion", "dispersion", "is left out: all colours are refracted alike"},
     {"KHR_materials_clearcoat", "clearcoatFactor",
      "replaces the base's own reflection where its factor is 0.5 or more, and is left out otherwise and over "
      "metal"},
 };
 
 // Extensions of materials that are rendered, or that do not change the picture.
-constexpr std::string_view kRendered[] = {"KHR_materials_anisotropy",
-                                          "KHR_materials_diffuse_transmission",
-                                          "KHR_materials_emissive_strength",
-                                          "KHR_materials_ior",
-                                          "KHR_materials_pbrSpecularGlossiness",
-                                          "KHR_materials_specular",
-                                          "KHR_materials_transmission",
-                                          "KHR_materials_unlit",
-                                          "KHR_materials_volume"};
+constexpr std::string_view kRendered[] = {"KHR_materials_anisotropy", "KHR_materials_diffuse_transmission",
+                                          "KHR_materials_dispersion", "KHR_materials_emissive_strength",
+                                          "KHR_materials_ior",        "KHR_materials_pbrSpecularGlossiness",
+                                          "KHR_materials_specular",   "KHR_materials_transmission",
+                                          "KHR_materials_unlit",      "KHR_materials_volume"};
 
 // Extensions with which a file says more than a picture of its first scene shows, or that are rendered.
 constexpr std::string_view kUnderstood[] = {"KHR_lights_punctual",

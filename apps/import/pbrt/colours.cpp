@@ -8,11 +8,10 @@
 #include "apps/import/pbrt/parameter_parser.h"
 #include "core/diagnostics/nearest_name.h"
 #include "core/spectrum/named_spectra.h"
+#include "core/spectrum/refractive_index.h"
 
 namespace kaustik::pbrt {
 namespace {
-
-constexpr double kSodiumLine = 587.6;  // nm; the wavelength at which indices of refraction are quoted
 
 bool takes(const ParameterSpec& spec, ParameterType type) {
   return std::find(spec.types.begin(), spec.types.end(), type) != spec.types.end();
@@ -75,6 +74,26 @@ void join_metal(const std::map<std::string, Spectrum>& spectra, Directive& direc
   }
 }
 
+// The samples of an index of refraction in steps of 5 nm, without the zeros beyond the ends of the spectrum's
+// own samples.
+std::vector<double> pairs_of_index(const Spectrum& s) {
+  std::vector<double> pairs;
+  for (size_t i = 0; i < s.values.size(); i += 5)
+    if (s.values[i] > 0) pairs.insert(pairs.end(), {kFirstNanometre + double(i), s.values[i]});
+  return pairs.empty() ? std::vector<double>{kHeliumLine, 0} : pairs;
+}
+
+double index_at(const std::vector<double>& pairs, double nm) {
+  return sampled_index(pairs).at(nm);
+}
+
+// Whether the indices differ by more than rounding.
+bool varies(const std::vector<double>& pairs) {
+  return std::any_of(pairs.begin(), pairs.end(), [&, i = size_t{0}](double value) mutable {
+    return i++ % 2 == 1 && std::abs(value - pairs[1]) > 1e-9;
+  });
+}
+
 }  // namespace
 
 void ColourReducer::reduce(std::string_view directive, const ColourSpace& space, Directive& out) {
@@ -82,6 +101,7 @@ void ColourReducer::reduce(std::string_view directive, const ColourSpace& space,
   if (!type) return;
   const bool light = directive == "LightSource" || directive == "AreaLightSource";
   std::map<std::string, Spectrum> spectra;
+  std::optional<Parameter> dispersion;
   std::erase_if(out.parameters, [&](Parameter& p) {
     const ParameterSpec* spec = type->find(p.name);
     if (!spec || spec->state != ParameterState::kUsed) return false;
@@ -92,25 +112,39 @@ void ColourReducer::reduce(std::string_view directive, const ColourSpace& space,
     const auto s = spectrum_of(p);
     if (!s) return true;
     spectra.emplace(p.name, *s);
-    reduce_spectrum(p, *spec, *s, light);
+    if (takes(*spec, ParameterType::kRgb)) {
+      reduce_colour(p, *spec, *s, light);
+    } else {
+      dispersion = reduce_index(p, *s, type->find("sellmeier"));
+    }
     return false;
   });
+  if (dispersion) out.parameters.push_back(std::move(*dispersion));
   join_metal(spectra, out);
 }
 
-void ColourReducer::reduce_spectrum(Parameter& p, const ParameterSpec& spec, const Spectrum& s, bool light) {
-  if (!takes(spec, ParameterType::kRgb)) {
-    p.type = ParameterType::kFloat;
-    p.strings.clear();
-    p.numbers = {s.at(kSodiumLine)};
-    p.value_places.resize(std::min<size_t>(p.value_places.size(), 1));
-    if (!warned_of_dispersion_)
-      diagnostics_.warning(
-          p.location, fmt::format("dispersion is not rendered: `{}` is taken at {} nm, where it is {:.5g}",
-                                  p.name, kSodiumLine, p.numbers[0]));
-    warned_of_dispersion_ = true;
-    return;
-  }
+std::optional<Parameter> ColourReducer::reduce_index(Parameter& p, const Spectrum& s, bool disperses) {
+  Parameter dispersion = p;
+  const SellmeierCoefficients* glass = p.strings.empty() ? nullptr : glass_coefficients(p.strings[0]);
+  dispersion.name = glass ? "sellmeier" : "indices";
+  dispersion.type = p.type = ParameterType::kFloat;
+  dispersion.numbers = glass ? std::vector<double>(glass->begin(), glass->end()) : pairs_of_index(s);
+  dispersion.strings.clear();
+  p.strings.clear();
+  p.numbers = {glass ? s.at(kHeliumLine) : index_at(dispersion.numbers, kHeliumLine)};
+  for (Parameter* each : {&p, &dispersion})
+    each->value_places.resize(std::min<size_t>(each->value_places.size(), 1));
+  if (disperses && (glass || varies(dispersion.numbers))) return dispersion;
+  if (!disperses && !warned_of_dispersion_)
+    diagnostics_.warning(p.location,
+                         fmt::format("dispersion is rendered in \"dielectric\" only: `{}` is taken at {} nm, "
+                                     "where it is {:.5g}",
+                                     p.name, kHeliumLine, p.numbers[0]));
+  warned_of_dispersion_ |= !disperses;
+  return std::nullopt;
+}
+
+void ColourReducer::reduce_colour(Parameter& p, const ParameterSpec& spec, const Spectrum& s, bool light) {
   // pbrt-v3's blackbody has two numbers: temperature and factor.
   const double factor = p.type == ParameterType::kBlackbody && p.numbers.size() == 2 ? p.numbers[1] : 1;
   if (!light) return set_rgb(p, cut_surface(factor * reflected_colour(s), spec));

@@ -19,16 +19,19 @@ class ColourReducer {
       : open_(std::move(open)), diagnostics_(diagnostics) {}
 
   // Converts the colour parameters of a directive to linear Rec. 709. "spectrum" and "blackbody" become rgb
-  // where the type takes rgb, and a float where it takes an index of refraction. Spectra of lights are scaled
-  // to luminance 1, as in pbrt-v4; spectra of surfaces become their colour under D65. Named spectra are
-  // pbrt's (core/spectrum/named_spectra.h) or files of wavelengths and values. "rgb" is converted from
-  // `space`. Negative components of colours outside the gamut become zero. Invalid parameters are removed
-  // with an error; parameters that the type does not take are left for the schema check to report.
-  // `directive`: "Material", ...
+  // where the type takes rgb; where it takes an index of refraction, a float, and the coefficients or samples
+  // of its dispersion. Spectra of lights are scaled to luminance 1, as in pbrt-v4; spectra of surfaces become
+  // their colour under D65. Named spectra are pbrt's (core/spectrum/named_spectra.h) or files of wavelengths
+  // and values. "rgb" is converted from `space`. Negative components of colours outside the gamut become
+  // zero. Invalid parameters are removed with an error; parameters that the type does not take are left for
+  // the schema check to report. `directive`: "Material", ...
   void reduce(std::string_view directive, const ColourSpace& space, Directive& out);
 
  private:
-  void reduce_spectrum(Parameter& p, const ParameterSpec& spec, const Spectrum& s, bool light);
+  void reduce_colour(Parameter& p, const ParameterSpec& spec, const Spectrum& s, bool light);
+  // Makes p the number at the d line. disperses: whether the type renders dispersion; then returns the
+  // parameter that tells the indices at all wavelengths, if they vary.
+  std::optional<Parameter> reduce_index(Parameter& p, const Spectrum& s, bool disperses);
   std::optional<Spectrum> spectrum_of(const Parameter& p);
   std::optional<Spectrum> from_pairs(const Parameter& p);
   std::optional<Spectrum> from_name(const Parameter& p);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/diagnostics/nearest_name.h"
+#include "core/scene/build/dispersion.h"
 
 namespace kaustik {
 
@@ -56,6 +57,14 @@ uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& wa
 // is an error and is left out.
 Material MaterialTable::make(const MaterialRow& row, const MaterialDescription& material,
                              DiagnosticList& diagnostics) {
+  Material made = make_of_one_colour(row, material, diagnostics);
+  if (auto eta = dispersion_of(ParameterReader(material, row.spec), diagnostics))
+    made.disperse(std::move(eta));
+  return made;
+}
+
+Material MaterialTable::make_of_one_colour(const MaterialRow& row, const MaterialDescription& material,
+                                           DiagnosticList& diagnostics) {
   TexturedMaterial made;
   made.make = row.make;
   made.inputs = material_inputs(ParameterReader(material, row.spec));

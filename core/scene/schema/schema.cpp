@@ -24,6 +24,28 @@ std::vector<ParameterSpec> with_tints(std::vector<ParameterSpec> own) {
   return own;
 }
 
+// Adds what tells how the index of refraction depends on the wavelength. At most one of these is given.
+std::vector<ParameterSpec> with_dispersion(std::vector<ParameterSpec> own) {
+  const auto add = [&](std::string_view name, size_t least, size_t most, std::string_view doc) {
+    own.push_back(list(ParameterType::kFloat, name, least, "none", "", doc));
+    own.back().max_items = most;
+  };
+  own.push_back(without_default(
+      number("abbe", 0, "", kPositive,
+             "Abbe number: how little the index, which `eta` gives at 587.56 nm, depends on the wavelength; "
+             "55 for crown glass, 25 for heavy flint glass. Not in pbrt-v4"),
+      "none"));
+  add("cauchy", 1, 8,
+      "index A + B/l^2 + C/l^4 + ..., where l is the wavelength in micrometres. Not in pbrt-v4");
+  add("sellmeier", 6, 6,
+      "B1 B2 B3 C1 C2 C3 of Sellmeier's formula for the index; the last three in square micrometres. Not in "
+      "pbrt-v4");
+  add("indices", 4, 2000,
+      "pairs of wavelength in nm and index. Not in pbrt-v4, where `eta` is a spectrum instead: that is "
+      "accepted too");
+  return own;
+}
+
 LobeTints tints_of(const MaterialInputs& p) {
   return {p.rgb("reflectance"), p.rgb("transmittance")};
 }
@@ -66,8 +88,8 @@ std::vector<MaterialRow> make_material_rows() {
          return OrenNayar::from_sigma_degrees(p.rgb("reflectance"), static_cast<float>(p.number("sigma")));
        }},
       {{"dielectric", "Glass or water, smooth or rough: Fresnel reflection and refraction.",
-        rough_material(
-            with_tints({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")}))},
+        with_dispersion(rough_material(
+            with_tints({number("eta", 1.5, "", kPositive, "index of refraction, inside over outside")})))},
        make_dielectric},
       {{"conductor", "Metal, smooth or rough: give `reflectance`, or `eta` and `k`.",
         rough_material(

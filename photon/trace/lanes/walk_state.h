@@ -8,7 +8,8 @@
 
 namespace kaustik::photon {
 
-// The events that a photon has met, the number of rays it has followed, and the medium that it is in.
+// The events that a photon has met, the number of rays it has followed, the medium that it is in, and whether
+// it has only one wavelength.
 class WalkState {
  public:
   WalkState() = default;
@@ -24,10 +25,13 @@ class WalkState {
     using enum PhotonKind;
     constexpr PhotonKind kKinds[] = {kDirect, kCaustic, kIndirect, kIndirect,
                                      kShadow, kShadow,  kShadow,   kShadow};
-    return kKinds[bits_ % kMedium];
+    return kKinds[bits_ % kDispersed];
   }
   WalkState behind_specular() const { return WalkState((bits_ | kSpecular) + kOneRay); }
   WalkState behind_diffuse() const { return WalkState((bits_ | kDiffuse) + kOneRay); }
+  // The state of what dispersive glass refracts.
+  WalkState dispersed() const { return WalkState(bits_ | kDispersed); }
+  bool is_dispersed() const { return bits_ & kDispersed; }
   WalkState behind_any() const { return WalkState(bits_ + kOneRay); }
 
   // Access to arrays of states as arrays of words.
@@ -36,7 +40,8 @@ class WalkState {
 
  private:
   explicit WalkState(uint32_t bits) : bits_(bits) {}
-  static constexpr uint32_t kSpecular = 1, kDiffuse = 2, kStraight = 4, kMedium = 8, kOneRay = 256 * kMedium;
+  static constexpr uint32_t kSpecular = 1, kDiffuse = 2, kStraight = 4, kDispersed = 8, kMedium = 16,
+                            kOneRay = 256 * kMedium;
   uint32_t bits_ = 0;
 };
 

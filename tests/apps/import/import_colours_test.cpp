@@ -98,12 +98,31 @@ TEST_F(ImportColours, MetalWithoutIndicesIsCopper) {
   EXPECT_EQ(metal.k, Rgb(copper.k));
 }
 
-TEST_F(ImportColours, GlassUsesItsIndexAtTheSodiumLine) {
+TEST_F(ImportColours, GlassDisperses) {
   const Scene scene =
       world("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n" + std::string(kSphere) +
-            "Material \"dielectric\" \"spectrum eta\" \"glass-SF11\"\n" + std::string(kSphere));
-  EXPECT_NEAR(std::get<Dielectric>(scene.materials.at(0).typical()).eta, 1.51680, 1e-5);
-  EXPECT_EQ(diagnostics_.warning_count(), 1u);  // one warning about dispersion
+            "Material \"dielectric\" \"spectrum eta\" [ 400 1.6 700 1.5 ]\n" + std::string(kSphere));
+  const Material &named = scene.materials.at(0), &sampled = scene.materials.at(1);
+  EXPECT_NEAR(std::get<Dielectric>(named.typical()).eta, 1.51680, 1e-5);
+  ASSERT_TRUE(named.dispersion() && sampled.dispersion());
+  EXPECT_NEAR(named.dispersion()->at(656.28), 1.51432, 1e-5);  // Schott, line C
+  EXPECT_NEAR(sampled.dispersion()->at(550), 1.55, 1e-9);
+  EXPECT_EQ(sampled.dispersion()->at(380), 1.6);
+  EXPECT_TRUE(scene.needs.dispersion);
+  EXPECT_EQ(diagnostics_.warning_count(), 0u);
+}
+
+TEST_F(ImportColours, ConstantIndexDoesNotDisperse) {
+  const Scene scene =
+      world("Material \"dielectric\" \"spectrum eta\" [ 300 1.6 900 1.6 ]\n" + std::string(kSphere));
+  EXPECT_EQ(std::get<Dielectric>(scene.materials.at(0).typical()).eta, 1.6f);
+  EXPECT_FALSE(scene.needs.dispersion);
+}
+
+TEST_F(ImportColours, PanesAndCoatsDoNotDisperse) {
+  world("Material \"thindielectric\" \"spectrum eta\" \"glass-BK7\"\n" + std::string(kSphere) +
+        "Material \"coateddiffuse\" \"spectrum eta\" \"glass-SF11\"\n" + std::string(kSphere));
+  EXPECT_EQ(diagnostics_.warning_count(), 1u);
 }
 
 TEST_F(ImportColours, ColourSpacesAreConverted) {

@@ -1,6 +1,7 @@
 // Tests what finalize_scene derives.
 
 #include "core/scene/scene.h"
+#include "core/spectrum/refractive_index.h"
 #include "tests/support/shapes.h"
 
 #include <gmock/gmock.h>
@@ -42,7 +43,8 @@ TEST(Scene, NeedsFollowFromSurfacesAndLights) {
   EXPECT_TRUE(scene.needs.specular && scene.needs.diffuse && scene.needs.any_light &&
               scene.needs.infinite_light);
   EXPECT_FALSE(scene.needs.only_delta_lights);
-  EXPECT_THAT(scene.needs.left_out(), ::testing::ElementsAre("no medium: space is empty"));
+  EXPECT_THAT(scene.needs.left_out(),
+              ::testing::ElementsAre("no medium: space is empty", "no dispersion: all light is RGB"));
 
   scene.media = {Medium{}, Medium{Rgb(1)}};
   scene.shapes[0].media.inside = 1;
@@ -50,13 +52,25 @@ TEST(Scene, NeedsFollowFromSurfacesAndLights) {
   EXPECT_TRUE(scene.needs.media);
   EXPECT_FALSE(scene.needs.scattering);
   EXPECT_THAT(scene.needs.left_out(),
-              ::testing::ElementsAre("no medium that scatters: media only absorb light"));
+              ::testing::ElementsAre("no medium that scatters: media only absorb light",
+                                     "no dispersion: all light is RGB"));
   EXPECT_TRUE(scene.strongest_lights.empty());
 
   scene.media[1].sigma_s = Rgb(0, 0, 1);
   finalize_scene(scene);
   EXPECT_TRUE(scene.needs.scattering);
+  EXPECT_FALSE(scene.needs.dispersion);
+  EXPECT_THAT(scene.needs.left_out(), ::testing::ElementsAre("no dispersion: all light is RGB"));
+
+  const Material mirror = scene.materials[scene.shapes.back().material];
+  scene.materials[scene.shapes.back().material] = Dielectric{};
+  scene.materials[scene.shapes.back().material].disperse(
+      std::make_shared<const Spectrum>(abbe_index(1.5, 60)));
+  finalize_scene(scene);
+  EXPECT_TRUE(scene.needs.dispersion);
   EXPECT_TRUE(scene.needs.left_out().empty());
+  scene.materials[scene.shapes.back().material] = mirror;
+  finalize_scene(scene);
   EXPECT_THAT(scene.strongest_lights, ::testing::Each(::testing::Lt(scene.lights.size())));
 
   scene.shapes.pop_back();  // no shape uses the mirror material now

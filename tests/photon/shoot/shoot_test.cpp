@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "photon/trace/record_sink.h"
 #include "tests/photon/support/trace_scenes.h"
 #include "tests/support/packed_flux.h"
 
@@ -56,20 +57,25 @@ void sort_records(ShootResult& r) {
   }
 }
 
-// Blocks and groups change the order of the photons, but not the photons.
-TEST(Shoot, MatchesTheTracerPhotonByPhoton) {
-  const Scene scene = test::foggy_room();
+// Blocks and groups change the order of the photons, but not the photons. In scenes without dispersion the
+// sink does no more than pack().
+void expect_the_tracers_photons(const Scene& scene) {
   const accel::Bvh bvh(scene);
   const TraceSettings settings = settings_for(kPhotons, test::kAllKinds);
+  const bool plain = !scene.needs.dispersion;
   ShootResult expected;
   const float unit = flux_unit_of(scene, settings.photons);
   for (auto& buffer : expected.buffers) buffer.flux_unit = unit;
-  const auto sink = [&](PhotonKind k, const Photon& p) {
-    expected.buffers[static_cast<size_t>(k)].records.push_back(pack(p, unit));
+  RecordsByKind records;
+  RecordSink in_xyz(unit, records, FluxColours::kXyz);
+  const auto sink = [&](PhotonKind k, const Photon& p, uint64_t index) {
+    plain ? records[static_cast<size_t>(k)].push_back(pack(p, unit)) : in_xyz(k, p, index);
   };
   for (uint64_t i = 0; i < settings.photons; ++i) {
     trace_photon(scene, bvh, settings, i, sink, expected.counters);
   }
+  in_xyz.flush();
+  for (size_t k = 0; k < records.size(); ++k) expected.buffers[k].records = std::move(records[k]);
   ShootResult got = shoot(scene, bvh, settings);
   EXPECT_EQ(got.counters.emitted, kPhotons);
   for (int k = 0; k < kPhotonKinds; ++k) {
@@ -79,6 +85,33 @@ TEST(Shoot, MatchesTheTracerPhotonByPhoton) {
   sort_records(expected);
   sort_records(got);
   expect_same_bytes(expected, got);
+}
+
+TEST(Shoot, MatchesTheTracerPhotonByPhoton) {
+  Scene scene = test::foggy_room();
+  expect_the_tracers_photons(scene);
+  scene.materials[1] = Dielectric{1.5f};
+  finalize_scene(scene);
+  expect_the_tracers_photons(scene);
+}
+
+// Photons of white light keep their mean in XYZ, too, although all have the same flux. Tolerance: five
+// standard errors of rounding with dither, of at most a 256th of the largest number and times the sum of the
+// matrix row.
+TEST(Shoot, RecordsInXyzKeepTheFlux) {
+  Scene scene = test::lit_room(Rgb(0.5f), Rgb(1));
+  scene.materials.emplace_back(Dielectric{1.5f});
+  scene.materials[1].disperse(std::make_shared<const Spectrum>(abbe_index(1.5, 20)));
+  scene.shapes.push_back(test::sphere({0, -0.9f, 0}, 0.01f, 1));
+  finalize_scene(scene);
+  const ShootResult r = shoot(scene, accel::Bvh(scene), settings_for(kPhotons, {true, false, false, false}));
+  const PhotonBuffer& direct = r.buffers[0];
+  EXPECT_EQ(direct.colours, FluxColours::kXyz);
+  glm::dvec3 sum(0);
+  for (size_t i = 0; i < direct.records.size(); ++i) sum += glm::dvec3(direct.photon(i).flux);
+  const double mean = M_PI / 4 / double(kPhotons), of_all = mean * double(direct.records.size());
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(sum[c], of_all, 5 * 4 * mean / 256 * std::sqrt(double(kPhotons))) << c;
 }
 
 // The error of each channel is bounded relative to the largest channel, which is the third.

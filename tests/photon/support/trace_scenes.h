@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "core/spectrum/refractive_index.h"
 #include "photon/trace/tracer.h"
 #include "tests/support/shapes.h"
 
@@ -62,9 +63,10 @@ inline void fill(Scene& scene, const Medium& medium) {
   finalize_scene(scene);
 }
 
-// The full room in a fog: every kind of photon of all.
+// The full room with glass that disperses, in a fog: every kind of photon of all.
 inline Scene foggy_room(float s = 1) {
   Scene scene = full_room(s);
+  scene.materials[1].disperse(std::make_shared<const Spectrum>(abbe_index(1.5, 20)));
   fill(scene, {Rgb(0.1f, 0.2f, 0) / s, Rgb(0.4f, 0.2f, 0.3f) / s, 0.3f});
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "core/spectrum/refractive_index.h"
 #include "render/renderer.h"
 #include "tests/render/support/print_names.h"
 #include "tests/support/shapes.h"
@@ -100,7 +101,7 @@ inline Scene cornell(int size, float scale = 1) {
   return scene;
 }
 
-// The box with a sphere of coloured glass, filled by a thin fog.
+// The box with a sphere of coloured glass that disperses, filled by a thin fog.
 inline Scene coloured_cornell(int size, float scale = 1) {
   Scene scene = cornell(size, scale);
   const MediumIndex green = add_medium(scene, Rgb(2, 0.25f, 1) / scale);
@@ -111,6 +112,8 @@ inline Scene coloured_cornell(int size, float scale = 1) {
   for (Shape& shape : scene.shapes) {
     const bool glass = std::holds_alternative<Dielectric>(scene.materials[shape.material].typical());
     shape.media = {glass ? green : air, air};
+    if (glass)
+      scene.materials[shape.material].disperse(std::make_shared<const Spectrum>(abbe_index(1.5, 20)));
   }
   finalize_scene(scene);
   return scene;

@@ -33,6 +33,16 @@ TEST_F(ImportGltfExtensions, AnisotropyWidensFacetsAlongU) {
   EXPECT_THAT(diagnostics_.format_all(), testing::Not(HasSubstr("anisotropy")));
 }
 
+// The extension counts 20 over the Abbe number; panes do not disperse.
+TEST_F(ImportGltfExtensions, DispersionOfBodiesIsAnAbbeNumber) {
+  const std::string glass = R"("KHR_materials_transmission": { "transmissionFactor": 1 },
+      "KHR_materials_dispersion": { "dispersion": 0.5 })";
+  const auto body = material(glass + R"(, "KHR_materials_volume": { "thicknessFactor": 1 })");
+  EXPECT_EQ(body.type, "dielectric");
+  EXPECT_THAT(numbers(body, "abbe"), ElementsAre(40));
+  EXPECT_FALSE(material(glass).find("abbe"));
+}
+
 TEST_F(ImportGltfExtensions, ClearcoatBecomesACoat) {
   const auto paint =
       material(R"("KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.25 })",

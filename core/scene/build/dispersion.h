@@ -1,0 +1,15 @@
+#pragma once
+// The dispersion of a dielectric, from the parameters of its directive.
+
+#include <memory>
+
+#include "core/scene/schema/schema.h"
+#include "core/spectrum/spectrum.h"
+
+namespace kaustik {
+
+// The index of refraction by wavelength; null if it is the same for all, or if the parameters contradict each
+// other, with an error added.
+std::shared_ptr<const Spectrum> dispersion_of(const ParameterReader& parameters, DiagnosticList& diagnostics);
+
+}  // namespace kaustik
