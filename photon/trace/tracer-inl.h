@@ -319,9 +319,12 @@ class Tracer {
   uint64_t index_of(size_t k) const {
     return keys_.upper_half() << 32 | reverse_bits(walkers_.reversed_index[k]);
   }
-  // The one wavelength that the photon has once it is dispersed.
+  // The one wavelength that this part of the photon has once it is dispersed. Those of all parts are spread
+  // evenly over the numbers from which wavelengths are made.
   float wavelength_of(size_t k) const {
-    return sample_wavelength(Sampler(photon_stream(settings_), index_of(k), kWavelengthDimension).next_1d());
+    const float first = Sampler(photon_stream(settings_), index_of(k), kWavelengthDimension).next_1d();
+    const float u = first + float(walkers_.state[k].part()) / float(WalkState::kParts);
+    return sample_wavelength(u < 1 ? u : u - 1);
   }
 
   // Counts invalid fluxes, which must never reach a map.
@@ -356,9 +359,59 @@ class Tracer {
     const uint64_t dropped_before = counters_.dropped_invalid;
     lanes_.scattered_energy[k] = lanes_.next_energy[k] = 0;
     scatters_[k] = true;
-    goes_on_[k] = scatter(k, bsdf, si, photon);
+    goes_on_[k] = meets_prism(k, bsdf) ? divide(k, si, photon) : scatter(k, bsdf, si, photon);
     const bool dropped = counters_.dropped_invalid != dropped_before;
     lanes_.fate[k] = dropped ? VertexLanes::kInvalid : VertexLanes::kAlive;
+  }
+
+  // Whether the photon is divided here into parts of different wavelengths, which happens once.
+  template <class B>
+  bool meets_prism(size_t k, const B& bsdf) const {
+    if constexpr (requires { bsdf.disperses; }) return bsdf.disperses && !walkers_.state[k].is_divided();
+    return false;
+  }
+
+  // Divides the photon into parts of equal flux, one for each of its wavelengths: a few photons then show the
+  // whole spectrum, where one would be a speck of one colour. Parts that smooth glass reflects stay white and
+  // go on together. The others are queued. What they carry is taken from the energy that arrived, so that the
+  // ledger balances. Returns whether anything goes on in lane k.
+  bool divide(size_t k, const SurfaceInteraction& si, const Arrival& photon) {
+    const WalkState before = walkers_.state[k];
+    const Arrival part{photon.ray, photon.flux / float(WalkState::kParts)};
+    int32_t scattered = 0, queued = 0, kept = 0;
+    WalkState white;
+    Ray on;
+    Rgb reflected(0);
+    for (uint32_t i = 0; i < WalkState::kParts; ++i) {
+      walkers_.state[k] = before.of_part(i);
+      lanes_.scattered_energy[k] = lanes_.next_energy[k] = 0;
+      SurfaceInteraction here = si;
+      const BsdfAt bsdf_at(scene_, here, -photon.ray.d, {}, wavelength_of(k));
+      const bool goes_on = scatter(k, std::get<Dielectric>(*bsdf_at), here, part);
+      scattered += lanes_.scattered_energy[k];
+      if (!goes_on) continue;
+      if (walkers_.state[k].is_dispersed()) {
+        queued += queue_next(k);
+      } else {
+        white = walkers_.state[k], on = lanes_.next.get(k);
+        reflected += get_lane(lanes_.next_flux, k), kept += lanes_.next_energy[k];
+      }
+    }
+    walkers_.energy[k] -= queued;
+    walkers_.state[k] = white;
+    lanes_.scattered_energy[k] = scattered - queued;
+    lanes_.next_energy[k] = kept;
+    lanes_.set_next(k, on, reflected);
+    return !is_black(reflected);
+  }
+
+  // Queues what goes on from lane k at once; returns its energy.
+  int32_t queue_next(size_t k) {
+    const Ray on = lanes_.next.get(k);
+    const int32_t energy = lanes_.next_energy[k];
+    queue_of(on.d).push(on.o, on.d, get_lane(lanes_.next_flux, k), walkers_.reversed_index[k],
+                        walkers_.state[k], energy);
+    return energy;
   }
 
   // Samples the next direction and plays Russian roulette. False when the photon is absorbed, or when no

@@ -29,6 +29,13 @@ class WalkState {
   }
   WalkState behind_specular() const { return WalkState((bits_ | kSpecular) + kOneRay); }
   WalkState behind_diffuse() const { return WalkState((bits_ | kDiffuse) + kOneRay); }
+  // The state of one of the parts into which a photon was divided, each with a wavelength of its own.
+  static constexpr uint32_t kParts = 4;
+  WalkState of_part(uint32_t part) const {
+    return WalkState((bits_ & ~((kParts - 1) * kPart)) | kDivided | part * kPart);
+  }
+  uint32_t part() const { return bits_ / kPart % kParts; }
+  bool is_divided() const { return bits_ & kDivided; }
   // The state of what dispersive glass refracts.
   WalkState dispersed() const { return WalkState(bits_ | kDispersed); }
   bool is_dispersed() const { return bits_ & kDispersed; }
@@ -40,8 +47,8 @@ class WalkState {
 
  private:
   explicit WalkState(uint32_t bits) : bits_(bits) {}
-  static constexpr uint32_t kSpecular = 1, kDiffuse = 2, kStraight = 4, kDispersed = 8, kMedium = 16,
-                            kOneRay = 256 * kMedium;
+  static constexpr uint32_t kSpecular = 1, kDiffuse = 2, kStraight = 4, kDispersed = 8, kDivided = 16,
+                            kPart = 32, kMedium = kPart * kParts, kOneRay = 256 * kMedium;
   uint32_t bits_ = 0;
 };
 

@@ -13,8 +13,8 @@ class WalkerQueue {
  public:
   static constexpr size_t kGroup = kPhotonLanes;
   // The tracer emits a group only when none of the eight queues holds a whole one, and each emitted photon
-  // adds at most one more entry, its straight ray.
-  static constexpr size_t kCapacity = 2 * (8 * kGroup + kGroup);
+  // adds at most so many entries: its parts and its straight ray.
+  static constexpr size_t kCapacity = (WalkState::kParts + 1) * (8 * kGroup + kGroup);
 
   size_t size() const { return size_; }
 
