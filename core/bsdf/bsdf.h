@@ -53,9 +53,9 @@ inline bool scatters_one_wavelength(const Bsdf& bsdf) {
   return dielectric && dielectric->disperses && !dielectric->facets.smooth();
 }
 // Whether what the sample sends on has one wavelength from there on.
-inline bool selects_wavelength(const Bsdf& bsdf, const BsdfSample& s) {
+inline bool selects_wavelength(const Bsdf& bsdf, const Vector3& wo, const BsdfSample& s) {
   const auto* dielectric = std::get_if<Dielectric>(&bsdf);
-  return dielectric && dielectric->selects_wavelength(s);
+  return dielectric && dielectric->selects_wavelength(wo, s);
 }
 // The diffuse lobes as a product of a factor of wo (local) and one of wi; nothing where they are none.
 inline std::optional<SeparatedF> separated(const Bsdf& bsdf, const Vector3& wo) {

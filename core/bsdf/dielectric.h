@@ -51,10 +51,12 @@ struct Dielectric {
     const float scale = mode == TransportMode::kRadiance ? inverse * inverse : 1.0f;
     return BsdfSample{refracted(wo, inverse, cos_t), Rgb(scale), 1 - reflectance, true, true};
   }
-  // Whether what the sample sends on has one wavelength from there on. Smooth surfaces reflect all light
-  // alike: the reflectance is that of the wavelength, but varies little.
-  bool selects_wavelength(const BsdfSample& s) const {
-    return disperses && (s.transmission || !facets.smooth());
+  // Whether what the sample of wo sends on has one wavelength from there on. Smooth surfaces reflect all
+  // light alike on their thinner side: the reflectance is that of the wavelength, but varies little. On the
+  // denser side total reflection begins at another angle for each wavelength.
+  bool selects_wavelength(const Vector3& wo, const BsdfSample& s) const {
+    const bool denser = (eta > 1) == (wo.z < 0);
+    return disperses && (s.transmission || denser || !facets.smooth());
   }
   Rgb albedo() const { return tints.tinted() ? tints.albedo(eta) : Rgb(1); }
 

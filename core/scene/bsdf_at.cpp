@@ -82,6 +82,7 @@ void BsdfAt::disperse(const Spectrum& eta, float wavelength) {
   dielectric.disperses = true;
   const double nm = wavelength == kNoWavelength ? kHeliumLine : static_cast<double>(wavelength);
   dielectric.eta = static_cast<float>(eta.at(nm));
+  if (dielectric.eta == 1) dielectric.facets = Ggx{};  // no boundary
   bsdf_ = &*made_;
 }
 

@@ -77,6 +77,11 @@ bool valid_index(const Spectrum& index) {
                      [](double n) { return n >= 0.01 && n <= 100; });
 }
 
+bool varies(const Spectrum& index) {
+  const auto [least, most] = std::minmax_element(index.values.begin(), index.values.end());
+  return *most - *least > 1e-9;
+}
+
 const SellmeierCoefficients* glass_coefficients(std::string_view name) {
   const auto found = std::find(kGlassNames.begin(), kGlassNames.end(), name);
   return found == kGlassNames.end() ? nullptr : &kGlasses[static_cast<size_t>(found - kGlassNames.begin())];

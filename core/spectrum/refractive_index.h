@@ -28,6 +28,8 @@ Spectrum sampled_index(std::span<const double> pairs);
 
 // Whether all values are finite and between 0.01 and 100.
 bool valid_index(const Spectrum& index);
+// Whether the index differs between wavelengths by more than rounding.
+bool varies(const Spectrum& index);
 
 // The coefficients of a glass that pbrt knows by name, such as "glass-BK7", from Schott's data sheets; null
 // for other names.

@@ -430,8 +430,8 @@ class Tracer {
     if (!scatters_[k]) return false;
     WalkState& state = walkers_.state[k];
     state = sample->specular ? state.behind_specular() : state.behind_diffuse();
-    if constexpr (requires { bsdf.selects_wavelength(*sample); })
-      if (bsdf.selects_wavelength(*sample)) state = state.dispersed();
+    if constexpr (requires { bsdf.selects_wavelength(wo_local, *sample); })
+      if (bsdf.selects_wavelength(wo_local, *sample)) state = state.dispersed();
     const Onward on = onward(bsdf, si, frame, wo, wo_local, *sample);
     const Rgb next = on.weight * photon.flux;
     if (is_black(next) || !valid(next)) return false;

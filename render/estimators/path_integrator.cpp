@@ -26,11 +26,21 @@ struct PathState {
   MediumIndex medium = kVacuum;      // of the ray
   float wavelength = kNoWavelength;  // for which dispersive glass refracts
   bool dispersed = false;            // the path has only this wavelength
+  Rgb before{1};                     // throughput up to where it was dispersed, of which beta is free then
 };
 
 // The wavelength of points that the path meets.
 float wavelength_of(const PathState& path) {
   return path.dispersed ? path.wavelength : kNoWavelength;
+}
+
+// Gives the path one wavelength from here on. As for photons, colours on either side of the glass are RGB:
+// those between x and the glass apply to the RGB colour of the light that has the wavelength.
+void disperse(PathState* path) {
+  if (path->dispersed) return;
+  path->dispersed = true;
+  path->before = path->beta;
+  path->beta = Rgb(1);
 }
 
 bool caustics_by_map(const RenderContext& ctx) {
@@ -151,10 +161,10 @@ bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, Path
                    Sampler& sampler) {
   const auto s = scatter(v, sampler, part);
   if (!s || is_black(s->weight)) return false;
+  if (selects_wavelength(*v.bsdf, v.wo_local, *s)) disperse(path);
   path->beta *= s->weight;
   if (!s->transmission) path->roulette *= max_component(s->weight);
   path->specular = s->specular;
-  path->dispersed |= selects_wavelength(*v.bsdf, *s);
   path->diffuse += !s->specular;
   if (!s->specular) path->segment = 0, path->from_medium = false;
   path->has_pdf = !s->specular || s->glossy;
@@ -238,9 +248,9 @@ struct LightByDispersion {
 
   PathLight* of(const PathState& path) { return path.dispersed ? &after : &before; }
   // The sum, where the path did not begin with one wavelength.
-  PathLight sum(float wavelength) const {
+  PathLight sum(const PathState& path) const {
     const auto join = [&](const Rgb& a, const Rgb& b) {
-      return is_black(b) ? a : a + at_wavelength(b, wavelength);
+      return is_black(b) ? a : a + path.before * at_wavelength(b, path.wavelength);
     };
     return {join(before.direct, after.direct), join(before.caustic, after.caustic),
             join(before.indirect, after.indirect)};
@@ -266,7 +276,7 @@ void follow(const RenderContext& ctx, PathState& path, Ray ray, PathReach reach,
     path.segment += distance;
     path.from = si.p;
     ShadingPoint y(ctx.scene, si, -ray.d, {}, path.wavelength);
-    path.dispersed |= scatters_one_wavelength(*y.bsdf);
+    if (scatters_one_wavelength(*y.bsdf)) disperse(&path);
     y.medium = path.medium, y.wavelength = wavelength_of(path);
     const std::optional<Scatter> part = visit(ctx, y, reach, &path, light.of(path), sampler, counters);
     if (!part || !continue_path(ctx.scene, y, *part, &path, &ray, sampler)) return;
@@ -286,7 +296,7 @@ PathLight trace_from(const RenderContext& ctx, const Point& x, PathReach reach, 
   LightByDispersion light;
   if (start(&path, &ray)) follow(ctx, path, ray, reach, light, sampler, counters);
   if (x.wavelength != kNoWavelength) return light.after;
-  return path.dispersed ? light.sum(path.wavelength) : light.before;
+  return path.dispersed ? light.sum(path) : light.before;
 }
 
 }  // namespace

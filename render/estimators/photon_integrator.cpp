@@ -322,7 +322,8 @@ class CameraPath {
     if (tail == Tail::kNone && s->glossy && gathers_tail(ctx_, x) && in_tail(x, s->wi)) tail = Tail::kLeft;
     push({x.si.spawn(s->wi), from.cone, beta, from.share, from.events + 1,
           LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred, from.length, from.shown,
-          medium_towards(ctx_.scene, x, s->wi), from.dispersed || selects_wavelength(*x.bsdf, *s)});
+          medium_towards(ctx_.scene, x, s->wi),
+          from.dispersed || selects_wavelength(*x.bsdf, x.wo_local, *s)});
   }
 
   // Splits the branch in a reflected and a refracted ray, weighted by their Fresnel factors. Choosing one at
@@ -338,7 +339,7 @@ class CameraPath {
       push({x.si.spawn(s->wi), from.cone, from.beta * s->weight * s->pdf, from.share * s->pdf,
             from.events + 1, LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.blurred,
             from.length, from.shown, medium_towards(ctx_.scene, x, s->wi),
-            from.dispersed || selects_wavelength(*x.bsdf, *s)});
+            from.dispersed || selects_wavelength(*x.bsdf, x.wo_local, *s)});
     return true;
   }
 

@@ -41,6 +41,12 @@ photon::PhotonKind kind_named(const std::string& name) {
   return *kind;
 }
 
+photon::FluxColours colours_named(const std::string& name) {
+  if (name == "rgb") return photon::FluxColours::kRgb;
+  if (name == "xyz") return photon::FluxColours::kXyz;
+  throw std::runtime_error(fmt::format("`{}` are no colours of photons", name));
+}
+
 photon::MortonCube cube_from(const Json& json) {
   const auto number = [&](size_t i) { return finite_from_hex(json.at(i)); };
   photon::MortonCube cube{{number(0), number(1), number(2)}, number(3), number(4)};
@@ -98,7 +104,7 @@ void MapFile::read_manifest(std::string_view text) {
     Map map{.kind = kind_named(entry.at("kind").get<std::string>())};
     take_whole(entry, "photons", &map.photons);
     map.flux_unit = finite_from_hex(entry.at("flux_unit"));
-    if (entry.value("colours", "rgb") == "xyz") map.colours = photon::FluxColours::kXyz;
+    map.colours = colours_named(entry.value("colours", "rgb"));
     map.cube = cube_from(entry.at("cube"));
     for (size_t a = 0; a < kArrays; ++a)
       map.arrays[a].bytes = whole_number<uint64_t>(entry.at("bytes").at(a), "bytes");

@@ -29,6 +29,11 @@ void for_each_need(Needs& n, F&& f) {
   f("only_delta_lights", n.only_delta_lights), f("infinite_light", n.infinite_light);
   f("sky_alone", n.sky_alone), f("any_light", n.any_light);
 }
+// Those of effects that came later: files that do not name them have none.
+template <class Needs, class F>
+void for_each_later_need(Needs& n, F&& f) {
+  f("glossy", n.glossy), f("media", n.media), f("scattering", n.scattering), f("dispersion", n.dispersion);
+}
 
 PassSet passes_from(const Json& json) {
   const std::string text = json.get<std::string>();
@@ -71,7 +76,9 @@ Json manifest_json(const PartialManifest& m, const PassSums& sums) {
   out["halves"] = sums.totals.has_halves();
   const ExactUnits& units = sums.totals.units();
   out["unit_exponents"] = {{"radiance", units.radiance}, {"square", units.square}, {"depth", units.depth}};
-  for_each_need(m.needs, [&](const std::string& name, const bool& need) { out["needs"][name] = need; });
+  const auto write = [&](const std::string& name, const bool& need) { out["needs"][name] = need; };
+  for_each_need(m.needs, write);
+  for_each_later_need(m.needs, write);
   out["statistics"] = statistics_values(sums.statistics);
   return out;
 }
@@ -130,6 +137,8 @@ ReadManifest manifest_from_text(std::string_view text) {
                .depth = exponent_from(units, "depth")};
   for_each_need(m.needs,
                 [&](const std::string& name, bool& need) { json.at("needs").at(name).get_to(need); });
+  for_each_later_need(
+      m.needs, [&](const std::string& name, bool& need) { need = json.at("needs").value(name, false); });
   sums.statistics = statistics_from(json.at("statistics"));
   sums.statistics.passes = sums.passes.count();
   if (sums.radii) note_radii(*sums.radii, &sums.statistics);

@@ -245,9 +245,9 @@ std::string Materials::clear_part(const View& material, const std::string& name)
   m.number("eta", index_of(material));
   add_transmittance(material, pane, *m);
   if (!pane) add_roughness(material, false, *m);
-  // The extension counts 20 over the Abbe number.
+  // The extension counts 20 over the Abbe number; that of real materials is above 10.
   const double dispersion = extension(material, "KHR_materials_dispersion")["dispersion"].number(0);
-  if (!pane && dispersion > 0) m.number("abbe", 20 / dispersion);
+  if (!pane && dispersion > 0) m.number("abbe", std::max(20 / dispersion, 1.0));
   return add(std::move(*m), name, material);
 }
 

@@ -74,24 +74,23 @@ void join_metal(const std::map<std::string, Spectrum>& spectra, Directive& direc
   }
 }
 
-// The samples of an index of refraction in steps of 5 nm, without the zeros beyond the ends of the spectrum's
-// own samples.
+// The samples of an index of refraction in steps of 5 nm, and the first and the last one, without the zeros
+// beyond the ends of the spectrum's own samples.
 std::vector<double> pairs_of_index(const Spectrum& s) {
+  const auto given = [](double n) { return n > 0; };
+  const auto first = std::find_if(s.values.begin(), s.values.end(), given);
+  const auto last = std::find_if(s.values.rbegin(), s.values.rend(), given);
+  if (first == s.values.end()) return {kHeliumLine, 0};
   std::vector<double> pairs;
-  for (size_t i = 0; i < s.values.size(); i += 5)
-    if (s.values[i] > 0) pairs.insert(pairs.end(), {kFirstNanometre + double(i), s.values[i]});
-  return pairs.empty() ? std::vector<double>{kHeliumLine, 0} : pairs;
+  const auto end = static_cast<size_t>(s.values.rend() - last);
+  for (auto i = static_cast<size_t>(first - s.values.begin()); i < end; ++i)
+    if (i % 5 == 0 || pairs.empty() || i + 1 == end)
+      pairs.insert(pairs.end(), {kFirstNanometre + double(i), s.values[i]});
+  return pairs;
 }
 
 double index_at(const std::vector<double>& pairs, double nm) {
   return sampled_index(pairs).at(nm);
-}
-
-// Whether the indices differ by more than rounding.
-bool varies(const std::vector<double>& pairs) {
-  return std::any_of(pairs.begin(), pairs.end(), [&, i = size_t{0}](double value) mutable {
-    return i++ % 2 == 1 && std::abs(value - pairs[1]) > 1e-9;
-  });
 }
 
 }  // namespace
@@ -119,7 +118,7 @@ void ColourReducer::reduce(std::string_view directive, const ColourSpace& space,
     }
     return false;
   });
-  if (dispersion) out.parameters.push_back(std::move(*dispersion));
+  if (dispersion) add_dispersion(std::move(*dispersion), out);
   join_metal(spectra, out);
 }
 
@@ -134,7 +133,7 @@ std::optional<Parameter> ColourReducer::reduce_index(Parameter& p, const Spectru
   p.numbers = {glass ? s.at(kHeliumLine) : index_at(dispersion.numbers, kHeliumLine)};
   for (Parameter* each : {&p, &dispersion})
     each->value_places.resize(std::min<size_t>(each->value_places.size(), 1));
-  if (disperses && (glass || varies(dispersion.numbers))) return dispersion;
+  if (disperses && (glass || varies(sampled_index(dispersion.numbers)))) return dispersion;
   if (!disperses && !warned_of_dispersion_)
     diagnostics_.warning(p.location,
                          fmt::format("dispersion is rendered in \"dielectric\" only: `{}` is taken at {} nm, "
@@ -142,6 +141,16 @@ std::optional<Parameter> ColourReducer::reduce_index(Parameter& p, const Spectru
                                      p.name, kHeliumLine, p.numbers[0]));
   warned_of_dispersion_ |= !disperses;
   return std::nullopt;
+}
+
+void ColourReducer::add_dispersion(Parameter dispersion, Directive& out) {
+  for (const char* name : {"abbe", "cauchy", "sellmeier", "indices"}) {
+    const Parameter* other = out.find(name);
+    if (!other) continue;
+    diagnostics_.error(other->location, fmt::format("`{}` cannot be given where `eta` is a spectrum", name));
+    return;
+  }
+  out.parameters.push_back(std::move(dispersion));
 }
 
 void ColourReducer::reduce_colour(Parameter& p, const ParameterSpec& spec, const Spectrum& s, bool light) {

@@ -32,6 +32,7 @@ class ColourReducer {
   // Makes p the number at the d line. disperses: whether the type renders dispersion; then returns the
   // parameter that tells the indices at all wavelengths, if they vary.
   std::optional<Parameter> reduce_index(Parameter& p, const Spectrum& s, bool disperses);
+  void add_dispersion(Parameter dispersion, Directive& out);
   std::optional<Spectrum> spectrum_of(const Parameter& p);
   std::optional<Spectrum> from_pairs(const Parameter& p);
   std::optional<Spectrum> from_name(const Parameter& p);

@@ -8,8 +8,8 @@
 
 namespace kaustik {
 
-// The index of refraction by wavelength; null if it is the same for all, or if the parameters contradict each
-// other, with an error added.
+// The index of refraction by wavelength; null if the directive tells none, or if its parameters contradict
+// each other, with an error added.
 std::shared_ptr<const Spectrum> dispersion_of(const ParameterReader& parameters, DiagnosticList& diagnostics);
 
 }  // namespace kaustik

@@ -8,6 +8,7 @@
 
 #include "core/diagnostics/nearest_name.h"
 #include "core/scene/build/dispersion.h"
+#include "core/spectrum/refractive_index.h"
 
 namespace kaustik {
 
@@ -57,18 +58,19 @@ uint32_t MaterialTable::make(const MaterialDescription& material, WarnedOnce& wa
 // is an error and is left out.
 Material MaterialTable::make(const MaterialRow& row, const MaterialDescription& material,
                              DiagnosticList& diagnostics) {
-  Material made = make_of_one_colour(row, material, diagnostics);
-  if (auto eta = dispersion_of(ParameterReader(material, row.spec), diagnostics))
-    made.disperse(std::move(eta));
+  const auto eta = dispersion_of(ParameterReader(material, row.spec), diagnostics);
+  Material made = make_of_one_colour(row, material, eta.get(), diagnostics);
+  if (eta && varies(*eta)) made.disperse(eta);
   return made;
 }
 
 Material MaterialTable::make_of_one_colour(const MaterialRow& row, const MaterialDescription& material,
-                                           DiagnosticList& diagnostics) {
+                                           const Spectrum* eta, DiagnosticList& diagnostics) {
   TexturedMaterial made;
   made.make = row.make;
   made.inputs = material_inputs(ParameterReader(material, row.spec));
   for (MaterialInput& input : made.inputs) {
+    if (eta && input.name == "eta") input.numbers = {eta->at(kHeliumLine)};
     const Parameter* given = material.find(input.name);
     if (!given) continue;
     const bool named = given->type == ParameterType::kTexture;

@@ -30,9 +30,9 @@ class MaterialTable {
   uint32_t make(const MaterialDescription& material, WarnedOnce& warned, DiagnosticList& diagnostics);
   uint32_t mix(const MaterialDescription& material, const TypeSpec& spec, DiagnosticList& diagnostics);
   Material make(const MaterialRow& row, const MaterialDescription& material, DiagnosticList& diagnostics);
-  // The material without dispersion.
+  // The material without dispersion. eta: its index of refraction by wavelength, or null.
   Material make_of_one_colour(const MaterialRow& row, const MaterialDescription& material,
-                              DiagnosticList& diagnostics);
+                              const Spectrum* eta, DiagnosticList& diagnostics);
   uint32_t default_material();
 
   std::vector<Material> materials_;

@@ -70,6 +70,8 @@ std::string expected_count(const ParameterSpec& spec, ParameterType type) {
     const size_t count = n * spec.min_items;
     return fmt::format("{} value{}", count, count == 1 ? "" : "s");
   }
+  if (n == 1 && spec.max_items < std::numeric_limits<size_t>::max())
+    return fmt::format("{} to {} values", spec.min_items, spec.max_items);
   if (n == 1) return fmt::format("{} values or more", spec.min_items);
   return fmt::format("{} values or more, in groups of {}", n * spec.min_items, n);
 }

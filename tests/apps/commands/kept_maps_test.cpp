@@ -121,8 +121,9 @@ TEST_F(KeptMapFiles, OfOtherPhotonsAreRefused) {
   expect_refused(refused({"--photons", "30k"}), "its photons were shot with --photons 20000, not 30000");
   expect_refused(refused({"--seed", "4"}), "its photons were shot with --seed 3, not 4");
   expect_refused(refused({"--sky", "off"}), "its photons were shot with --sky unset, not off");
-  expect_refused(refused({"--method", "photon"}),
-                 "photons, but the estimators read direct, caustic, indirect photons");
+  expect_refused(
+      refused({"--method", "photon"}),
+      "photons, but the estimators read direct, caustic, indirect, medium-caustic, medium-indirect photons");
   expect_refused(refused({"--method", "mc"}), "there are no photons to keep");
   expect_refused(refused({"--passes", "4"}), "kept photon maps hold one pass, but the settings ask for 4");
   expect_refused(refused({"--time", "1s"}), "--time and --target-error shoot further photons");

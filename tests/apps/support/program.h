@@ -60,7 +60,8 @@ class ProgramTest : public ::testing::Test {
     return names;
   }
 
-  // Writes a scene with a light over a floor and a glass sphere between them; `lines` come before WorldBegin.
+  // Writes a scene with a light over a floor and a sphere of milky glass, which disperses, between them;
+  // `lines` come before WorldBegin.
   std::string small_scene(const std::string& lines = "") const {
     return write("small.pbrt", "LookAt 0 2 6  0 0.5 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\n" +
                                    lines +
@@ -71,7 +72,10 @@ class ProgramTest : public ::testing::Test {
                                    "Material \"diffuse\" \"rgb reflectance\" [0.7 0.6 0.5]\n"
                                    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
                                    "[-3 0 3  3 0 3  3 0 -3  -3 0 -3]\n"
-                                   "Material \"dielectric\"\nTranslate 0 0.8 0\n"
+                                   "MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" \"rgb sigma_a\" "
+                                   "[0 0 0] \"rgb sigma_s\" [0.3 0.3 0.4]\n"
+                                   "MediumInterface \"milk\" \"\"\n"
+                                   "Material \"dielectric\" \"float abbe\" 20\nTranslate 0 0.8 0\n"
                                    "Shape \"sphere\" \"float radius\" 0.5\n");
   }
   static std::string film(int width, int height) {

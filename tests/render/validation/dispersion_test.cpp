@@ -179,6 +179,22 @@ TEST(Prism, SpectrumAddsUpToWhite) {
   EXPECT_GT(sum.negative, kPhotons / 10);
 }
 
+// Reflection is white on the thinner side of smooth glass; on the denser side total reflection begins at
+// another angle for each wavelength, and rough glass gives all that it scatters one.
+TEST(Prism, OnlyItsOuterReflectionIsWhite) {
+  const BsdfSample reflected{{0, 0, 1}, Rgb(1), 1, true, false}, refracted{{0, 0, -1}, Rgb(1), 1, true, true};
+  const Vector3 above(0, 0, 1), below(0, 0, -1);
+  for (const float eta : {1.5f, 1 / 1.5f}) {
+    const bool denser_below = eta > 1;
+    const Dielectric smooth{eta, {}, {}, true}, rough{eta, {0.3f, 0.3f}, {}, true}, plain{eta};
+    EXPECT_EQ(smooth.selects_wavelength(above, reflected), !denser_below);
+    EXPECT_EQ(smooth.selects_wavelength(below, reflected), denser_below);
+    EXPECT_TRUE(smooth.selects_wavelength(above, refracted) && smooth.selects_wavelength(below, refracted));
+    EXPECT_TRUE(rough.selects_wavelength(above, reflected));
+    EXPECT_FALSE(plain.selects_wavelength(below, refracted));
+  }
+}
+
 // One photon of dispersed light has more noise than one of white light: the mean square of its components is
 // the factor by which the variance of a sum grows. The best density of wavelengths would reach 4.2.
 TEST(Prism, ColoursOfPhotonsHaveLittleVariance) {
@@ -191,13 +207,13 @@ TEST(Prism, ColoursOfPhotonsHaveLittleVariance) {
   EXPECT_LT(square, 4.25);
 }
 
-// Glass that disperses much over a diffuse floor, seen from above through nothing.
+// Glass that disperses much over a coloured floor, seen from above through nothing.
 TEST(Dispersion, CausticsAgreeWithPaths) {
   Scene scene;
-  const uint32_t white = add_material(scene, Lambertian{Rgb(0.6f)});
+  const uint32_t orange = add_material(scene, Lambertian{Rgb(0.8f, 0.4f, 0.1f)});
   const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
   const uint32_t glass = add_glass(scene, abbe_index(1.5, 8));
-  add_shape(scene, horizontal({0, 0, 0}, 2, 2, true, white));
+  add_shape(scene, horizontal({0, 0, 0}, 2, 2, true, orange));
   add_shape(scene, sphere({0, 0.5f, -0.7f}, 0.35f, glass));
   make_light(scene, add_shape(scene, horizontal({0, 2, -1.4f}, 0.4f, 0.4f, false, black)), Rgb(12, 8, 5));
   look_at(scene, {0, 1.2f, 1.4f}, {0, 0, -0.2f}, {0, 1, 0}, 40, kSize, kSize);

@@ -41,6 +41,9 @@ TEST_F(ImportGltfExtensions, DispersionOfBodiesIsAnAbbeNumber) {
   EXPECT_EQ(body.type, "dielectric");
   EXPECT_THAT(numbers(body, "abbe"), ElementsAre(40));
   EXPECT_FALSE(material(glass).find("abbe"));
+  const auto more = material(R"("KHR_materials_transmission": { "transmissionFactor": 1 },
+      "KHR_materials_volume": { "thicknessFactor": 1 }, "KHR_materials_dispersion": { "dispersion": 1e30 })");
+  EXPECT_THAT(numbers(more, "abbe"), ElementsAre(1));
 }
 
 TEST_F(ImportGltfExtensions, ClearcoatBecomesACoat) {

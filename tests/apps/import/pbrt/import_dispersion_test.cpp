@@ -59,6 +59,24 @@ TEST_F(ImportDispersion, OnlyMaterialsThatAreUsedCount) {
   EXPECT_FALSE(scene.needs.dispersion);
 }
 
+// What a formula tells replaces `eta`, before it is asked whether there is a boundary at all.
+TEST_F(ImportDispersion, RoughnessStaysWhateverEtaSays) {
+  const Scene scene = world(glass("\"float eta\" 1 \"float cauchy\" [ 1.5 0.01 ] \"float roughness\" 0.3"));
+  EXPECT_FALSE(std::get<Dielectric>(scene.materials.at(0).typical()).facets.smooth());
+}
+
+TEST_F(ImportDispersion, ConstantIndicesDoNotDisperse) {
+  const Scene scene = world(glass("\"float cauchy\" [ 1.6 ]"));
+  EXPECT_EQ(std::get<Dielectric>(scene.materials.at(0).typical()).eta, 1.6f);
+  EXPECT_FALSE(scene.needs.dispersion);
+}
+
+TEST_F(ImportDispersion, SamplesMayLieCloseTogether) {
+  const Scene scene = world(glass("\"spectrum eta\" [ 586 1.5 588 1.51 ]"));
+  EXPECT_NEAR(scene.materials.at(0).dispersion()->at(587), 1.505, 1e-9);
+  EXPECT_EQ(scene.materials.at(0).dispersion()->at(400), 1.5);
+}
+
 TEST_F(ImportDispersion, WrongParametersAreErrors) {
   EXPECT_EQ(
       first_lines(glass("\"float abbe\" 30 \"float cauchy\" [ 1.5 0.01 ]")),
@@ -73,6 +91,10 @@ TEST_F(ImportDispersion, WrongParametersAreErrors) {
       "to 830 nm\n");
   EXPECT_EQ(first_lines(glass("\"float sellmeier\" [ 1 2 3 ]")),
             "2:23: error: `sellmeier` of material \"dielectric\" takes 6 values, not 3\n");
+  EXPECT_EQ(first_lines(glass("\"float cauchy\" [ 1 1 1 1 1 1 1 1 1 ]")),
+            "2:23: error: `cauchy` of material \"dielectric\" takes 1 to 8 values, not 9\n");
+  EXPECT_EQ(first_lines(glass("\"spectrum eta\" \"glass-BK7\" \"float abbe\" 64")),
+            "2:50: error: `abbe` cannot be given where `eta` is a spectrum\n");
   EXPECT_EQ(first_lines("Texture \"e\" \"float\" \"constant\" \"float value\" 1.5\n" +
                         glass("\"float abbe\" 30 \"texture eta\" \"e\"")),
             "3:39: error: `eta` cannot be a texture where `abbe` is given\n");
