@@ -51,6 +51,12 @@ struct Dielectric {
     const float scale = mode == TransportMode::kRadiance ? inverse * inverse : 1.0f;
     return BsdfSample{refracted(wo, inverse, cos_t), Rgb(scale), 1 - reflectance, true, true};
   }
+  // Takes the index of one wavelength.
+  void disperse(double index) {
+    eta = static_cast<float>(index);
+    disperses = true;
+    if (eta == 1) facets = Ggx{};  // no boundary
+  }
   // Whether what the sample of wo sends on has one wavelength from there on. Smooth surfaces reflect all
   // light alike on their thinner side: the reflectance is that of the wavelength, but varies little. On the
   // denser side total reflection begins at another angle for each wavelength.

@@ -78,11 +78,8 @@ void BsdfAt::make(const Scene& scene, const Vector3& wo, const Footprint& footpr
 
 void BsdfAt::disperse(const Spectrum& eta, float wavelength) {
   if (!made_) made_ = *bsdf_;
-  auto& dielectric = std::get<Dielectric>(*made_);
-  dielectric.disperses = true;
   const double nm = wavelength == kNoWavelength ? kHeliumLine : static_cast<double>(wavelength);
-  dielectric.eta = static_cast<float>(eta.at(nm));
-  if (dielectric.eta == 1) dielectric.facets = Ggx{};  // no boundary
+  std::get<Dielectric>(*made_).disperse(eta.at(nm));
   bsdf_ = &*made_;
 }
 

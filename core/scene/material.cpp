@@ -37,9 +37,7 @@ Material::Material(TexturedMaterial textured, const TextureSet& textures)
 }
 
 void Material::disperse(std::shared_ptr<const Spectrum> eta) {
-  auto& dielectric = std::get<Dielectric>(bsdf_);
-  dielectric.eta = static_cast<float>(eta->at(kHeliumLine));
-  dielectric.disperses = true;
+  std::get<Dielectric>(bsdf_).disperse(eta->at(kHeliumLine));
   dispersion_ = std::move(eta);
 }
 

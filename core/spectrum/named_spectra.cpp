@@ -42,8 +42,8 @@ const std::vector<Named>& all_named() {
       all.push_back({fmt::format("metal-{}-eta", m.name), [&m] { return m.eta; }});
       all.push_back({fmt::format("metal-{}-k", m.name), [&m] { return m.k; }});
     }
-    for (const std::string_view glass : glass_names())
-      all.push_back({std::string(glass), [glass] { return sellmeier_index(*glass_coefficients(glass)); }});
+    for (const Glass& glass : glasses())
+      all.push_back({std::string(glass.name), [&glass] { return sellmeier_index(glass.coefficients); }});
     return all;
   }();
   return table;

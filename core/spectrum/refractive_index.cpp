@@ -8,29 +8,25 @@
 namespace kaustik {
 namespace {
 
-// pbrt's names of Schott's flint glasses lack the S.
-constexpr std::array<std::string_view, 10> kGlassNames = {
-    "glass-BK7", "glass-BAF10", "glass-FK51A", "glass-LASF9", "glass-SF5",
-    "glass-F5",  "glass-SF10",  "glass-F10",   "glass-SF11",  "glass-F11"};
-
 constexpr SellmeierCoefficients kSf5 = {1.52481889,  0.187085527,  1.42729015,
                                         0.011254756, 0.0588995392, 129.141675};
 constexpr SellmeierCoefficients kSf10 = {1.62153902,   0.256287842,  1.64447552,
                                          0.0122241457, 0.0595736775, 147.468793};
 constexpr SellmeierCoefficients kSf11 = {1.73759695,  0.313747346,  1.89878101,
                                          0.013188707, 0.0623068142, 155.23629};
-constexpr std::array<SellmeierCoefficients, kGlassNames.size()> kGlasses = {{
-    {1.03961212, 0.231792344, 1.01046945, 0.00600069867, 0.0200179144, 103.560653},
-    {1.5851495, 0.143559385, 1.08521269, 0.00926681282, 0.0424489805, 105.613573},
-    {0.971247817, 0.216901417, 0.904651666, 0.00472301995, 0.0153575612, 168.68133},
-    {2.00029547, 0.298926886, 1.80691843, 0.0121426017, 0.0538736236, 156.530829},
-    kSf5,
-    kSf5,
-    kSf10,
-    kSf10,
-    kSf11,
-    kSf11,
-}};
+// pbrt's names of Schott's flint glasses lack the S.
+constexpr Glass kGlasses[] = {
+    {"glass-BK7", {1.03961212, 0.231792344, 1.01046945, 0.00600069867, 0.0200179144, 103.560653}},
+    {"glass-BAF10", {1.5851495, 0.143559385, 1.08521269, 0.00926681282, 0.0424489805, 105.613573}},
+    {"glass-FK51A", {0.971247817, 0.216901417, 0.904651666, 0.00472301995, 0.0153575612, 168.68133}},
+    {"glass-LASF9", {2.00029547, 0.298926886, 1.80691843, 0.0121426017, 0.0538736236, 156.530829}},
+    {"glass-SF5", kSf5},
+    {"glass-F5", kSf5},
+    {"glass-SF10", kSf10},
+    {"glass-F10", kSf10},
+    {"glass-SF11", kSf11},
+    {"glass-F11", kSf11},
+};
 
 double square_micrometres(double nanometres) {
   return nanometres * nanometres * 1e-6;
@@ -82,13 +78,14 @@ bool varies(const Spectrum& index) {
   return *most - *least > 1e-9;
 }
 
-const SellmeierCoefficients* glass_coefficients(std::string_view name) {
-  const auto found = std::find(kGlassNames.begin(), kGlassNames.end(), name);
-  return found == kGlassNames.end() ? nullptr : &kGlasses[static_cast<size_t>(found - kGlassNames.begin())];
+std::span<const Glass> glasses() {
+  return kGlasses;
 }
 
-std::span<const std::string_view> glass_names() {
-  return kGlassNames;
+const SellmeierCoefficients* glass_coefficients(std::string_view name) {
+  for (const Glass& glass : kGlasses)
+    if (glass.name == name) return &glass.coefficients;
+  return nullptr;
 }
 
 }  // namespace kaustik

@@ -31,10 +31,13 @@ bool valid_index(const Spectrum& index);
 // Whether the index differs between wavelengths by more than rounding.
 bool varies(const Spectrum& index);
 
-// The coefficients of a glass that pbrt knows by name, such as "glass-BK7", from Schott's data sheets; null
-// for other names.
+struct Glass {
+  std::string_view name;  // pbrt's, such as "glass-BK7"
+  SellmeierCoefficients coefficients;
+};
+// The glasses that pbrt knows by name, from Schott's data sheets.
+std::span<const Glass> glasses();
+// Null for other names.
 const SellmeierCoefficients* glass_coefficients(std::string_view name);
-// The names that glass_coefficients() knows.
-std::span<const std::string_view> glass_names();
 
 }  // namespace kaustik

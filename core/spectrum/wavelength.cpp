@@ -64,8 +64,9 @@ std::vector<Bin> make_bins() {
   glm::dmat3 seen(0);  // columns: what the observer sees of red, green and blue
   for (size_t i = 0; i < kNanometres; ++i)
     seen += glm::outerProduct(colours[i], spectra_at(kFirstNanometre + double(i)));
+  const glm::dmat3 exact = glm::inverse(seen);
   double sum = 0;
-  for (glm::dvec3& c : colours) sum += glm::length(c = glm::inverse(seen) * c);
+  for (glm::dvec3& c : colours) sum += glm::length(c = exact * c);
   std::vector<Bin> bins(kNanometres);
   double before = 0;
   for (size_t i = 0; i < kNanometres; ++i) {

@@ -3,12 +3,17 @@
 // no negative components, as RGB has; so RGB9E5, which has no signs, holds them, and sums over photons have
 // the right mean. Scenes without dispersion keep RGB.
 
+#include <array>
+#include <cstdint>
+#include <string_view>
+
 #include "core/math/vec.h"
 #include "core/spectrum/colour_space.h"
 
 namespace kaustik::photon {
 
 enum class FluxColours : uint8_t { kRgb, kXyz };
+inline constexpr std::array<std::string_view, 2> kFluxColoursNames = {"rgb", "xyz"};
 
 // Sum is a vector of three floats or doubles: flux, or sums that are linear in it.
 template <class Sum>

@@ -235,8 +235,8 @@ class Tracer {
     scatters_[k] = false;
     const Arrival photon{lanes_.ray.get(k), get_lane(lanes_.flux, k)};
     SurfaceInteraction si = make_interaction(scene_.shapes, photon.ray, lanes_.hit.get(k));
-    const BsdfAt bsdf_at(scene_, si, -photon.ray.d, {},
-                         scene_.needs.dispersion ? wavelength_of(k) : kNoWavelength);
+    const bool may_disperse = scene_.needs.dispersion && !scene_.materials[si.material].constant();
+    const BsdfAt bsdf_at(scene_, si, -photon.ray.d, {}, may_disperse ? wavelength_of(k) : kNoWavelength);
     std::visit(
         [&](const auto& bsdf) {
           const Lobes lobes = bsdf.lobes();

@@ -17,6 +17,7 @@ struct PointPlan {
 // seen through a glossy lobe that is wider than the disc.
 bool takes_disc(const RenderContext& ctx, const ShadingPoint& x, bool blurred, photon::EstimateBatch* batch);
 
+// What the settings and the place of x ask for.
 inline PointPlan plan_point(const RenderContext& ctx, const ShadingPoint& x, bool blurred,
                             photon::EstimateBatch* batch) {
   const EstimatorPlan& plan = ctx.plan;

@@ -42,9 +42,9 @@ photon::PhotonKind kind_named(const std::string& name) {
 }
 
 photon::FluxColours colours_named(const std::string& name) {
-  if (name == "rgb") return photon::FluxColours::kRgb;
-  if (name == "xyz") return photon::FluxColours::kXyz;
-  throw std::runtime_error(fmt::format("`{}` are no colours of photons", name));
+  const auto colours = from_name<photon::FluxColours>(photon::kFluxColoursNames, name);
+  if (!colours) throw std::runtime_error(fmt::format("`{}` are no colours of photons", name));
+  return *colours;
 }
 
 photon::MortonCube cube_from(const Json& json) {

@@ -41,7 +41,7 @@ Json map_json(const WrittenMap& map) {
   return {{"kind", photon::kPhotonKindNames[size_t(map.kind)]},
           {"photons", map.parts.size},
           {"flux_unit", hex_text(map.parts.flux_unit)},
-          {"colours", map.parts.colours == photon::FluxColours::kXyz ? "xyz" : "rgb"},
+          {"colours", photon::kFluxColoursNames[size_t(map.parts.colours)]},
           {"cube",
            {hex_text(cube.origin.x), hex_text(cube.origin.y), hex_text(cube.origin.z), hex_text(cube.size),
             hex_text(cube.cells_per_metre)}},

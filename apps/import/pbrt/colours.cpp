@@ -7,6 +7,7 @@
 
 #include "apps/import/pbrt/parameter_parser.h"
 #include "core/diagnostics/nearest_name.h"
+#include "core/scene/build/dispersion.h"
 #include "core/spectrum/named_spectra.h"
 #include "core/spectrum/refractive_index.h"
 
@@ -89,10 +90,6 @@ std::vector<double> pairs_of_index(const Spectrum& s) {
   return pairs;
 }
 
-double index_at(const std::vector<double>& pairs, double nm) {
-  return sampled_index(pairs).at(nm);
-}
-
 }  // namespace
 
 void ColourReducer::reduce(std::string_view directive, const ColourSpace& space, Directive& out) {
@@ -130,10 +127,11 @@ std::optional<Parameter> ColourReducer::reduce_index(Parameter& p, const Spectru
   dispersion.numbers = glass ? std::vector<double>(glass->begin(), glass->end()) : pairs_of_index(s);
   dispersion.strings.clear();
   p.strings.clear();
-  p.numbers = {glass ? s.at(kHeliumLine) : index_at(dispersion.numbers, kHeliumLine)};
+  const Spectrum index = glass ? s : sampled_index(dispersion.numbers);
+  p.numbers = {index.at(kHeliumLine)};
   for (Parameter* each : {&p, &dispersion})
     each->value_places.resize(std::min<size_t>(each->value_places.size(), 1));
-  if (disperses && (glass || varies(sampled_index(dispersion.numbers)))) return dispersion;
+  if (disperses && varies(index)) return dispersion;
   if (!disperses && !warned_of_dispersion_)
     diagnostics_.warning(p.location,
                          fmt::format("dispersion is rendered in \"dielectric\" only: `{}` is taken at {} nm, "
@@ -144,10 +142,10 @@ std::optional<Parameter> ColourReducer::reduce_index(Parameter& p, const Spectru
 }
 
 void ColourReducer::add_dispersion(Parameter dispersion, Directive& out) {
-  for (const char* name : {"abbe", "cauchy", "sellmeier", "indices"}) {
-    const Parameter* other = out.find(name);
-    if (!other) continue;
-    diagnostics_.error(other->location, fmt::format("`{}` cannot be given where `eta` is a spectrum", name));
+  for (const Parameter& other : out.parameters) {
+    if (!tells_dispersion(other.name)) continue;
+    diagnostics_.error(other.location,
+                       fmt::format("`{}` cannot be given where `eta` is a spectrum", other.name));
     return;
   }
   out.parameters.push_back(std::move(dispersion));

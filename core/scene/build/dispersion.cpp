@@ -69,6 +69,11 @@ const Form* given_form(const ParameterReader& p, DiagnosticList& diagnostics) {
 
 }  // namespace
 
+bool tells_dispersion(std::string_view parameter) {
+  return std::any_of(std::begin(kForms), std::end(kForms),
+                     [&](const Form& form) { return form.parameter == parameter; });
+}
+
 std::shared_ptr<const Spectrum> dispersion_of(const ParameterReader& p, DiagnosticList& diagnostics) {
   if (!p.spec().find(kForms[0].parameter)) return nullptr;
   const Form* form = given_form(p, diagnostics);
