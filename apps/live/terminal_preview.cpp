@@ -22,9 +22,10 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-// Time for answers. The render does not wait for them, only the first picture does; whoever reads from the
-// terminal after the program should not get them.
-constexpr std::chrono::milliseconds kPatience{250}, kLastPatience{1000};
+// How long answers may take: what is not answered by then is taken as a no. All common terminals answer, so
+// this is long enough for slow lines and busy machines. The render does not wait, only the first picture
+// does; and the program's end, since the answers must not reach whoever reads from the terminal next.
+constexpr std::chrono::milliseconds kPatience{1500};
 
 constexpr double kBetweenCells = 0.2, kBetweenPictures = 0.5;  // least time between redraws, in seconds
 constexpr double kBytesPerSecond = 10e6, kBytesPerSecondBySsh = 500e3;
@@ -150,7 +151,7 @@ void TerminalPreview::run(const ToneChoice& tone) {
   } catch (const std::exception& error) {
     console_.warning(fmt::format("--preview shows no more: {}", error.what()));
   }
-  dialogue.await_rest(kLastPatience);
+  dialogue.await_rest(kPatience);
 }
 
 void TerminalPreview::show(PictureWay way, const TerminalAnswers& answers, const ToneChoice& tone) {

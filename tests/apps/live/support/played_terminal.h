@@ -113,6 +113,11 @@ class PlayedTerminal {
     std::vector<std::string> texts = {KAUSTIK_PROGRAM}, env = {"TERM=xterm-256color"};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
     env.insert(env.begin(), variables.begin(), variables.end());
+    // Of the test's own environment only what a program with a sanitizer needs: another environment could
+    // change what is shown.
+    for (const char* name :
+         {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"})
+      if (const char* const value = std::getenv(name)) env.push_back(std::string(name) + '=' + value);
     const auto pointers = [](std::vector<std::string>& all) {
       std::vector<char*> list;
       for (std::string& text : all) list.push_back(text.data());
