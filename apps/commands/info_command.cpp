@@ -89,15 +89,25 @@ Json lights_json(const Scene& scene) {
   return out;
 }
 
+std::string density_text(const DensityGrid& grid) {
+  const glm::ivec3& points = grid.points();
+  return fmt::format(", times densities up to {:.3g} on a grid of {} x {} x {} points", grid.largest(),
+                     points.x, points.y, points.z);
+}
+
 // The vacuum is left out.
 Json media_json(const Scene& scene) {
   Json out = Json::array();
   for (size_t i = 1; i < scene.media.size(); ++i) {
     const Medium& medium = scene.media[i];
-    out.push_back({{"name", scene.medium_names[i]},
-                   {"sigma_a", triple(medium.sigma_a)},
-                   {"sigma_s", triple(medium.sigma_s)},
-                   {"g", medium.g}});
+    Json& of_medium = out.emplace_back(Json{{"name", scene.medium_names[i]},
+                                            {"sigma_a", triple(medium.sigma_a)},
+                                            {"sigma_s", triple(medium.sigma_s)},
+                                            {"g", medium.g}});
+    if (!medium.density) continue;
+    const glm::ivec3& points = medium.density->points();
+    of_medium["grid"] = {points.x, points.y, points.z};
+    of_medium["largest_density"] = medium.density->largest();
   }
   return out;
 }
@@ -177,8 +187,9 @@ std::string info_text(const std::string& path, const Job& job) {
   }
   for (size_t i = 1; i < scene.media.size(); ++i) {
     const Medium& medium = scene.media[i];
-    text += fmt::format("medium     {}: absorbs {}, scatters {} 1/m, g {:.3g}\n", scene.medium_names[i],
-                        triple_text(medium.sigma_a), triple_text(medium.sigma_s), medium.g);
+    text += fmt::format("medium     {}: absorbs {}, scatters {} 1/m, g {:.3g}{}\n", scene.medium_names[i],
+                        triple_text(medium.sigma_a), triple_text(medium.sigma_s), medium.g,
+                        medium.density ? density_text(*medium.density) : "");
   }
   if (scene.interfaces)
     text += fmt::format("interface  {}, which only separate media\n",

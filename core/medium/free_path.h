@@ -30,7 +30,7 @@ inline ChosenChannel choose_channel(const Rgb& shares, float u) {
 
 // How far light of one colour goes through media, one after the other, until one of them scatters it: drawn
 // from a mixture of the channels' distributions. Media that only absorb scatter nothing, so that they take
-// their share for sure.
+// their share for sure. Distances are column densities, which in media of density one are lengths.
 class FreePath {
  public:
   // u in [0, 1)^2.
@@ -40,20 +40,20 @@ class FreePath {
     depth_ = -std::log1p(-u.y);
   }
 
-  // Goes through `length` metres of a medium, which may be infinite. Returns the distance at which the light
-  // is scattered; nothing where it gets through.
-  std::optional<float> pass(const Medium& medium, float length) {
+  // Goes through a column density of a medium, in metres, which may be infinite. Returns the column density
+  // after which the light is scattered; nothing where it gets through.
+  std::optional<float> pass(const Medium& medium, float column) {
     const Rgb sigma_t = medium.sigma_t();
     if (!medium.scatters()) {
-      absorbed_ *= exponential(sigma_t, length);
+      absorbed_ *= exponential(sigma_t, column);
       return {};
     }
-    const float sigma = sigma_t[channel_], depth = sigma > 0 ? sigma * length : 0;
+    const float sigma = sigma_t[channel_], depth = sigma > 0 ? sigma * column : 0;
     const bool scattered = depth > depth_;
-    const float t = scattered ? depth_ / sigma : length;
-    left_ *= exponential(sigma_t, t);
+    const float passed = scattered ? depth_ / sigma : column;
+    left_ *= exponential(sigma_t, passed);
     depth_ -= depth;
-    return scattered ? std::optional(t) : std::nullopt;
+    return scattered ? std::optional(passed) : std::nullopt;
   }
 
   // The share of the light that is neither absorbed nor scattered up to here.
@@ -76,13 +76,13 @@ class FreePath {
   float rest_ = 0, depth_ = 0;  // optical depth, in the chosen channel, until the light is scattered
 };
 
-// The place where light is scattered that is scattered before `distance`: the same distribution, cut off
-// there.
+// The place where light is scattered that is scattered within a column density, which may be infinite: the
+// same distribution, cut off there. Places are column densities, too.
 class ScatteringPlace {
  public:
-  ScatteringPlace(const Medium& medium, const Rgb& light, float distance)
-      : sigma_s_(medium.sigma_s), sigma_t_(medium.sigma_t()), distance_(distance) {
-    for (int c = 0; c < 3; ++c) met_[c] = sigma_t_[c] > 0 ? -std::expm1(-sigma_t_[c] * distance) : 0;
+  ScatteringPlace(const Medium& medium, const Rgb& light, float column)
+      : sigma_s_(medium.sigma_s), sigma_t_(medium.sigma_t()), column_(column) {
+    for (int c = 0; c < 3; ++c) met_[c] = sigma_t_[c] > 0 ? -std::expm1(-sigma_t_[c] * column) : 0;
     shares_ = channel_shares(light) * met_;
     opacity_ = shares_.x + shares_.y + shares_.z;
     if (opacity_ > 0) shares_ /= opacity_;
@@ -90,24 +90,24 @@ class ScatteringPlace {
 
   // The part of the light that does not get through. Where it is zero, nothing may be drawn.
   float opacity() const { return opacity_; }
-  // Distance in metres, at most `distance`. u in [0, 1)^2.
+  // Metres. u in [0, 1)^2.
   float sample(const Point2& u) const {
     const int c = choose_channel(shares_, u.x).channel;
-    return std::min(-std::log1p(-u.y * met_[c]) / sigma_t_[c], distance_);
+    return std::min(-std::log1p(-u.y * met_[c]) / sigma_t_[c], column_);
   }
-  // Density of sample(), per metre.
-  float pdf(float t) const {
+  // Density of sample(), per metre of column density.
+  float pdf(float column) const {
     float sum = 0;
     for (int c = 0; c < 3; ++c)
-      if (shares_[c] > 0) sum += shares_[c] * sigma_t_[c] * std::exp(-sigma_t_[c] * t) / met_[c];
+      if (shares_[c] > 0) sum += shares_[c] * sigma_t_[c] * std::exp(-sigma_t_[c] * column) / met_[c];
     return sum;
   }
-  // sigma_s T at t, 1/m: the share of the light that is scattered there.
-  Rgb scattered(float t) const { return sigma_s_ * exponential(sigma_t_, t); }
+  // sigma_s T there, per metre of column density: the share of the light that is scattered.
+  Rgb scattered(float column) const { return sigma_s_ * exponential(sigma_t_, column); }
 
  private:
   Rgb sigma_s_, sigma_t_, met_{0}, shares_{0};
-  float distance_, opacity_ = 0;
+  float column_, opacity_ = 0;
 };
 
 }  // namespace kaustik

@@ -2,21 +2,24 @@
 // Participating media: what fills the space between surfaces.
 
 #include <cstdint>
+#include <memory>
 
-#include "core/math/vec.h"
+#include "core/medium/density_grid.h"
 
 namespace kaustik {
 
-// A medium that is the same everywhere.
 struct Medium {
   Rgb sigma_a{0};  // absorption coefficient, 1/m, not negative
   Rgb sigma_s{0};  // scattering coefficient, 1/m, not negative
   // Mean cosine of the angle by which light is deflected, for the phase function of Henyey and Greenstein; at
   // most kLargestG away from zero.
   float g = 0;
+  // Factor on both coefficients that changes from place to place; null: one everywhere.
+  std::shared_ptr<const DensityGrid> density = nullptr;
 
-  Rgb sigma_t() const { return sigma_a + sigma_s; }  // extinction coefficient, 1/m
+  Rgb sigma_t() const { return sigma_a + sigma_s; }  // extinction coefficient where the density is one, 1/m
   bool scatters() const { return !is_black(sigma_s); }
+  float density_at(const Point3& p) const { return density ? density->at(p) : 1; }
 };
 
 // Index into Scene::media. Photons on their way keep it in eight bits (photon/trace/lanes/walk_state.h).
@@ -38,10 +41,21 @@ inline Rgb exponential(const Rgb& sigma, float distance) {
   return {left(sigma.x), left(sigma.y), left(sigma.z)};
 }
 
-// The share of light that is neither absorbed nor scattered along `distance` metres, which may be infinite
-// (Beer and Lambert; Pharr 2023, section 11.2).
-inline Rgb transmittance(const Medium& medium, float distance) {
-  return exponential(medium.sigma_t(), distance);
+// The column density of a part of a ray that lies in the medium: the integral of the density, in metres.
+// Where the density is one, that is the part's length. The ray's direction is unit; begin and end are metres
+// from its start, of which end may be infinite.
+inline float column_of(const Medium& medium, const Ray& ray, float begin, float end) {
+  return medium.density ? medium.density->column(ray, begin, end) : end - begin;
+}
+// The place of the ray, from begin to end, up to which there is that much column density.
+inline float place_of(float column, const Medium& medium, const Ray& ray, float begin, float end) {
+  return medium.density ? medium.density->place_of(column, ray, begin, end) : begin + column;
+}
+
+// The share of light that is neither absorbed nor scattered along a column density, in metres, which may be
+// infinite (Beer and Lambert; Pharr 2023, section 11.2).
+inline Rgb transmittance(const Medium& medium, float column) {
+  return exponential(medium.sigma_t(), column);
 }
 
 }  // namespace kaustik

@@ -5,9 +5,10 @@
 
 namespace kaustik {
 
-// The share of light that is left after `distance` metres, which may be infinite.
-inline Rgb transmittance(const Scene& scene, MediumIndex medium, float distance) {
-  return medium == kVacuum ? Rgb(1) : transmittance(scene.media[medium], distance);
+// The share of light that gets through a part of a ray in one medium (column_of()).
+inline Rgb transmittance(const Scene& scene, MediumIndex medium, const Ray& ray, float begin, float end) {
+  if (medium == kVacuum) return Rgb(1);
+  return transmittance(scene.media[medium], column_of(scene.media[medium], ray, begin, end));
 }
 
 // The medium in which a light shines.

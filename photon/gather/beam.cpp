@@ -194,6 +194,15 @@ struct RgbOfPower {
   static float unit(int k, bool converts) { return converts ? 1 : Rgb9e5Power::kUnit[k]; }
 };
 
+// The column densities up to these places.
+HWY_INLINE Vf Columns(const ColumnTable& table, Vf t) {
+  const Floats d;
+  float lanes[HWY_MAX_BYTES / sizeof(float)];
+  hn::StoreU(t, d, lanes);
+  table.replace({lanes, hn::Lanes(d)});
+  return hn::LoadU(d, lanes);
+}
+
 glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Medium& medium, KernelType kernel,
                        float slope, GatherCounters& counters) {
   const LaneBeam beam(query);
@@ -215,10 +224,11 @@ glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Mediu
         Vf weight = hn::Mul(Weight<kType>(photons.squared, hn::Set(d, slope)), power.scale);
         if (medium.g != 0) weight = hn::Mul(weight, Phase(beam, c, block + j, medium.g));
         weight = hn::IfThenElseZero(photons.counts, weight);
-        const Vf t = hn::IfThenElseZero(photons.counts, photons.t);
+        Vf column = hn::IfThenElseZero(photons.counts, photons.t);
+        if (query.columns) column = Columns(*query.columns, column);
         Vf left = hn::Zero(d);
         for (int k = 0; k < 3; ++k) {
-          if (k == 0 || !grey) left = hn::Exp(d, hn::Mul(hn::Set(d, -sigma_t[k]), t));
+          if (k == 0 || !grey) left = hn::Exp(d, hn::Mul(hn::Set(d, -sigma_t[k]), column));
           of_block[k] = hn::MulAdd(hn::Mul(weight, left), power.component[k], of_block[k]);
         }
       }

@@ -17,6 +17,7 @@ struct BeamQuery {
   float distance = 0;  // length of the ray, metres, may be infinite
   float radius = 0;    // metres
   uint32_t medium = 0;
+  const ColumnTable* columns = nullptr;  // of the ray, where the medium's density changes; else null
 };
 
 // Photons that count, in ascending order of the map: their indices, places on the ray in metres from its
@@ -39,8 +40,8 @@ uint64_t count_along(const PhotonMap& map, const BeamQuery& query);
 // gathers on a disc, and adaptive samples go by the number of queries.
 inline constexpr uint64_t kCandidatesOfQuery = 256;
 
-// Sum over the photons that count of  exp(-sigma_t t) p(wi, -d) K(distance) flux, in W/(m^2 sr), where d is
-// the ray's direction. The order of the sum is fixed.
+// Sum over the photons that count of  T(t) p(wi, -d) K(distance) flux, in W/(m^2 sr), where d is the ray's
+// direction. The order of the sum is fixed.
 Rgb gather_along(const PhotonMap& map, const BeamQuery& query, const Medium& medium, const KernelSpec& kernel,
                  GatherCounters& counters);
 

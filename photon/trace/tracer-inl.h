@@ -162,7 +162,12 @@ class Tracer {
   void arrive_behind_media(size_t k, const Rgb& flux);
   // A caustic leaves one photon on each of its segments in a medium, however thin the medium is. flux: at the
   // beginning of the segment.
-  void leave_caustic_on_the_way(size_t k, MediumIndex m, float begin, float end, const Rgb& flux);
+  // A part of a walker's ray that lies in one medium, metres from its start.
+  struct MediumPart {
+    MediumIndex medium;
+    float begin, end;
+  };
+  void leave_caustic_on_the_way(size_t k, const MediumPart& part, float column, const Rgb& flux);
   void leave_in_medium(size_t k, PhotonKind kind, MediumIndex medium, const Point3& p, const Rgb& scattered);
   // flux: what the medium scatters at p.
   void scatter_in_medium(size_t k, MediumIndex m, const Point3& p, const Rgb& flux, float u_roulette);

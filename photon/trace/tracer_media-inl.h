@@ -13,8 +13,9 @@ void Tracer<Accel, Sink>::enter_media(size_t count) {
     const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light).light;
     const MediumIndex medium = medium_of_light(scene_, light);
     walkers_.state[k] = WalkState().in(medium);
-    if (medium != kVacuum && !bounds_of(scene_.lights[light]))
-      set_lane(starts_.flux, k, transmittance(scene_, medium, kInfinity) * get_lane(starts_.flux, k));
+    if (medium == kVacuum || bounds_of(scene_.lights[light])) continue;
+    const Ray back{starts_.ray.get(k).o, -starts_.ray.get(k).d};
+    set_lane(starts_.flux, k, transmittance(scene_, medium, back, 0, kInfinity) * get_lane(starts_.flux, k));
   }
 }
 
@@ -47,12 +48,13 @@ void Tracer<Accel, Sink>::go_through_media(size_t k, float distance) {
   MediumIndex scattering = kVacuum;
   const auto part = [&](MediumIndex m, float begin, float end) {
     const Medium& medium = scene_.media[m];
-    if (leaves) leave_caustic_on_the_way(k, m, begin, end, clear * flux);
-    clear *= transmittance(medium, end - begin);
+    const float column = column_of(medium, ray, begin, end);
+    if (leaves) leave_caustic_on_the_way(k, {m, begin, end}, column, clear * flux);
+    clear *= transmittance(medium, column);
     if (!follows_indirect_ || scattered) return true;
-    const std::optional<float> t = way.pass(medium, end - begin);
-    if (!t) return true;
-    scattered = begin + *t;
+    const std::optional<float> passed = way.pass(medium, column);
+    if (!passed) return true;
+    scattered = place_of(*passed, medium, ray, begin, end);
     scattering = m;
     return leaves;  // where the photon itself is scattered does not matter to a caustic
   };
@@ -75,17 +77,19 @@ void Tracer<Accel, Sink>::arrive_behind_media(size_t k, const Rgb& flux) {
 }
 
 template <class Accel, class Sink>
-void Tracer<Accel, Sink>::leave_caustic_on_the_way(size_t k, MediumIndex m, float begin, float end,
+void Tracer<Accel, Sink>::leave_caustic_on_the_way(size_t k, const MediumPart& part, float column,
                                                    const Rgb& flux) {
-  const Medium& medium = scene_.media[m];
+  const Medium& medium = scene_.media[part.medium];
   if (!medium.scatters()) return;
-  const ScatteringPlace place(medium, flux, end - begin);
+  const ScatteringPlace place(medium, flux, column);
   if (!(place.opacity() > 0)) return;
-  const float t = place.sample({medium_numbers_.u[0][k], medium_numbers_.u[1][k]});
-  const float density = place.pdf(t);
+  const float passed = place.sample({medium_numbers_.u[0][k], medium_numbers_.u[1][k]});
+  const float density = place.pdf(passed);
   if (!(density > 0)) return;
-  leave_in_medium(k, PhotonKind::kMediumCaustic, m, lanes_.ray.get(k).at(begin + t),
-                  place.scattered(t) / density * flux);
+  const Ray ray = lanes_.ray.get(k);
+  leave_in_medium(k, PhotonKind::kMediumCaustic, part.medium,
+                  ray.at(place_of(passed, medium, ray, part.begin, part.end)),
+                  place.scattered(passed) / density * flux);
 }
 
 template <class Accel, class Sink>

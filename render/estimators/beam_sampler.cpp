@@ -6,7 +6,10 @@ namespace kaustik::render {
 
 BeamSampler::BeamSampler(const Scene& scene, const Medium& medium, const Ray& ray, float distance,
                          const Rgb& light)
-    : extinction_(medium, light, distance), distance_(distance) {
+    : medium_(medium),
+      ray_(ray),
+      extinction_(medium, light, column_of(medium, ray, 0, distance)),
+      distance_(distance) {
   for (const uint32_t i : scene.strongest_lights)
     if (const auto bounds = bounds_of(scene.lights[i])) add(*bounds, ray);
 }
@@ -35,10 +38,20 @@ BeamSampler::Sample BeamSampler::sample(const Point2& u) const {
   if (!(opacity() > 0)) return {};
   const bool by_light = lights_ > 0 && u.x < 0.5f;
   const float v = lights_ == 0 ? u.x : std::min(by_light ? 2 * u.x : 2 * u.x - 1, kOneMinusEpsilon);
-  const float t = by_light ? sample_lights({v, u.y}) : extinction_.sample({v, u.y});
+  float t, column;
+  if (by_light) {
+    t = sample_lights({v, u.y});
+    column = column_of(medium_, ray_, 0, t);
+  } else {
+    column = extinction_.sample({v, u.y});
+    t = place_of(column, medium_, ray_, 0, distance_);
+  }
   if (!(t >= 0) || !(t <= distance_) || !(t < kInfinity)) return {};
-  const float density = pdf(t);
-  return {t, density > 0 ? extinction_.scattered(t) / density : Rgb(0)};
+  // From densities per metre of column density to such per metre.
+  const float per_metre = medium_.density_at(ray_.at(t));
+  const float of_extinction = per_metre * extinction_.pdf(column);
+  const float pdf = lights_ == 0 ? of_extinction : 0.5f * (of_extinction + pdf_lights(t));
+  return {t, pdf > 0 ? per_metre * extinction_.scattered(column) / pdf : Rgb(0)};
 }
 
 float BeamSampler::sample_lights(const Point2& u) const {
@@ -49,11 +62,6 @@ float BeamSampler::sample_lights(const Point2& u) const {
   const float theta = u.y * near.angle, sine = std::sin(theta), cosine = std::cos(theta);
   const float b = near.beside, s = -near.along;
   return std::clamp((b * b + s * s) * sine / (b * cosine - s * sine), 0.0f, distance_);
-}
-
-float BeamSampler::pdf(float t) const {
-  if (lights_ == 0) return extinction_.pdf(t);
-  return 0.5f * (extinction_.pdf(t) + pdf_lights(t));
 }
 
 // Lights are chosen in proportion to power times the integral of 1/r^2, so that the mixture's density is the

@@ -15,7 +15,8 @@ namespace kaustik::render {
 // mixture (balance heuristic).
 class BeamSampler {
  public:
-  // ray: of unit direction; distance: of what it meets, metres, may be infinite. light: the throughput.
+  // ray: of unit direction; distance: of what it meets, metres, may be infinite. light: the throughput. The
+  // medium and the ray are referred to.
   BeamSampler(const Scene& scene, const Medium& medium, const Ray& ray, float distance, const Rgb& light);
 
   // Probability that the medium meets the ray's light at all: the greatest possible weight of a sample.
@@ -27,8 +28,6 @@ class BeamSampler {
   };
   // u in [0, 1)^2. The weight is zero where nothing can be chosen.
   Sample sample(const Point2& u) const;
-  // Density per metre.
-  float pdf(float t) const;
 
  private:
   // A light seen from the ray: at distance `along` of the ray's start and `beside` it.
@@ -42,6 +41,8 @@ class BeamSampler {
   float sample_lights(const Point2& u) const;
   float pdf_lights(float t) const;
 
+  const Medium& medium_;
+  const Ray& ray_;
   ScatteringPlace extinction_;
   float distance_;
   std::array<Near, kMostStrongLights> near_;

@@ -107,15 +107,16 @@ std::optional<MediumPoint> scatter_in_media(const RenderContext& ctx, const Ray&
   FreePath way(path->beta, sampler.next_2d());
   std::optional<MediumPoint> met;
   Rgb weight;
-  path->medium = accel::walk_media(
-      ctx.bvh.interfaces(), ray, distance, path->medium, [&](MediumIndex m, float begin, float end) {
-        const Medium& medium = ctx.scene.media[m];
-        const auto t = way.pass(medium, end - begin);
-        if (!t) return true;
-        met = MediumPoint{ray.at(begin + *t), -ray.d, medium.g, m, wavelength_of(*path)};
-        weight = way.scattered(medium);
-        return false;
-      });
+  path->medium = accel::walk_media(ctx.bvh.interfaces(), ray, distance, path->medium,
+                                   [&](MediumIndex m, float begin, float end) {
+                                     const Medium& medium = ctx.scene.media[m];
+                                     const auto passed = way.pass(medium, column_of(medium, ray, begin, end));
+                                     if (!passed) return true;
+                                     const Point3 p = ray.at(place_of(*passed, medium, ray, begin, end));
+                                     met = MediumPoint{p, -ray.d, medium.g, m, wavelength_of(*path)};
+                                     weight = way.scattered(medium);
+                                     return false;
+                                   });
   if (!met) weight = way.passed();
   const float before = max_component(path->beta);
   path->beta *= weight;
@@ -134,7 +135,7 @@ void gather_in_media(const RenderContext& ctx, const Ray& ray, float distance, b
           const PathLight of = scattered_light(ctx, beam, path->beta, SampleLight::kAll, sampler, counters);
           light->indirect += path->beta * (of.direct + of.caustic + of.indirect);
         }
-        const Rgb left = transmittance(ctx.scene, m, end - begin);
+        const Rgb left = transmittance(ctx.scene, m, ray, begin, end);
         path->beta *= left;
         path->roulette *= max_component(left);
         return true;

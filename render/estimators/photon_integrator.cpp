@@ -284,7 +284,7 @@ class CameraPath {
     maps.result->direct += branch.beta * light.direct;
     maps.result->caustic += branch.beta * light.caustic;
     maps.result->indirect += branch.beta * light.indirect;
-    branch.beta *= transmittance(ctx_.scene, beam.medium, beam.distance);
+    branch.beta *= transmittance(ctx_.scene, beam.medium, beam.ray, 0, beam.distance);
   }
 
   void add_emission(const Branch& branch, const Rgb& Le) {

@@ -1,5 +1,7 @@
 #include "render/estimators/scattered_light.h"
 
+#include <optional>
+
 #include "photon/estimate/beam_estimate.h"
 #include "render/estimators/beam_sampler.h"
 
@@ -42,8 +44,9 @@ PathLight sampled(const RenderContext& ctx, const Beam& beam, const Rgb& beta, S
   return {factor * light.direct, factor * light.caustic, factor * light.indirect};
 }
 
-Rgb gathered(const RenderContext& ctx, const Beam& beam, const GatherMap& gather, TileCounters& counters) {
-  const photon::BeamQuery query{beam.ray, beam.distance, gather.estimate.radius, beam.medium};
+Rgb gathered(const RenderContext& ctx, const Beam& beam, const ColumnTable* columns, const GatherMap& gather,
+             TileCounters& counters) {
+  const photon::BeamQuery query{beam.ray, beam.distance, gather.estimate.radius, beam.medium, columns};
   return photon::estimate_beam(gather.map, query, ctx.scene.media[beam.medium], gather.estimate.kernel,
                                gather.estimate.nearest, counters.gather);
 }
@@ -54,9 +57,14 @@ PathLight scattered_light(const RenderContext& ctx, const Beam& beam, const Rgb&
                           Sampler& sampler, TileCounters& counters) {
   if (!ctx.scene.media[beam.medium].scatters()) return {};
   PathLight sum = sampled(ctx, beam, beta, sampler, counters);
-  if (light == SampleLight::kTraced) return sum;
-  if (ctx.plan.medium_caustics) sum.caustic += gathered(ctx, beam, ctx.maps.medium_caustic, counters);
-  if (ctx.plan.medium_indirect) sum.indirect += gathered(ctx, beam, ctx.maps.medium_indirect, counters);
+  const bool caustics = ctx.plan.medium_caustics, indirect = ctx.plan.medium_indirect;
+  if (light == SampleLight::kTraced || !(caustics || indirect)) return sum;
+  std::optional<ColumnTable> table;
+  if (const auto& density = ctx.scene.media[beam.medium].density)
+    table.emplace(*density, beam.ray, beam.distance);
+  const ColumnTable* const columns = table ? &*table : nullptr;
+  if (caustics) sum.caustic += gathered(ctx, beam, columns, ctx.maps.medium_caustic, counters);
+  if (indirect) sum.indirect += gathered(ctx, beam, columns, ctx.maps.medium_indirect, counters);
   return sum;
 }
 

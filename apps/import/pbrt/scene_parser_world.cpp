@@ -226,8 +226,10 @@ void SceneParser::on_make_named_medium(const Token& word) {
   MediumDescription medium;
   if (!read_directive(word, "medium", medium)) return;
   if (!take_type("medium", "homogeneous", medium, medium.name, medium.name_location)) return;
+  v3_.upgrade(word.text, medium);
   repairs_.repair(word.text, medium);
   colours_.reduce(word.text, *state_.colour_space, medium);
+  medium.medium_to_world = state_.ctm;
   scene_.media.push_back(std::move(medium));
 }
 

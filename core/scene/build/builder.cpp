@@ -100,7 +100,7 @@ class Builder {
     if (diagnostics_.has_errors()) return std::nullopt;
     scene.materials = std::move(materials.materials());
     scene.material_names = std::move(materials.names());
-    scene.media = std::move(media_->media());
+    scene.media = media_->finish(scene.origin);
     scene.medium_names = std::move(media_->names());
     if (description_.camera) check_camera_medium(scene, description_.camera->location, diagnostics_);
     scene.textures = textures_->finish(scene.origin);

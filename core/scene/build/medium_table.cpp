@@ -7,6 +7,7 @@
 #include "core/diagnostics/nearest_name.h"
 #include "core/medium/phase_function.h"
 #include "core/medium/preset_media.h"
+#include "core/scene/build/medium_grid.h"
 
 namespace kaustik {
 
@@ -51,6 +52,8 @@ MediumIndex MediumTable::make(const MediumDescription& description, WarnedOnce& 
   medium.sigma_s *= scale;
   if (!is_finite(medium.sigma_t()))
     diagnostics.error(p.location("scale"), "`scale` takes coefficients beyond the range of floats");
+  const bool grid = spec->name == "uniformgrid";
+  if (grid && !check_grid(p, description, diagnostics)) return kVacuum;
   if (is_black(medium.sigma_t())) return kVacuum;
   if (media_.empty()) media_.emplace_back(), names_.emplace_back("vacuum");
   if (media_.size() > kMostMedia) {
@@ -59,7 +62,15 @@ MediumIndex MediumTable::make(const MediumDescription& description, WarnedOnce& 
   }
   media_.push_back(medium);
   names_.push_back(description.name);
-  return static_cast<MediumIndex>(media_.size() - 1);
+  const auto index = static_cast<MediumIndex>(media_.size() - 1);
+  if (grid) grids_.emplace_back(index, &description);
+  return index;
+}
+
+std::vector<Medium> MediumTable::finish(const glm::dvec3& origin) {
+  for (const auto& [index, description] : grids_)
+    media_[index].density = std::make_shared<const DensityGrid>(make_grid(*description, origin));
+  return std::move(media_);
 }
 
 MediumIndex MediumTable::resolve(const MediumReference& reference, DiagnosticList& diagnostics) {

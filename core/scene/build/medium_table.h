@@ -23,14 +23,15 @@ class MediumTable {
     return {resolve(references.inside, diagnostics), resolve(references.outside, diagnostics)};
   }
 
-  // By MediumIndex; empty if there is none but the vacuum.
-  std::vector<Medium>& media() { return media_; }
+  // By MediumIndex; empty if there is none but the vacuum. Places their grids relative to the scene's origin.
+  std::vector<Medium> finish(const glm::dvec3& origin);
   std::vector<std::string>& names() { return names_; }
 
  private:
   MediumIndex make(const MediumDescription& description, WarnedOnce& warned, DiagnosticList& diagnostics);
 
   std::vector<Medium> media_;
+  std::vector<std::pair<MediumIndex, const MediumDescription*>> grids_;
   std::vector<std::string> names_;
   std::map<std::string_view, MediumIndex, std::less<>> by_name_;
   std::set<std::string_view> reported_;  // undefined names

@@ -65,6 +65,7 @@ struct Directive {
 struct MediumDescription : Directive {
   std::string name;
   SourceLocation name_location;
+  glm::dmat4 medium_to_world{1};
 };
 
 // A medium by its name, which may be defined later. Without a name: the vacuum.

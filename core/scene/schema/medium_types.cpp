@@ -11,20 +11,55 @@ ParameterSpec coefficient(std::string_view name, const glm::dvec3& value, std::s
   return of_type(ParameterType::kRgb, name, {value.x, value.y, value.z}, "1/m", kNotNegative, doc);
 }
 
+constexpr std::string_view kNoEmission = "media do not emit";
+
+ParameterSpec not_emitted(std::string_view name) {
+  return ignored(name, {ParameterType::kFloat}, kNoEmission);
+}
+
+// What media of all types have. sigma_a, sigma_s: the defaults.
+std::vector<ParameterSpec> with_coefficients(const glm::dvec3& sigma_a, const glm::dvec3& sigma_s,
+                                             std::vector<ParameterSpec> more) {
+  std::vector<ParameterSpec> all = {
+      coefficient("sigma_a", sigma_a, "absorption coefficient"),
+      coefficient("sigma_s", sigma_s, "scattering coefficient"),
+      number("scale", 1, "", kNotNegative, "factor on both coefficients"),
+      text("preset", "none",
+           "a measured medium whose coefficients, in 1/mm, are taken instead, with units of the scene for "
+           "mm: Apple, Coke, Wholemilk and others that pbrt knows"),
+      number("g", 0, "", {-1, 1}, "mean cosine of the angle by which light is deflected"),
+      ignored("Le", {ParameterType::kRgb, ParameterType::kSpectrum, ParameterType::kBlackbody}, kNoEmission),
+      not_emitted("Lescale")};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+// Number of points along an axis.
+ParameterSpec points(std::string_view name) {
+  return integer(name, 1, "", {1, 1 << 20}, "number of the grid's points along the axis");
+}
+
+ParameterSpec densities() {
+  ParameterSpec p = list(ParameterType::kFloat, "density", 1, "required", "",
+                         "factors on the coefficients at the points, x changing fastest");
+  p.range = kNotNegative;
+  return p;
+}
+
 std::vector<TypeSpec> make_medium_types() {
   return {
-      {"homogeneous",
-       "The same everywhere. It absorbs and scatters light; what it emits is not rendered.",
-       {coefficient("sigma_a", {0.0011, 0.0024, 0.014}, "absorption coefficient"),
-        coefficient("sigma_s", {2.55, 3.21, 3.77}, "scattering coefficient"),
-        number("scale", 1, "", kNotNegative, "factor on both coefficients"),
-        text("preset", "none",
-             "a measured medium whose coefficients, in 1/mm, are taken instead, with units of the scene for "
-             "mm: Apple, Coke, Wholemilk and others that pbrt knows"),
-        number("g", 0, "", {-1, 1}, "mean cosine of the angle by which light is deflected"),
-        ignored("Le", {ParameterType::kRgb, ParameterType::kSpectrum, ParameterType::kBlackbody},
-                "media do not emit"),
-        ignored("Lescale", {ParameterType::kFloat}, "media do not emit")}}};
+      {"homogeneous", "The same everywhere. It absorbs and scatters light; what it emits is not rendered.",
+       with_coefficients({0.0011, 0.0024, 0.014}, {2.55, 3.21, 3.77}, {})},
+      {"uniformgrid",
+       "A density at each point of a grid, such as that of smoke, interpolated between them. The points are "
+       "the centres of equal cells of a box, beyond which there is nothing; the directive's transform places "
+       "it.",
+       with_coefficients(
+           {1, 1, 1}, {1, 1, 1},
+           {densities(), points("nx"), points("ny"), points("nz"),
+            point("p0", {0, 0, 0}, "a corner of the box"), point("p1", {1, 1, 1}, "the opposite corner"),
+            not_emitted("temperature"), not_emitted("temperatureoffset"), not_emitted("temperaturescale"),
+            not_emitted("temperaturecutoff")})}};
 }
 
 }  // namespace

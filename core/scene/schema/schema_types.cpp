@@ -119,7 +119,7 @@ std::vector<Category> make_categories() {
       {"Accelerator", "accelerator", specs_of(accelerator_types()), {}},
       {"Material", "material", specs_of(material_rows()), {}},
       {"Texture", "texture", specs_of(texture_types()), {}},
-      {"MakeNamedMedium", "medium", specs_of(medium_types()), {"cloud", "nanovdb", "rgbgrid", "uniformgrid"}},
+      {"MakeNamedMedium", "medium", specs_of(medium_types()), {"cloud", "nanovdb", "rgbgrid"}},
       {"Shape", "shape", specs_of(shape_rows()), {}},
       {"AreaLightSource", "area light", specs_of(area_light_types()), {}},
       {"LightSource", "light", specs_of(light_rows()), {}},

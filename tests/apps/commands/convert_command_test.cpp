@@ -57,6 +57,20 @@ TEST_F(ConvertCommand, PbrtRendersToTheSameBits) {
   expect_same_picture("scene.pbrt");
 }
 
+// Grids of densities stay where they were; so does the camera behind them.
+TEST_F(ConvertCommand, MediaRenderToTheSameBits) {
+  small_scene(R"(Translate 0.1 0.2 0 Rotate 20 1 2 3
+    MakeNamedMedium "smoke" "string type" "uniformgrid" "integer nx" 2 "integer ny" 3 "float density" [ 1 2 3 0 5 6 ]
+      "point3 p0" [ -2 0 -2 ] "point3 p1" [ 2 2 2 ]
+    Identity )" +
+              film(24, 18));
+  write("scene.pbrt", read("small.pbrt") +
+                          "MediumInterface \"smoke\" \"\" Material \"interface\" Shape \"sphere\" \"float "
+                          "radius\" 1.5\n");
+  expect_same_picture("scene.pbrt");
+  EXPECT_THAT(read("converted.pbrt"), HasSubstr("uniformgrid"));
+}
+
 // Colours of vertices go into the PLY file as floats, and the texture that shows them into the text.
 TEST_F(ConvertCommand, ColoursOfVerticesRenderToTheSameBits) {
   std::string corners = "\"integer indices\" [", points = "] \"point3 P\" [", colours = "] \"float Cd\" [";

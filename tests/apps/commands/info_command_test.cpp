@@ -56,6 +56,21 @@ TEST_F(InfoCommand, ReportsImagesThatAreMissingOrNone) {
   EXPECT_THAT(text.err, HasSubstr("cannot read the image"));
 }
 
+TEST_F(InfoCommand, TellsMediaAndTheirGrids) {
+  const std::string scene = write(
+      "smoke.pbrt",
+      "WorldBegin\nLightSource \"point\"\nMakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"
+      "MakeNamedMedium \"smoke\" \"string type\" \"uniformgrid\" \"integer ny\" 2 \"integer nz\" 3 \"float "
+      "density\" [ 0 1 2 3 0.5 0 ]\nMediumInterface \"smoke\" \"fog\"\nShape \"sphere\"\n");
+  const nlohmann::json media = nlohmann::json::parse(run_kaustik({"info", scene, "--json"}).out)["media"];
+  ASSERT_EQ(media.size(), 2u);
+  EXPECT_FALSE(media[0].contains("grid"));
+  EXPECT_THAT(media[1]["grid"], ElementsAre(1, 2, 3));
+  EXPECT_EQ(media[1]["largest_density"], 3);
+  EXPECT_THAT(run_kaustik({"info", scene}).out,
+              HasSubstr("g 0, times densities up to 3 on a grid of 1 x 2 x 3 points\n"));
+}
+
 // Two objects share a material whose name the MTL file has once; faces before the first object have their
 // material's name. Shapes lie apart, since those that touch share their photons.
 TEST_F(InfoCommand, NamesThingsAsTheirFileDoes) {

@@ -6,6 +6,7 @@
 
 #include "core/spectrum/refractive_index.h"
 #include "photon/trace/tracer.h"
+#include "tests/support/density_grids.h"
 #include "tests/support/shapes.h"
 
 namespace kaustik::test {
@@ -63,11 +64,14 @@ inline void fill(Scene& scene, const Medium& medium) {
   finalize_scene(scene);
 }
 
-// The full room with glass that disperses, in a fog: every kind of photon of all.
+// The full room with glass that disperses, in a fog that is denser here than there: every kind of photon of
+// all.
 inline Scene foggy_room(float s = 1) {
   Scene scene = full_room(s);
   scene.materials[1].disperse(std::make_shared<const Spectrum>(abbe_index(1.5, 20)));
-  fill(scene, {Rgb(0.1f, 0.2f, 0) / s, Rgb(0.4f, 0.2f, 0.3f) / s, 0.3f});
+  const auto density = grid_of({5, 9, 20}, glm::dvec3(-1.25 * double(s)), glm::dvec3(1.25 * double(s)),
+                               [&](const glm::dvec3& p) { return 1 + std::sin(5 * p.x / double(s)); });
+  fill(scene, {Rgb(0.1f, 0.2f, 0) / s, Rgb(0.4f, 0.2f, 0.3f) / s, 0.3f, density});
   return scene;
 }
 

@@ -76,9 +76,14 @@ TEST(EnergyLedger, MediaHaveAnEntry) {
 }
 
 TEST(EnergyLedger, BalancesInMediaThatScatter) {
-  for (const float g : {0.0f, 0.9f}) {
+  const auto smoke = test::grid_of({7, 8, 9}, glm::dvec3(-1), glm::dvec3(1), [](const glm::dvec3& p) {
+    return std::max(4 * std::sin(4 * p.x + p.y * p.z), 0.0);
+  });
+  for (const Medium& medium :
+       {Medium{{0.1f, 0.5f, 0}, {0.7f, 0, 3}}, Medium{{0.1f, 0.5f, 0}, {0.7f, 0, 3}, 0.9f},
+        Medium{{0.1f, 0.5f, 0}, {0.7f, 0, 3}, 0.5f, smoke}}) {
     Scene scene = open_room();
-    test::fill(scene, Medium{{0.1f, 0.5f, 0}, {0.7f, 0, 3}, g});
+    test::fill(scene, medium);
     for (const int bounces : {1, 2, 16, 200}) {
       TraceSettings settings = settings_for(10'000, kAllKinds);
       settings.max_bounces = bounces;

@@ -35,10 +35,13 @@ inline Shape horizontal(const Point3& c, float half_x, float half_z, bool up, ui
 }
 
 // Adds a medium and returns its index.
-inline MediumIndex add_medium(Scene& scene, const Rgb& sigma_a, const Rgb& sigma_s = Rgb(0), float g = 0) {
+inline MediumIndex add_medium(Scene& scene, const Medium& medium) {
   if (scene.media.empty()) scene.media.emplace_back();
-  scene.media.push_back({sigma_a, sigma_s, g});
+  scene.media.push_back(medium);
   return static_cast<MediumIndex>(scene.media.size() - 1);
+}
+inline MediumIndex add_medium(Scene& scene, const Rgb& sigma_a, const Rgb& sigma_s = Rgb(0), float g = 0) {
+  return add_medium(scene, Medium{sigma_a, sigma_s, g});
 }
 
 // Fills all space with a medium.

@@ -4,6 +4,7 @@
 
 #include "tests/render/support/class_agreement.h"
 #include "tests/render/support/closed_forms.h"
+#include "tests/support/density_grids.h"
 
 namespace kaustik::render {
 namespace {
@@ -20,24 +21,39 @@ RenderSettings quick(Method method) {
 }
 
 // A box of the medium whose surfaces neither reflect nor bend, 0.7 m deep, in front of a lamp that fills the
-// view: what the camera sees is the lamp's radiance times exp(-0.7 sigma), without noise.
-class SlabOfMedium : public ::testing::TestWithParam<Method> {};
-
-TEST_P(SlabOfMedium, LeavesBeerAndLambertsShare) {
+// view: what the camera sees is the lamp's radiance times exp(-0.7 sigma), without noise. column: 0.7 m times
+// the mean density.
+void expect_share_behind_slab(const Medium& medium, float column, Method method) {
   Scene scene;
   const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
   const uint32_t clear = add_material(scene, Dielectric{1});
-  const MediumIndex inside = add_medium(scene, kSigma);
+  const MediumIndex inside = add_medium(scene, medium);
   add_shape(scene, horizontal({0, 1, 0}, 1, 1, true, clear)).media = {inside, kVacuum};
   add_shape(scene, horizontal({0, 0.3f, 0}, 1, 1, false, clear)).media = {inside, kVacuum};
   make_light(scene, add_shape(scene, horizontal({0, 0, 0}, 1, 1, true, black)), Rgb(1, 2, 3));
   look_at(scene, {0, 3, 0}, {0, 0, 0}, {0, 0, 1}, 0.001f, 4, 4);
   finalize_scene(scene);
-  const auto result = render_with_threads(scene, quick(GetParam()));
-  const Rgb expected = Rgb(1, 2, 3) * transmittance(scene.media[inside], 0.7f);
+  const auto result = render_with_threads(scene, quick(method));
+  const Rgb expected = Rgb(1, 2, 3) * transmittance(medium, column);
+  // Rays start up to 5e-6 m off the surface that they leave, times sigma and the density, which is 1.5 there.
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(result.film.at(1, 2).emitted[c], expected[c], 1e-5 * double(expected[c])) << c;
+    EXPECT_NEAR(result.film.at(1, 2).emitted[c], expected[c],
+                5e-6 * double(kSigma[c]) * 1.5 * double(expected[c]) + 1e-6)
+        << c;
   write_if_failed(result.film, "slab_of_medium");
+}
+
+class SlabOfMedium : public ::testing::TestWithParam<Method> {};
+
+TEST_P(SlabOfMedium, LeavesBeerAndLambertsShare) {
+  expect_share_behind_slab({kSigma}, 0.7f, GetParam());
+}
+
+// A density of 0.5 + y, which interpolation does not change: its integral from 0.3 to 1 is 0.805.
+TEST_P(SlabOfMedium, LeavesItWhereTheDensityChanges) {
+  const auto density =
+      grid_of({3, 13, 3}, {-3, 0, -3}, {3, 1.3, 3}, [](const glm::dvec3& p) { return 0.5 + p.y; });
+  expect_share_behind_slab({kSigma, Rgb(0), 0, density}, 0.805f, GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(Methods, SlabOfMedium,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kPhoton, Method::kAuto));
@@ -92,11 +108,14 @@ TEST_P(SlabBehindInterfaces, TakesItsShareOfDirectLight) {
 INSTANTIATE_TEST_SUITE_P(Methods, SlabBehindInterfaces,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
 
-// The box with a ball of smoke, bounded by nothing that light meets.
+// The box with a ball of smoke, bounded by nothing that light meets, whose density is zero in places.
 TEST(MediaAgreement, SmokeAgreesWithPaths) {
   Scene scene = cornell(kSize);
+  const auto density = grid_of({12, 14, 9}, {-0.4, 0.8, -0.3}, {0.4, 1.6, 0.5}, [](const glm::dvec3& p) {
+    return std::max(1 + 2 * std::sin(12 * p.x + 5 * p.z) * std::cos(9 * p.y), 0.0);
+  });
   add_interface(scene, sphere({0, 1.2f, 0.1f}, 0.4f, 0),
-                {add_medium(scene, Rgb(0.5f, 0.2f, 0.1f), Rgb(2, 3, 4), -0.3f), kVacuum});
+                {add_medium(scene, {Rgb(0.5f, 0.2f, 0.1f), Rgb(2, 3, 4), -0.3f, density}), kVacuum});
   finalize_scene(scene);
   const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
   for (const Method method : {Method::kPhoton, Method::kAuto}) {

@@ -4,6 +4,7 @@
 
 #include "core/medium/phase_function.h"
 #include "tests/render/support/class_agreement.h"
+#include "tests/support/density_grids.h"
 
 namespace kaustik::render {
 namespace {
@@ -40,12 +41,12 @@ RenderSettings settings_for(Method method, int spp, uint64_t photons = 100'000) 
 }
 
 // Single scattering of a point light beside the view, in a medium without end but for a black wall at z = -4:
-//   L = I int_0^8 exp(-sigma_t (t + r)) sigma_s p(angle) / r^2 dt.
-class SingleScattering : public ::testing::TestWithParam<Method> {};
-
-TEST_P(SingleScattering, OfAPointLightIsAnIntegral) {
-  const Medium medium{{0.1f, 0.2f, 0}, {0.2f, 0.4f, 0.1f}, 0.5f};
-  const glm::dvec3 lamp(0.7, 0.2, 1);
+//   L = I int_0^8 density(z) sigma_s exp(-sigma_t (D(t) + D(r))) p(angle) / r^2 dt
+// with a density of 1 + slope z, whose column densities D are its mean on a way times the way's length.
+void expect_single_scattering(Medium medium, double slope, Method method) {
+  const auto density = [&](const glm::dvec3& p) { return 1 + slope * p.z; };
+  if (slope != 0) medium.density = grid_of({3, 3, 12}, {-20, -20, -6}, {20, 20, 6}, density);
+  const glm::dvec3 lamp(0.7, 0.2, 1), eye(0, 0, 4);
   Scene scene;
   add_shape(scene, quad({-9, -9, -4}, {9, -9, -4}, {9, 9, -4}, {-9, 9, -4},
                         add_material(scene, Lambertian{Rgb(0)})));
@@ -55,16 +56,17 @@ TEST_P(SingleScattering, OfAPointLightIsAnIntegral) {
   scene.camera_medium = 1;
   scene.light_media = {1};
   finalize_scene(scene);
-  const std::vector<Film> found = films(scene, settings_for(GetParam(), 16));
+  const std::vector<Film> found = films(scene, settings_for(method, 16));
   for (int c = 0; c < 3; ++c) {
     const double sigma = double(medium.sigma_t()[c]);
     double expected = 0;
     constexpr int kSteps = 20'000;
     for (int i = 0; i < kSteps; ++i) {
       const double t = 8.0 * (i + 0.5) / kSteps;
-      const glm::dvec3 from = glm::dvec3(0, 0, 4 - t) - lamp;
+      const glm::dvec3 p(0, 0, 4 - t), from = p - lamp;
       const double r = glm::length(from), cosine = from.z / r;  // the light goes on along +z
-      expected += double(medium.sigma_s[c]) * std::exp(-sigma * (t + r)) / (r * r) *
+      const double column = t * density((p + eye) / 2.0) + r * density((p + lamp) / 2.0);
+      expected += density(p) * double(medium.sigma_s[c]) * std::exp(-sigma * column) / (r * r) *
                   double(phase(float(cosine), medium.g)) * 2 * 8.0 / kSteps;
     }
     const Estimate direct = mean_of(found, {&PixelResult::direct}, c);
@@ -72,6 +74,13 @@ TEST_P(SingleScattering, OfAPointLightIsAnIntegral) {
     EXPECT_LT(direct.standard_error, 0.01 * expected) << c;
   }
   write_if_failed(found[0], "single_scattering");
+}
+
+class SingleScattering : public ::testing::TestWithParam<Method> {};
+
+TEST_P(SingleScattering, OfAPointLightIsAnIntegral) {
+  for (const double slope : {0.0, 0.2})
+    expect_single_scattering({{0.1f, 0.2f, 0}, {0.2f, 0.4f, 0.1f}, 0.5f}, slope, GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(Methods, SingleScattering,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kPhoton, Method::kAuto));
@@ -130,14 +139,16 @@ double chandrasekhar_h(double albedo, double mu) {
 }
 
 // A half space under a sky of radiance 1, whose boundary neither reflects nor bends: what it sends back is
-// 1 - sqrt(1 - albedo) H(mu).
+// 1 - sqrt(1 - albedo) H(mu), however the density changes with the depth.
 class HalfSpace : public ::testing::TestWithParam<Method> {};
 
 TEST_P(HalfSpace, ReflectsByChandrasekharsH) {
   const Rgb albedo(0.3f, 0.6f, 0.9f);
   Scene scene;
   const uint32_t clear = add_material(scene, Dielectric{1});
-  scene.media = {Medium{}, Medium{1.0f - albedo, albedo}};
+  const auto density = grid_of({3, 120, 3}, {-20, -12, -20}, {20, 1, 20},
+                               [](const glm::dvec3& p) { return 1 + 0.7 * std::sin(2 * p.y); });
+  scene.media = {Medium{}, Medium{1.0f - albedo, albedo, 0, density}};
   add_shape(scene, horizontal({0, 0, 0}, 12, 12, true, clear)).media = {1, kVacuum};
   add_shape(scene, horizontal({0, -12, 0}, 12, 12, false, add_material(scene, Lambertian{Rgb(0)})));
   scene.lights.push_back(InfiniteLight{Rgb(1)});

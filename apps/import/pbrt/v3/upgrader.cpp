@@ -24,6 +24,7 @@ constexpr Renaming kTypes[] = {
     {"Integrator", "ao", "ambientocclusion"},
     {"LightSource", "exinfinite", "infinite"},
     {"AreaLightSource", "area", "diffuse"},
+    {"MakeNamedMedium", "heterogeneous", "uniformgrid"},
 };
 
 // Renamed parameters whose meaning is the same or nearly so.
@@ -88,6 +89,7 @@ void V3Upgrader::drop(std::string_view word, std::string_view name, std::string_
 
 void V3Upgrader::upgrade(std::string_view word, Directive& d) {
   if (word == "Film" && d.type == "image") add_film_defaults(d);
+  if (word == "MakeNamedMedium" && d.type == "heterogeneous") add_medium_defaults(d);
   for (const Renaming& r : kTypes) {
     if (r.word == word) rename_type(word, r.from, r.to, d);
   }
@@ -122,6 +124,16 @@ void V3Upgrader::add_film_defaults(Directive& film) {
                                           std::tuple{"exposuretime", ParameterType::kFloat, 1.0}}) {
     if (!film.find(name))
       film.parameters.push_back(make_parameter(type, name, std::vector<double>{value}, film.type_location));
+  }
+}
+
+// v3's coefficients are the same by default for all media.
+void V3Upgrader::add_medium_defaults(Directive& medium) {
+  if (medium.find("preset")) return;
+  for (const auto& [name, value] : {std::pair{"sigma_a", std::vector<double>{0.0011, 0.0024, 0.014}},
+                                    std::pair{"sigma_s", std::vector<double>{2.55, 3.21, 3.77}}}) {
+    if (!medium.find(name))
+      medium.parameters.push_back(make_parameter(ParameterType::kRgb, name, value, medium.type_location));
   }
 }
 

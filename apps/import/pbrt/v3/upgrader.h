@@ -27,6 +27,7 @@ class V3Upgrader {
  private:
   void upgrade_material(Directive& m);
   void add_film_defaults(Directive& film);
+  void add_medium_defaults(Directive& medium);
   void upgrade_film(Directive& film);
   void upgrade_camera(Directive& camera);
   void upgrade_shape(Directive& shape);

@@ -110,6 +110,28 @@ TEST_F(ImportMedia, ACameraOutsideTheLightsMediumIsWarnedOf) {
   EXPECT_EQ(diagnostics_.warning_count(), 0u);
 }
 
+// The points are the centres of cells of a box that the directive's transform places.
+TEST_F(ImportMedia, GridsGiveDensities) {
+  const Scene s = world(R"(Translate 10 0 0 Scale 2 1 1
+      MakeNamedMedium "smoke" "string type" "uniformgrid" "rgb sigma_a" [ 1 2 3 ] "float scale" 2
+        "integer nx" 2 "integer ny" 1 "integer nz" 2 "float density" [ 1 2 3 4 ]
+        "point3 p0" [ 0 0 0 ] "point3 p1" [ 2 4 2 ]
+      MediumInterface "smoke" "" Material "interface" Shape "sphere")");
+  ASSERT_EQ(s.media.size(), 2u);
+  const Medium& smoke = s.media[1];
+  EXPECT_EQ(smoke.sigma_a, Rgb(2, 4, 6));
+  EXPECT_EQ(smoke.sigma_s, Rgb(2));  // as in pbrt-v4, 1 for grids
+  const auto density = [&](float x, float y, float z) {
+    return smoke.density_at(Point3(glm::dvec3(x, y, z) - s.origin));
+  };
+  EXPECT_FLOAT_EQ(density(11, 2, 0.5f), 1);
+  EXPECT_FLOAT_EQ(density(13, 2, 0.5f), 2);
+  EXPECT_FLOAT_EQ(density(11, 2, 1.5f), 3);
+  EXPECT_FLOAT_EQ(density(12, 2, 1), 2.5f);
+  EXPECT_EQ(density(9.9f, 2, 1), 0);
+  EXPECT_EQ(density(11, 4.1f, 1), 0);
+}
+
 // Surfaces that only separate media are not among those that rays meet.
 TEST_F(ImportMedia, InterfacesBoundMedia) {
   const Scene s = world(medium("smoke", "\"rgb sigma_a\" [ 1 1 1 ]") + R"(MediumInterface "smoke" ""

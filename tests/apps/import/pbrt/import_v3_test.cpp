@@ -139,5 +139,18 @@ TEST_F(ImportV3, WholeFileIsConverted) {
   EXPECT_TRUE(s.shapes[0].find("uv"));
 }
 
+// v3's name of grids, and its coefficients.
+TEST_F(ImportV3, HeterogeneousMediaBecomeGrids) {
+  const auto medium = [&](const std::string& more) {
+    return describe("MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" " + more + "\nWorldBegin")
+        .media.at(0);
+  };
+  const auto plain = medium("\"color sigma_s\" [ 3 4 5 ] \"float density\" 1");
+  EXPECT_EQ(plain.type, "uniformgrid");
+  EXPECT_THAT(numbers(plain, "sigma_s"), ElementsAre(3, 4, 5));
+  EXPECT_THAT(numbers(plain, "sigma_a"), ElementsAre(.0011, .0024, .014));
+  EXPECT_FALSE(medium("\"string preset\" \"Coke\" \"float density\" 1").find("sigma_a"));
+}
+
 }  // namespace
 }  // namespace kaustik::pbrt
