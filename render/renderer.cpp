@@ -154,14 +154,16 @@ PassSums nothing_yet(const RenderInput& input, uint64_t shares, bool with_totals
   if (with_totals) zero = make_window<PixelTotals>(input.settings.crop, input.scene.camera);
   sums.totals = FilmTotals(std::move(zero), units_of(input, shares));
   if (keeps_halves(input.settings)) sums.totals.keep_halves();
+  if (input.scene.needs.scattering) sums.totals.keep_media();
   return sums;
 }
 
 // Adds a pass to the totals; returns how many sums were clamped.
 uint64_t add_pass(const PassShare& pass, const PassFilm& film, PassSums* sums) {
-  if (film.halved()) return sums->totals.add(film.sums, &film.half);
+  const MediaSums* const media = film.has_media() ? &film.media : nullptr;
+  if (film.halved()) return sums->totals.add(film.sums, &film.half, media);
   const bool half = pass_in_half(pass.pass, pass.shares, pass.end_sample - pass.first_sample);
-  return half ? sums->totals.add_as_half(film.sums) : sums->totals.add(film.sums);
+  return half ? sums->totals.add_as_half(film.sums, media) : sums->totals.add(film.sums, nullptr, media);
 }
 
 // The passes of a set in ascending order, then nothing.
@@ -207,7 +209,8 @@ void show(const PassFilm& tiles, bool has_totals, RenderResult* result) {
   const bool complete = !sums.passes.empty();
   if (complete && has_totals) return show_passes(result);
   if (complete) result->statistics = sums.statistics;
-  result->film = mean_of(tiles.sums, sums.totals.units(), &result->statistics.clamped_sums);
+  result->film = mean_of(tiles.sums, sums.totals.units(), &result->statistics.clamped_sums,
+                         tiles.has_media() ? &tiles.media : nullptr);
   if (complete && tiles.halved()) result->halves = halves_of(tiles.sums, tiles.half, sums.totals.units());
   result->shown = complete ? Shown::kPasses : has_samples(tiles.sums) ? Shown::kTiles : Shown::kNothing;
 }
@@ -261,7 +264,8 @@ RenderResult render(const Scene& scene, const accel::Bvh& bvh, const RenderSetti
           "photons shot in advance can be used only for a single pass");
   PassRenderer renderer(input, shares, task, result.sums.radii,
                         serialised(callback, goal.end() < kMostPasses ? std::max(shares, goal.end()) : 0));
-  PassFilm tiles{make_window<PixelSum>(settings.crop, scene.camera), {}};
+  PassFilm tiles{make_window<PixelSum>(settings.crop, scene.camera), {}, {}};
+  if (scene.needs.scattering) tiles.media = make_window<MediaSum>(settings.crop, scene.camera);
   const bool halved = task.keep_sums ? result.sums.totals.has_halves() : keeps_halves(settings);
   // Several planned passes are halved by passes, which the totals do.
   if (halved && shares == 1) tiles.half = make_window<HalfSum>(settings.crop, scene.camera);

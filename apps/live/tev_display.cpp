@@ -8,13 +8,17 @@
 #include "apps/live/tev_protocol.h"
 #include "apps/live/viewer_pace.h"
 #include "core/thread_time.h"
+#include "render/film/media_sums.h"
 
 namespace kaustik::app {
 
 namespace {
 
-bool is_for_denoisers(const LiveChannel& channel) {
-  return channel.layer >= 0 && render::kLayerTable[size_t(channel.layer)].name.starts_with("denoising_");
+// Those for denoisers, and those that pictures in progress do not hold.
+bool is_left_out(const LiveChannel& channel) {
+  if (channel.layer < 0) return false;
+  const render::LayerRow& row = render::kLayerTable[size_t(channel.layer)];
+  return row.name.starts_with("denoising_") || is_of_media(row);
 }
 
 }  // namespace
@@ -23,7 +27,7 @@ std::vector<LiveChannel> display_channels(std::vector<std::string> layers) {
   for (const char* name : {"emitted", "direct", "caustic", "indirect", "albedo", "normal", "depth"})
     layers.emplace_back(name);
   std::vector<LiveChannel> channels = live_channels(layers);
-  std::erase_if(channels, is_for_denoisers);
+  std::erase_if(channels, is_left_out);
   return channels;
 }
 

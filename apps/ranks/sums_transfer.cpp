@@ -8,6 +8,16 @@
 
 namespace kaustik::app {
 
+namespace {
+
+// Goes on to the next block that is not empty, once all of one has been passed.
+template <class Blocks>
+void pass_finished(const Blocks& blocks, size_t* block, size_t* begin) {
+  while (*block < blocks.size() && *begin == blocks[*block].size()) ++*block, *begin = 0;
+}
+
+}  // namespace
+
 bool OutgoingSums::has_more() const {
   const auto blocks = render::bytes_of(sums_.totals);
   return block_ < blocks.size() && begin_ < blocks[block_].size();
@@ -18,7 +28,7 @@ std::string OutgoingSums::next_piece() {
   const std::span<const std::byte> left = blocks[block_].subspan(begin_);
   const size_t size = std::min(left.size(), kPixelBytes);
   begin_ += size;
-  if (size == left.size()) ++block_, begin_ = 0;
+  pass_finished(blocks, &block_, &begin_);
   return {reinterpret_cast<const char*>(left.data()), size};
 }
 
@@ -29,7 +39,7 @@ IncomingSums::IncomingSums(const std::string& head, render::PassSums spare) {
   const render::PixelWindow<render::PixelTotals>& pixels = spare.totals.pixels();
   const bool fits = pixels.width() == read.width && pixels.height() == read.height &&
                     pixels.x0() == read.x0 && pixels.y0() == read.y0 && spare.totals.units() == read.units &&
-                    spare.totals.has_halves() == read.halves;
+                    spare.totals.has_halves() == read.halves && spare.totals.has_media() == read.media;
   sums_.totals = fits ? std::move(spare.totals) : read.empty_totals();
 }
 
@@ -40,7 +50,7 @@ void IncomingSums::add(const std::string& piece) {
   std::memcpy(blocks[block_].data() + begin_, piece.data(), piece.size());
   begin_ += piece.size();
   missing_ -= piece.size();
-  if (begin_ == blocks[block_].size()) ++block_, begin_ = 0;
+  pass_finished(blocks, &block_, &begin_);
 }
 
 }  // namespace kaustik::app

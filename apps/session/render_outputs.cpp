@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "apps/session/denoising.h"
@@ -13,6 +14,7 @@
 #include "apps/session/tone.h"
 #include "apps/settings/settings_json.h"
 #include "core/stopwatch.h"
+#include "render/film/media_sums.h"
 #include "render/picture/exposure.h"
 #include "render/picture/image_io.h"
 
@@ -110,6 +112,10 @@ void report_photons(const render::RenderResult& result, const Console& console) 
 std::vector<render::Layer> layers_of(const Outcome& outcome, const Console& console) {
   const std::vector<std::string>& names = outcome.settings.render.aov;
   std::vector<render::Layer> layers = render::layers_from_names(names);
+  const bool names_media = std::any_of(names.begin(), names.end(),
+                                       [](const std::string& name) { return name.starts_with("media_"); });
+  if (!outcome.manifest.needs.scattering && std::erase_if(layers, render::is_media_layer) > 0 && names_media)
+    console.warning("the layers of media are left out: no medium of the scene scatters light");
   const bool bias_known =
       !outcome.result.statistics.any_photons() || outcome.settings.render.estimate_bias.value_or(false);
   if (!bias_known && std::erase(layers, render::Layer::kBias) > 0 && names_error_layer(names))

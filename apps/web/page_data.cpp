@@ -9,6 +9,7 @@
 
 #include "apps/web/json_text.h"
 #include "core/version.h"
+#include "render/film/media_sums.h"
 
 namespace kaustik::app {
 
@@ -29,12 +30,13 @@ std::string_view unit_of(render::LayerUnit unit) {
   }
 }
 
-// The layers that the page offers: those for denoisers alone are left out.
+// The layers that the page offers: those for denoisers alone are left out, and those that pictures in
+// progress do not hold.
 Json layers_json() {
   Json out = Json::array();
   out.push_back({{"name", ""}, {"label", "all light"}, {"channels", 3}, {"unit", "W/(m^2 sr)"}});
   for (const render::LayerRow& row : render::kLayerTable)
-    if (!row.name.starts_with("denoising"))
+    if (!row.name.starts_with("denoising") && !is_of_media(row))
       out.push_back({{"name", row.name},
                      {"label", row.name},
                      {"channels", row.channels.size()},

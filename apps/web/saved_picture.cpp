@@ -9,6 +9,7 @@
 #include "apps/web/request_check.h"
 #include "core/files/input_file.h"
 #include "core/files/temporary_folder.h"
+#include "render/film/media_sums.h"
 #include "render/picture/exposure.h"
 #include "render/picture/image_io.h"
 
@@ -43,6 +44,7 @@ HttpResponse saved_picture(const LiveRender& live, const HttpRequest& request, c
   options.picture = &picture;
   if (format == "exr") {
     options.layers = render::layers_from_names({"all"});
+    std::erase_if(options.layers, render::is_media_layer);  // pictures in progress do not hold them
   } else {
     const auto tonemap =
         render::tonemap_from_name(request.value("tonemap", std::string(name_of(tone.tonemap))));

@@ -281,9 +281,14 @@ class CameraPath {
   void pass_medium(Branch& branch, const Beam& beam) {
     const MapEstimator& maps = maps_of(branch);
     const PathLight light = scattered_light(ctx_, beam, branch.beta, maps.sample.light, sampler_, counters_);
-    maps.result->direct += branch.beta * light.direct;
-    maps.result->caustic += branch.beta * light.caustic;
-    maps.result->indirect += branch.beta * light.indirect;
+    const auto add = [&](const Rgb& of_class, Rgb* all, Rgb* of_media) {
+      *all += branch.beta * of_class;
+      *of_media += branch.beta * of_class;
+    };
+    PixelResult* const to = maps.result;
+    add(light.direct, &to->direct, &to->media_direct);
+    add(light.caustic, &to->caustic, &to->media_caustic);
+    add(light.indirect, &to->indirect, &to->media_indirect);
     branch.beta *= transmittance(ctx_.scene, beam.medium, beam.ray, 0, beam.distance);
   }
 
@@ -371,6 +376,9 @@ void DispersedLight::add_to(PixelResult* sample) const {
   add(light.indirect, &sample->indirect);
   add(light.denoising_emitted, &sample->denoising_emitted);
   add(light.bias, &sample->bias);
+  add(light.media_direct, &sample->media_direct);
+  add(light.media_caustic, &sample->media_caustic);
+  add(light.media_indirect, &sample->media_indirect);
   sample->photons += light.photons;
 }
 

@@ -35,6 +35,9 @@ struct PixelResult {
   // kernels' bias, positive where they make it too bright (render/film/error_estimate.h). A single sample has
   // only the bias.
   Rgb error{0}, bias{0};
+  // The parts of direct, caustic and indirect light that media scatter towards the camera, along its ray and
+  // the specular chain behind it.
+  Rgb media_direct{0}, media_caustic{0}, media_indirect{0};
 
   Rgb radiance() const { return emitted + direct + caustic + indirect; }
 };
@@ -58,8 +61,11 @@ struct PixelSum {
 
   int64_t weight() const { return static_cast<int64_t>(count) - 2 * static_cast<int64_t>(negative); }
   void add(const PixelResult& s, int sample_weight = 1, SampleLight light = SampleLight::kAll);
-  // The sums as if every sample had computed all light: what kTraced samples left out is extrapolated from
-  // the others.
+  // The factor that makes sums of what comes from maps those of all samples: kTraced samples left it out.
+  double completion() const {
+    return traced == 0 || traced == count ? 1 : double(count) / double(count - traced);
+  }
+  // The sums as if every sample had computed all light.
   PixelSum completed() const;
 };
 
@@ -79,7 +85,10 @@ enum class Layer {
   kDenoisingAlbedo,
   kDenoisingNormal,
   kDenoisingDepth,
-  kError
+  kError,
+  kMediaDirect,
+  kMediaCaustic,
+  kMediaIndirect
 };
 
 // What the numbers of a layer are; decides the unit of their exact sums (film_totals.h).
@@ -88,6 +97,7 @@ enum class LayerUnit { kRadiance, kFeature, kDepth, kCount };
 enum class LayerMean {
   kSamples,  // the mean over the samples
   kPasses,   // one value per pass, which the error estimate averages (error_estimate.h)
+  kApart,    // the mean over the samples, which are summed apart where media scatter (media_sums.h)
   kNone      // not summed: computed by the error estimate
 };
 
@@ -112,7 +122,8 @@ class LayerRow {
   float* in(PixelResult& p) const { return vector_ ? &(p.*vector_).x : &(p.*number_); }
   const double* in(const PixelSum& p) const { return vector_ ? &(p.*vector_sum_).x : &(p.*number_sum_); }
   double* in(PixelSum& p) const { return vector_ ? &(p.*vector_sum_).x : &(p.*number_sum_); }
-  constexpr bool summed() const { return mean != LayerMean::kNone; }
+  // Whether PixelSum and PixelTotals hold it.
+  constexpr bool summed() const { return mean == LayerMean::kSamples || mean == LayerMean::kPasses; }
 
  private:
   glm::vec3 PixelResult::*vector_ = nullptr;
@@ -125,6 +136,7 @@ inline constexpr auto kLayerTable = [] {
   using R = PixelResult;
   using S = PixelSum;
   using enum LayerMean;
+  constexpr auto kNoSum = static_cast<glm::dvec3 S::*>(nullptr);
   return std::to_array<LayerRow>({
       {Layer::kEmitted, "emitted", "RGB", LayerUnit::kRadiance, kSamples, false, &R::emitted, &S::emitted},
       {Layer::kDirect, "direct", "RGB", LayerUnit::kRadiance, kSamples, false, &R::direct, &S::direct},
@@ -143,8 +155,13 @@ inline constexpr auto kLayerTable = [] {
        &R::denoising_normal, &S::denoising_normal},
       {Layer::kDenoisingDepth, "denoising_depth", "Z", LayerUnit::kDepth, kSamples, false,
        &R::denoising_depth, &S::denoising_depth},
-      {Layer::kError, "error", "RGB", LayerUnit::kRadiance, kNone, false, &R::error,
-       static_cast<glm::dvec3 S::*>(nullptr)},
+      {Layer::kError, "error", "RGB", LayerUnit::kRadiance, kNone, false, &R::error, kNoSum},
+      {Layer::kMediaDirect, "media_direct", "RGB", LayerUnit::kRadiance, kApart, false, &R::media_direct,
+       kNoSum},
+      {Layer::kMediaCaustic, "media_caustic", "RGB", LayerUnit::kRadiance, kApart, true, &R::media_caustic,
+       kNoSum},
+      {Layer::kMediaIndirect, "media_indirect", "RGB", LayerUnit::kRadiance, kApart, true, &R::media_indirect,
+       kNoSum},
   });
 }();
 static_assert(
@@ -176,10 +193,10 @@ inline void PixelSum::add(const PixelResult& s, int sample_weight, SampleLight l
 
 inline PixelSum PixelSum::completed() const {
   PixelSum result = *this;
-  if (traced == 0 || traced == count) return result;
-  const double all = double(count) / double(count - traced);
+  const double all = completion();
+  if (all == 1) return result;
   for (const LayerRow& row : kLayerTable) {
-    if (!row.from_maps) continue;
+    if (!row.from_maps || !row.summed()) continue;
     double* const sum = row.in(result);
     for (size_t c = 0; c < row.channels.size(); ++c) sum[c] *= all;
   }

@@ -99,6 +99,15 @@ void add_half(const HalfSum& half, const PixelSum& pass, const PerUnit& per_unit
   totals->weight += half.weight;
 }
 
+// Adds what media scatter. pass: the pass's samples. Returns how many sums were clamped.
+uint64_t add_media(const MediaSum& media, const PixelSum& pass, double per_radiance, MediaTotals* totals) {
+  uint64_t clamped = 0;
+  for_each_media_channel([&](const LayerRow& row, size_t i, size_t) {
+    clamped += !totals->sums[i].add(media.sums[i] * (row.from_maps ? pass.completion() : 1), per_radiance);
+  });
+  return clamped;
+}
+
 HalfSum as_half(const PixelSum& pass) {
   HalfSum half{.weight = pass.weight(), .maps_weight = pass.weight() - int64_t(pass.traced)};
   for_each_half_channel([&](const LayerRow& row, size_t i, size_t c) { half.sums[i] = row.in(pass)[c]; });
@@ -131,6 +140,14 @@ PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
       row.in(out)[c] = static_cast<float>(totals.sums[i].value(units.sums[i]) / weight);
   });
   return out;
+}
+
+// Sets the mean of what media scatter. weight: of the samples.
+void show_media(const MediaTotals& media, double radiance, int64_t weight, PixelResult* out) {
+  if (weight == 0) return;
+  for_each_media_channel([&](const LayerRow& row, size_t i, size_t c) {
+    row.in(*out)[c] = static_cast<float>(media.sums[i].value(radiance) / static_cast<double>(weight));
+  });
 }
 
 HalfMeans halves_of(const HalfTotals& half, const PixelTotals& all, const PixelUnits& units) {
@@ -197,22 +214,31 @@ void FilmTotals::keep_halves() {
   halves_ = window_of<HalfTotals>(pixels_);
 }
 
-uint64_t FilmTotals::add(const FilmSums& pass, const HalfSums* half) {
-  return add_pass(pass, [half](int x, int y, const PixelSum&) { return half ? half->at(x, y) : HalfSum{}; });
+void FilmTotals::keep_media() {
+  media_ = window_of<MediaTotals>(pixels_);
 }
 
-uint64_t FilmTotals::add_as_half(const FilmSums& pass) {
-  return add_pass(pass, [](int, int, const PixelSum& all) { return as_half(all); });
+uint64_t FilmTotals::add(const FilmSums& pass, const HalfSums* half, const MediaSums* media) {
+  return add_pass(pass, media,
+                  [half](int x, int y, const PixelSum&) { return half ? half->at(x, y) : HalfSum{}; });
+}
+
+uint64_t FilmTotals::add_as_half(const FilmSums& pass, const MediaSums* media) {
+  return add_pass(pass, media, [](int, int, const PixelSum& all) { return as_half(all); });
 }
 
 template <class HalfOf>
-uint64_t FilmTotals::add_pass(const FilmSums& pass, const HalfOf& half_of) {
+uint64_t FilmTotals::add_pass(const FilmSums& pass, const MediaSums* media, const HalfOf& half_of) {
   if (!same_window(pixels_, pass)) throw std::invalid_argument("the films show different windows");
   const PerUnit per_unit(units_);
   std::atomic<uint64_t> clamped{0};
   for_each_pixel(pixels_.width(), pixels_.height(), [&](int x, int y) {
     const PixelSum& samples = pass.at(x, y);
     if (const uint64_t n = add_pixel(samples, per_unit, &pixels_.at(x, y))) clamped += n;
+    if (has_media())
+      if (const uint64_t n =
+              add_media(media->at(x, y), samples, per_unit.sums[sum_of(Layer::kDirect)], &media_.at(x, y)))
+        clamped += n;
     if (has_halves()) add_half(half_of(x, y, samples), samples, per_unit, &halves_.at(x, y));
   });
   return clamped;
@@ -223,17 +249,25 @@ void FilmTotals::add(const FilmTotals& other) {
   if (units_ != other.units_) throw std::invalid_argument("the films' sums have different units");
   if (has_halves() != other.has_halves())
     throw std::invalid_argument("only one of the films has its samples in halves");
+  if (has_media() != other.has_media())
+    throw std::invalid_argument("only one of the films has the layers of media");
   for_each_pixel(pixels_.width(), pixels_.height(), [&](int x, int y) {
     add_pixel(other.pixels_.at(x, y), &pixels_.at(x, y));
     if (has_halves()) add_half(other.halves_.at(x, y), &halves_.at(x, y));
+    for (size_t i = 0; has_media() && i < kMediaChannels; ++i)
+      media_.at(x, y).sums[i] += other.media_.at(x, y).sums[i];
   });
 }
 
 Film FilmTotals::mean() const {
   Film film = window_of<PixelResult>(pixels_);
   const PixelUnits units(units_);
-  for_each_pixel(film.width(), film.height(),
-                 [&](int x, int y) { film.at(x, y) = mean_of(pixels_.at(x, y), units); });
+  for_each_pixel(film.width(), film.height(), [&](int x, int y) {
+    const PixelTotals& totals = pixels_.at(x, y);
+    film.at(x, y) = mean_of(totals, units);
+    if (has_media())
+      show_media(media_.at(x, y), units.sums[sum_of(Layer::kDirect)], totals.weight, &film.at(x, y));
+  });
   return film;
 }
 
@@ -245,7 +279,7 @@ HalfFilm FilmTotals::halves() const {
   return film;
 }
 
-Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped) {
+Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped, const MediaSums* media) {
   Film film = window_of<PixelResult>(pass);
   const PerUnit per_unit(units);
   const PixelUnits values(units);
@@ -254,6 +288,12 @@ Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped) {
     PixelTotals totals;
     if (const uint64_t n = add_pixel(pass.at(x, y), per_unit, &totals)) out_of_range += n;
     film.at(x, y) = mean_of(totals, values);
+    if (!media) return;
+    constexpr size_t kRadiance = sum_of(Layer::kDirect);
+    MediaTotals of_media;
+    if (const uint64_t n = add_media(media->at(x, y), pass.at(x, y), per_unit.sums[kRadiance], &of_media))
+      out_of_range += n;
+    show_media(of_media, values.sums[kRadiance], totals.weight, &film.at(x, y));
   });
   *clamped += out_of_range;
   return film;

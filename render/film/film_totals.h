@@ -8,6 +8,7 @@
 #include "render/film/exact_sum.h"
 #include "render/film/film.h"
 #include "render/film/halves.h"
+#include "render/film/media_sums.h"
 
 namespace kaustik::render {
 
@@ -63,18 +64,22 @@ class FilmTotals {
       : units_(units), pixels_(std::move(zero)) {}
 
   // Sets all sums to zero.
-  void clear() { pixels_.clear(), halves_.clear(); }
+  void clear() { pixels_.clear(), halves_.clear(), media_.clear(); }
   // Keeps the sums of one half from now on; before the first pass.
   void keep_halves();
   bool has_halves() const { return halves_.width() > 0; }
+  // Keeps what media scatter from now on; before the first pass.
+  void keep_media();
+  bool has_media() const { return media_.width() > 0; }
 
   // Adds one pass. half: the sums of the half of its samples that is summed apart, or null if that is none;
-  // not read without halves. Returns how many sums were clamped or NaN.
-  uint64_t add(const FilmSums& pass, const HalfSums* half = nullptr);
+  // not read without halves. media: what media scatter; must not be null if that is kept. Returns how many
+  // sums were clamped or NaN.
+  uint64_t add(const FilmSums& pass, const HalfSums* half = nullptr, const MediaSums* media = nullptr);
   // Adds a pass whose samples all belong to that half.
-  uint64_t add_as_half(const FilmSums& pass);
-  // Adds other passes. Throws std::invalid_argument if the window or the units differ, or if one has halves
-  // and the other has none.
+  uint64_t add_as_half(const FilmSums& pass, const MediaSums* media = nullptr);
+  // Adds other passes. Throws std::invalid_argument if the window or the units differ, or if only one keeps
+  // halves or what media scatter.
   void add(const FilmTotals& other);
   // Weighted means over samples; black where there are no samples or their weights cancel.
   Film mean() const;
@@ -86,20 +91,24 @@ class FilmTotals {
   PixelWindow<PixelTotals>& pixels() { return pixels_; }
   const PixelWindow<HalfTotals>& half_pixels() const { return halves_; }
   PixelWindow<HalfTotals>& half_pixels() { return halves_; }
+  const PixelWindow<MediaTotals>& media_pixels() const { return media_; }
+  PixelWindow<MediaTotals>& media_pixels() { return media_; }
 
  private:
   // half_of(x, y, all samples): the HalfSum of the pass in a pixel.
   template <class HalfOf>
-  uint64_t add_pass(const FilmSums& pass, const HalfOf& half_of);
+  uint64_t add_pass(const FilmSums& pass, const MediaSums* media, const HalfOf& half_of);
 
   ExactUnits units_;
   PixelWindow<PixelTotals> pixels_;
   PixelWindow<HalfTotals> halves_;  // empty if they are not kept
+  PixelWindow<MediaTotals> media_;  // likewise
 };
 
 // The mean of a single pass, equal to that of totals which hold only this pass. Adds the number of clamped
-// sums to *clamped.
-Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped);
+// sums to *clamped. media: what media scatter, or null.
+Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped,
+             const MediaSums* media = nullptr);
 // The halves of a single pass, likewise.
 HalfFilm halves_of(const FilmSums& pass, const HalfSums& half, const ExactUnits& units);
 

@@ -77,18 +77,6 @@ struct HalfSum {
 };
 using HalfSums = PixelWindow<HalfSum>;
 
-// The film into which a pass is rendered.
-struct PassFilm {
-  FilmSums sums;
-  HalfSums half;  // of the half that is summed apart; empty if the pass is not halved
-
-  bool halved() const { return half.width() > 0; }
-  void clear() {
-    sums.clear();
-    half.clear();
-  }
-};
-
 // How many of the halves' channels come from photon maps.
 inline constexpr size_t kHalfMapChannels = [] {
   size_t channels = 0;

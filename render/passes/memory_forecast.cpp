@@ -26,14 +26,16 @@ constexpr uint64_t kSides = 50;
 
 }  // namespace
 
-uint64_t film_bytes_per_pixel(const RenderSettings& settings) {
+uint64_t film_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& needs) {
   const uint64_t halves = keeps_halves(settings) ? sizeof(HalfSum) + sizeof(HalfMeans) : 0;
-  return sizeof(PixelSum) + sizeof(PixelResult) + halves + kOthers;
+  const uint64_t media = needs.scattering ? sizeof(MediaSum) : 0;
+  return sizeof(PixelSum) + sizeof(PixelResult) + halves + media + kOthers;
 }
 
-uint64_t sums_bytes_per_pixel(const RenderSettings& settings) {
+uint64_t sums_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& needs) {
   const uint64_t halves = keeps_halves(settings) ? sizeof(HalfTotals) : 0;
-  return sizeof(PixelTotals) + sizeof(PixelError) + halves;
+  const uint64_t media = needs.scattering ? sizeof(MediaTotals) : 0;
+  return sizeof(PixelTotals) + sizeof(PixelError) + halves + media;
 }
 
 uint64_t surfaces_bytes(const Scene& scene, const RenderSettings& settings) {

@@ -10,11 +10,11 @@ namespace kaustik::render {
 
 // Bytes for each pixel of the film of a render in one pass whose sums are not kept: what its samples add up
 // to, and the picture with its halves. denoise() takes less, and comes when the sums are gone.
-uint64_t film_bytes_per_pixel(const RenderSettings& settings);
+uint64_t film_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& needs);
 
 // Bytes for each pixel of the exact sums over passes, which renders of several passes, and those that are
 // resumed or merged, keep besides.
-uint64_t sums_bytes_per_pixel(const RenderSettings& settings);
+uint64_t sums_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& needs);
 
 // Bytes of what estimates from photons know about surfaces: their edges, the walls that stand on them, and
 // the areas of curved ones (PassPhotons). 0 if the settings need no photons.

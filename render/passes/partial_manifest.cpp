@@ -21,6 +21,7 @@ using Json = ManifestJson;
 static_assert(sizeof(PixelTotals) == 16 * (kSumChannels + 6) + 16);
 static_assert(std::endian::native == std::endian::little);
 static_assert(std::is_trivially_copyable_v<PixelTotals> && std::is_trivially_copyable_v<HalfTotals>);
+static_assert(std::is_trivially_copyable_v<MediaTotals> && sizeof(MediaTotals) == 16 * kMediaChannels);
 static_assert(sizeof(HalfTotals) == 16 * (kHalfChannels + kHalfMapChannels) + 16);
 
 template <class Needs, class F>
@@ -74,6 +75,7 @@ Json manifest_json(const PartialManifest& m, const PassSums& sums) {
   out["radii"] = radii_json(sums.radii);
   out["window"] = window_json(sums.totals.pixels());
   out["halves"] = sums.totals.has_halves();
+  out["media"] = sums.totals.has_media();
   const ExactUnits& units = sums.totals.units();
   out["unit_exponents"] = {{"radiance", units.radiance}, {"square", units.square}, {"depth", units.depth}};
   const auto write = [&](const std::string& name, const bool& need) { out["needs"][name] = need; };
@@ -88,19 +90,23 @@ Json manifest_json(const PartialManifest& m, const PassSums& sums) {
 FilmTotals ReadManifest::empty_totals() const {
   FilmTotals totals(PixelWindow<PixelTotals>(width, height, x0, y0, full_width, full_height), units);
   if (halves) totals.keep_halves();
+  if (media) totals.keep_media();
   return totals;
 }
 
 uint64_t ReadManifest::pixel_bytes() const {
-  return uint64_t(width) * uint64_t(height) * (sizeof(PixelTotals) + (halves ? sizeof(HalfTotals) : 0));
+  const uint64_t of_halves = halves ? sizeof(HalfTotals) : 0, of_media = media ? sizeof(MediaTotals) : 0;
+  return uint64_t(width) * uint64_t(height) * (sizeof(PixelTotals) + of_halves + of_media);
 }
 
-std::array<std::span<std::byte>, 2> bytes_of(FilmTotals& totals) {
-  return {std::as_writable_bytes(totals.pixels().all()), std::as_writable_bytes(totals.half_pixels().all())};
+std::array<std::span<std::byte>, 3> bytes_of(FilmTotals& totals) {
+  return {std::as_writable_bytes(totals.pixels().all()), std::as_writable_bytes(totals.half_pixels().all()),
+          std::as_writable_bytes(totals.media_pixels().all())};
 }
 
-std::array<std::span<const std::byte>, 2> bytes_of(const FilmTotals& totals) {
-  return {std::as_bytes(totals.pixels().all()), std::as_bytes(totals.half_pixels().all())};
+std::array<std::span<const std::byte>, 3> bytes_of(const FilmTotals& totals) {
+  return {std::as_bytes(totals.pixels().all()), std::as_bytes(totals.half_pixels().all()),
+          std::as_bytes(totals.media_pixels().all())};
 }
 
 std::string manifest_text(const PartialManifest& manifest, const PassSums& sums) {
@@ -131,6 +137,7 @@ ReadManifest manifest_from_text(std::string_view text) {
   sums.radii = radii_from(json.at("radii"));
   take_window(json.at("window"), &out);
   json.at("halves").get_to(out.halves);
+  out.media = json.value("media", false);  // files of builds without these layers have none
   const Json& units = json.at("unit_exponents");
   out.units = {.radiance = exponent_from(units, "radiance"),
                .square = exponent_from(units, "square"),

@@ -18,7 +18,7 @@ std::string manifest_text(const PartialManifest& manifest, const PassSums& sums)
 struct ReadManifest {
   PartialResult result;  // without pixels
   ExactUnits units;
-  bool halves = false;
+  bool halves = false, media = false;
   int width = 0, height = 0, x0 = 0, y0 = 0, full_width = 0, full_height = 0;
 
   FilmTotals empty_totals() const;  // totals of zero for this window
@@ -27,8 +27,8 @@ struct ReadManifest {
 // Throws std::runtime_error, or the JSON library's exceptions, if a value is missing or invalid.
 ReadManifest manifest_from_text(std::string_view text);
 
-// The pixels of sums as they are written: PixelTotals, then HalfTotals, which may be none.
-std::array<std::span<std::byte>, 2> bytes_of(FilmTotals& totals);
-std::array<std::span<const std::byte>, 2> bytes_of(const FilmTotals& totals);
+// The pixels of sums as they are written: PixelTotals, then HalfTotals and MediaTotals, which may be none.
+std::array<std::span<std::byte>, 3> bytes_of(FilmTotals& totals);
+std::array<std::span<const std::byte>, 3> bytes_of(const FilmTotals& totals);
 
 }  // namespace kaustik::render

@@ -198,6 +198,8 @@ std::string difference(const PartialResult& a, const PartialResult& b) {
   const bool pixels = !a.sums.passes.empty() && !b.sums.passes.empty();
   if (pixels && a.sums.totals.has_halves() != b.sums.totals.has_halves())
     return "only one of them has its samples in halves, for denoising";
+  if (pixels && a.sums.totals.has_media() != b.sums.totals.has_media())
+    return "only one of them has the layers of media";
   return {};
 }
 

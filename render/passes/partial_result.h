@@ -7,6 +7,7 @@
 //   8 bytes   size of the manifest, which follows: JSON, UTF-8
 //   if it holds any pass, a PixelTotals for each pixel of the window (640 bytes), rows from the top
 //   and, if the samples are kept in halves, a HalfTotals for each pixel (416 bytes), likewise
+//   and, if media of the scene scatter, a MediaTotals for each pixel (144 bytes), likewise
 //   16 bytes  ContentHash of everything before
 //
 // Integers are little-endian, sums in two's complement.

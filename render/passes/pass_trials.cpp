@@ -164,7 +164,7 @@ class WindowTrials {
                   RenderStatistics* statistics) const {
     const Camera& camera = input.scene.camera;
     const RenderContext ctx = context(input, samples);
-    PassFilm film{FilmSums(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height), {}};
+    PassFilm film{FilmSums(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height), {}, {}};
     render_tiles(ctx, {}, &film, statistics);
     return std::move(film.sums);
   }

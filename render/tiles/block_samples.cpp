@@ -22,7 +22,8 @@ bool valid_radiance(const PixelResult& s, DirectEstimator direct, bool dispersio
 
 void expose(const Sensor& sensor, PixelResult* s) {
   if (sensor.neutral) return;
-  for (Rgb* light : {&s->emitted, &s->direct, &s->caustic, &s->indirect, &s->bias, &s->denoising_emitted})
+  for (Rgb* light : {&s->emitted, &s->direct, &s->caustic, &s->indirect, &s->bias, &s->denoising_emitted,
+                     &s->media_direct, &s->media_caustic, &s->media_indirect})
     *light = sensor(*light);
 }
 
@@ -89,6 +90,7 @@ class BlockSamples {
     film->sums.at(x, y).add(result, weight, samples_.light);
     if (film->halved() && in_half(i, ctx_.samples.end - ctx_.samples.first))
       film->half.at(x, y).add(result, weight, samples_.light);
+    if (film->has_media()) film->media.at(x, y).add(result, weight);
   }
 
   // Traced light (kTraced) is what shadow rays and emission contribute. Its variance is reported as zero

@@ -10,7 +10,7 @@
 #include "render/camera/camera_rays.h"
 #include "render/camera/pixel_range.h"
 #include "render/estimators/render_context.h"
-#include "render/film/halves.h"
+#include "render/film/pass_film.h"
 
 namespace kaustik::render {
 

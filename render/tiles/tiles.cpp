@@ -72,11 +72,13 @@ class TileCopy {
     if (!has_samples) return;
     copy(film.sums, &sums_);
     if (film.halved()) copy(film.half, &half_);
+    if (film.has_media()) copy(film.media, &media_);
   }
 
   void restore(PassFilm* film) const {
     put_back(sums_, &film->sums);
     if (film->halved()) put_back(half_, &film->half);
+    if (film->has_media()) put_back(media_, &film->media);
   }
 
  private:
@@ -102,6 +104,7 @@ class TileCopy {
   Tile tile_;
   std::vector<PixelSum> sums_;
   std::vector<HalfSum> half_;
+  std::vector<MediaSum> media_;
 };
 
 // What a tile has counted so far, and whether it shall go on.

@@ -6,7 +6,7 @@
 
 #include "render/camera/pixel_range.h"
 #include "render/estimators/render_context.h"
-#include "render/film/halves.h"
+#include "render/film/pass_film.h"
 #include "render/plan/progress.h"
 
 namespace kaustik::render {

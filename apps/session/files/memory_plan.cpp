@@ -76,8 +76,8 @@ void forecast_film(const Scene& scene, const render::RenderSettings& settings, b
   decided.denoise = settings.denoise.value_or(may_denoise);
   const uint64_t pixels = render::rendered_range(settings.crop, scene.camera).pixels();
   const uint64_t copies = launched().ranks > 1 ? kSumsOfRank : 1;
-  plan->film = pixels * render::film_bytes_per_pixel(decided);
-  plan->sums = pixels * copies * render::sums_bytes_per_pixel(decided);
+  plan->film = pixels * render::film_bytes_per_pixel(decided, scene.needs);
+  plan->sums = pixels * copies * render::sums_bytes_per_pixel(decided, scene.needs);
 }
 
 void set_photon_memory(const MemoryPlan& plan, bool in_passes, render::RenderSettings* settings) {

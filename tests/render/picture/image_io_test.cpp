@@ -37,6 +37,7 @@ Film numbered_film(int x0 = 0, int y0 = 0, int full = 5) {
       p.photons = v;
       p.error = Rgb(0, 0.125f * v, 0);
       p.bias = Rgb(0, 0, -v);
+      p.media_direct = Rgb(0.5f * v), p.media_caustic = Rgb(3 * v), p.media_indirect = Rgb(5 * v);
     }
   return film;
 }
@@ -69,7 +70,7 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
   const Film film = numbered_film();
   write_film(path, film, options);
   const Channels file = read_channels(path);
-  EXPECT_EQ(file.spec.nchannels, 3 + 3 * 11 + 3);
+  EXPECT_EQ(file.spec.nchannels, 3 + 3 * 14 + 3);
   EXPECT_EQ(file.spec.get_string_attribute("kaustik:seed"), "42");
   EXPECT_EQ(file.spec.get_string_attribute("DateTime"), "") << "the bytes must not depend on the time of day";
   for (int y = 0; y < 2; ++y)
@@ -91,6 +92,9 @@ TEST(ImageIo, ExrKeepsLayersMetadataAndTotal) {
       EXPECT_EQ(file.at(x, y, "denoising_depth.Z"), p.denoising_depth);
       EXPECT_EQ(file.at(x, y, "error.G"), p.error.y);
       EXPECT_EQ(file.at(x, y, "bias.B"), p.bias.z);
+      EXPECT_EQ(file.at(x, y, "media_direct.R"), p.media_direct.x);
+      EXPECT_EQ(file.at(x, y, "media_caustic.G"), p.media_caustic.y);
+      EXPECT_EQ(file.at(x, y, "media_indirect.B"), p.media_indirect.z);
     }
   const Image image = read_image(path);
   EXPECT_EQ(image.at(2, 1), film.at(2, 1).radiance());

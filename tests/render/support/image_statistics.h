@@ -12,17 +12,13 @@
 
 namespace kaustik::test {
 
-// Mean over all pixels and channels of one class of paths (Layer::kEmitted to kIndirect).
+// Mean over all pixels and channels of a layer of light.
 inline double layer_mean(const Film& film, Layer layer) {
   double sum = 0;
   for (int y = 0; y < film.height(); ++y)
     for (int x = 0; x < film.width(); ++x) {
-      const PixelResult& p = film.at(x, y);
-      const Rgb v = layer == Layer::kEmitted   ? p.emitted
-                    : layer == Layer::kDirect  ? p.direct
-                    : layer == Layer::kCaustic ? p.caustic
-                                               : p.indirect;
-      sum += double(v.x) + double(v.y) + double(v.z);
+      const float* const v = kLayerTable[size_t(layer)].in(film.at(x, y));
+      sum += double(v[0]) + double(v[1]) + double(v[2]);
     }
   return sum / (3.0 * film.width() * film.height());
 }

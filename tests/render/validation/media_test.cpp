@@ -40,6 +40,7 @@ void expect_share_behind_slab(const Medium& medium, float column, Method method)
     EXPECT_NEAR(result.film.at(1, 2).emitted[c], expected[c],
                 5e-6 * double(kSigma[c]) * 1.5 * double(expected[c]) + 1e-6)
         << c;
+  EXPECT_EQ(result.film.at(1, 2).media_direct, Rgb(0));
   write_if_failed(result.film, "slab_of_medium");
 }
 
@@ -130,7 +131,8 @@ TEST(MediaAgreement, EachClassAgreesWithPaths) {
   const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
   for (const Method method : {Method::kPhoton, Method::kAuto}) {
     const Comparison c(scene, by_paths, method, 0.1f);
-    for (const Layer layer : {Layer::kDirect, Layer::kIndirect}) c.expect_agreement_everywhere(layer);
+    for (const Layer layer : {Layer::kDirect, Layer::kIndirect, Layer::kMediaDirect, Layer::kMediaIndirect})
+      c.expect_agreement_everywhere(layer);
     for (int block = -1; block < kSize / kBlock * (kSize / kBlock); ++block)
       c.expect_agreement(Layer::kCaustic, block, 1.0 / 3);
     c.write_pictures("coloured_cornell_" + std::to_string(int(method)));

@@ -73,6 +73,8 @@ void expect_single_scattering(Medium medium, double slope, Method method) {
     EXPECT_NEAR(direct.mean, expected, kErrors * direct.standard_error + 1e-4 * expected) << c;
     EXPECT_LT(direct.standard_error, 0.01 * expected) << c;
   }
+  // The wall is black.
+  EXPECT_EQ(found[0].at(1, 2).media_direct, found[0].at(1, 2).direct);
   write_if_failed(found[0], "single_scattering");
 }
 
