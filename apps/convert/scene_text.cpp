@@ -154,7 +154,7 @@ class Writer {
   }
 
   void write_medium(const MediumDescription& m) {
-    const bool moved = m.medium_to_world != glm::dmat4(1);
+    const bool moved = m.type == "uniformgrid" && m.medium_to_world != glm::dmat4(1);
     if (moved) transform(m.medium_to_world);
     out_ += fmt::format("MakeNamedMedium {} \"string type\" {}", in_quotes(m.name), in_quotes(m.type));
     parameters("MakeNamedMedium", m);

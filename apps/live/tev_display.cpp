@@ -14,7 +14,7 @@ namespace kaustik::app {
 
 namespace {
 
-// Those for denoisers, and those that pictures in progress do not hold.
+// Those for denoisers, and those of media, which live pictures do not hold.
 bool is_left_out(const LiveChannel& channel) {
   if (channel.layer < 0) return false;
   const render::LayerRow& row = render::kLayerTable[size_t(channel.layer)];

@@ -30,8 +30,8 @@ std::string_view unit_of(render::LayerUnit unit) {
   }
 }
 
-// The layers that the page offers: those for denoisers alone are left out, and those that pictures in
-// progress do not hold.
+// The layers that the page offers: those for denoisers alone are left out, and those of media, which live
+// pictures do not hold.
 Json layers_json() {
   Json out = Json::array();
   out.push_back({{"name", ""}, {"label", "all light"}, {"channels", 3}, {"unit", "W/(m^2 sr)"}});

@@ -44,7 +44,7 @@ HttpResponse saved_picture(const LiveRender& live, const HttpRequest& request, c
   options.picture = &picture;
   if (format == "exr") {
     options.layers = render::layers_from_names({"all"});
-    std::erase_if(options.layers, render::is_media_layer);  // pictures in progress do not hold them
+    std::erase_if(options.layers, render::is_media_layer);  // live pictures do not hold them
   } else {
     const auto tonemap =
         render::tonemap_from_name(request.value("tonemap", std::string(name_of(tone.tonemap))));

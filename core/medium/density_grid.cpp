@@ -25,7 +25,7 @@ bool for_each_cell(const Point3& o, const Vector3& d, float begin, float end, fl
   };
   for (int a = 0; a < 3; ++a) {
     const float place = (o[a] + begin * d[a] - first) / edge;
-    index[a] = int(std::clamp(std::floor(place), 0.0f, float(counts[a] - 1)));
+    index[a] = place >= 0 ? int(std::min(std::floor(place), float(counts[a] - 1))) : 0;  // 0 for NaN, too
     next[a] = leave(a);
   }
   while (true) {
@@ -41,17 +41,28 @@ bool for_each_cell(const Point3& o, const Vector3& d, float begin, float end, fl
   }
 }
 
+// Maps the world to the grid's points, whose coordinates begin with 0.
+glm::dmat4 world_to_grid(const glm::ivec3& points, const glm::dmat4& box_to_world) {
+  glm::dmat4 box_to_grid(1);
+  for (int a = 0; a < 3; ++a) box_to_grid[a][a] = points[a], box_to_grid[3][a] = -0.5;
+  return box_to_grid * glm::inverse(box_to_world);
+}
+
 }  // namespace
+
+bool DensityGrid::can_place(const glm::ivec3& points, const glm::dmat4& box_to_world) {
+  const glm::dmat4 m = world_to_grid(points, box_to_world);
+  for (int column = 0; column < 4; ++column)
+    if (!is_finite(Vector3(glm::dvec3(m[column])))) return false;
+  return true;
+}
 
 DensityGrid::DensityGrid(const glm::ivec3& points, std::span<const double> values,
                          const glm::dmat4& box_to_world)
     : points_(points), brick_counts_((points + kBrick) / kBrick) {
-  const glm::dmat4 to_box = glm::inverse(box_to_world);
-  const glm::dvec3 scale(points);
-  glm::dmat3 linear(to_box);
-  for (int column = 0; column < 3; ++column) linear[column] *= scale;
-  to_grid_ = glm::mat3(linear);
-  offset_ = Vector3(glm::dvec3(to_box[3]) * scale - 0.5);
+  const glm::dmat4 to_grid = world_to_grid(points, box_to_world);
+  to_grid_ = glm::mat3(to_grid);
+  offset_ = Vector3(glm::dvec3(to_grid[3]));
   const glm::ivec3 padded = points + 2;
   values_.resize(size_t(padded.x) * size_t(padded.y) * size_t(padded.z));
   bricks_.resize(size_t(brick_counts_.x) * size_t(brick_counts_.y) * size_t(brick_counts_.z));
@@ -79,12 +90,12 @@ bool DensityGrid::in_box(const Point3& p) const {
   return true;
 }
 
-// p: within half a cell of the points.
+// p: within half a cell of the points. What is read is in the grid for any other p, too, such as NaN.
 float DensityGrid::interpolated(const Point3& p) const {
   size_t low[3];
   float part[3];
   for (int a = 0; a < 3; ++a) {
-    const float below = std::clamp(std::floor(p[a]), -1.0f, float(points_[a] - 1));
+    const float below = p[a] >= 0 ? std::min(std::floor(p[a]), float(points_[a] - 1)) : -1.0f;
     low[a] = size_t(int(below) + 1);
     part[a] = std::clamp(p[a] - below, 0.0f, 1.0f);
   }
@@ -146,7 +157,8 @@ float DensityGrid::place_of(float column, const Ray& ray, float begin, float end
     }
     // Newton's method, and bisection where that would leave the interval.
     float low = a, high = b;
-    place = whole > 0 ? a + (b - a) * (column / whole) : b;
+    const float share = column / whole;
+    place = share >= 0 && share <= 1 ? a + (b - a) * share : b;  // b where both overflow
     for (int i = 0; i < 24 && high - low > 0x1p-20f * (b - a); ++i) {
       const float over = integral(in_grid, a, place) - column, slope = interpolated(in_grid.at(place));
       (over > 0 ? high : low) = place;

@@ -17,13 +17,15 @@ namespace kaustik {
 class DensityGrid {
  public:
   // values: one for each point, x changing fastest, finite and not negative. The points are the centres of
-  // equal cells of the unit cube, which box_to_world takes to the world; it must be invertible.
+  // equal cells of the unit cube, which box_to_world takes to the world: can_place() must hold.
   DensityGrid(const glm::ivec3& points, std::span<const double> values, const glm::dmat4& box_to_world);
+
+  // Whether the map from the world to the grid is finite in float precision.
+  static bool can_place(const glm::ivec3& points, const glm::dmat4& box_to_world);
 
   float at(const Point3& p) const { return in_box(to_grid(p)) ? interpolated(to_grid(p)) : 0; }
   float largest() const { return largest_; }
   const glm::ivec3& points() const { return points_; }
-  size_t bytes() const { return (values_.size() + bricks_.size()) * sizeof(float); }
 
   // Column density of the part of a ray between two places: the integral of the density, in metres. The ray's
   // direction is unit; the places are metres from its start, of which `end` may be infinite.

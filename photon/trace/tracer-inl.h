@@ -160,13 +160,13 @@ class Tracer {
   void go_through_media(size_t k, float distance);
   // Sets the flux that arrives; the rest stays in the media.
   void arrive_behind_media(size_t k, const Rgb& flux);
-  // A caustic leaves one photon on each of its segments in a medium, however thin the medium is. flux: at the
-  // beginning of the segment.
   // A part of a walker's ray that lies in one medium, metres from its start.
   struct MediumPart {
     MediumIndex medium;
     float begin, end;
   };
+  // A caustic leaves one photon on each of its segments in a medium, however thin the medium is. column: the
+  // segment's column density; flux: at its beginning.
   void leave_caustic_on_the_way(size_t k, const MediumPart& part, float column, const Rgb& flux);
   void leave_in_medium(size_t k, PhotonKind kind, MediumIndex medium, const Point3& p, const Rgb& scattered);
   // flux: what the medium scatters at p.

@@ -70,7 +70,8 @@ struct PixelSum {
 };
 
 // The layers. To add one, add a member to PixelResult and to PixelSum, an enumerator and a row here, and
-// write the value where it arises. Sums, totals, EXR channels and `--aov` follow from the row.
+// write the value where it arises. Sums, totals, EXR channels and `--aov` follow from the row. Those of media
+// (kApart) have no member of PixelSum.
 enum class Layer {
   kEmitted,
   kDirect,

@@ -6,8 +6,9 @@
 
 namespace kaustik {
 
-// Whether the parameters describe a grid; reports what is wrong.
-bool check_grid(const ParameterReader& parameters, const MediumDescription& medium,
+// Whether the parameters describe a grid; reports what is wrong. sigma_t: the extinction coefficient where
+// the density is one, 1/m.
+bool check_grid(const ParameterReader& parameters, const MediumDescription& medium, const Rgb& sigma_t,
                 DiagnosticList& diagnostics);
 
 // The grid, of parameters that check_grid accepted, relative to the scene's origin.

@@ -53,7 +53,7 @@ MediumIndex MediumTable::make(const MediumDescription& description, WarnedOnce& 
   if (!is_finite(medium.sigma_t()))
     diagnostics.error(p.location("scale"), "`scale` takes coefficients beyond the range of floats");
   const bool grid = spec->name == "uniformgrid";
-  if (grid && !check_grid(p, description, diagnostics)) return kVacuum;
+  if (grid && !check_grid(p, description, medium.sigma_t(), diagnostics)) return kVacuum;
   if (is_black(medium.sigma_t())) return kVacuum;
   if (media_.empty()) media_.emplace_back(), names_.emplace_back("vacuum");
   if (media_.size() > kMostMedia) {

@@ -34,9 +34,9 @@ std::vector<ParameterSpec> with_coefficients(const glm::dvec3& sigma_a, const gl
   return all;
 }
 
-// Number of points along an axis.
+// Number of points along an axis. A ray visits as many, which limits how long it may take.
 ParameterSpec points(std::string_view name) {
-  return integer(name, 1, "", {1, 1 << 20}, "number of the grid's points along the axis");
+  return integer(name, 1, "", {1, 4096}, "number of the grid's points along the axis");
 }
 
 ParameterSpec densities() {

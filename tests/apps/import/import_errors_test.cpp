@@ -179,14 +179,16 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(MakeNamedMedium "s" "string type" "uniformgrid" "integer nx" 2 "float density" [1 2 3])",
              "2:81: error: `density` has 3 values, but `nx`, `ny` and `nz` make 2 points"},
         Case{R"(MakeNamedMedium "s" "string type" "uniformgrid" "integer nx" 2)",
-             "2:35: error: `density` has 0 values, but `nx`, `ny` and `nz` make 2 points"},
+             "2:35: error: medium \"uniformgrid\" needs `density`"},
+        Case{R"(MakeNamedMedium "s" "string type" "uniformgrid" "float density" [1e38] "float scale" 1e3)",
+             "2:66: error: `density` takes coefficients beyond the range of floats"},
         Case{R"(MakeNamedMedium "s" "string type" "uniformgrid" "float density" [-1])",
              "2:66: error: `density` of medium \"uniformgrid\" must be >= 0, not -1"},
         Case{R"(MakeNamedMedium "s" "string type" "uniformgrid" "integer nx" 0 "float density" [1])",
-             "2:62: error: `nx` of medium \"uniformgrid\" must be >= 1 and <= 1048576, not 0"},
+             "2:62: error: `nx` of medium \"uniformgrid\" must be >= 1 and <= 4096, not 0"},
         Case{R"(MakeNamedMedium "s" "string type" "uniformgrid" "point3 p1" [1 0 1] "float density" [1])",
-             "2:62: error: the box of this grid, from `p0` to `p1`, is flat, or its transform cannot be "
-             "inverted"},
+             "2:62: error: the box of this grid, from `p0` to `p1`, is flat or too small, or its "
+             "transform cannot be inverted"},
         Case{R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [1 -1 0])",
              "2:68: error: `sigma_a` of medium \"homogeneous\" must be >= 0, not -1"},
         Case{"MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [0 0 0]\n"
