@@ -55,7 +55,7 @@ inline Rgb transmittance(const Scene& scene, const Bvh* interfaces, const Ray& r
                          MediumIndex* medium) {
   Rgb left(1);
   *medium = walk_media(interfaces, ray, distance, *medium, [&](MediumIndex m, float begin, float end) {
-    left *= kaustik::transmittance(scene, m, ray, begin, end);
+    left *= kaustik::transmittance(scene.media[m], ray, begin, end);
     return true;
   });
   return left;

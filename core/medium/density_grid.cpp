@@ -84,6 +84,11 @@ DensityGrid::DensityGrid(const glm::ivec3& points, std::span<const double> value
       }
 }
 
+float DensityGrid::at(const Point3& p) const {
+  const Point3 in_grid = to_grid(p);
+  return in_box(in_grid) ? interpolated(in_grid) : 0;
+}
+
 bool DensityGrid::in_box(const Point3& p) const {
   for (int a = 0; a < 3; ++a)
     if (!(p[a] >= -0.5f) || !(p[a] <= float(points_[a]) - 0.5f)) return false;

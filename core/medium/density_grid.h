@@ -23,7 +23,7 @@ class DensityGrid {
   // Whether the map from the world to the grid is finite in float precision.
   static bool can_place(const glm::ivec3& points, const glm::dmat4& box_to_world);
 
-  float at(const Point3& p) const { return in_box(to_grid(p)) ? interpolated(to_grid(p)) : 0; }
+  float at(const Point3& p) const;
   float largest() const { return largest_; }
   const glm::ivec3& points() const { return points_; }
 

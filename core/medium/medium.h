@@ -57,5 +57,9 @@ inline float place_of(float column, const Medium& medium, const Ray& ray, float 
 inline Rgb transmittance(const Medium& medium, float column) {
   return exponential(medium.sigma_t(), column);
 }
+// That along a part of a ray, see column_of().
+inline Rgb transmittance(const Medium& medium, const Ray& ray, float begin, float end) {
+  return transmittance(medium, column_of(medium, ray, begin, end));
+}
 
 }  // namespace kaustik

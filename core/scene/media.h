@@ -5,12 +5,6 @@
 
 namespace kaustik {
 
-// The share of light that gets through a part of a ray in one medium (column_of()).
-inline Rgb transmittance(const Scene& scene, MediumIndex medium, const Ray& ray, float begin, float end) {
-  if (medium == kVacuum) return Rgb(1);
-  return transmittance(scene.media[medium], column_of(scene.media[medium], ray, begin, end));
-}
-
 // The medium in which a light shines.
 inline MediumIndex medium_of_light(const Scene& scene, uint32_t light) {
   return scene.light_media.empty() ? kVacuum : scene.light_media[light];

@@ -15,7 +15,8 @@ void Tracer<Accel, Sink>::enter_media(size_t count) {
     walkers_.state[k] = WalkState().in(medium);
     if (medium == kVacuum || bounds_of(scene_.lights[light])) continue;
     const Ray back{starts_.ray.get(k).o, -starts_.ray.get(k).d};
-    set_lane(starts_.flux, k, transmittance(scene_, medium, back, 0, kInfinity) * get_lane(starts_.flux, k));
+    const Rgb left = transmittance(scene_.media[medium], back, 0, kInfinity);
+    set_lane(starts_.flux, k, left * get_lane(starts_.flux, k));
   }
 }
 

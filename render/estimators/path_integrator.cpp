@@ -135,7 +135,7 @@ void gather_in_media(const RenderContext& ctx, const Ray& ray, float distance, b
           const PathLight of = scattered_light(ctx, beam, path->beta, SampleLight::kAll, sampler, counters);
           light->indirect += path->beta * (of.direct + of.caustic + of.indirect);
         }
-        const Rgb left = transmittance(ctx.scene, m, ray, begin, end);
+        const Rgb left = transmittance(ctx.scene.media[m], ray, begin, end);
         path->beta *= left;
         path->roulette *= max_component(left);
         return true;

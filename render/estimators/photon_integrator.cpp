@@ -289,7 +289,7 @@ class CameraPath {
     add(light.direct, &to->direct, &to->media_direct);
     add(light.caustic, &to->caustic, &to->media_caustic);
     add(light.indirect, &to->indirect, &to->media_indirect);
-    branch.beta *= transmittance(ctx_.scene, beam.medium, beam.ray, 0, beam.distance);
+    branch.beta *= transmittance(ctx_.scene.media[beam.medium], beam.ray, 0, beam.distance);
   }
 
   void add_emission(const Branch& branch, const Rgb& Le) {

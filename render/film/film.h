@@ -179,6 +179,14 @@ inline constexpr auto kLayerNames = [] {
   return names;
 }();
 
+// Calls fn(row, i, c) for channel c of each layer that includes(row); i counts the channels of all.
+template <class Includes, class Fn>
+constexpr void for_each_channel(const Includes& includes, const Fn& fn) {
+  size_t i = 0;
+  for (const LayerRow& row : kLayerTable)
+    for (size_t c = 0; includes(row) && c < row.channels.size(); ++c) fn(row, i++, c);
+}
+
 inline void PixelSum::add(const PixelResult& s, int sample_weight, SampleLight light) {
   for (const LayerRow& row : kLayerTable) {
     if (!row.summed()) continue;

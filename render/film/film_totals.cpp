@@ -26,10 +26,11 @@ double size_of(const Scene& scene) {
 // Calls fn(row, i, c) for channel c of each layer that is summed; i counts the channels of all.
 template <class Fn>
 void for_each_sum(const Fn& fn) {
-  size_t i = 0;
-  for (const LayerRow& row : kLayerTable)
-    for (size_t c = 0; row.summed() && c < row.channels.size(); ++c) fn(row, i++, c);
+  for_each_channel([](const LayerRow& row) { return row.summed(); }, fn);
 }
+
+// A sum that has the unit of radiance, as all that media scatter has.
+constexpr size_t kRadianceSum = sum_of(Layer::kDirect);
 
 int exponent_of(LayerUnit unit, const ExactUnits& units) {
   switch (unit) {
@@ -100,7 +101,9 @@ void add_half(const HalfSum& half, const PixelSum& pass, const PerUnit& per_unit
 }
 
 // Adds what media scatter. pass: the pass's samples. Returns how many sums were clamped.
-uint64_t add_media(const MediaSum& media, const PixelSum& pass, double per_radiance, MediaTotals* totals) {
+uint64_t add_media(const MediaSum& media, const PixelSum& pass, const PerUnit& per_unit,
+                   MediaTotals* totals) {
+  const double per_radiance = per_unit.sums[kRadianceSum];
   uint64_t clamped = 0;
   for_each_media_channel([&](const LayerRow& row, size_t i, size_t) {
     clamped += !totals->sums[i].add(media.sums[i] * (row.from_maps ? pass.completion() : 1), per_radiance);
@@ -143,8 +146,9 @@ PixelResult mean_of(const PixelTotals& totals, const PixelUnits& units) {
 }
 
 // Sets the mean of what media scatter. weight: of the samples.
-void show_media(const MediaTotals& media, double radiance, int64_t weight, PixelResult* out) {
+void show_media(const MediaTotals& media, const PixelUnits& units, int64_t weight, PixelResult* out) {
   if (weight == 0) return;
+  const double radiance = units.sums[kRadianceSum];
   for_each_media_channel([&](const LayerRow& row, size_t i, size_t c) {
     row.in(*out)[c] = static_cast<float>(media.sums[i].value(radiance) / static_cast<double>(weight));
   });
@@ -234,11 +238,9 @@ uint64_t FilmTotals::add_pass(const FilmSums& pass, const MediaSums* media, cons
   std::atomic<uint64_t> clamped{0};
   for_each_pixel(pixels_.width(), pixels_.height(), [&](int x, int y) {
     const PixelSum& samples = pass.at(x, y);
-    if (const uint64_t n = add_pixel(samples, per_unit, &pixels_.at(x, y))) clamped += n;
-    if (has_media())
-      if (const uint64_t n =
-              add_media(media->at(x, y), samples, per_unit.sums[sum_of(Layer::kDirect)], &media_.at(x, y)))
-        clamped += n;
+    uint64_t n = add_pixel(samples, per_unit, &pixels_.at(x, y));
+    if (has_media()) n += add_media(media->at(x, y), samples, per_unit, &media_.at(x, y));
+    if (n > 0) clamped += n;
     if (has_halves()) add_half(half_of(x, y, samples), samples, per_unit, &halves_.at(x, y));
   });
   return clamped;
@@ -254,8 +256,7 @@ void FilmTotals::add(const FilmTotals& other) {
   for_each_pixel(pixels_.width(), pixels_.height(), [&](int x, int y) {
     add_pixel(other.pixels_.at(x, y), &pixels_.at(x, y));
     if (has_halves()) add_half(other.halves_.at(x, y), &halves_.at(x, y));
-    for (size_t i = 0; has_media() && i < kMediaChannels; ++i)
-      media_.at(x, y).sums[i] += other.media_.at(x, y).sums[i];
+    if (has_media()) media_.at(x, y) += other.media_.at(x, y);
   });
 }
 
@@ -265,8 +266,7 @@ Film FilmTotals::mean() const {
   for_each_pixel(film.width(), film.height(), [&](int x, int y) {
     const PixelTotals& totals = pixels_.at(x, y);
     film.at(x, y) = mean_of(totals, units);
-    if (has_media())
-      show_media(media_.at(x, y), units.sums[sum_of(Layer::kDirect)], totals.weight, &film.at(x, y));
+    if (has_media()) show_media(media_.at(x, y), units, totals.weight, &film.at(x, y));
   });
   return film;
 }
@@ -286,14 +286,12 @@ Film mean_of(const FilmSums& pass, const ExactUnits& units, uint64_t* clamped, c
   std::atomic<uint64_t> out_of_range{0};
   for_each_pixel(film.width(), film.height(), [&](int x, int y) {
     PixelTotals totals;
-    if (const uint64_t n = add_pixel(pass.at(x, y), per_unit, &totals)) out_of_range += n;
-    film.at(x, y) = mean_of(totals, values);
-    if (!media) return;
-    constexpr size_t kRadiance = sum_of(Layer::kDirect);
     MediaTotals of_media;
-    if (const uint64_t n = add_media(media->at(x, y), pass.at(x, y), per_unit.sums[kRadiance], &of_media))
-      out_of_range += n;
-    show_media(of_media, values.sums[kRadiance], totals.weight, &film.at(x, y));
+    uint64_t n = add_pixel(pass.at(x, y), per_unit, &totals);
+    if (media) n += add_media(media->at(x, y), pass.at(x, y), per_unit, &of_media);
+    if (n > 0) out_of_range += n;
+    film.at(x, y) = mean_of(totals, values);
+    if (media) show_media(of_media, values, totals.weight, &film.at(x, y));
   });
   *clamped += out_of_range;
   return film;

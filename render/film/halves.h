@@ -40,9 +40,7 @@ inline constexpr size_t kHalfChannels = half_of(Layer(kLayers));
 // Calls fn(row, i, c) for channel c of each layer that is halved; i counts the channels of all.
 template <class Fn>
 void for_each_half_channel(const Fn& fn) {
-  size_t i = 0;
-  for (const LayerRow& row : kLayerTable)
-    for (size_t c = 0; in_halves(row) && c < row.channels.size(); ++c) fn(row, i++, c);
+  for_each_channel(in_halves, fn);
 }
 
 // Whether sample `index` of a pass belongs to the half that is summed apart. samples: how many each pixel

@@ -19,9 +19,7 @@ constexpr bool is_media_layer(Layer layer) {
 // Calls fn(row, i, c) for channel c of each of these layers; i counts the channels of all.
 template <class Fn>
 constexpr void for_each_media_channel(const Fn& fn) {
-  size_t i = 0;
-  for (const LayerRow& row : kLayerTable)
-    for (size_t c = 0; is_of_media(row) && c < row.channels.size(); ++c) fn(row, i++, c);
+  for_each_channel(is_of_media, fn);
 }
 inline constexpr size_t kMediaChannels = [] {
   size_t channels = 0;
@@ -43,6 +41,11 @@ using MediaSums = PixelWindow<MediaSum>;
 // Exact sums over passes, as PixelTotals, as if every sample had computed all light.
 struct MediaTotals {
   std::array<ExactSum, kMediaChannels> sums;
+
+  MediaTotals& operator+=(const MediaTotals& other) {
+    for (size_t i = 0; i < kMediaChannels; ++i) sums[i] += other.sums[i];
+    return *this;
+  }
   bool operator==(const MediaTotals&) const = default;
 };
 

@@ -7,6 +7,7 @@
 
 #include "apps/import/common/make_parameter.h"
 #include "apps/import/pbrt/v3/materials.h"
+#include "core/scene/schema/schema.h"
 
 namespace kaustik::pbrt {
 namespace {
@@ -52,6 +53,10 @@ constexpr Dropped kDropped[] = {
     {"Shape", "shadowalpha", "shadows follow `alpha`"},
     {"Shape", "discarddegenerateUVs", "degenerate uv coordinates do no harm"},
 };
+
+void add_default(ParameterType type, std::string_view name, const std::vector<double>& value, Directive& d) {
+  if (!d.find(name)) d.parameters.push_back(make_parameter(type, std::string(name), value, d.type_location));
+}
 
 void erase(Directive& d, std::string_view name) {
   std::erase_if(d.parameters, [&](const Parameter& p) { return p.name == name; });
@@ -122,19 +127,15 @@ void V3Upgrader::add_film_defaults(Directive& film) {
   for (const auto& [name, type, value] : {std::tuple{"xresolution", ParameterType::kInteger, 640.0},
                                           std::tuple{"yresolution", ParameterType::kInteger, 480.0},
                                           std::tuple{"exposuretime", ParameterType::kFloat, 1.0}}) {
-    if (!film.find(name))
-      film.parameters.push_back(make_parameter(type, name, std::vector<double>{value}, film.type_location));
+    add_default(type, name, std::vector<double>{value}, film);
   }
 }
 
-// v3's coefficients are the same by default for all media.
+// v3's coefficients are the same by default for all media: those of homogeneous ones.
 void V3Upgrader::add_medium_defaults(Directive& medium) {
   if (medium.find("preset")) return;
-  for (const auto& [name, value] : {std::pair{"sigma_a", std::vector<double>{0.0011, 0.0024, 0.014}},
-                                    std::pair{"sigma_s", std::vector<double>{2.55, 3.21, 3.77}}}) {
-    if (!medium.find(name))
-      medium.parameters.push_back(make_parameter(ParameterType::kRgb, name, value, medium.type_location));
-  }
+  for (const char* name : {"sigma_a", "sigma_s"})
+    add_default(ParameterType::kRgb, name, medium_types().front().find(name)->defaults, medium);
 }
 
 // v3's `scale` multiplies the image, as `iso` / 100 does.
