@@ -61,4 +61,18 @@ inline Rgb transmittance(const Scene& scene, const Bvh* interfaces, const Ray& r
   return left;
 }
 
+// The radiance that media emit towards the ray's start, from all its parts up to `distance`. medium: where it
+// starts.
+inline Rgb emitted_radiance(const Scene& scene, const Bvh* interfaces, const Ray& ray, float distance,
+                            MediumIndex medium) {
+  Rgb sum(0), left(1);
+  walk_media(interfaces, ray, distance, medium, [&](MediumIndex m, float begin, float end) {
+    const float column = column_of(scene.media[m], ray, begin, end);
+    sum += left * kaustik::emitted_radiance(scene.media[m], column);
+    left *= kaustik::transmittance(scene.media[m], column);
+    return true;
+  });
+  return sum;
+}
+
 }  // namespace kaustik::accel

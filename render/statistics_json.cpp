@@ -92,6 +92,7 @@ Json needs_json(const SceneNeeds& needs) {
           {"any_light", needs.any_light},
           {"media", needs.media},
           {"scattering", needs.scattering},
+          {"emissive_media", needs.emissive_media},
           {"dispersion", needs.dispersion},
           {"left_out", needs.left_out()}};
 }

@@ -103,7 +103,8 @@ Json media_json(const Scene& scene) {
     Json& of_medium = out.emplace_back(Json{{"name", scene.medium_names[i]},
                                             {"sigma_a", triple(medium.sigma_a)},
                                             {"sigma_s", triple(medium.sigma_s)},
-                                            {"g", medium.g}});
+                                            {"g", medium.g},
+                                            {"Le", triple(medium.Le)}});
     if (!medium.density) continue;
     const glm::ivec3& points = medium.density->points();
     of_medium["grid"] = {points.x, points.y, points.z};
@@ -148,6 +149,10 @@ std::string triple_text(const glm::dvec3& v, int digits = 5) {
   return fmt::format("({:.{}g}, {:.{}g}, {:.{}g})", v.x, digits, v.y, digits, v.z, digits);
 }
 
+std::string emission_text(const Medium& medium) {
+  return medium.emits() ? fmt::format(", emits {} W/(m^2 sr)", triple_text(medium.Le)) : "";
+}
+
 std::string albedo_text(const Scene& scene, const Material& material) {
   if (textured(scene, material)) return "with textures";
   return "albedo " + triple_text(albedo(material.typical()));
@@ -187,9 +192,9 @@ std::string info_text(const std::string& path, const Job& job) {
   }
   for (size_t i = 1; i < scene.media.size(); ++i) {
     const Medium& medium = scene.media[i];
-    text += fmt::format("medium     {}: absorbs {}, scatters {} 1/m, g {:.3g}{}\n", scene.medium_names[i],
+    text += fmt::format("medium     {}: absorbs {}, scatters {} 1/m, g {:.3g}{}{}\n", scene.medium_names[i],
                         triple_text(medium.sigma_a), triple_text(medium.sigma_s), medium.g,
-                        medium.density ? density_text(*medium.density) : "");
+                        emission_text(medium), medium.density ? density_text(*medium.density) : "");
   }
   if (scene.interfaces)
     text += fmt::format("interface  {}, which only separate media\n",

@@ -16,9 +16,13 @@ struct Medium {
   float g = 0;
   // Factor on both coefficients that changes from place to place; null: one everywhere.
   std::shared_ptr<const DensityGrid> density = nullptr;
+  // Radiance that the medium emits: it is seen where the medium is too deep to be seen through. Each metre
+  // adds sigma_a Le.
+  Rgb Le{0};
 
   Rgb sigma_t() const { return sigma_a + sigma_s; }  // extinction coefficient where the density is one, 1/m
   bool scatters() const { return !is_black(sigma_s); }
+  bool emits() const { return !is_black(sigma_a * Le); }
   float density_at(const Point3& p) const { return density ? density->at(p) : 1; }
 };
 
@@ -60,6 +64,17 @@ inline Rgb transmittance(const Medium& medium, float column) {
 // That along a part of a ray, see column_of().
 inline Rgb transmittance(const Medium& medium, const Ray& ray, float begin, float end) {
   return transmittance(medium, column_of(medium, ray, begin, end));
+}
+
+// The radiance that a column density of the medium, in metres, which may be infinite, sends along the ray:
+// int sigma_a Le T = Le sigma_a / sigma_t (1 - T) (Pharr 2023, section 14.1.1, for T of one medium).
+inline Rgb emitted_radiance(const Medium& medium, float column) {
+  Rgb sum(0);
+  const Rgb sigma_t = medium.sigma_t();
+  for (int c = 0; c < 3; ++c)
+    if (medium.sigma_a[c] > 0)
+      sum[c] = medium.Le[c] * (medium.sigma_a[c] / sigma_t[c]) * -std::expm1(-sigma_t[c] * column);
+  return sum;
 }
 
 }  // namespace kaustik

@@ -16,9 +16,10 @@ struct SceneNeeds {
   bool infinite_light = false;
   bool sky_alone = false;  // all lights are infinite: visibility is hard to predict
   bool any_light = false;
-  bool media = false;       // some space is filled by more than vacuum
-  bool scattering = false;  // some of the media scatter light
-  bool dispersion = false;  // some surface refracts light by its wavelength
+  bool media = false;           // some space is filled by more than vacuum
+  bool scattering = false;      // some of the media scatter light
+  bool emissive_media = false;  // some of the media emit light
+  bool dispersion = false;      // some surface refracts light by its wavelength
 
   // One sentence for each effect left out, for example "no specular surface: no caustic pass".
   std::vector<std::string> left_out() const;

@@ -54,6 +54,8 @@ SceneNeeds needs_of(const Scene& scene) {
                             [](const Shape& s) { return s.media.is_transition(); });
   needs.scattering = needs.media && std::any_of(scene.media.begin(), scene.media.end(),
                                                 [](const Medium& m) { return m.scatters(); });
+  needs.emissive_media = needs.media && std::any_of(scene.media.begin(), scene.media.end(),
+                                                    [](const Medium& m) { return m.emits(); });
   needs.any_light = !scene.lights.empty();
   needs.infinite_light = !scene.infinite_lights.empty();
   needs.sky_alone = needs.any_light && scene.infinite_lights.size() == scene.lights.size();
@@ -74,6 +76,16 @@ std::vector<uint32_t> strongest_lights(const Scene& scene) {
   return strongest;
 }
 
+// Only bodies that interfaces bound can be seen straight from outside.
+EmissiveBodies emissive_bodies(const Scene& scene) {
+  EmissiveBodies bodies;
+  if (!scene.interfaces || !scene.needs.emissive_media) return bodies;
+  for (const Shape& shape : scene.interfaces->shapes)
+    if (const Medium& medium = scene.media[shape.media.inside]; medium.emits())
+      bodies.add(bounds_of(shape), medium);
+  return bodies;
+}
+
 }  // namespace
 
 void finalize_scene(Scene& scene) {
@@ -92,6 +104,7 @@ void finalize_scene(Scene& scene) {
   scene.needs = needs_of(scene);
   scene.strongest_lights.clear();
   if (scene.needs.scattering) scene.strongest_lights = strongest_lights(scene);
+  scene.emissive_bodies = emissive_bodies(scene);
 }
 
 }  // namespace kaustik

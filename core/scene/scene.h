@@ -9,6 +9,7 @@
 #include "core/camera/sensor.h"
 #include "core/geometry/interaction.h"
 #include "core/light/choice/light_sampler.h"
+#include "core/medium/emissive_bodies.h"
 #include "core/scene/material.h"
 #include "core/scene/needs.h"
 
@@ -41,7 +42,8 @@ struct Scene {
   std::vector<uint32_t> infinite_lights;  // indices into lights
   // The lights with a place and most power, at most kMostStrongLights; empty where no medium scatters.
   std::vector<uint32_t> strongest_lights;
-  Bounds3 bounds;  // of all shapes
+  EmissiveBodies emissive_bodies;  // what interfaces bound of media that emit
+  Bounds3 bounds;                  // of all shapes
   SceneNeeds needs;
   std::shared_ptr<const void> keeps;  // temporary files that must exist while the scene is rendered
 };

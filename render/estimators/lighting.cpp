@@ -3,18 +3,11 @@
 #include "render/estimators/lighting.h"
 
 #include "accel/media_walk.h"
+#include "core/sampling/mis.h"
 
 namespace kaustik::render {
 
 namespace {
-
-// Power heuristic with beta = 2 (Veach 1997, section 9.2.4). Computed from a ratio, so that squares of large
-// densities do not overflow.
-float power_heuristic(float pdf, float other) {
-  if (!(pdf > 0)) return 0;
-  const float ratio = other / pdf;
-  return 1 / (1 + ratio * ratio);
-}
 
 // Ray towards the light sample, ending just before the light: p_light is already offset, and t is in units of
 // |d|.

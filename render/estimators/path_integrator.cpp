@@ -4,6 +4,7 @@
 
 #include "accel/media_walk.h"
 #include "core/medium/free_path.h"
+#include "render/estimators/emission_of_media.h"
 #include "render/estimators/scattered_light.h"
 
 namespace kaustik::render {
@@ -12,6 +13,7 @@ namespace {
 
 // State of a path while it is traced.
 struct PathState {
+  PathSources sources = PathSources::kLights;
   Rgb beta{1};                       // throughput since x
   float roulette = 1;                // largest component of the throughput without the eta^2 of refractions
   int events = 1;                    // scattering events since x, x included
@@ -51,6 +53,13 @@ bool follows_indirect(PathReach reach) {
   return reach >= PathReach::kMaps;
 }
 
+bool collects_lights(const PathState& path) {
+  return path.sources != PathSources::kMedia;
+}
+bool collects_media(const PathState& path) {
+  return path.sources != PathSources::kLights;
+}
+
 // Where light that the path meets is added; null when another estimator accounts for it. specular: whether
 // the event that leads to the light is specular. Points in media that paths meet read no map.
 Rgb* owner_of_light(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
@@ -58,6 +67,24 @@ Rgb* owner_of_light(const RenderContext& ctx, const PathState& path, bool specul
     return specular && caustics_by_map(ctx) && !path.from_medium ? nullptr : &light->indirect;
   if (specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
   return path.from_medium || samples_lights(ctx.plan.direct) ? &light->direct : nullptr;
+}
+
+// The same for what media emit.
+Rgb* owner_of_emission(const RenderContext& ctx, const PathState& path, PathLight* light) {
+  if (path.diffuse > 1) return &light->indirect;
+  if (!path.specular) return &light->direct;
+  return ctx.plan.caustics != CausticEstimator::kOff ? &light->caustic : nullptr;
+}
+
+// Adds what the media emit between the ray's start and `distance`, wherever the path itself is scattered.
+void add_emission_of_media(const RenderContext& ctx, const PathState& path, const Ray& ray, float distance,
+                           PathLight* light) {
+  Rgb* const owner = owner_of_emission(ctx, path, light);
+  if (!owner) return;
+  const Rgb Le = accel::emitted_radiance(ctx.scene, ctx.bvh.interfaces(), ray, distance, path.medium);
+  if (is_black(Le)) return;
+  const float w = path.specular ? 1 : emission_of_media_weight(ctx.scene, path.ref.p, ray.d, path.pdf);
+  *owner += path.beta * Le * w;
 }
 
 void add_light(const RenderContext& ctx, const PathState& path, const SurfaceInteraction& si, const Ray& ray,
@@ -132,7 +159,8 @@ void gather_in_media(const RenderContext& ctx, const Ray& ray, float distance, b
       ctx.bvh.interfaces(), ray, distance, path->medium, [&](MediumIndex m, float begin, float end) {
         if (scattered) {
           const Beam beam{{ray.at(begin), ray.d}, end - begin, m, wavelength_of(*path)};
-          const PathLight of = scattered_light(ctx, beam, path->beta, SampleLight::kAll, sampler, counters);
+          const PathLight of =
+              scattered_light(ctx, beam, path->beta, SampleLight::kAll, PathReach::kNone, sampler, counters);
           light->indirect += path->beta * (of.direct + of.caustic + of.indirect);
         }
         const Rgb left = transmittance(ctx.scene.media[m], ray, begin, end);
@@ -200,10 +228,14 @@ std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, Pa
                              PathState* path, PathLight* light, Sampler& sampler, TileCounters& counters) {
   const Lobes parts = lobes(*y.bsdf);
   const bool at_end = reads_maps_at(ctx, reach, *path);
-  if (parts.diffuse && follows_indirect(reach))
-    light->indirect += path->beta * (at_end ? arriving_at_end(ctx, y, sampler, counters)
-                                            : arriving(ctx, y, LightWeight::kMis, sampler, counters));
-  if (parts.glossy) {
+  if (parts.diffuse && follows_indirect(reach)) {
+    if (collects_lights(*path))
+      light->indirect += path->beta * (at_end ? arriving_at_end(ctx, y, sampler, counters)
+                                              : arriving(ctx, y, LightWeight::kMis, sampler, counters));
+    if (collects_media(*path))
+      light->indirect += path->beta * sample_emission_of_media(ctx, y, sampler, counters);
+  }
+  if (parts.glossy && collects_lights(*path)) {
     if (Rgb* owner = owner_of_light(ctx, *path, true, light))
       *owner += path->beta * sample_direct(ctx, y, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
   }
@@ -217,7 +249,10 @@ std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, Pa
 bool visit(const RenderContext& ctx, const MediumPoint& m, PathState* path, Ray* ray, PathLight* light,
            Sampler& sampler, TileCounters& counters) {
   if (++path->events > ctx.settings.max_bounces || is_black(path->beta)) return false;
-  light->indirect += path->beta * sample_direct(ctx, m, LightWeight::kMis, sampler, counters);
+  if (collects_lights(*path))
+    light->indirect += path->beta * sample_direct(ctx, m, LightWeight::kMis, sampler, counters);
+  if (collects_media(*path))
+    light->indirect += path->beta * sample_emission_of_media(ctx, m, sampler, counters);
   if (!survives(path, sampler)) return false;
   continue_path(m, path, ray, sampler);
   return true;
@@ -225,9 +260,9 @@ bool visit(const RenderContext& ctx, const MediumPoint& m, PathState* path, Ray*
 
 // Whether photons in media stand for light that paths cannot find there: what mirrors and glass make of point
 // lights. Paths that are scattered have the exact number of events instead.
-bool needs_photons_in_media(const RenderContext& ctx) {
+bool needs_photons_in_media(const RenderContext& ctx, const PathState& path) {
   const SceneNeeds& needs = ctx.scene.needs;
-  return ctx.plan.medium_indirect && needs.specular && needs.only_delta_lights;
+  return collects_lights(path) && ctx.plan.medium_indirect && needs.specular && needs.only_delta_lights;
 }
 
 // Passes the media between the ray's start and what lies behind them. Paths that are followed to the maps
@@ -237,7 +272,8 @@ std::optional<MediumPoint> pass_media(const RenderContext& ctx, const Ray& ray, 
                                       PathReach reach, PathState* path, PathLight* light, Sampler& sampler,
                                       TileCounters& counters) {
   if (!ctx.scene.needs.media || (path->medium == kVacuum && !ctx.scene.interfaces)) return {};
-  if (reach == PathReach::kRoulette && ctx.scene.needs.scattering && !needs_photons_in_media(ctx))
+  if (collects_media(*path)) add_emission_of_media(ctx, *path, ray, distance, light);
+  if (reach == PathReach::kRoulette && ctx.scene.needs.scattering && !needs_photons_in_media(ctx, *path))
     return scatter_in_media(ctx, ray, distance, path, sampler);
   gather_in_media(ctx, ray, distance, follows_indirect(reach), path, light, sampler, counters);
   return {};
@@ -271,8 +307,9 @@ void follow(const RenderContext& ctx, PathState& path, Ray ray, PathReach reach,
       if (!visit(ctx, *m, &path, &ray, light.of(path), sampler, counters)) return;
       continue;
     }
-    if (!met) return add_escape(ctx, path, ray, light.of(path));
-    add_light(ctx, path, si, ray, light.of(path));
+    if (collects_lights(path))
+      met ? add_light(ctx, path, si, ray, light.of(path)) : add_escape(ctx, path, ray, light.of(path));
+    if (!met) return;
     if (reach == PathReach::kLights || ++path.events > ctx.settings.max_bounces) return;
     path.segment += distance;
     path.from = si.p;
@@ -287,14 +324,16 @@ void follow(const RenderContext& ctx, PathState& path, Ray ray, PathReach reach,
 // Follows the path from x, a point on a surface or in a medium. start: begins it.
 template <class Point, class Start>
 PathLight trace_from(const RenderContext& ctx, const Point& x, PathReach reach, Sampler& sampler,
-                     TileCounters& counters, const Start& start) {
+                     TileCounters& counters, PathSources sources, const Start& start) {
   PathState path;
+  path.sources = sources;
   path.from = position(x);
   path.wavelength = x.wavelength;
   path.dispersed = x.wavelength != kNoWavelength;
   if (ctx.scene.needs.dispersion && !path.dispersed) path.wavelength = sample_wavelength(sampler.next_1d());
   Ray ray;
   LightByDispersion light;
+  if (collects_media(path)) light.of(path)->direct = sample_emission_of_media(ctx, x, sampler, counters);
   if (start(&path, &ray)) follow(ctx, path, ray, reach, light, sampler, counters);
   if (x.wavelength != kNoWavelength) return light.after;
   return path.dispersed ? light.sum(path) : light.before;
@@ -303,18 +342,46 @@ PathLight trace_from(const RenderContext& ctx, const Point& x, PathReach reach, 
 }  // namespace
 
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
-                     TileCounters& counters) {
-  return trace_from(ctx, x, reach, sampler, counters, [&](PathState* path, Ray* ray) {
+                     TileCounters& counters, PathSources sources) {
+  return trace_from(ctx, x, reach, sampler, counters, sources, [&](PathState* path, Ray* ray) {
     return continue_path(ctx.scene, x, Scatter::kDiffuse, path, ray, sampler);
   });
 }
 
 PathLight trace_path(const RenderContext& ctx, const MediumPoint& x, PathReach reach, Sampler& sampler,
-                     TileCounters& counters) {
-  return trace_from(ctx, x, reach, sampler, counters, [&](PathState* path, Ray* ray) {
+                     TileCounters& counters, PathSources sources) {
+  return trace_from(ctx, x, reach, sampler, counters, sources, [&](PathState* path, Ray* ray) {
     continue_path(x, path, ray, sampler);
     return true;
   });
 }
+
+namespace {
+
+// How far paths are followed for what media emit: as far as the plan has light of other sources.
+PathReach reach_for_emission(const RenderContext& ctx) {
+  if (!ctx.scene.needs.emissive_media) return PathReach::kNone;
+  if (ctx.plan.indirect != IndirectEstimator::kOff) return PathReach::kRoulette;
+  return ctx.plan.caustics != CausticEstimator::kOff ? PathReach::kSpecular : PathReach::kLights;
+}
+
+}  // namespace
+
+template <class Point>
+PathLight trace_paths(const RenderContext& ctx, const Point& x, PathReach reach, PathReach of_media,
+                      Sampler& sampler, TileCounters& counters) {
+  of_media = std::min(of_media, reach_for_emission(ctx));
+  const bool same = ctx.plan.indirect == IndirectEstimator::kPaths && reach == of_media;
+  const PathSources sources = same ? PathSources::kLightsAndMedia : PathSources::kLights;
+  PathLight light;
+  if (reach != PathReach::kNone) light = trace_path(ctx, x, reach, sampler, counters, sources);
+  if (of_media != PathReach::kNone && !same)
+    light += trace_path(ctx, x, of_media, sampler, counters, PathSources::kMedia);
+  return light;
+}
+template PathLight trace_paths(const RenderContext&, const ShadingPoint&, PathReach, PathReach, Sampler&,
+                               TileCounters&);
+template PathLight trace_paths(const RenderContext&, const MediumPoint&, PathReach, PathReach, Sampler&,
+                               TileCounters&);
 
 }  // namespace kaustik::render

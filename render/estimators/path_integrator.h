@@ -8,6 +8,11 @@ namespace kaustik::render {
 // Radiance leaving x towards x.wo, by class, W/(m^2 sr).
 struct PathLight {
   Rgb direct{0}, caustic{0}, indirect{0};
+
+  PathLight& operator+=(const PathLight& other) {
+    direct += other.direct, caustic += other.caustic, indirect += other.indirect;
+    return *this;
+  }
 };
 
 // How far a path is followed. Each value includes what the ones before it find.
@@ -18,6 +23,13 @@ enum class PathReach {
   kMaps,      // to the first diffuse surface that is farther away than the indirect map's radius; the maps
               // are gathered there (final gather, Jensen 2001, section 9.4)
   kRoulette   // until Russian roulette ends the path
+};
+
+// Whose light a path collects.
+enum class PathSources {
+  kLights,  // that of Scene::lights
+  kMedia,   // what media emit
+  kLightsAndMedia
 };
 
 // The factors that correct a disc of the indirect map at x; 1 where nothing is known.
@@ -43,12 +55,19 @@ inline Rgb disc_factor(const RenderContext& ctx, const ShadingPoint& x) {
 // Light that dispersive glass refracts on the way has one wavelength. If x has one already, the path has
 // that, and the result is what at_wavelength() is then to be applied to; otherwise the path samples one.
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
-                     TileCounters& counters);
+                     TileCounters& counters, PathSources sources = PathSources::kLights);
 
 // The same from a point in a medium, by its phase function. What media scatter counts as diffuse: light that
 // meets x through specular surfaces is a caustic. Points in media
 // that the path meets later read no map: it finds the lights itself, through specular surfaces, too.
 PathLight trace_path(const RenderContext& ctx, const MediumPoint& x, PathReach reach, Sampler& sampler,
-                     TileCounters& counters);
+                     TileCounters& counters, PathSources sources = PathSources::kLights);
+
+// Traces a path of this reach from x, unless that is kNone, for the light of lights, and collects what media
+// emit, all of which paths find (docs/decisions/063-media-emit.md): by the same path where it is followed to
+// its end, otherwise by another one. of_media: how far, at most, a path is followed for that.
+template <class Point>
+PathLight trace_paths(const RenderContext& ctx, const Point& x, PathReach reach, PathReach of_media,
+                      Sampler& sampler, TileCounters& counters);
 
 }  // namespace kaustik::render

@@ -2,7 +2,8 @@
 //
 //   L(ray) = Le + Lr                                          the rendering equation (Kajiya 1986)
 //   Le: emission seen along the specular chain from the eye   L S* E                    trace_camera_ray
-//   In media, light that they scatter along the chain is added  scattered_light
+//   In media, light that they emit along the chain is added to Le, and what they scatter to Lr
+//                                                             CameraPath::pass_medium
 //   Lr = direct + caustic + indirect at points x of the chain, by their diffuse lobes; the chain ends at a
 //        point that has no specular lobes
 //        direct    L D S* E                 light samples, photons or both                   add_direct
@@ -83,6 +84,12 @@ void add_direct(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta
   *to += beta * sample_direct(ctx, x, weight, sampler, maps.counters);
 }
 
+// How far paths may be followed for what media emit. Samples that leave out the photons have direct light
+// only.
+PathReach reach_for_media(const CameraSample& sample) {
+  return sample.light == SampleLight::kTraced ? PathReach::kLights : PathReach::kRoulette;
+}
+
 // Adds the light that the diffuse lobes of x scatter, seen through a specular chain of throughput beta. Paths
 // add nothing to a class that another estimator accounts for.
 void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, bool blurred,
@@ -99,8 +106,8 @@ void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& b
       maps.add(ctx.maps.caustic, x, beta, &result->caustic);
     if (point.indirect_disc) maps.add(ctx.maps.indirect, x, disc_factor(ctx, x) * beta, &result->indirect);
   }
-  if (point.path == PathReach::kNone) return;
-  const PathLight path = trace_path(ctx, x, point.path, sampler, maps.counters);
+  const PathLight path =
+      trace_paths(ctx, x, point.path, reach_for_media(maps.sample), sampler, maps.counters);
   result->direct += beta * path.direct;
   result->caustic += beta * path.caustic;
   result->indirect += beta * path.indirect;
@@ -280,7 +287,8 @@ class CameraPath {
   }
   void pass_medium(Branch& branch, const Beam& beam) {
     const MapEstimator& maps = maps_of(branch);
-    const PathLight light = scattered_light(ctx_, beam, branch.beta, maps.sample.light, sampler_, counters_);
+    const PathLight light = scattered_light(ctx_, beam, branch.beta, maps.sample.light,
+                                            reach_for_media(maps.sample), sampler_, counters_);
     const auto add = [&](const Rgb& of_class, Rgb* all, Rgb* of_media) {
       *all += branch.beta * of_class;
       *of_media += branch.beta * of_class;
@@ -289,7 +297,10 @@ class CameraPath {
     add(light.direct, &to->direct, &to->media_direct);
     add(light.caustic, &to->caustic, &to->media_caustic);
     add(light.indirect, &to->indirect, &to->media_indirect);
-    branch.beta *= transmittance(ctx_.scene.media[beam.medium], beam.ray, 0, beam.distance);
+    const Medium& medium = ctx_.scene.media[beam.medium];
+    const float column = column_of(medium, beam.ray, 0, beam.distance);
+    if (medium.emits()) add_emission(branch, emitted_radiance(medium, column));
+    branch.beta *= transmittance(medium, column);
   }
 
   void add_emission(const Branch& branch, const Rgb& Le) {

@@ -22,8 +22,8 @@ PathReach reach_of(const RenderContext& ctx, const MediumPoint& m) {
 constexpr float kDim = 0.02f;
 
 // One sample of what arrives at a point of the ray, over its density.
-PathLight sampled(const RenderContext& ctx, const Beam& beam, const Rgb& beta, Sampler& sampler,
-                  TileCounters& counters) {
+PathLight sampled(const RenderContext& ctx, const Beam& beam, const Rgb& beta, PathReach of_media,
+                  Sampler& sampler, TileCounters& counters) {
   const Medium& medium = ctx.scene.media[beam.medium];
   const BeamSampler points(ctx.scene, medium, beam.ray, beam.distance, beta);
   const Point2 u = sampler.next_2d();
@@ -36,10 +36,7 @@ PathLight sampled(const RenderContext& ctx, const Beam& beam, const Rgb& beta, S
   const LightWeight weight = reach == PathReach::kNone ? LightWeight::kAlone : LightWeight::kMis;
   PathLight light;
   light.direct = sample_direct(ctx, m, weight, sampler, counters);
-  if (reach != PathReach::kNone) {
-    const PathLight path = trace_path(ctx, m, reach, sampler, counters);
-    light.direct += path.direct, light.caustic = path.caustic, light.indirect = path.indirect;
-  }
+  light += trace_paths(ctx, m, reach, of_media, sampler, counters);
   const Rgb factor = at.weight / q;
   return {factor * light.direct, factor * light.caustic, factor * light.indirect};
 }
@@ -54,9 +51,9 @@ Rgb gathered(const RenderContext& ctx, const Beam& beam, const ColumnTable* colu
 }  // namespace
 
 PathLight scattered_light(const RenderContext& ctx, const Beam& beam, const Rgb& beta, SampleLight light,
-                          Sampler& sampler, TileCounters& counters) {
+                          PathReach of_media, Sampler& sampler, TileCounters& counters) {
   if (!ctx.scene.media[beam.medium].scatters()) return {};
-  PathLight sum = sampled(ctx, beam, beta, sampler, counters);
+  PathLight sum = sampled(ctx, beam, beta, of_media, sampler, counters);
   const bool caustics = ctx.plan.medium_caustics, indirect = ctx.plan.medium_indirect;
   if (light == SampleLight::kTraced || !(caustics || indirect)) return sum;
   std::optional<ColumnTable> table;

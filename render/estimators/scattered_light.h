@@ -11,8 +11,9 @@ namespace kaustik::render {
 // comes from a light sample at one point of the ray. Caustics and indirect light come from the photons near
 // the ray or, if the plan has no photons in media, from a path that starts at that point. beta: the ray's
 // throughput, which decides how likely a sample is, but is not a factor of the result. Returns zero for media
-// that do not scatter. light: kTraced leaves out the photons. Draws as many dimensions as it needs.
+// that do not scatter. light: kTraced leaves out the photons. of_media: how far, at most, a path is followed
+// for the light that media emit. Draws as many dimensions as it needs.
 PathLight scattered_light(const RenderContext& ctx, const Beam& beam, const Rgb& beta, SampleLight light,
-                          Sampler& sampler, TileCounters& counters);
+                          PathReach of_media, Sampler& sampler, TileCounters& counters);
 
 }  // namespace kaustik::render

@@ -34,6 +34,7 @@ void for_each_need(Needs& n, F&& f) {
 template <class Needs, class F>
 void for_each_later_need(Needs& n, F&& f) {
   f("glossy", n.glossy), f("media", n.media), f("scattering", n.scattering), f("dispersion", n.dispersion);
+  f("emissive_media", n.emissive_media);
 }
 
 PassSet passes_from(const Json& json) {

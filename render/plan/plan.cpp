@@ -45,25 +45,36 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
   return plan;
 }
 
+// Photons come from lights alone. What media emit is found by paths, so without lights nothing is left for
+// photons.
+void leave_emission_to_paths(const RenderSettings& settings, const SceneNeeds& needs, EstimatorPlan* plan) {
+  if (!needs.emissive_media) return;
+  plan->notes.emplace_back("media emit light: paths find it, since photons come from lights alone");
+  if (needs.any_light) return;
+  if (!settings.direct) plan->direct = Direct::kShadowRays;
+  if (plan->caustics == Caustic::kPhotons && !settings.caustics) plan->caustics = Caustic::kPaths;
+  if (reads_indirect_photons(*plan) && !settings.indirect) plan->indirect = Indirect::kPaths;
+}
+
 void leave_out(const RenderSettings& settings, const SceneNeeds& needs, EstimatorPlan* plan) {
-  if (!needs.any_light) plan->notes.push_back("no light: the image is black");
+  const bool lit = needs.any_light || needs.emissive_media;
+  if (!lit) plan->notes.push_back("no light: the image is black");
   // Caustics are the only class that may be empty by construction: without specular surfaces, light, or
   // surfaces that receive it.
   const bool scattered = needs.diffuse || needs.scattering;
   const bool received = scattered || plan->glossy_tails;
-  const bool empty = !needs.specular || !needs.any_light || !received;
+  const bool empty = !needs.specular || !lit || !received;
   if (empty && plan->caustics != Caustic::kOff && !settings.caustics) {
     plan->caustics = Caustic::kOff;
     plan->notes.push_back(
         !needs.specular
             ? "no specular surface: no caustic pass; saves the caustic map and a query at each point"
-        : !needs.any_light ? "no light: no caustic pass"
-                           : "no diffuse surface: no caustic pass");
+        : !lit ? "no light: no caustic pass"
+               : "no diffuse surface: no caustic pass");
   }
-  if ((!needs.any_light || !scattered) && plan->indirect != Indirect::kOff && !settings.indirect) {
+  if ((!lit || !scattered) && plan->indirect != Indirect::kOff && !settings.indirect) {
     plan->indirect = Indirect::kOff;
-    plan->notes.push_back(!needs.any_light ? "no light: no indirect light"
-                                           : "no diffuse surface: no indirect light");
+    plan->notes.push_back(!lit ? "no light: no indirect light" : "no diffuse surface: no indirect light");
   }
 }
 
@@ -130,6 +141,7 @@ EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs)
   if (settings.indirect) plan.indirect = *settings.indirect;
   plan.glossy_tails = settings.method == Method::kAuto && plan.caustics == Caustic::kPhotons &&
                       needs.glossy && needs.any_light;
+  leave_emission_to_paths(settings, needs, &plan);
   leave_out(settings, needs, &plan);
   choose_for_media(needs, &plan);
   plan.notes.insert(plan.notes.begin(),

@@ -9,7 +9,7 @@ std::string why_black(const Scene& scene, const SceneDescription& description) {
   const double size = scene.bounds.empty() ? 1 : double(scene.bounds.radius());
   const bool shines = std::any_of(scene.lights.begin(), scene.lights.end(),
                                   [&](const Light& light) { return brightness(light, size) > 0; });
-  if (shines) return "";
+  if (shines || scene.needs.emissive_media) return "";
   if (!scene.lights.empty()) return black + "all lights of the scene emit zero";
   if (!description.area_lights.empty())
     return black + "the scene has no light, since no visible shape follows its `AreaLightSource`";

@@ -53,6 +53,9 @@ MediumIndex MediumTable::make(const MediumDescription& description, WarnedOnce& 
   if (!is_finite(medium.sigma_t()))
     diagnostics.error(p.location("scale"), "`scale` takes coefficients beyond the range of floats");
   const bool grid = spec->name == "uniformgrid";
+  medium.Le = p.rgb("Le") * (grid ? 1.0f : static_cast<float>(p.number("Lescale")));
+  if (!is_finite(medium.Le))
+    diagnostics.error(p.location("Lescale"), "`Lescale` takes `Le` beyond the range of floats");
   if (grid && !check_grid(p, description, medium.sigma_t(), diagnostics)) return kVacuum;
   if (is_black(medium.sigma_t())) return kVacuum;
   if (media_.empty()) media_.emplace_back(), names_.emplace_back("vacuum");

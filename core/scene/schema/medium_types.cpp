@@ -11,15 +11,13 @@ ParameterSpec coefficient(std::string_view name, const glm::dvec3& value, std::s
   return of_type(ParameterType::kRgb, name, {value.x, value.y, value.z}, "1/m", kNotNegative, doc);
 }
 
-constexpr std::string_view kNoEmission = "media do not emit";
-
 ParameterSpec not_emitted(std::string_view name) {
-  return ignored(name, {ParameterType::kFloat}, kNoEmission);
+  return ignored(name, {ParameterType::kFloat}, "`Le` is the same everywhere in a medium");
 }
 
-// What media of all types have. sigma_a, sigma_s: the defaults.
+// What media of all types have. sigma_a, sigma_s: the defaults. lescale: the factor on `Le`.
 std::vector<ParameterSpec> with_coefficients(const glm::dvec3& sigma_a, const glm::dvec3& sigma_s,
-                                             std::vector<ParameterSpec> more) {
+                                             const ParameterSpec& lescale, std::vector<ParameterSpec> more) {
   std::vector<ParameterSpec> all = {
       coefficient("sigma_a", sigma_a, "absorption coefficient"),
       coefficient("sigma_s", sigma_s, "scattering coefficient"),
@@ -28,8 +26,10 @@ std::vector<ParameterSpec> with_coefficients(const glm::dvec3& sigma_a, const gl
            "a measured medium whose coefficients, in 1/mm, are taken instead, with units of the scene for "
            "mm: Apple, Coke, Wholemilk and others that pbrt knows"),
       number("g", 0, "", {-1, 1}, "mean cosine of the angle by which light is deflected"),
-      ignored("Le", {ParameterType::kRgb, ParameterType::kSpectrum, ParameterType::kBlackbody}, kNoEmission),
-      not_emitted("Lescale")};
+      rgb("Le", 0, "W/(m^2 sr)", kNotNegative,
+          "radiance that the medium emits where it is too deep to be seen through: each metre adds sigma_a "
+          "Le"),
+      lescale};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -48,14 +48,15 @@ ParameterSpec densities() {
 
 std::vector<TypeSpec> make_medium_types() {
   return {
-      {"homogeneous", "The same everywhere. It absorbs and scatters light; what it emits is not rendered.",
-       with_coefficients({0.0011, 0.0024, 0.014}, {2.55, 3.21, 3.77}, {})},
+      {"homogeneous", "The same everywhere. It absorbs, scatters and emits light.",
+       with_coefficients({0.0011, 0.0024, 0.014}, {2.55, 3.21, 3.77},
+                         number("Lescale", 1, "", kNotNegative, "factor on `Le`"), {})},
       {"uniformgrid",
        "A density at each point of a grid, such as that of smoke, interpolated between them. The points are "
        "the centres of equal cells of a box, beyond which there is nothing; the directive's transform places "
        "it.",
        with_coefficients(
-           {1, 1, 1}, {1, 1, 1},
+           {1, 1, 1}, {1, 1, 1}, not_emitted("Lescale"),
            {densities(), points("nx"), points("ny"), points("nz"),
             point("p0", {0, 0, 0}, "a corner of the box"), point("p1", {1, 1, 1}, "the opposite corner"),
             not_emitted("temperature"), not_emitted("temperatureoffset"), not_emitted("temperaturescale"),

@@ -168,8 +168,8 @@ INSTANTIATE_TEST_SUITE_P(
     Directives, ImportErrorTable,
     testing::Values(
         Case{R"(Texture "a" "imagemap")", R"(2:23: error: `Texture` needs a type in quotes)"},
-        Case{R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb Le" [1 1 1])",
-             R"(2:51: warning: `Le` of medium "homogeneous" is ignored: media do not emit)"},
+        Case{R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb Le" [1 -1 1])",
+             R"(2:63: error: `Le` of medium "homogeneous" must be >= 0, not -1)"},
         Case{R"(MakeNamedMedium "fog" "string type" "homogeneous" "float g" 1.5)",
              R"(2:61: error: `g` of medium "homogeneous" must be >= -1 and <= 1, not 1.5)"},
         Case{R"(MakeNamedMedium "fog" "float scale" 2)",

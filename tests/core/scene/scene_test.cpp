@@ -51,10 +51,14 @@ TEST(Scene, NeedsFollowFromSurfacesAndLights) {
   finalize_scene(scene);
   EXPECT_TRUE(scene.needs.media);
   EXPECT_FALSE(scene.needs.scattering);
-  EXPECT_THAT(scene.needs.left_out(),
-              ::testing::ElementsAre("no medium that scatters: media only absorb light",
-                                     "no dispersion: all light is RGB"));
+  EXPECT_THAT(scene.needs.left_out(), ::testing::ElementsAre("no medium that scatters light",
+                                                             "no medium that emits light: only lights do",
+                                                             "no dispersion: all light is RGB"));
   EXPECT_TRUE(scene.strongest_lights.empty());
+
+  scene.media[1].Le = Rgb(0, 1, 0);
+  finalize_scene(scene);
+  EXPECT_TRUE(scene.needs.emissive_media);
 
   scene.media[1].sigma_s = Rgb(0, 0, 1);
   finalize_scene(scene);

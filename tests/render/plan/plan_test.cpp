@@ -72,6 +72,28 @@ TEST(Plan, NoCausticPassWithoutSpecularSurfaces) {
   }
 }
 
+// Photons come from lights alone.
+TEST(Plan, PathsFindWhatMediaEmit) {
+  SceneNeeds needs = needs_of(true);
+  needs.media = needs.emissive_media = true;
+  EXPECT_EQ(make_plan({}, needs).indirect, Indirect::kFinalGather);
+  EXPECT_TRUE(mentions(make_plan({}, needs), "media emit light: paths find it"));
+  needs.any_light = false;
+  for (const Method method : {Method::kMc, Method::kHybrid, Method::kPhoton, Method::kAuto}) {
+    RenderSettings settings;
+    settings.method = method;
+    const EstimatorPlan plan = make_plan(settings, needs);
+    EXPECT_EQ(plan.direct, Direct::kShadowRays) << name_of(method);
+    EXPECT_EQ(plan.caustics, Caustic::kPaths) << name_of(method);
+    EXPECT_EQ(plan.indirect, Indirect::kPaths) << name_of(method);
+    EXPECT_FALSE(kinds_needed(plan).any()) << name_of(method);
+    EXPECT_FALSE(mentions(plan, "black")) << name_of(method);
+  }
+  RenderSettings settings;
+  settings.method = Method::kRaytrace;
+  EXPECT_EQ(make_plan(settings, needs).indirect, Indirect::kOff);
+}
+
 TEST(Plan, NoPhotonsWithoutDiffuseSurfaces) {
   SceneNeeds needs = needs_of(true);
   needs.diffuse = false;

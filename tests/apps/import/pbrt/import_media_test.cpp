@@ -68,6 +68,33 @@ TEST_F(ImportMedia, CoefficientsAreFinite) {
             "2:114: error: `scale` takes coefficients beyond the range of floats\n");
 }
 
+// As for lights, a black body has the luminance of a light of one, and negative colours are cut.
+TEST_F(ImportMedia, TheyEmit) {
+  const Scene s = world(
+      medium("gas", "\"rgb sigma_a\" [ 1 2 0 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 2 \"float scale\" 3") +
+      medium("ember", "\"rgb sigma_a\" [ 1 1 1 ] \"blackbody Le\" 2500") +
+      R"(MakeNamedMedium "flame" "string type" "uniformgrid" "float density" [ 1 ] "rgb Le" [ 4 2 1 ]
+      MediumInterface "gas" "ember" Material "interface" Shape "sphere" Shape "sphere")");
+  ASSERT_EQ(s.media.size(), 4u);
+  EXPECT_EQ(s.media[1].Le, Rgb(2, 4, 6));
+  EXPECT_EQ(s.media[1].sigma_a, Rgb(3, 6, 0));
+  EXPECT_NEAR(luminance(s.media[2].Le), 1, 1e-3);
+  EXPECT_GT(s.media[2].Le.x, 2 * s.media[2].Le.z);
+  EXPECT_EQ(s.media[3].Le, Rgb(4, 2, 1));
+  EXPECT_TRUE(s.needs.emissive_media);
+  EXPECT_FALSE(s.emissive_bodies.empty());
+}
+
+TEST_F(ImportMedia, EmissionIsFiniteAndHasOneColour) {
+  EXPECT_EQ(
+      first_lines(medium("m", "\"rgb sigma_a\" [ 1 1 1 ] \"rgb Le\" [ 1e30 1 1 ] \"float Lescale\" 1e30")),
+      "2:135: error: `Lescale` takes `Le` beyond the range of floats\n");
+  EXPECT_EQ(first_lines("MakeNamedMedium \"m\" \"string type\" \"uniformgrid\" \"float density\" [ 1 ] "
+                        "\"float Lescale\" [ 1 ]"),
+            "2:71: warning: `Lescale` of medium \"uniformgrid\" is ignored: `Le` is the same everywhere in a "
+            "medium\n");
+}
+
 TEST_F(ImportMedia, TheyScatter) {
   const Scene s = world(
       R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 1 0 0 ] "rgb sigma_s" [ 1 2 3 ]
