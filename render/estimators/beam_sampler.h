@@ -2,6 +2,7 @@
 // Chooses the point of a camera ray where light that a medium scatters towards the camera is estimated.
 
 #include <array>
+#include <optional>
 
 #include "core/light/light.h"
 #include "core/medium/free_path.h"
@@ -11,8 +12,8 @@ namespace kaustik::render {
 
 // Half of the samples of a ray follow the extinction of the medium along the ray, the others the inverse
 // squared distance from the lights that have a place (equiangular sampling; Kulla and Fajardo 2012,
-// "Importance Sampling Techniques for Path Tracing in Participating Media"). Their density is that of the
-// mixture (balance heuristic).
+// "Importance Sampling Techniques for Path Tracing in Participating Media"), within the cone of a spot light.
+// Their density is that of the mixture (balance heuristic).
 class BeamSampler {
  public:
   // ray: of unit direction; distance: of what it meets, metres, may be infinite. light: the throughput. The
@@ -30,13 +31,20 @@ class BeamSampler {
   Sample sample(const Point2& u) const;
 
  private:
-  // A light seen from the ray: at distance `along` of the ray's start and `beside` it.
+  // A part of a ray, metres from its start; `end` may be infinite.
+  struct Part {
+    float begin, end;
+  };
+  // A light seen from the part of the ray that it can light: at distance `along` of the part's begin and
+  // `beside` the ray.
   struct Near {
+    Part lit;
     float along, beside;
-    float angle;  // between the ray's ends, seen from the light
+    float angle;  // between the part's ends, seen from the light
     float power;  // share of the light in the chosen points, times the integral of 1/r^2
   };
 
+  static std::optional<Part> lit_part(const LightBounds& light, const Ray& ray, float distance);
   void add(const LightBounds& light, const Ray& ray);
   float sample_lights(const Point2& u) const;
   float pdf_lights(float t) const;
