@@ -1,6 +1,7 @@
 #include "core/medium/emissive_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/math/frame.h"
 #include "core/sampling/warp.h"

@@ -1,7 +1,6 @@
 #pragma once
 // Directions towards media that emit light, for samples of that light.
 
-#include <span>
 #include <vector>
 
 #include "core/math/bounds.h"
@@ -10,7 +9,7 @@
 namespace kaustik {
 
 // Spheres around bodies of media that emit. The light itself is not known here: it is whatever a ray meets.
-// Media without bounds, and all but the brightest bodies, are left to rays that happen to meet them.
+// Media without bounds, and all but kMost bodies, are left to rays that happen to meet them.
 class EmissiveBodies {
  public:
   // Most bodies that are kept: each direction takes a few operations for each.
@@ -44,7 +43,7 @@ class EmissiveBodies {
   static Cone cone_of(const Body& body, const Point3& p);
   static float weight(const Body& body, const Cone& cone) { return body.brightness * cone.one_minus_cos; }
 
-  std::vector<Body> bodies_;  // brightest first
+  std::vector<Body> bodies_;  // in descending order of brightness times radius^2
 };
 
 }  // namespace kaustik

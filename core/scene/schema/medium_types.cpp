@@ -11,7 +11,7 @@ ParameterSpec coefficient(std::string_view name, const glm::dvec3& value, std::s
   return of_type(ParameterType::kRgb, name, {value.x, value.y, value.z}, "1/m", kNotNegative, doc);
 }
 
-ParameterSpec not_emitted(std::string_view name) {
+ParameterSpec same_everywhere(std::string_view name) {
   return ignored(name, {ParameterType::kFloat}, "`Le` is the same everywhere in a medium");
 }
 
@@ -56,11 +56,11 @@ std::vector<TypeSpec> make_medium_types() {
        "the centres of equal cells of a box, beyond which there is nothing; the directive's transform places "
        "it.",
        with_coefficients(
-           {1, 1, 1}, {1, 1, 1}, not_emitted("Lescale"),
+           {1, 1, 1}, {1, 1, 1}, same_everywhere("Lescale"),
            {densities(), points("nx"), points("ny"), points("nz"),
             point("p0", {0, 0, 0}, "a corner of the box"), point("p1", {1, 1, 1}, "the opposite corner"),
-            not_emitted("temperature"), not_emitted("temperatureoffset"), not_emitted("temperaturescale"),
-            not_emitted("temperaturecutoff")})}};
+            same_everywhere("temperature"), same_everywhere("temperatureoffset"),
+            same_everywhere("temperaturescale"), same_everywhere("temperaturecutoff")})}};
 }
 
 }  // namespace
