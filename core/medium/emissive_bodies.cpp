@@ -11,7 +11,8 @@ namespace kaustik {
 void EmissiveBodies::add(const Bounds3& box, const Medium& medium) {
   const float radius = box.radius();
   const float density = medium.density ? medium.density->largest() : 1;
-  const float brightness = luminance(emitted_radiance(medium, 2 * radius * density));
+  constexpr float kBrightest = 1e30f;  // so that weights are finite
+  const float brightness = std::min(luminance(emitted_radiance(medium, 2 * radius * density)), kBrightest);
   if (!(radius > 0 && radius < kInfinity && brightness > 0)) return;
   const auto is_brighter = [](const Body& a, const Body& b) {
     return a.brightness * a.radius * a.radius > b.brightness * b.radius * b.radius;

@@ -37,6 +37,19 @@ bool disperses(const Scene& scene, const Material& material) {
   return material.dispersion();
 }
 
+// Whether this holds for a medium that a path may be in: on a side of a surface that separates two, around
+// the camera or around a light.
+template <class Holds>
+bool any_medium(const Scene& scene, const Holds& holds) {
+  const auto in_use = [&](MediumIndex m) { return m != kVacuum && holds(scene.media[m]); };
+  const auto borders = [&](const Shape& s) {
+    return s.media.is_transition() && (in_use(s.media.inside) || in_use(s.media.outside));
+  };
+  const auto any_of = [](const auto& all, const auto& is) { return std::any_of(all.begin(), all.end(), is); };
+  return in_use(scene.camera_medium) || any_of(scene.light_media, in_use) || any_of(scene.shapes, borders) ||
+         (scene.interfaces && any_of(scene.interfaces->shapes, borders));
+}
+
 SceneNeeds needs_of(const Scene& scene) {
   SceneNeeds needs;
   for (const Shape& shape : scene.shapes) {
@@ -49,13 +62,9 @@ SceneNeeds needs_of(const Scene& scene) {
     needs.diffuse |= parts.diffuse;
     needs.dispersion |= disperses(scene, material);
   }
-  needs.media = scene.interfaces || scene.camera_medium != kVacuum || !scene.light_media.empty() ||
-                std::any_of(scene.shapes.begin(), scene.shapes.end(),
-                            [](const Shape& s) { return s.media.is_transition(); });
-  needs.scattering = needs.media && std::any_of(scene.media.begin(), scene.media.end(),
-                                                [](const Medium& m) { return m.scatters(); });
-  needs.emissive_media = needs.media && std::any_of(scene.media.begin(), scene.media.end(),
-                                                    [](const Medium& m) { return m.emits(); });
+  needs.media = any_medium(scene, [](const Medium&) { return true; });
+  needs.scattering = any_medium(scene, [](const Medium& m) { return m.scatters(); });
+  needs.emissive_media = any_medium(scene, [](const Medium& m) { return m.emits(); });
   needs.any_light = !scene.lights.empty();
   needs.infinite_light = !scene.infinite_lights.empty();
   needs.sky_alone = needs.any_light && scene.infinite_lights.size() == scene.lights.size();

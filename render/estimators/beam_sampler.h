@@ -12,8 +12,8 @@ namespace kaustik::render {
 
 // Half of the samples of a ray follow the extinction of the medium along the ray, the others the inverse
 // squared distance from the lights that have a place (equiangular sampling; Kulla and Fajardo 2012,
-// "Importance Sampling Techniques for Path Tracing in Participating Media"), within the cone of a spot light.
-// Their density is that of the mixture (balance heuristic).
+// "Importance Sampling Techniques for Path Tracing in Participating Media"), within the cone of a spot or
+// projection light. Their density is that of the mixture (balance heuristic).
 class BeamSampler {
  public:
   // ray: of unit direction; distance: of what it meets, metres, may be infinite. light: the throughput. The

@@ -267,8 +267,9 @@ class CameraPath {
                       maps_of(branch));
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy && branch.tail == Tail::kNone) add_glossy(branch, x);
-    if (branch.tail != Tail::kNone && !ctx_.scene.needs.diffuse && !ctx_.scene.needs.scattering)
-      return;  // nothing else can be met
+    const SceneNeeds& needs = ctx_.scene.needs;
+    const bool sees_more = needs.diffuse || needs.scattering || needs.emissive_media;
+    if (branch.tail != Tail::kNone && !sees_more) return;
     Branch here = branch;
     here.cone = cone, here.length = length, here.shown = branch.shown || end;
     if (parts.glossy || parts.diffuse || !split(here, x))

@@ -200,6 +200,8 @@ ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass) {
   const double size = size_of(scene);
   double brightest = 0;
   for (const Light& light : scene.lights) brightest = std::max(brightest, brightness(light, size));
+  for (const Medium& medium : scene.media)
+    if (medium.emits()) brightest = std::max(brightest, double(max_component(medium.Le)));
   // The sensor makes no channel larger than this factor times the brightest one.
   if (!scene.sensor.neutral) brightest *= largest_gain(scene.sensor);
   const Point3 eye = scene.camera.to_world.point(Point3(0));

@@ -22,11 +22,11 @@ struct ExactUnits {
   bool operator==(const ExactUnits&) const = default;
 };
 
-// Chooses the units from the scene's size and the lights' radiance (for point-like lights, as seen from a
-// thousandth of the scene's size), so that a scene scaled by a power of two gives the same multiples. Before
-// it is clamped, a pass's sum of radiance may reach 2^20 times that of samples that all see the brightest
-// light, and its mean 2^10 times that light's radiance. The units lie 2^75 below that light; so do those of
-// squares below its square.
+// Chooses the units from the scene's size and the radiance of lights and media (for point-like lights, as
+// seen from a thousandth of the scene's size), so that a scene scaled by a power of two gives the same
+// multiples. Before it is clamped, a pass's sum of radiance may reach 2^20 times that of samples that all see
+// the brightest light, and its mean 2^10 times that light's radiance. The units lie 2^75 below that light; so
+// do those of squares below its square.
 ExactUnits choose_units(const Scene& scene, uint64_t samples_per_pass);
 
 // The totals hold the sums of the layers that are summed, one after the other. Where a layer's begin:

@@ -59,6 +59,11 @@ TEST(Scene, NeedsFollowFromSurfacesAndLights) {
   scene.media[1].Le = Rgb(0, 1, 0);
   finalize_scene(scene);
   EXPECT_TRUE(scene.needs.emissive_media);
+  scene.shapes[0].media.inside = 2;
+  scene.media.push_back(Medium{Rgb(1)});
+  finalize_scene(scene);
+  EXPECT_FALSE(scene.needs.emissive_media) << "nothing is filled by the one that emits";
+  scene.shapes[0].media.inside = 1;
 
   scene.media[1].sigma_s = Rgb(0, 0, 1);
   finalize_scene(scene);

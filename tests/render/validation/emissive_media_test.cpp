@@ -176,14 +176,20 @@ TEST(EmissiveMedia, EachClassAgreesWithPaths) {
   }
 }
 
-// Without lights nothing is left to photons: all methods that follow paths to their end do the same.
-TEST(EmissiveMedia, LightTheSceneAlone) {
+// A box that a ball of glowing gas lights alone.
+Scene lit_by_gas(const Rgb& Le) {
   Scene scene = cornell(kSize);
   for (Shape& shape : scene.shapes) shape.light = kNoIndex;
   scene.lights.clear();
   add_interface(scene, sphere({0, 1.2f, 0.1f}, 0.3f, 0),
-                {add_medium(scene, {Rgb(1), Rgb(1), 0, nullptr, Rgb(5)}), kVacuum});
+                {add_medium(scene, {Rgb(1), Rgb(1), 0, nullptr, Le}), kVacuum});
   finalize_scene(scene);
+  return scene;
+}
+
+// Without lights nothing is left to photons: all methods that follow paths to their end do the same.
+TEST(EmissiveMedia, LightTheSceneAlone) {
+  const Scene scene = lit_by_gas(Rgb(5));
   const auto by_paths = render_with_threads(scene, settings_of(Method::kMc, 4, 0.1f, 1));
   const auto by_auto = render_with_threads(scene, settings_of(Method::kAuto, 4, 0.1f, 1));
   EXPECT_GT(total_mean(by_paths.film), 0);
@@ -191,6 +197,42 @@ TEST(EmissiveMedia, LightTheSceneAlone) {
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x)
       EXPECT_EQ(by_auto.film.at(x, y).radiance(), by_paths.film.at(x, y).radiance());
+}
+
+// The range of sums follows what media emit.
+TEST(EmissiveMedia, ScalingTheLightByPowersOfTwoScalesThePicture) {
+  const RenderSettings settings = settings_of(Method::kAuto, 4, 0.1f, 1);
+  const Film plain = render_with_threads(lit_by_gas(Rgb(5, 3, 1)), settings).film;
+  for (const int exponent : {-60, 60}) {
+    const float scale = std::ldexp(1.0f, exponent);
+    const auto scaled = render_with_threads(lit_by_gas(scale * Rgb(5, 3, 1)), settings);
+    EXPECT_EQ(scaled.statistics.clamped_sums, 0u);
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x)
+        EXPECT_EQ(scaled.film.at(x, y).radiance(), scale * plain.at(x, y).radiance()) << exponent;
+  }
+}
+
+// A ball of gas seen by way of a glossy floor and a mirror, and a light, so that the tails of the floor's
+// lobe are left to the caustic map: what the gas emits is not in it.
+TEST(EmissiveMedia, AreSeenBehindTheTailsOfGlossyLobes) {
+  Scene scene;
+  add_shape(scene, horizontal({0, 0, 0}, 4, 4, true,
+                              add_material(scene, Conductor{Rgb(0.2f), Rgb(3), {0.2f, 0.2f}})));
+  add_shape(scene,
+            quad({-4, 0, -1}, {4, 0, -1}, {4, 4, -1}, {-4, 4, -1}, add_material(scene, Mirror{Rgb(0.9f)})));
+  scene.lights.push_back(PointLight{{0, 3, 3}, Rgb(1e-6f)});
+  add_interface(scene, sphere({0, 1, 2}, 0.6f, 0),
+                {add_medium(scene, {Rgb(2), Rgb(0), 0, nullptr, Rgb(4)}), kVacuum});
+  look_at(scene, {0, 2.5f, 3}, {0, 0, 0}, {0, 1, 0}, 20, 8, 8);
+  finalize_scene(scene);
+  EXPECT_FALSE(scene.needs.diffuse);
+  EXPECT_TRUE(scene.needs.glossy);
+  const Estimate by_paths = total(films(scene, quick(Method::kMc, 1024)));
+  const Estimate by_auto = total(films(scene, quick(Method::kAuto, 1024)));
+  const double noise = std::hypot(by_paths.standard_error, by_auto.standard_error);
+  EXPECT_NEAR(by_auto.mean, by_paths.mean, kErrors * noise);
+  EXPECT_LT(noise, 0.02 * by_paths.mean);
 }
 
 }  // namespace
