@@ -95,13 +95,12 @@ std::vector<double> pairs_of_index(const Spectrum& s) {
 void ColourReducer::reduce(std::string_view directive, const ColourSpace& space, Directive& out) {
   const TypeSpec* type = type_of(directive, out.type);
   if (!type) return;
-  const bool is_light = directive == "LightSource" || directive == "AreaLightSource";
   std::map<std::string, Spectrum> spectra;
   std::optional<Parameter> dispersion;
   std::erase_if(out.parameters, [&](Parameter& p) {
     const ParameterSpec* spec = type->find(p.name);
     if (!spec || spec->state != ParameterState::kUsed) return false;
-    const bool light = is_light || p.name == "Le";  // media emit light, too
+    const bool light = spec->unit.starts_with("W/");  // of lights and of media
     if (p.type == ParameterType::kRgb && !space.is_ours()) change_space(p, *spec, space, light);
     if (!is_spectral(p)) return false;
     const bool index = takes(*spec, ParameterType::kFloat) && p.name.ends_with("eta");

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/render/support/class_agreement.h"
-#include "tests/support/density_grids.h"
+#include "tests/render/support/media_scenes.h"
 
 namespace kaustik::render {
 namespace {
@@ -122,14 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EmissiveBall, kMethods);
 Scene equilibrium() {
   Scene scene;
   const float rho = 0.5f;
-  const uint32_t grey = add_material(scene, Lambertian{Rgb(rho)});
-  const Point3 corner[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                           {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-  const int faces[6][4] = {{0, 1, 2, 3}, {5, 4, 7, 6}, {4, 0, 3, 7},
-                           {1, 5, 6, 2}, {4, 5, 1, 0}, {3, 2, 6, 7}};
-  for (const auto& f : faces)
-    make_light(scene, add_shape(scene, quad(corner[f[0]], corner[f[1]], corner[f[2]], corner[f[3]], grey)),
-               Rgb(1 - rho));
+  add_glowing_walls(scene, add_material(scene, Lambertian{Rgb(rho)}), Rgb(1 - rho));
   scene.camera_medium = add_medium(scene, {{0.2f, 0.5f, 1}, {0.5f, 0.25f, 0}, 0.3f, nullptr, Rgb(1)});
   scene.light_media.assign(scene.lights.size(), scene.camera_medium);
   add_shape(scene, sphere({0.3f, -0.2f, -0.4f}, 0.35f, add_material(scene, Dielectric{1.5f}))).media = {
@@ -161,12 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, ThermalEquilibrium,
 // The box with its lamp and a ball of glowing smoke on a grid.
 TEST(EmissiveMedia, EachClassAgreesWithPaths) {
   Scene scene = cornell(kSize);
-  const auto density = grid_of({12, 14, 9}, {-0.4, 0.8, -0.3}, {0.4, 1.6, 0.5}, [](const glm::dvec3& p) {
-    return std::max(1 + 2 * std::sin(12 * p.x + 5 * p.z) * std::cos(9 * p.y), 0.0);
-  });
-  add_interface(scene, sphere({0, 1.2f, 0.1f}, 0.4f, 0),
-                {add_medium(scene, {Rgb(0.5f, 0.2f, 0.1f), Rgb(2, 3, 4), -0.3f, density, Rgb(40)}), kVacuum});
-  finalize_scene(scene);
+  add_smoke(scene, Rgb(40));
   const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
   for (const Method method : {Method::kPhoton, Method::kAuto}) {
     const Comparison c(scene, by_paths, method, 0.1f);

@@ -4,7 +4,7 @@
 
 #include "tests/render/support/class_agreement.h"
 #include "tests/render/support/closed_forms.h"
-#include "tests/support/density_grids.h"
+#include "tests/render/support/media_scenes.h"
 
 namespace kaustik::render {
 namespace {
@@ -109,15 +109,9 @@ TEST_P(SlabBehindInterfaces, TakesItsShareOfDirectLight) {
 INSTANTIATE_TEST_SUITE_P(Methods, SlabBehindInterfaces,
                          ::testing::Values(Method::kRaytrace, Method::kMc, Method::kAuto));
 
-// The box with a ball of smoke, bounded by nothing that light meets, whose density is zero in places.
 TEST(MediaAgreement, SmokeAgreesWithPaths) {
   Scene scene = cornell(kSize);
-  const auto density = grid_of({12, 14, 9}, {-0.4, 0.8, -0.3}, {0.4, 1.6, 0.5}, [](const glm::dvec3& p) {
-    return std::max(1 + 2 * std::sin(12 * p.x + 5 * p.z) * std::cos(9 * p.y), 0.0);
-  });
-  add_interface(scene, sphere({0, 1.2f, 0.1f}, 0.4f, 0),
-                {add_medium(scene, {Rgb(0.5f, 0.2f, 0.1f), Rgb(2, 3, 4), -0.3f, density}), kVacuum});
-  finalize_scene(scene);
+  add_smoke(scene, Rgb(0));
   const auto by_paths = films(scene, settings_of(Method::kMc, 256, 0.1f, 100));
   for (const Method method : {Method::kPhoton, Method::kAuto}) {
     const Comparison c(scene, by_paths, method, 0.1f);

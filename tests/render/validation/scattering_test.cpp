@@ -4,7 +4,7 @@
 
 #include "core/medium/phase_function.h"
 #include "tests/render/support/class_agreement.h"
-#include "tests/support/density_grids.h"
+#include "tests/render/support/media_scenes.h"
 
 namespace kaustik::render {
 namespace {
@@ -93,14 +93,7 @@ class FurnaceOfAMedium : public ::testing::TestWithParam<Method> {};
 
 TEST_P(FurnaceOfAMedium, RadianceIsOne) {
   Scene scene;
-  const uint32_t black = add_material(scene, Lambertian{Rgb(0)});
-  const Point3 corner[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                           {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-  const int faces[6][4] = {{0, 1, 2, 3}, {5, 4, 7, 6}, {4, 0, 3, 7},
-                           {1, 5, 6, 2}, {4, 5, 1, 0}, {3, 2, 6, 7}};
-  for (const auto& f : faces)
-    make_light(scene, add_shape(scene, quad(corner[f[0]], corner[f[1]], corner[f[2]], corner[f[3]], black)),
-               Rgb(1));
+  add_glowing_walls(scene, add_material(scene, Lambertian{Rgb(0)}), Rgb(1));
   scene.media = {Medium{}, Medium{Rgb(0), {0.5f, 1, 2}, -0.3f}};
   scene.camera_medium = 1;
   scene.light_media.assign(scene.lights.size(), 1);
