@@ -25,7 +25,7 @@ constexpr double kMostInMap = std::numeric_limits<uint32_t>::max() - 1.0;
 double most_stored(const TraceSettings& settings) {
   const int each = 1 + (settings.kinds.medium_caustic || settings.kinds.medium_indirect ? 1 : 0);
   return each * (settings.kinds.indirect || settings.kinds.medium_indirect ? settings.max_bounces : 1) +
-         (settings.kinds.shadow ? 64 : 0);
+         (settings.kinds.shadow ? 64 : 0) + (settings.kinds.medium_caustic ? kSegmentPhotons : 0);
 }
 
 // Caustic photons leave one in a medium for each of their segments there; those behind a lens have a few.
@@ -46,6 +46,8 @@ std::array<double, kPhotonKinds> estimate_all(const Scene& scene, const accel::B
   if (settings.kinds.medium_caustic) {
     double& in_media = stored[static_cast<size_t>(PhotonKind::kMediumCaustic)];
     in_media = std::max(in_media, kSegmentsOfCaustic * static_cast<double>(guided));
+    const double segments = in_media, photons = static_cast<double>(settings.photons);
+    in_media = std::max(segments, std::min(double(kMostOnSegment) * segments, kSegmentPhotons * photons));
   }
   return stored;
 }

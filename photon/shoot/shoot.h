@@ -2,6 +2,7 @@
 // The parallel shoot: photons are traced in fixed blocks of indices, each into its own buffer, and joined in
 // block order. The result does not depend on the number of threads.
 
+#include <algorithm>
 #include <array>
 #include <functional>
 
@@ -22,6 +23,20 @@ inline constexpr uint64_t kLearnBlock = 1u << 8;
 
 // Unit of flux in the compact records: the power of two near the mean flux of one photon.
 float flux_unit_of(const Scene& scene, uint64_t photons);
+
+// Where few photons become caustics in media, these leave many on each of their segments, which costs little
+// and takes most of the noise: until there are half as many as photons are emitted, so that the other maps
+// are still the larger ones, and at most kMostOnSegment on a segment.
+inline constexpr double kSegmentPhotons = 0.5;
+inline constexpr uint64_t kMostOnSegment = 64;
+
+// TraceSettings::photons_on_segments for a render in which `photons` emitted photons have `segments` in
+// media.
+inline uint32_t photons_on_segments(uint64_t photons, uint64_t segments) {
+  const auto all = static_cast<uint64_t>(kSegmentPhotons * static_cast<double>(photons));
+  return static_cast<uint32_t>(
+      std::clamp<uint64_t>(all / std::max<uint64_t>(1, segments), 1, kMostOnSegment));
+}
 
 // progress(done, total) is called from worker threads, one call at a time, as blocks finish in order.
 // Returning false cancels the shoot.

@@ -39,6 +39,9 @@ struct TraceSettings {
   const EmissionGuide* guide = nullptr;
   // Leave caustic photons under the glossy lobes of surfaces that only reflect, too.
   bool under_glossy = false;
+  // Number of photons that a caustic leaves on each of its segments in a medium, all together with the light
+  // that the medium scatters there. At least 1.
+  uint32_t photons_on_segments = 1;
   // Only the requested kinds are traced: without `indirect`, for instance, a photon ends at its first diffuse
   // surface.
   KindMask kinds;

@@ -165,7 +165,7 @@ class Tracer {
     MediumIndex medium;
     float begin, end;
   };
-  // A caustic leaves one photon on each of its segments in a medium, however thin the medium is. column: the
+  // A caustic leaves photons on each of its segments in a medium, however thin the medium is. column: the
   // segment's column density; flux: at its beginning.
   void leave_caustic_on_the_way(size_t k, const MediumPart& part, float column, const Rgb& flux);
   void leave_in_medium(size_t k, PhotonKind kind, MediumIndex medium, const Point3& p, const Rgb& scattered);

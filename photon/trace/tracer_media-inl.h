@@ -84,13 +84,16 @@ void Tracer<Accel, Sink>::leave_caustic_on_the_way(size_t k, const MediumPart& p
   if (!medium.scatters()) return;
   const ScatteringPlace place(medium, flux, column);
   if (!(place.opacity() > 0)) return;
-  const float passed = place.sample({medium_numbers_.u[0][k], medium_numbers_.u[1][k]});
-  const float density = place.pdf(passed);
-  if (!(density > 0)) return;
   const Ray ray = lanes_.ray.get(k);
-  leave_in_medium(k, PhotonKind::kMediumCaustic, part.medium,
-                  ray.at(place_of(passed, medium, ray, part.begin, part.end)),
-                  place.scattered(passed) / density * flux);
+  const auto parts = static_cast<float>(settings_.photons_on_segments);
+  for (uint32_t i = 0; i < settings_.photons_on_segments; ++i) {
+    const float u = std::min((static_cast<float>(i) + medium_numbers_.u[1][k]) / parts, kOneMinusEpsilon);
+    const float passed = place.sample({medium_numbers_.u[0][k], u}), density = parts * place.pdf(passed);
+    if (!(density > 0)) continue;
+    leave_in_medium(k, PhotonKind::kMediumCaustic, part.medium,
+                    ray.at(place_of(passed, medium, ray, part.begin, part.end)),
+                    place.scattered(passed) / density * flux);
+  }
 }
 
 template <class Accel, class Sink>

@@ -204,6 +204,7 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
                        RenderStatistics* statistics) {
   if (!kinds_needed(input.plan).any()) return true;
   learn_guides(input, &guides_, statistics);
+  learn_segments(input, &guides_, statistics);
   free_maps();
   photon::ShootResult shot;
   if (!shoot_kinds(input, pass, guides_, progress, &shot, statistics)) return false;

@@ -55,6 +55,7 @@ PhotonKind in_medium(PhotonKind kind) {
 // One shoot for each guided kind, and one for all others.
 std::vector<Shoot> plan_shoots(const RenderInput& input, const PassShare& pass, const PhotonGuides& guides) {
   Shoot others{trace_settings(input.settings, input.plan, pass)};
+  others.trace.photons_on_segments = std::max(1u, guides.photons_on_segments);
   std::vector<Shoot> shoots;
   const auto guide = [&](PhotonKind kind, const auto& learned, uint64_t photons) {
     if (!others.trace.kinds[kind] || !learned || learned->guide.empty()) return;
@@ -122,6 +123,21 @@ void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatisti
   learn(PhotonKind::kIndirect, false, &guides->indirect);
   const bool uniform_indirect = kinds.indirect && (!guides->indirect || guides->indirect->guide.empty());
   learn(PhotonKind::kCaustic, uniform_indirect || kinds.direct || kinds.shadow, &guides->caustic);
+  statistics->photon_trace_s += watch.end("photon_trace");
+}
+
+void learn_segments(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics) {
+  if (!kinds_needed(input.plan).medium_caustic || guides->photons_on_segments > 0) return;
+  constexpr uint64_t kFew = 1u << 14;
+  const PhaseWatch watch;
+  const uint64_t photons = std::min(input.settings.photons, kFew);
+  const PassShare few = pass_share(0, 1, photons, input.settings.spp);
+  for (const Shoot& shoot : plan_shoots(input, few, *guides)) {
+    if (!shoot.trace.kinds.medium_caustic) continue;
+    const auto stored = photon::shoot(input.scene, input.bvh, shoot.trace).counters.stored;
+    guides->photons_on_segments =
+        photon::photons_on_segments(photons, stored[size_t(PhotonKind::kMediumCaustic)]);
+  }
   statistics->photon_trace_s += watch.end("photon_trace");
 }
 

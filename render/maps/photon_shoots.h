@@ -12,10 +12,12 @@
 
 namespace kaustik::render {
 
-// Guides of caustic and of indirect photons; null where the plan does not need them or nothing may be guided.
-// A function of scene and settings, so the same for all passes.
+// What few photons tell about those of all passes: a function of scene and settings.
 struct PhotonGuides {
+  // Null where the plan does not need them or nothing may be guided.
   std::unique_ptr<const photon::LearnedGuide> caustic, indirect;
+  // TraceSettings::photons_on_segments; 0: not known yet.
+  uint32_t photons_on_segments = 0;
 };
 
 // The tracer's settings for a pass. Only the kinds that the plan needs are traced.
@@ -31,6 +33,10 @@ uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& pla
 // Learns the guides that the plan needs and that are not there yet. Adds to the photons' seconds, and sets
 // the guide fields of statistics.
 void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics);
+
+// Chooses how many photons caustics leave on each segment in a medium, if the plan needs them and it is not
+// known yet (photon::photons_on_segments). Adds to the photons' seconds.
+void learn_segments(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics);
 
 // Shoots the photons that the plan needs. Adds to the photon fields of statistics. False when the progress
 // callback cancelled.

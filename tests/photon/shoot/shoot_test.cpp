@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "photon/trace/record_sink.h"
+#include "tests/photon/support/same_records.h"
 #include "tests/photon/support/trace_scenes.h"
 #include "tests/support/packed_flux.h"
 
@@ -24,12 +25,7 @@ constexpr uint64_t kPhotons = 5 * kShootBlock + 123;
 
 void expect_same_bytes(const ShootResult& a, const ShootResult& b) {
   for (int k = 0; k < kPhotonKinds; ++k) {
-    const size_t records = a.buffers[k].records.size();
-    ASSERT_EQ(records, b.buffers[k].records.size()) << "kind " << k;
-    // memcmp takes no null pointer, even for nothing.
-    EXPECT_TRUE(records == 0 || std::memcmp(a.buffers[k].records.data(), b.buffers[k].records.data(),
-                                            records * sizeof(PhotonRecord)) == 0)
-        << "kind " << k;
+    EXPECT_TRUE(test::same_records(a.buffers[k].records, b.buffers[k].records)) << "kind " << k;
     EXPECT_EQ(a.buffers[k].flux_unit, b.buffers[k].flux_unit);
     EXPECT_EQ(a.counters.stored[k], b.counters.stored[k]);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "photon/shoot/shoot.h"
+#include "tests/photon/support/same_records.h"
 #include "tests/photon/support/trace_scenes.h"
 #include "tests/support/packed_flux.h"
 #include "tests/support/statistics.h"
@@ -73,6 +74,76 @@ TEST(PhotonsInMedia, CausticsLeaveOneOnEachSegment) {
   const double ratio = total_flux(in_medium, 0) / total_flux(on_walls, 0);
   EXPECT_GT(ratio, 0.02 * 0.5);
   EXPECT_LT(ratio, 0.02 * 4);
+}
+
+// The records of a shoot in fog in which caustics leave so many photons on each segment.
+ShootResult shoot_in_fog(const Rgb& sigma_s, uint32_t on_segments, uint64_t seed = 0) {
+  Scene scene = full_room();
+  fill(scene, {Rgb(0.2f), sigma_s});
+  TraceSettings settings = settings_for(5'000, kAllKinds);
+  settings.seed = seed;
+  settings.photons_on_segments = on_segments;
+  return shoot(scene, accel::Bvh(scene), settings);
+}
+
+// The photons of a segment in grey fog lie on its ray, one in each part from which the same light comes: what
+// is left of the light falls by the same amount from one to the next. Together they have the flux that one
+// has by itself, and all other photons are what they are without them.
+TEST(PhotonsInMedia, PhotonsOfASegmentShareItsLight) {
+  constexpr uint32_t kMany = 8;
+  constexpr float kSigmaT = 0.7f;
+  const ShootResult one = shoot_in_fog(Rgb(0.5f), 1), many = shoot_in_fog(Rgb(0.5f), kMany);
+  EXPECT_EQ(one.counters.energy.in_media, many.counters.energy.in_media);
+  for (size_t k = 0; k < kPhotonKinds; ++k) {
+    const bool same = same_records(one.buffers[k].records, many.buffers[k].records);
+    EXPECT_EQ(same, PhotonKind(k) != PhotonKind::kMediumCaustic) << kPhotonKindNames[k];
+  }
+  const PhotonBuffer &single = one.buffers[size_t(PhotonKind::kMediumCaustic)],
+                     &shared = many.buffers[size_t(PhotonKind::kMediumCaustic)];
+  ASSERT_GT(single.records.size(), 200u);
+  ASSERT_EQ(shared.records.size(), kMany * single.records.size());
+  for (size_t i = 0; i < single.records.size(); ++i) {
+    const Photon alone = unpack(single.records[i], single.flux_unit);
+    const auto of = [&](size_t j) { return unpack(shared.records[kMany * i + j], shared.flux_unit); };
+    const auto left = [&](size_t j) { return std::exp(-kSigmaT * glm::distance(of(j).p, of(0).p)); };
+    double flux = 0;
+    for (size_t j = 0; j < kMany; ++j) {
+      EXPECT_EQ(of(j).wi, alone.wi);
+      flux += double(of(j).flux.x);
+      // Directions are packed with some 15 bits a coordinate, and the room is 3.5 m across.
+      EXPECT_LT(glm::length(glm::cross(of(j).p - alone.p, alone.wi)), 3.5f * 0x1p-13f);
+      EXPECT_NEAR(left(j), 1 - float(j) * (1 - left(1)), 20 * kMany * std::numeric_limits<float>::epsilon());
+    }
+    EXPECT_NEAR(flux, double(alone.flux.x), 2 * kPackedFluxError * flux);
+  }
+}
+
+// In coloured fog, where a photon's place is drawn for one of its channels, so on average.
+TEST(PhotonsInMedia, ManyPhotonsOnASegmentKeepTheFlux) {
+  std::vector<double> difference[3], flux[3];
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const ShootResult one = shoot_in_fog({0.2f, 0.8f, 2}, 1, seed),
+                      many = shoot_in_fog({0.2f, 0.8f, 2}, 5, seed);
+    for (int c = 0; c < 3; ++c) {
+      const auto kind = size_t(PhotonKind::kMediumCaustic);
+      flux[c].push_back(total_flux(one.buffers[kind], c));
+      difference[c].push_back(total_flux(many.buffers[kind], c) - flux[c].back());
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    const Estimate e = estimate_of(difference[c]), all = estimate_of(flux[c]);
+    EXPECT_NEAR(e.mean, 0, kErrors * e.standard_error + 2 * kPackedFluxError * all.mean) << c;
+    EXPECT_LT(e.standard_error, 0.02 * all.mean) << c;
+  }
+}
+
+// As many as halve the number of emitted photons, and no more than a segment may have.
+TEST(PhotonsInMedia, SegmentsGetMorePhotonsWhereTheyAreRare) {
+  EXPECT_EQ(photons_on_segments(1000, 5000), 1u);
+  EXPECT_EQ(photons_on_segments(1000, 300), 1u);
+  EXPECT_EQ(photons_on_segments(1000, 100), 5u);
+  EXPECT_EQ(photons_on_segments(1000, 1), kMostOnSegment);
+  EXPECT_EQ(photons_on_segments(1000, 0), kMostOnSegment);
 }
 
 // Behind one medium lies another: caustic photons are left there as often whether the photons themselves are

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/medium/phase_function.h"
+#include "render/maps/photon_shoots.h"
 #include "tests/render/support/class_agreement.h"
 #include "tests/render/support/media_scenes.h"
 
@@ -113,6 +114,26 @@ TEST_P(FurnaceOfAMedium, RadianceIsOne) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, FurnaceOfAMedium,
                          ::testing::Values(Method::kMc, Method::kPhoton, Method::kAuto));
+
+// Few photons of this box pass its glass ball or its mirror ball: each of their segments in fog gets the same
+// number of photons, which makes about half as many as are emitted.
+TEST(CausticsInMedia, LeaveMorePhotonsWhereTheyAreRare) {
+  const Scene scene = coloured_cornell(4);
+  RenderSettings settings = settings_for(Method::kPhoton, 1);
+  settings.guide = Guide::kOff;
+  const auto in_media = [](const auto& counts) { return counts[size_t(photon::PhotonKind::kMediumCaustic)]; };
+  const uint64_t stored = in_media(render_with_threads(scene, settings).statistics.photons.stored);
+  const auto one_each = trace_settings(settings, make_plan(settings, scene.needs),
+                                       pass_share(0, 1, settings.photons, settings.spp));
+  const uint64_t segments = in_media(photon::shoot(scene, accel::Bvh(scene), one_each).counters.stored);
+  ASSERT_GT(segments, 0u);
+  const uint64_t on_segment = stored / segments;
+  EXPECT_GE(on_segment, 2u);
+  EXPECT_EQ(stored, on_segment * segments);
+  // The number comes from 2^14 photons, with the relative error of the count of those that become caustics.
+  EXPECT_NEAR(double(stored), 0.5 * double(settings.photons),
+              double(segments) + kErrors * double(stored) / std::sqrt(0.05 * 0x1p14));
+}
 
 // Chandrasekhar's H for isotropic scattering (1960, Radiative Transfer, section 16), by iteration of
 //   1 / H(mu) = sqrt(1 - albedo) + albedo / 2 int_0^1 x H(x) / (mu + x) dx.
