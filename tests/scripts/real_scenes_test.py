@@ -61,7 +61,10 @@ def test_script(program, folder):
                "--seconds", "0.3"]
     missing = subprocess.run([*command, kScene], capture_output=True, text=True)
     assert missing.returncode == 1 and "there is no reference" in missing.stderr, missing.stderr
-    done = subprocess.run([*command, "--make-references", "5", "--other", program, kScene], capture_output=True, text=True)
+    for seconds in ("5", "60"):  # on slow machines 5 s are a single pass, which does not state its error
+        done = subprocess.run([*command, "--make-references", seconds, "--other", program, kScene], capture_output=True, text=True)
+        if "are one pass of" not in done.stderr:
+            break
     assert done.returncode == 0, done.stdout + done.stderr
     assert "relMSE of auto to mc at equal time" in done.stdout and "relMSE to that of the other program" in done.stdout, done.stdout
     check = json.loads((folder / "rough-glass-48.json").read_text())
