@@ -28,7 +28,7 @@ double most_stored(const TraceSettings& settings) {
          (settings.kinds.shadow ? 64 : 0) + (settings.kinds.medium_caustic ? kSegmentPhotons : 0);
 }
 
-// Caustic photons leave one in a medium for each of their segments there; those behind a lens have a few.
+// Segments in media that a guided caustic photon has: there are a few behind a lens.
 constexpr double kSegmentsOfCaustic = 4;
 
 // All photons that guided emission may leave.
@@ -46,6 +46,8 @@ std::array<double, kPhotonKinds> estimate_all(const Scene& scene, const accel::B
   if (settings.kinds.medium_caustic) {
     double& in_media = stored[static_cast<size_t>(PhotonKind::kMediumCaustic)];
     in_media = std::max(in_media, kSegmentsOfCaustic * static_cast<double>(guided));
+    // The limits of photons_on_segments(): its result, from other photons than these, may be one more or
+    // less.
     const double segments = in_media, photons = static_cast<double>(settings.photons);
     in_media = std::max(segments, std::min(double(kMostOnSegment) * segments, kSegmentPhotons * photons));
   }

@@ -137,7 +137,7 @@ TEST(PhotonsInMedia, ManyPhotonsOnASegmentKeepTheFlux) {
   }
 }
 
-// As many as halve the number of emitted photons, and no more than a segment may have.
+// Half as many photons as are emitted, divided among the segments, and no more than a segment may have.
 TEST(PhotonsInMedia, SegmentsGetMorePhotonsWhereTheyAreRare) {
   EXPECT_EQ(photons_on_segments(1000, 5000), 1u);
   EXPECT_EQ(photons_on_segments(1000, 300), 1u);

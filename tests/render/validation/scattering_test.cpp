@@ -130,7 +130,8 @@ TEST(CausticsInMedia, LeaveMorePhotonsWhereTheyAreRare) {
   const uint64_t on_segment = stored / segments;
   EXPECT_GE(on_segment, 2u);
   EXPECT_EQ(stored, on_segment * segments);
-  // The number comes from 2^14 photons, with the relative error of the count of those that become caustics.
+  // The number on a segment is rounded down, and comes from 2^14 photons. At least 5 % of them become
+  // caustics, whose count has this relative error.
   EXPECT_NEAR(double(stored), 0.5 * double(settings.photons),
               double(segments) + kErrors * double(stored) / std::sqrt(0.05 * 0x1p14));
 }
