@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 #include <httplib.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <atomic>
+#include <charconv>
 #include <chrono>
+#include <filesystem>
+#include <string>
 #include <thread>
 
 #include "apps/web/http_server.h"
@@ -18,6 +22,7 @@ namespace {
 // Each stream of events keeps a thread.
 constexpr size_t kThreads = 48, kMostStreams = 32;
 constexpr size_t kLongestBody = 1 << 16;  // of a request
+constexpr time_t kLongestWait = 5;        // for a request, seconds
 
 HttpRequest request_of(const httplib::Request& from) {
   HttpRequest request{from.method,
@@ -30,6 +35,30 @@ HttpRequest request_of(const httplib::Request& from) {
                       from.get_header_value("Sec-Fetch-Mode")};
   for (const auto& [name, value] : from.params) request.query.emplace(name, value);
   return request;
+}
+
+// The port of this machine at which a descriptor is connected, or 0 if it is no socket of a network.
+int local_port(int descriptor) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof(address);
+  if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
+  if (address.ss_family == AF_INET) return ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
+  if (address.ss_family == AF_INET6) return ntohs(reinterpret_cast<const sockaddr_in6&>(address).sin6_port);
+  return 0;
+}
+
+// Ends what this process receives at a port, so that no thread waits there for another request. The library
+// does not tell its connections, hence the list of all descriptors; without one, threads wait their time.
+void end_requests_at(int port) {
+  using std::filesystem::directory_iterator;
+  std::error_code error;
+  for (auto entry = directory_iterator("/proc/self/fd", error); entry != directory_iterator();
+       entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    int descriptor = -1;
+    std::from_chars(name.data(), name.data() + name.size(), descriptor);
+    if (local_port(descriptor) == port) shutdown(descriptor, SHUT_RD);
+  }
 }
 
 // What a thread answers at present.
@@ -45,14 +74,17 @@ class Server final : public HttpServer {
   ~Server() override {
     ending_ = true;
     server_.stop();
+    if (port_ > 0) end_requests_at(port_);
     if (thread_.joinable()) thread_.join();
   }
 
   // Returns why it cannot serve, or an empty string.
   std::string start(const char* address, int port) {
     server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-    server_.set_keep_alive_timeout(1);
-    server_.set_read_timeout(5);
+    // Also how long a client may take from its connection to its first request, which on a busy machine is
+    // more than a second.
+    server_.set_keep_alive_timeout(kLongestWait);
+    server_.set_read_timeout(kLongestWait);
     server_.set_payload_max_length(kLongestBody);
     // Not the library's default, by which two processes may share a port.
     server_.set_socket_options([](auto socket) {

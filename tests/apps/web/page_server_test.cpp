@@ -54,6 +54,14 @@ TEST_F(PageServerTest, ServesOnePageWithoutTheNetwork) {
   EXPECT_THAT(page.head, HasSubstr("X-Content-Type-Options: nosniff"));
 }
 
+// As clients do on a busy machine.
+TEST_F(PageServerTest, WaitsForTheFirstRequestOfAConnection) {
+  const HttpConnection connection(port());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  connection.send("GET /info HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port()) + "\r\n\r\n");
+  EXPECT_THAT(connection.receive(), ::testing::StartsWith("HTTP/1.1 200"));
+}
+
 TEST_F(PageServerTest, InfoNamesTheLayers) {
   const Json info = Json::parse(http(port(), "GET", "/info").body);
   EXPECT_EQ(info["title"], "a <room>.pbrt");
