@@ -94,7 +94,8 @@ void find_ring(const Mesh& mesh, const Topology& top, uint32_t v, Ring* ring) {
   } while (h != start);
 }
 
-// Whether the fan of each vertex reaches all its triangles.
+// Whether the fan of each vertex reaches all its triangles, and no two triangles have the same vertices:
+// parts of these would meet at edges of four triangles. Then refined meshes are manifolds, too.
 bool is_manifold(const Mesh& mesh, const Topology& top, std::string* error) {
   std::vector<uint32_t> corners(mesh.P.size(), 0);
   for (const Triangle& t : mesh.triangles)
@@ -102,8 +103,13 @@ bool is_manifold(const Mesh& mesh, const Topology& top, std::string* error) {
   Ring ring;
   for (uint32_t v = 0; v < mesh.P.size(); ++v) {
     find_ring(mesh, top, v, &ring);
-    if (ring.vertices.size() - (ring.boundary ? 1 : 0) == corners[v]) continue;
-    *error = fmt::format("several fans of triangles meet at vertex {}", v);
+    if (ring.vertices.size() - (ring.boundary ? 1 : 0) != corners[v])
+      *error = fmt::format("several fans of triangles meet at vertex {}", v);
+    else if (!ring.boundary && corners[v] == 2)
+      *error =
+          fmt::format("two triangles have the vertices {}, {} and {}", v, ring.vertices[0], ring.vertices[1]);
+    else
+      continue;
     return false;
   }
   return true;

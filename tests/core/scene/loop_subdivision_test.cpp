@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tests/support/random.h"
+
 namespace kaustik {
 namespace {
 
@@ -93,9 +95,32 @@ TEST(LoopSubdivision, RefusesMeshesWithoutALimit) {
   mesh = octahedron();
   mesh.indices = {{0, 2, 4}, {0, 3, 5}};
   EXPECT_EQ(error_of(mesh), "several fans of triangles meet at vertex 0");
+  mesh.indices = {{0, 2, 4}, {0, 4, 2}};
+  EXPECT_EQ(error_of(mesh), "two triangles have the vertices 0, 2 and 4");
   mesh.indices = {{0, 0, 1}};
   EXPECT_EQ(error_of(mesh), "triangle 0 has the same vertex twice");
   EXPECT_NE(error_of(octahedron(), 14).find("exceed the limit"), std::string::npos);
+}
+
+// A few triangles of five vertices: most are refused, and many lie on each other.
+TEST(LoopSubdivision, AnyCageIsSubdividedOrRefused) {
+  test::Random random(1);
+  int subdivided = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    TriangleMesh cage;
+    for (int v = 0; v < 5; ++v) cage.P.push_back(random.uniform_3d());
+    for (uint32_t t = 0; t < 1 + random.bits() % 5; ++t)
+      cage.indices.push_back({random.bits() % 5, random.bits() % 5, random.bits() % 5});
+    std::string error;
+    const auto mesh = subdivide_loop(cage, 2, &error);
+    ASSERT_EQ(mesh.has_value(), error.empty());
+    if (!mesh) continue;
+    ++subdivided;
+    ASSERT_EQ(mesh->indices.size(), 16 * cage.indices.size());
+    for (const auto& triangle : mesh->indices)
+      for (const uint32_t v : triangle) ASSERT_LT(v, mesh->P.size());
+  }
+  EXPECT_GT(subdivided, 1000);
 }
 
 }  // namespace

@@ -112,6 +112,8 @@ Elements DracoMesh::values(const View& attribute, uint64_t id) const {
   const int place = id <= 0xffffffffu ? mesh.GetAttributeIdByUniqueId(static_cast<uint32_t>(id)) : -1;
   if (place < 0) attribute.fail(fmt::format("is {}, which the compressed mesh does not have", id));
   draco::PointAttribute* found = mesh.attribute(place);
+  // Draco would read any byte as a bool, which is undefined for those above 1.
+  if (found->data_type() == draco::DT_BOOL) attribute.fail("has truth values: expected numbers");
   found->set_normalized(false);  // the accessor says whether it is
   const int n = found->num_components();
   if (n < 1 || n > 16) attribute.fail(fmt::format("has {} numbers per vertex", n));

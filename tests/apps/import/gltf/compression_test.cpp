@@ -76,13 +76,15 @@ TEST_F(GltfCompression, DamagedMeshoptIsRefusedAndNamesATool) {
   EXPECT_THAT(error(meshopt(packed_vertices().substr(0, 9), packed_indices())), HasSubstr("gltf-transform"));
 }
 
-std::string draco_bytes() {
+// Two triangles with the positions P, which have the type.
+template <class T>
+std::string draco_bytes(const T& P, draco::DataType type) {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(2);
-  const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, type);
   for (uint32_t f = 0; f < 2; ++f)
-    builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), &kSquare[3 * kCorners[3 * f]],
-                                      &kSquare[3 * kCorners[3 * f + 1]], &kSquare[3 * kCorners[3 * f + 2]]);
+    builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), &P[3 * kCorners[3 * f]],
+                                      &P[3 * kCorners[3 * f + 1]], &P[3 * kCorners[3 * f + 2]]);
   const auto mesh = builder.Finalize();
   draco::ExpertEncoder encoder(*mesh);
   draco::EncoderBuffer buffer;
@@ -103,7 +105,7 @@ std::string draco_parts(size_t size) {
 
 // Draco changes the order of vertices, so that the corners' positions are compared.
 TEST_F(GltfCompression, DracoIsDecoded) {
-  const std::string bytes = draco_bytes();
+  const std::string bytes = draco_bytes(kSquare, draco::DT_FLOAT32);
   const auto s = describe(gltf(draco_parts(bytes.size()), bytes));
   const std::vector<double> P = numbers(s.shapes.at(0), "P"), indices = numbers(s.shapes[0], "indices");
   EXPECT_EQ(P.size(), 12u);
@@ -120,8 +122,15 @@ TEST_F(GltfCompression, DracoIsDecoded) {
 }
 
 TEST_F(GltfCompression, DamagedDracoIsRefusedAndNamesATool) {
-  const std::string bytes = draco_bytes().substr(0, 20);
+  const std::string bytes = draco_bytes(kSquare, draco::DT_FLOAT32).substr(0, 20);
   EXPECT_THAT(error(gltf(draco_parts(bytes.size()), bytes)), HasSubstr("gltf-transform"));
+}
+
+// Draco would read other bytes than 0 and 1 as a bool, too.
+TEST_F(GltfCompression, DracoOfTruthValuesIsRefused) {
+  constexpr std::array<uint8_t, 12> kTruths = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  const std::string bytes = draco_bytes(kTruths, draco::DT_BOOL);
+  EXPECT_THAT(error(gltf(draco_parts(bytes.size()), bytes)), HasSubstr("POSITION` has truth values"));
 }
 
 }  // namespace
