@@ -7,8 +7,10 @@ namespace kaustik::accel {
 namespace {
 
 // Measured as what the process holds at the peak of the build. Vertices are copies that are scaled for
-// Embree.
-constexpr uint64_t kTriangle = 100, kVertex = 16, kAnalytic = 200, kInstance = 1400, kAny = 4u << 20;
+// Embree. Leaves have room for four triangles: those that lie apart from all others (leaves of trees, hair)
+// fill one place each.
+constexpr uint64_t kTriangle = 100, kApart = 150, kVertex = 16, kAnalytic = 200, kInstance = 1400,
+                   kAny = 4u << 20;
 
 uint64_t bytes_of(const TriangleMesh& mesh) {
   return kTriangle * mesh.indices.size() + kVertex * mesh.P.size();
@@ -16,8 +18,8 @@ uint64_t bytes_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
-uint64_t forecast_bytes(const Scene& scene) {
-  uint64_t bytes = kAny;
+uint64_t forecast_bytes(const Scene& scene, const SideEstimate& sides) {
+  uint64_t bytes = kAny + static_cast<uint64_t>(double(kApart) * sides.apart);
   std::set<const TriangleMesh*> shared;
   for (const Shape& shape : scene.shapes) {
     const TriangleMesh* mesh = shape.mesh();
@@ -26,7 +28,7 @@ uint64_t forecast_bytes(const Scene& scene) {
     if (instance) bytes += kInstance;
     if (mesh && (!instance || shared.insert(mesh).second)) bytes += bytes_of(*mesh);
   }
-  if (scene.interfaces) bytes += forecast_bytes(*scene.interfaces);
+  if (scene.interfaces) bytes += forecast_bytes(*scene.interfaces, estimate_sides(scene.interfaces->shapes));
   return bytes;
 }
 

@@ -277,7 +277,7 @@ void settle_memory(const RenderSession& session, Job* job) {
   const bool open = job->settings.stop.any() && !session.fill_time;
   const bool in_passes = writes_sums(session) || session.ranks || settings.passes > 1 || open;
   // A render that fills a time decides later whether to denoise.
-  job->memory = plan_memory(job->scene, settings, job->settings.stop.seconds.has_value());
+  job->memory = plan_memory(job->scene, job->memory.sides, settings, job->settings.stop.seconds.has_value());
   check_memory(job->memory, in_passes);
   // Kept photons stay in their file.
   if (!session.maps.from) set_photon_memory(job->memory, in_passes, &settings);

@@ -23,11 +23,6 @@ Point3 point_of(const PointBits& bits) {
   return {std::bit_cast<float>(bits[0]), std::bit_cast<float>(bits[1]), std::bit_cast<float>(bits[2])};
 }
 
-Normal3 winding_normal(const TriangleMesh& mesh, uint32_t triangle) {
-  const auto [i0, i1, i2] = mesh.indices[triangle];
-  return triangle_normal(mesh.P[i1] - mesh.P[i0], mesh.P[i2] - mesh.P[i0]);
-}
-
 // A side of triangle corner / 3, from its vertex corner % 3 to the next one.
 struct MeshSide {
   uint64_t vertices;  // welded vertex indices, the lower one first

@@ -36,6 +36,12 @@ inline Normal3 triangle_normal(const Vector3& e1, const Vector3& e2) {
   return length > 0 ? Normal3(n / length) : Normal3(0);
 }
 
+// The unit normal of a triangle's winding, or zero.
+inline Normal3 winding_normal(const TriangleMesh& mesh, uint32_t triangle) {
+  const auto [i0, i1, i2] = mesh.indices[triangle];
+  return triangle_normal(mesh.P[i1] - mesh.P[i0], mesh.P[i2] - mesh.P[i0]);
+}
+
 // +1 or -1: the factor from the normal of a triangle's winding, in the mesh's own space, to the outside
 // normal.
 inline float outside_of(const TriangleMesh& mesh, const std::array<uint32_t, 3>& triangle,

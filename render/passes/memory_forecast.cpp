@@ -20,9 +20,8 @@ constexpr uint64_t kOthers = 24;
 
 // Measured. Of a triangle that may be a wall: its box, and nodes of trees over them.
 constexpr uint64_t kWall = 190;
-// Of a triangle while the sides of its mesh are matched. Meshes without smooth parts take up to ten times as
-// much for their edges.
-constexpr uint64_t kSides = 50;
+// Of a triangle while the sides of its mesh are matched, and of a side that is an edge of its mesh or a bend.
+constexpr uint64_t kSides = 50, kOpenSide = 175;
 
 }  // namespace
 
@@ -38,7 +37,7 @@ uint64_t sums_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& 
   return sizeof(PixelTotals) + sizeof(PixelError) + halves + media;
 }
 
-uint64_t surfaces_bytes(const Scene& scene, const RenderSettings& settings) {
+uint64_t surfaces_bytes(const Scene& scene, const SideEstimate& sides, const RenderSettings& settings) {
   if (!needs_photons(settings, scene.needs)) return 0;
   std::set<const TriangleMesh*> meshes;
   for (const Shape& shape : scene.shapes)
@@ -49,7 +48,8 @@ uint64_t surfaces_bytes(const Scene& scene, const RenderSettings& settings) {
   uint64_t walls = 0;  // the smallest meshes come first, see find_wall_feet()
   for (const uint64_t count : counts)
     if (walls + count <= accel::kMostWallTriangles) walls += count;
-  return kWall * walls + kSides * (counts.empty() ? 0 : counts.back());
+  const auto edges = static_cast<uint64_t>(double(kOpenSide) * sides.open);
+  return kWall * walls + kSides * (counts.empty() ? 0 : counts.back()) + edges;
 }
 
 uint64_t photons_bytes(const RenderInput& input, uint64_t passes) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/geometry/side_estimate.h"
 #include "render/plan/render_input.h"
 
 namespace kaustik::render {
@@ -18,7 +19,7 @@ uint64_t sums_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& 
 
 // Bytes of what estimates from photons know about surfaces: their edges, the walls that stand on them, and
 // the areas of curved ones (PassPhotons). 0 if the settings need no photons.
-uint64_t surfaces_bytes(const Scene& scene, const RenderSettings& settings);
+uint64_t surfaces_bytes(const Scene& scene, const SideEstimate& sides, const RenderSettings& settings);
 
 // Bytes that the photons of one of `passes` passes will take at their peak, from a small shoot.
 uint64_t photons_bytes(const RenderInput& input, uint64_t passes);

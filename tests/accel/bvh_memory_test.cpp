@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "accel/bvh.h"
+#include "tests/support/random.h"
 #include "tests/support/shapes.h"
 
 namespace kaustik::accel {
@@ -29,7 +30,8 @@ TriangleMesh grid(uint32_t n) {
 void expect_forecast(Scene scene) {
   scene.materials = {Lambertian{Rgb(1)}};
   finalize_scene(scene);
-  const uint64_t forecast = forecast_bytes(scene), empty = forecast_bytes(Scene{});
+  const uint64_t forecast = forecast_bytes(scene, estimate_sides(scene.shapes)),
+                 empty = forecast_bytes({}, {});
   const Bvh bvh(scene);
   EXPECT_GE(forecast, bvh.memory_bytes());
   EXPECT_LE(forecast - empty, 4 * bvh.memory_bytes());
@@ -41,6 +43,22 @@ TEST(BvhMemory, IsForecastForTriangles) {
     scene.shapes.emplace_back().geometry = grid(n);
     expect_forecast(std::move(scene));
   }
+}
+
+// As leaves of trees, which share no sides.
+TEST(BvhMemory, IsForecastForTrianglesApart) {
+  TriangleMesh mesh;
+  test::Random random(1);
+  for (uint32_t i = 0; i < 100'000; i += 4) {
+    const Point3 corner = 50.0f * random.uniform_3d();
+    const Vector3 a = random.in_cube(), b = random.in_cube();
+    for (const Point3& p : {corner, corner + a, corner + a + b, corner + b}) mesh.P.push_back(p);
+    mesh.indices.push_back({i, i + 1, i + 2});
+    mesh.indices.push_back({i, i + 2, i + 3});
+  }
+  Scene scene;
+  scene.shapes.emplace_back().geometry = std::move(mesh);
+  expect_forecast(std::move(scene));
 }
 
 TEST(BvhMemory, IsForecastForSpheres) {

@@ -56,13 +56,15 @@ uint64_t MemoryPlan::total(bool in_passes) const {
   return scene + bvh + surfaces + film_and_sums(in_passes) + libraries;
 }
 
-MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise) {
+MemoryPlan plan_memory(const Scene& scene, const SideEstimate& sides, const render::RenderSettings& settings,
+                       bool may_denoise) {
   const int cores = core_limits().usable();
   const int threads = settings.threads > 0 ? std::min(settings.threads, most_useful_threads(cores)) : cores;
-  MemoryPlan plan{.limit = memory_limit(settings),
+  MemoryPlan plan{.sides = sides,
+                  .limit = memory_limit(settings),
                   .scene = held_memory() + (scene.textures ? scene.textures->bytes_to_come() : 0),
-                  .bvh = accel::forecast_bytes(scene),
-                  .surfaces = render::surfaces_bytes(scene, settings),
+                  .bvh = accel::forecast_bytes(scene, sides),
+                  .surfaces = render::surfaces_bytes(scene, sides, settings),
                   .width = scene.camera.width,
                   .height = scene.camera.height,
                   .libraries = kLibraries + uint64_t(threads) * kThread};

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "apps/machine/usable_memory.h"
+#include "core/geometry/side_estimate.h"
 #include "core/scene/scene.h"
 #include "render/settings/settings.h"
 
@@ -11,6 +12,7 @@ namespace kaustik::app {
 
 // Bytes of the parts of a render.
 struct MemoryPlan {
+  SideEstimate sides{};       // of the scene's shapes, from which follows what the BVH and surfaces take
   MemoryLimit limit{};        // of all parts; its source is "--memory" if that is given
   uint64_t scene = 0;         // what the process held when the plan was made, and MIP levels yet to come
   uint64_t bvh = 0;           // its build
@@ -29,8 +31,10 @@ struct MemoryPlan {
 // --memory, or what the system leaves.
 MemoryLimit memory_limit(const render::RenderSettings& settings);
 
-// The forecast for a scene that is read and whose BVH is not built. may_denoise: see forecast_film().
-MemoryPlan plan_memory(const Scene& scene, const render::RenderSettings& settings, bool may_denoise);
+// The forecast for a scene that is read and whose BVH is not built. sides: of its shapes. may_denoise: see
+// forecast_film().
+MemoryPlan plan_memory(const Scene& scene, const SideEstimate& sides, const render::RenderSettings& settings,
+                       bool may_denoise);
 
 // Forecasts film and sums alone. may_denoise: whether the picture may be denoised although the settings do
 // not say so yet.

@@ -103,7 +103,7 @@ SceneDescription view_of(const SceneDescription& scene) {
 void forecast(LoadFor use, Job* job) {
   render::RenderSettings& settings = job->settings.render;
   MemoryPlan& plan = job->memory;
-  plan = plan_memory(job->scene, settings, false);
+  plan = plan_memory(job->scene, estimate_sides(job->scene.shapes), settings, false);
   if (use != LoadFor::kPictures) plan.film = plan.sums = 0;
   if (use != LoadFor::kDescription) check_memory(plan, settings.passes > 1);
   if (use == LoadFor::kPictures) forecast_film(job->scene, settings, true, &plan);
