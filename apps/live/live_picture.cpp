@@ -134,7 +134,9 @@ void LivePicture::stand_for_cell(const PixelRange& range, int cell, const std::v
   for_each_tile(range_.in_square(x0, y0, cell), [&](const PixelRange& part) {
     part.for_each_square(render::kRayBlock, [&](const PixelRange& block) {
       Block& of = blocks_[block_index(block.x0, block.y0)];
-      if (!of.known) of.mean = mean;
+      if (of.known || of.cell < cell) return;  // the thread was late
+      of.mean = mean;
+      of.cell = cell;
     });
     changed(part);
   });

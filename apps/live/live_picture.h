@@ -2,6 +2,7 @@
 // The picture of a render that is still going on, for those who show it: threads of the render write it,
 // others read it at any time.
 
+#include <climits>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -59,6 +60,7 @@ class LivePicture {
   // render::kRayBlock pixels a side, which the render completes together.
   struct Block {
     render::PixelResult mean{};  // of the coarser block that stands for it
+    int cell = INT_MAX;          // the side of that block's cell
     bool known = false;          // its own pixels are there
   };
 

@@ -55,9 +55,11 @@ TEST_F(LivePictureTest, ACoarseBlockStandsForItsCell) {
 TEST_F(LivePictureTest, CoarseBlocksLeaveFinerOnes) {
   LivePicture picture({0, 200, 0, 100}, 200, 100);
   add(&picture, 4, 4, 4, 1);
+  add(&picture, 32, 32, 32, 3);
   add(&picture, 0, 0, 128, 2);  // a thread that was late
   EXPECT_THAT(read(picture, 5, 5), ElementsAre(1, 2, 0));
   EXPECT_THAT(read(picture, 8, 8), ElementsAre(2, 4, 0));
+  EXPECT_THAT(read(picture, 63, 63), ElementsAre(3, 6, 0));
 }
 
 TEST_F(LivePictureTest, TellsWhichTilesHaveChanged) {
