@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -32,6 +34,12 @@ std::optional<std::array<unsigned char, N>> next(std::istream& file) {
 uint32_t big_endian(const unsigned char* bytes) {
   uint32_t out = 0;
   for (int i = 0; i < 4; ++i) out = out << 8 | bytes[i];
+  return out;
+}
+
+uint32_t little_endian(const unsigned char* bytes) {
+  uint32_t out = 0;
+  for (int i = 3; i >= 0; --i) out = out << 8 | bytes[i];
   return out;
 }
 
@@ -86,10 +94,29 @@ std::string exr_trouble(const std::string& path) {
   return {};
 }
 
+// Numbers of a BMP file's header are little-endian. In run-length encoding, two bytes stand for up to 255
+// pixels.
+std::string bmp_trouble(const std::string& path) {
+  constexpr std::streamoff kMarkBytes = 14;
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(kMarkBytes);
+  const auto head = next<20>(file);  // size of the header, width, height, planes, bits, and compression
+  if (!head || little_endian(head->data()) < head->size()) return {};
+  const uint32_t compression = little_endian(head->data() + 16);
+  if (compression != 1 && compression != 2) return {};
+  const auto side = [&](size_t at) {
+    return static_cast<uint64_t>(std::abs(int64_t{static_cast<int32_t>(little_endian(head->data() + at))}));
+  };
+  std::error_code none;
+  const uintmax_t bytes = std::filesystem::file_size(path, none);
+  return !none && side(4) * side(8) / 128 > bytes ? kCut : "";
+}
+
 }  // namespace
 
 std::string damage_of(const std::string& path, const std::string& format, Reads reads) {
   if (format == "png") return png_trouble(path, reads);
+  if (format == "bmp") return bmp_trouble(path);
   return format == "openexr" ? exr_trouble(path) : "";
 }
 

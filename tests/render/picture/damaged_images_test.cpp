@@ -90,6 +90,24 @@ TEST(DamagedImages, SizesOfExrAttributesAreCheckedAgainstTheFile) {
   EXPECT_THAT(complaint_of("cut.exr", whole.substr(0, 20)), HasSubstr("its header has no end"));
 }
 
+// OpenImageIO decodes runs when it opens the file, into memory for all pixels of the header.
+TEST(DamagedImages, SizesOfRunsInBmpAreCheckedAgainstTheFile) {
+  const auto bmp = [](uint32_t width, uint32_t height, const std::string& runs) {
+    const std::string one = little_endian(1);
+    const std::string info = little_endian(40) + little_endian(width) + little_endian(height) + "\1\0\10\0"s +
+                             one + little_endian(0) + one + one + little_endian(2) + little_endian(2);
+    const std::string colours = "\0\0\0\0\377\377\377\0"s;
+    return "BM"s + little_endian(62 + uint32_t(runs.size())) + little_endian(0) + little_endian(62) + info +
+           colours + runs;
+  };
+  std::string rows;
+  for (int i = 0; i < 100; ++i) rows += "\377\1"s;
+  EXPECT_EQ(complaint_of("runs.bmp", bmp(255, 100, rows + "\0\1"s)), "") << "the longest runs";
+  const std::string forged = bmp(5, 0x190000f1, "");
+  EXPECT_THAT(complaint_of("forged.bmp", forged), HasSubstr("it ends early"));
+  EXPECT_THAT(complaint_of("forged.bmp", bmp(5, uint32_t(-0x190000f1), "")), HasSubstr("it ends early"));
+}
+
 // OpenImageIO's readers of these took gigabytes for forged sizes, or ended the program.
 TEST(DamagedImages, OtherFormatsAreNotOpened) {
   for (const std::string& mark : {"8BPS\0\1"s, "\x01\xda\1\1\0\3"s, "GIF89a"s, "DDS |"s, "SIMPLE  ="s})
