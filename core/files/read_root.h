@@ -60,6 +60,7 @@ class ReadRoot {
 
   // Limits the memory for files that are found from now on.
   void set_room(MemoryRoom room) { room_ = std::move(room); }
+  const MemoryRoom& room() const { return room_; }
 
  private:
   using Parts = std::vector<std::string>;

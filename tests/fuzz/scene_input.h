@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/import/import_scene.h"
+#include "core/memory/process_memory.h"
 #include "core/scene/shapes/mesh_loader.h"
 #include "tests/fuzz/input_folder.h"
 
@@ -13,7 +14,9 @@ namespace kaustik::fuzz {
 
 // Loads the scene as `kaustik render` does, and checks that it comes or that errors say why not, and that
 // what is said about it can be printed.
-inline void load_input_scene(const std::filesystem::path& path, const ImportOptions& options = {}) {
+inline void load_input_scene(const std::filesystem::path& path, ImportOptions options = {}) {
+  constexpr uint64_t kMemory = 64u << 20;  // enough for any of these, and too little to take seconds
+  options.room = MemoryRoom(held_memory() + kMemory, "the test");
   Diagnostics diagnostics;
   const auto loaded = pbrt::load_scene(path, diagnostics, options);
   if (loaded.has_value() == diagnostics.has_errors())

@@ -242,7 +242,8 @@ std::optional<ShapeSource> Builder::make_source(const Item& item, const glm::dve
   const auto& rows = shape_rows();
   const auto row = std::find_if(rows.begin(), rows.end(),
                                 [&](const ShapeRow& r) { return r.spec.name == item.description->type; });
-  return make_shape_source(*item.description, *row, load_mesh_, diagnostics, mesh_origin);
+  return make_shape_source(*item.description, *row, load_mesh_, diagnostics_.files.root().room(), diagnostics,
+                           mesh_origin);
 }
 
 void Builder::load_sources() {

@@ -10,6 +10,9 @@
 namespace kaustik {
 namespace {
 
+// What is held at most for each triangle of the result.
+constexpr uint64_t kBytesOfTriangle = 100;
+
 using Triangle = std::array<uint32_t, 3>;
 
 // Half-edges: half-edge 3 t + k leads from vertex k of triangle t to its next vertex.
@@ -34,9 +37,10 @@ struct Mesh {
   uint32_t to(uint32_t h) const { return from(next(h)); }
 };
 
-std::optional<Topology> topology_of(const Mesh& mesh, std::string* error) {
+// Topology::twin of a cage.
+std::optional<std::vector<uint32_t>> twins_of(const Mesh& mesh, std::string* error) {
   const auto halves = static_cast<uint32_t>(3 * mesh.triangles.size());
-  Topology top{std::vector<uint32_t>(halves, kNoIndex), std::vector<uint32_t>(mesh.P.size(), kNoIndex)};
+  std::vector<uint32_t> twin(halves, kNoIndex);
   std::vector<std::pair<uint64_t, uint32_t>> edges;  // by their vertices, the lower one first
   edges.reserve(halves);
   for (uint32_t h = 0; h < halves; ++h) {
@@ -52,18 +56,47 @@ std::optional<Topology> topology_of(const Mesh& mesh, std::string* error) {
     const uint32_t h = edges[i].second;
     if (i > 0 && edges[i - 1].first == edges[i].first) {
       const uint32_t other = edges[i - 1].second;
-      if (top.twin[other] != kNoIndex || mesh.from(h) == mesh.from(other)) {
+      if (twin[other] != kNoIndex || mesh.from(h) == mesh.from(other)) {
         *error = fmt::format(
             "the edge of vertices {} and {} has {}", mesh.from(h), mesh.to(h),
-            top.twin[other] != kNoIndex ? "more than two triangles" : "two triangles of different winding");
+            twin[other] != kNoIndex ? "more than two triangles" : "two triangles of different winding");
         return std::nullopt;
       }
-      top.twin[h] = other;
-      top.twin[other] = h;
+      twin[h] = other;
+      twin[other] = h;
     }
   }
+  return twin;
+}
+
+// The two half-edges into which h falls when each triangle becomes four, in their order (see refined()).
+uint32_t first_half(uint32_t h) {
+  return 12 * (h / 3) + 4 * (h % 3);
+}
+uint32_t second_half(uint32_t h) {
+  return 12 * (h / 3) + 3 * (next(h) % 3) + h % 3;
+}
+
+std::vector<uint32_t> refined_twins(const std::vector<uint32_t>& twin) {
+  std::vector<uint32_t> out(4 * twin.size(), kNoIndex);
+  for (uint32_t h = 0; h < twin.size(); ++h) {
+    if (twin[h] != kNoIndex) {
+      out[first_half(h)] = second_half(twin[h]);
+      out[second_half(h)] = first_half(twin[h]);
+    }
+    // Between the triangle at a corner and the one in the middle.
+    const uint32_t first = 12 * (h / 3);
+    const uint32_t corner = first + 3 * (h % 3) + next(h) % 3, middle = first + 9 + previous(h) % 3;
+    out[corner] = middle;
+    out[middle] = corner;
+  }
+  return out;
+}
+
+Topology topology_of(const Mesh& mesh, std::vector<uint32_t> twin) {
+  Topology top{std::move(twin), std::vector<uint32_t>(mesh.P.size(), kNoIndex)};
   // An open fan starts at the half-edge without a triangle on its other side.
-  for (uint32_t h = 0; h < halves; ++h) {
+  for (uint32_t h = 0; h < top.twin.size(); ++h) {
     uint32_t& start = top.start[mesh.from(h)];
     if (start == kNoIndex || top.twin[h] == kNoIndex) start = h;
   }
@@ -94,8 +127,8 @@ void find_ring(const Mesh& mesh, const Topology& top, uint32_t v, Ring* ring) {
   } while (h != start);
 }
 
-// Whether the fan of each vertex reaches all its triangles, and no two triangles have the same vertices:
-// parts of these would meet at edges of four triangles. Then refined meshes are manifolds, too.
+// Whether the fan of each vertex reaches all its triangles, and no two triangles have the same vertices,
+// which would have no normals there.
 bool is_manifold(const Mesh& mesh, const Topology& top, std::string* error) {
   std::vector<uint32_t> corners(mesh.P.size(), 0);
   for (const Triangle& t : mesh.triangles)
@@ -225,22 +258,28 @@ TriangleMesh at_limit(const Mesh& mesh, const Topology& top) {
 
 }  // namespace
 
-std::optional<TriangleMesh> subdivide_loop(const TriangleMesh& cage, int levels, std::string* error) {
-  if (std::ldexp(static_cast<double>(cage.indices.size()), 2 * levels) > double(kMostSubdivided)) {
+std::optional<TriangleMesh> subdivide_loop(const TriangleMesh& cage, int levels, std::string* error,
+                                           const MemoryRoom& room) {
+  const double triangles = std::ldexp(static_cast<double>(cage.indices.size()), 2 * levels);
+  if (triangles > double(kMostSubdivided)) {
     *error = fmt::format("{} triangles at {} levels exceed the limit of {} triangles", cage.indices.size(),
                          levels, kMostSubdivided);
     return std::nullopt;
   }
+  *error = room.lacks(static_cast<uint64_t>(triangles) * kBytesOfTriangle);
+  if (!error->empty()) return std::nullopt;
   Mesh mesh;
   mesh.P.assign(cage.P.begin(), cage.P.end());
   mesh.triangles = cage.indices;
-  auto top = topology_of(mesh, error);
-  if (!top || !is_manifold(mesh, *top, error)) return std::nullopt;
+  auto twins = twins_of(mesh, error);
+  if (!twins) return std::nullopt;
+  Topology top = topology_of(mesh, std::move(*twins));
+  if (!is_manifold(mesh, top, error)) return std::nullopt;
   for (int level = 0; level < levels; ++level) {
-    mesh = refined(mesh, *top);
-    top = topology_of(mesh, error);
+    mesh = refined(mesh, top);
+    top = topology_of(mesh, refined_twins(top.twin));
   }
-  return at_limit(mesh, *top);
+  return at_limit(mesh, top);
 }
 
 }  // namespace kaustik

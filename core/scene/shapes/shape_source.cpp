@@ -18,6 +18,7 @@ struct Context {
   const ShapeDescription& shape;
   const ParameterReader& reader;
   DiagnosticList& diagnostics;
+  const MemoryRoom& room;
   glm::dvec3 mesh_origin;
 
   void error(const SourceLocation& where, std::string message) const {
@@ -132,7 +133,7 @@ std::optional<ShapeSource> make_loopsubdiv(const Context& c) {
   if (!indices) return std::nullopt;
   cage.indices = std::move(*indices);
   std::string error;
-  auto mesh = subdivide_loop(cage, static_cast<int>(c.reader.number("levels")), &error);
+  auto mesh = subdivide_loop(cage, static_cast<int>(c.reader.number("levels")), &error, c.room);
   if (!mesh) {
     c.error(c.reader.location("indices"), fmt::format("this mesh cannot be subdivided: {}", error));
     return std::nullopt;
@@ -231,11 +232,11 @@ std::optional<ShapeSource> make_mesh(const Context& c, const MeshLoader& load_me
 }  // namespace
 
 std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const ShapeRow& row,
-                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics,
-                                             const glm::dvec3& mesh_origin) {
+                                             const MeshLoader& load_mesh, const MemoryRoom& room,
+                                             DiagnosticList& diagnostics, const glm::dvec3& mesh_origin) {
   const ParameterReader reader(shape, row.spec);
   if (row.make) return row.make({reader, diagnostics});
-  const Context context{shape, reader, diagnostics, mesh_origin};
+  const Context context{shape, reader, diagnostics, room, mesh_origin};
   std::optional<ShapeSource> source = make_mesh(context, load_mesh);
   if (!source) return std::nullopt;
   auto* mesh = std::get_if<TriangleMesh>(&source->geometry);

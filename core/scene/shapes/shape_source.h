@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/geometry/shape.h"
+#include "core/memory/memory_room.h"
 #include "core/scene/schema/schema.h"
 #include "core/scene/shapes/mesh_loader.h"
 
@@ -14,9 +15,11 @@ namespace kaustik {
 // Makes the geometry of a Shape line. Returns nothing, with errors added, if the parameters contradict each
 // other or an index of the mesh is out of range. Triangles with positions that are not finite are left out,
 // and such normals become zero, with warnings. The directive must have passed check_parameters. mesh_origin:
-// in the shape's space; vertices given in the scene file are rounded to float relative to it. Thread-safe.
+// in the shape's space; vertices given in the scene file are rounded to float relative to it. room: for what
+// is subdivided. Thread-safe.
 std::optional<ShapeSource> make_shape_source(const ShapeDescription& shape, const ShapeRow& row,
-                                             const MeshLoader& load_mesh, DiagnosticList& diagnostics,
+                                             const MeshLoader& load_mesh, const MemoryRoom& room,
+                                             DiagnosticList& diagnostics,
                                              const glm::dvec3& mesh_origin = glm::dvec3(0));
 
 struct PlacedShape {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/memory/process_memory.h"
 #include "tests/support/random.h"
 
 namespace kaustik {
@@ -100,6 +101,13 @@ TEST(LoopSubdivision, RefusesMeshesWithoutALimit) {
   mesh.indices = {{0, 0, 1}};
   EXPECT_EQ(error_of(mesh), "triangle 0 has the same vertex twice");
   EXPECT_NE(error_of(octahedron(), 14).find("exceed the limit"), std::string::npos);
+}
+
+TEST(LoopSubdivision, MustFitIntoTheMemoryThatIsLeft) {
+  std::string error;
+  EXPECT_FALSE(subdivide_loop(octahedron(), 10, &error, MemoryRoom(held_memory() + (1u << 20), "the test")));
+  EXPECT_NE(error.find("the test"), std::string::npos) << error;
+  EXPECT_TRUE(subdivide_loop(octahedron(), 2, &error, MemoryRoom(held_memory() + (1u << 20), "the test")));
 }
 
 // A few triangles of five vertices: most are refused, and many lie on each other.
