@@ -4,6 +4,7 @@
 #include "core/geometry/side_estimate.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <numeric>
 #include <span>
@@ -32,19 +33,20 @@ struct SampledSide : Side {
 // Whether a point may be an end of a side: true too often, never too rarely.
 class EndFilter {
  public:
-  explicit EndFilter(std::span<const SampledSide> sides) : bits_(kWords) {
+  explicit EndFilter(std::span<const SampledSide> sides)
+      : bits_(std::bit_ceil(kBitsOfSide * sides.size()) / 64 + 1) {
     for (const SampledSide& side : sides)
       for (const PointBits& end : side.ends) bits_[slot(end) / 64] |= uint64_t{1} << slot(end) % 64;
   }
   bool may_be(const PointBits& at) const { return bits_[slot(at) / 64] >> slot(at) % 64 & 1; }
 
  private:
-  static constexpr size_t kWords = 1 << 14;  // 20 bits for each end at most
-  static uint32_t slot(const PointBits& at) {
+  static constexpr size_t kBitsOfSide = 16;
+  size_t slot(const PointBits& at) const {
     const uint64_t mixed =
         (at[0] * 0x9e3779b97f4a7c15u ^ at[1] * 0xbf58476d1ce4e5b9u ^ at[2] * 0x94d049bb133111ebu) *
         0x9e3779b97f4a7c15u;
-    return static_cast<uint32_t>(mixed >> 44);
+    return (mixed >> 32) % (64 * bits_.size());
   }
   std::vector<uint64_t> bits_;
 };
@@ -74,6 +76,9 @@ void count_side(const TriangleMesh& mesh, uint32_t triangle, uint32_t k, std::sp
   const auto first = std::lower_bound(order.begin(), order.end(), side.ends,
                                       [&](uint32_t i, const Ends& e) { return (*sampled)[i].ends < e; });
   if (first == order.end() || (*sampled)[*first].ends != side.ends) return;
+  // Then each of them has two others at least, which is all that needs to be known. Thousands of triangles
+  // may have one side.
+  if ((*sampled)[*first].others > 2) return;
   const Normal3 n = winding_normal(mesh, triangle);
   if (n == Normal3(0)) return;
   for (auto i = first; i != order.end() && (*sampled)[*i].ends == side.ends; ++i) {

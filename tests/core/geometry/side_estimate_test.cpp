@@ -64,6 +64,21 @@ TEST(SideEstimate, TrianglesThatTouchNoOtherLieApart) {
   EXPECT_NEAR(sides.apart, 1000, 1e-9);
 }
 
+// As pages of a book, whose number must not cost its square.
+TEST(SideEstimate, ManyTrianglesMayHaveOneSide) {
+  constexpr uint32_t kPages = 16'000;
+  TriangleMesh mesh;
+  mesh.P = {{0, 0, 0}, {0, 0, 1}};
+  for (uint32_t i = 0; i < kPages; ++i) {
+    const float phi = 2 * kPi * float(i) / kPages;
+    mesh.P.push_back({std::cos(phi), std::sin(phi), 0});
+    mesh.indices.push_back({0, 1, i + 2});
+  }
+  const SideEstimate sides = estimate_sides(one(mesh));
+  EXPECT_EQ(sides.open, 3 * kPages);
+  EXPECT_NEAR(sides.apart, kPages * 4 / 9.0, 1e-6);
+}
+
 TEST(SideEstimate, AgreesWithTheEdgesThatAreFound) {
   for (const uint32_t rough : {0u, 30u}) {
     const std::vector<Shape> shapes = one(square(60, rough));
