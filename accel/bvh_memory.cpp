@@ -7,8 +7,8 @@ namespace kaustik::accel {
 namespace {
 
 // Measured as what the process holds at the peak of the build. Vertices are copies that are scaled for
-// Embree. Leaves have room for four triangles: those that lie apart from all others (leaves of trees, hair)
-// fill one place each.
+// Embree. A leaf of the BVH has room for four triangles; one that shares no side with others (foliage, hair)
+// mostly takes all of it.
 constexpr uint64_t kTriangle = 100, kApart = 150, kVertex = 16, kAnalytic = 200, kInstance = 1400,
                    kAny = 4u << 20;
 

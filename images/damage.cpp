@@ -94,22 +94,22 @@ std::string exr_trouble(const std::string& path) {
   return {};
 }
 
-// Numbers of a BMP file's header are little-endian. In run-length encoding, two bytes stand for up to 255
-// pixels.
+// The header of a BMP file has numbers of four bytes (little-endian): its size, the width, the height, which
+// is negative if the first row is the upper one, planes and bits, and how pixels are encoded. In runs of 8 or
+// 4 bits, two bytes stand for up to 255 pixels.
 std::string bmp_trouble(const std::string& path) {
   constexpr std::streamoff kMarkBytes = 14;
+  constexpr int32_t kRunsOf8 = 1, kRunsOf4 = 2;
   std::ifstream file(path, std::ios::binary);
   file.seekg(kMarkBytes);
-  const auto head = next<20>(file);  // size of the header, width, height, planes, bits, and compression
+  const auto head = next<20>(file);
+  const auto number = [&](size_t i) { return static_cast<int32_t>(little_endian(head->data() + 4 * i)); };
   if (!head || little_endian(head->data()) < head->size()) return {};
-  const uint32_t compression = little_endian(head->data() + 16);
-  if (compression != 1 && compression != 2) return {};
-  const auto side = [&](size_t at) {
-    return static_cast<uint64_t>(std::abs(int64_t{static_cast<int32_t>(little_endian(head->data() + at))}));
-  };
+  if (number(4) != kRunsOf8 && number(4) != kRunsOf4) return {};
+  const int64_t pixels = std::abs(int64_t{number(1)} * number(2));
   std::error_code none;
   const uintmax_t bytes = std::filesystem::file_size(path, none);
-  return !none && side(4) * side(8) / 128 > bytes ? kCut : "";
+  return !none && static_cast<uintmax_t>(pixels) / 128 > bytes ? kCut : "";
 }
 
 }  // namespace

@@ -11,19 +11,9 @@
 namespace kaustik::accel {
 namespace {
 
-// A wavy square of n x n cells, two triangles each.
-TriangleMesh grid(uint32_t n) {
-  TriangleMesh mesh;
-  for (uint32_t y = 0; y <= n; ++y)
-    for (uint32_t x = 0; x <= n; ++x)
-      mesh.P.push_back({float(x), float(y), std::sin(0.1f * float(x)) * std::cos(0.2f * float(y))});
-  for (uint32_t y = 0; y < n; ++y)
-    for (uint32_t x = 0; x < n; ++x) {
-      const uint32_t at = y * (n + 1) + x;
-      mesh.indices.push_back({at, at + 1, at + n + 2});
-      mesh.indices.push_back({at, at + n + 2, at + n + 1});
-    }
-  return mesh;
+TriangleMesh wavy_square(uint32_t n) {
+  return test::terrain(
+      n, [](uint32_t x, uint32_t y) { return std::sin(0.1f * float(x)) * std::cos(0.2f * float(y)); });
 }
 
 // The forecast is that of the build's peak, so more than what remains, and less than four times that.
@@ -40,7 +30,7 @@ void expect_forecast(Scene scene) {
 TEST(BvhMemory, IsForecastForTriangles) {
   for (const uint32_t n : {100u, 400u}) {
     Scene scene;
-    scene.shapes.emplace_back().geometry = grid(n);
+    scene.shapes.emplace_back().geometry = wavy_square(n);
     expect_forecast(std::move(scene));
   }
 }
@@ -72,7 +62,7 @@ TEST(BvhMemory, IsForecastForSpheres) {
 }
 
 TEST(BvhMemory, SharedMeshesCountOnce) {
-  const auto mesh = std::make_shared<const TriangleMesh>(grid(100));
+  const auto mesh = std::make_shared<const TriangleMesh>(wavy_square(100));
   Scene scene;
   for (int i = 0; i < 1000; ++i) {
     InstancedMesh instance{mesh, {{0, 0, -1}, {100, 100, 1}}, {}};

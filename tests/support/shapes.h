@@ -40,6 +40,22 @@ inline Shape sphere(const Point3& center, float radius, uint32_t material = 0, b
   return shape;
 }
 
+// A square of n x n cells, two triangles each, that faces up. z(x, y): the heights of its vertices, which are
+// asked for row by row.
+template <class Height>
+TriangleMesh terrain(uint32_t n, const Height& z) {
+  TriangleMesh mesh;
+  for (uint32_t y = 0; y <= n; ++y)
+    for (uint32_t x = 0; x <= n; ++x) mesh.P.emplace_back(float(x), float(y), z(x, y));
+  for (uint32_t y = 0; y < n; ++y)
+    for (uint32_t x = 0; x < n; ++x) {
+      const uint32_t at = y * (n + 1) + x;
+      mesh.indices.push_back({at, at + 1, at + n + 2});
+      mesh.indices.push_back({at, at + n + 2, at + n + 1});
+    }
+  return mesh;
+}
+
 // The wall of a tube about z with open ends, its middle at the origin; its facets face outwards.
 inline Shape tube(float radius, float length, int sides, int rings) {
   TriangleMesh mesh;

@@ -11,21 +11,10 @@
 namespace kaustik {
 namespace {
 
-// A square of n x n cells, two triangles each. Columns from `rough` on have heights of several cells at
-// random.
+// Columns from `rough` on have heights of several cells at random.
 TriangleMesh square(uint32_t n, uint32_t rough) {
   test::Random random(1);
-  TriangleMesh mesh;
-  for (uint32_t y = 0; y <= n; ++y)
-    for (uint32_t x = 0; x <= n; ++x)
-      mesh.P.push_back({float(x), float(y), x < rough ? 0.0f : 9 * random.uniform()});
-  for (uint32_t y = 0; y < n; ++y)
-    for (uint32_t x = 0; x < n; ++x) {
-      const uint32_t at = y * (n + 1) + x;
-      mesh.indices.push_back({at, at + 1, at + n + 2});
-      mesh.indices.push_back({at, at + n + 2, at + n + 1});
-    }
-  return mesh;
+  return test::terrain(n, [&](uint32_t x, uint32_t) { return x < rough ? 0.0f : 9 * random.uniform(); });
 }
 
 // The mesh with vertices of its own for each triangle, as files without shared vertices have.

@@ -6,6 +6,7 @@
 
 #include "core/memory/process_memory.h"
 #include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik {
 namespace {
@@ -17,18 +18,8 @@ TriangleMesh octahedron() {
   return mesh;
 }
 
-// A flat square grid of n x n cells in z = 0, facing +z.
-TriangleMesh grid(uint32_t n) {
-  TriangleMesh mesh;
-  for (uint32_t y = 0; y <= n; ++y)
-    for (uint32_t x = 0; x <= n; ++x) mesh.P.emplace_back(float(x), float(y), 0.0f);
-  for (uint32_t y = 0; y < n; ++y)
-    for (uint32_t x = 0; x < n; ++x) {
-      const uint32_t a = y * (n + 1) + x;
-      mesh.indices.push_back({a, a + 1, a + n + 2});
-      mesh.indices.push_back({a, a + n + 2, a + n + 1});
-    }
-  return mesh;
+TriangleMesh flat_square(uint32_t n) {
+  return test::terrain(n, [](uint32_t, uint32_t) { return 0.0f; });
 }
 
 TriangleMesh subdivided(const TriangleMesh& cage, int levels) {
@@ -71,7 +62,7 @@ TEST(LoopSubdivision, NormalsFitTheFacets) {
 }
 
 TEST(LoopSubdivision, FlatMeshesStayFlatToTheirBoundary) {
-  const TriangleMesh mesh = subdivided(grid(3), 3);
+  const TriangleMesh mesh = subdivided(flat_square(3), 3);
   float right = 0;
   for (size_t i = 0; i < mesh.P.size(); ++i) {
     EXPECT_EQ(mesh.P[i].z, 0);
