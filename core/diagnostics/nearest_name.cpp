@@ -48,6 +48,9 @@ std::optional<std::string_view> nearest_name(std::string_view name,
   size_t best_distance = (name.size() + 2) / 3 + 1;
   for (const std::string_view candidate : candidates) {
     if (candidate.size() > kLongestName) continue;
+    // Each letter that one name has more than the other is an insertion or a deletion.
+    const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
+    if (longer - shorter >= best_distance) continue;
     const size_t distance = edit_distance(name, candidate);
     if (distance < best_distance) {
       best_distance = distance;
