@@ -126,9 +126,15 @@ bool is_tiny(std::string_view text) {
   return text.find_first_of("123456789") > text.find('.');
 }
 
+// Tells whether a word in a list is no directive, all of which begin with a capital letter. A directive means
+// that the list was not closed.
+bool is_stray_word(const Token& token) {
+  return token.is(TokenKind::kWord) && !(token.text[0] >= 'A' && token.text[0] <= 'Z');
+}
+
 // Skips the rest of a list after a bad value, so that it causes no further errors.
 void skip_list(Tokenizer& tokens) {
-  while (is_value(tokens.peek())) tokens.next();
+  while (is_value(tokens.peek()) || is_stray_word(tokens.peek())) tokens.next();
   if (tokens.peek().is(TokenKind::kClose)) tokens.next();
 }
 
@@ -271,11 +277,12 @@ bool parse_values(Tokenizer& tokens, Parameter& p, DiagnosticList& diagnostics) 
   diagnostics.error(tokens.peek().location,
                     fmt::format("expected a value or `]`, not {}", in_quotes(tokens.peek())),
                     {{open, "the list begins here"}});
+  if (is_stray_word(tokens.peek())) skip_list(tokens);
   return false;
 }
 
-std::vector<Parameter> parse_parameters(Tokenizer& tokens, DiagnosticList& diagnostics) {
-  std::vector<Parameter> out;
+ParsedParameters parse_parameters(Tokenizer& tokens, DiagnosticList& diagnostics) {
+  ParsedParameters out;
   bool too_many = false;
   while (tokens.peek().is(TokenKind::kString)) {
     Parameter p;
@@ -283,15 +290,19 @@ std::vector<Parameter> parse_parameters(Tokenizer& tokens, DiagnosticList& diagn
     if (!parse_declaration(tokens.next(), p, diagnostics)) {
       if (tokens.peek().is(TokenKind::kOpen)) tokens.next();
       skip_list(tokens);
+      out.incomplete = true;
       continue;
     }
-    if (out.size() == kMostParameters) {
+    if (out.parameters.size() == kMostParameters) {
       if (!too_many) diagnostics.error(p.location, fmt::format("more than {} parameters", kMostParameters));
       too_many = true;
     }
-    if (!parse_values(tokens, p, diagnostics) || too_many) continue;
+    if (!parse_values(tokens, p, diagnostics) || too_many) {
+      out.incomplete = true;
+      continue;
+    }
     if (xyz) to_rgb(p);
-    out.push_back(std::move(p));
+    out.parameters.push_back(std::move(p));
   }
   return out;
 }

@@ -33,8 +33,13 @@ std::optional<std::vector<double>> parse_numbers(Tokenizer& tokens, size_t count
 // error; the next token is then the first after the list.
 bool parse_values(Tokenizer& tokens, Parameter& parameter, DiagnosticList& diagnostics);
 
-// Reads all parameters up to the next directive. Invalid ones are reported and skipped.
-std::vector<Parameter> parse_parameters(Tokenizer& tokens, DiagnosticList& diagnostics);
+struct ParsedParameters {
+  std::vector<Parameter> parameters;
+  bool incomplete = false;  // invalid ones were left out
+};
+
+// Reads all parameters up to the next directive. Invalid ones are reported and left out.
+ParsedParameters parse_parameters(Tokenizer& tokens, DiagnosticList& diagnostics);
 
 std::optional<ParameterType> parameter_type(std::string_view word);
 

@@ -188,7 +188,9 @@ bool SceneParser::read_directive(const Token& word, std::string_view target, Dir
   out.type = unescape(type->text);
   out.location = word.location;
   out.type_location = type->location;
-  out.parameters = parse_parameters(*tokens_, diagnostics_);
+  ParsedParameters parsed = parse_parameters(*tokens_, diagnostics_);
+  out.parameters = std::move(parsed.parameters);
+  out.incomplete = parsed.incomplete;
   keep_last_ones(out.parameters, diagnostics_);
   add_defaults(target, out.parameters);
   leave_out_unknown_textures(out);
@@ -221,7 +223,7 @@ void SceneParser::on_attribute(const Token& word) {
       in_quotes("its target, \"shape\", \"light\", \"material\", \"medium\" or \"texture\",", word);
   if (!target) return;
   const std::string name = unescape(target->text);
-  std::vector<Parameter> parameters = parse_parameters(*tokens_, diagnostics_);
+  std::vector<Parameter> parameters = parse_parameters(*tokens_, diagnostics_).parameters;
   constexpr std::string_view kTargets[] = {"shape", "light", "material", "medium", "texture"};
   if (std::find(std::begin(kTargets), std::end(kTargets), name) == std::end(kTargets)) {
     diagnostics_.error(target->location, fmt::format("unknown target \"{}\" of `Attribute`{}", name,

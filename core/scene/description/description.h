@@ -55,6 +55,7 @@ struct Directive {
   SourceLocation location;       // of the directive's keyword
   SourceLocation type_location;  // of the quoted type
   std::vector<Parameter> parameters;
+  bool incomplete = false;  // invalid parameters, which have been reported, were left out
 
   // Null if there is no parameter of this name.
   const Parameter* find(std::string_view name) const;

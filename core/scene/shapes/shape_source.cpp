@@ -26,7 +26,8 @@ struct Context {
   }
   const Parameter* required(std::string_view name) const {
     const Parameter* p = shape.find(name);
-    if (!p) error(shape.type_location, fmt::format("shape \"{}\" needs `{}`", shape.type, name));
+    if (!p && !shape.incomplete)
+      error(shape.type_location, fmt::format("shape \"{}\" needs `{}`", shape.type, name));
     return p;
   }
 };

@@ -6,6 +6,26 @@ namespace {
 
 class ImportErrors : public ImportTest {};
 
+// Neither the word nor what the list was to hold is said to be wrong elsewhere.
+TEST_F(ImportErrors, AWordInAListIsOneError) {
+  EXPECT_EQ(
+      messages("WorldBegin\n"
+               "LightSource \"point\" \"rgb I\" [1 one 1]\n"
+               "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 no such 0 1 0] \"integer indices\" [0 1 2]\n"),
+      "scene.pbrt:2:32: error: expected a value or `]`, not `one`\n"
+      "LightSource \"point\" \"rgb I\" [1 one 1]\n"
+      "                               ^\n"
+      "scene.pbrt:2:29: note: the list begins here\n"
+      "LightSource \"point\" \"rgb I\" [1 one 1]\n"
+      "                            ^\n"
+      "scene.pbrt:3:42: error: expected a value or `]`, not `no`\n"
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 no such 0 1 0] \"integer indices\" [0 1 2]\n"
+      "                                         ^\n"
+      "scene.pbrt:3:33: note: the list begins here\n"
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 no such 0 1 0] \"integer indices\" [0 1 2]\n"
+      "                                ^\n");
+}
+
 TEST_F(ImportErrors, OneRunReportsAllErrors) {
   EXPECT_EQ(
       messages("Camera \"perspectiv\"\n"
