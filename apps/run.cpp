@@ -1,6 +1,7 @@
 #include "apps/run.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -59,9 +60,12 @@ int run_command(const Command& command, const Console& console) {
   return kFailed;
 }
 
-}  // namespace
-
-namespace {
+// Readers of nested scenes and Embree recurse.
+bool stack_is_too_small() {
+  constexpr rlim_t kSmallestStack = 1 << 20;  // bytes
+  rlimit limit{};
+  return getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < kSmallestStack;
+}
 
 // Whether a file is a terminal that can redraw a line.
 bool redraws_lines(int file) {
@@ -86,6 +90,10 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
 }  // namespace
 
 int run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  if (stack_is_too_small()) {
+    err << "kaustik: the stack is limited to less than 1 MB (`ulimit -s`)\n";
+    return kFailed;
+  }
   int code = kFailed;
   try {
     code = run_program(argc, argv, out, err);

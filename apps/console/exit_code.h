@@ -8,7 +8,7 @@ enum ExitCode {
   kFailed = 1,          // failure while rendering or writing; `compare` above its limit
   kBadCommandLine = 2,  // found before any work was done
   kBadScene = 3,        // reported with file:line:column
-  kInterrupted = 130    // by SIGINT, SIGTERM or SIGHUP
+  kInterrupted = 130    // by SIGINT, SIGTERM, SIGHUP or SIGXCPU
 };
 
 }  // namespace kaustik::app

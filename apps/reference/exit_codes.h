@@ -26,7 +26,8 @@ inline constexpr std::array<ExitCodeRow, 5> kExitCodes = {
      {kBadScene, "bad scene",
       "The scene is wrong. Every error of its files is printed with file, line and column."},
      {kInterrupted, "interrupted",
-      "SIGINT, SIGTERM or SIGHUP interrupted the command, or nobody reads its messages any more. `render` "
+      "SIGINT, SIGTERM, SIGHUP or SIGXCPU interrupted the command, or nobody reads its messages any more. "
+      "`render` "
       "and `resume` write what is complete, `sweep` "
       "keeps its "
       "finished points, all other commands write nothing. A second signal ends the program at once."}}};

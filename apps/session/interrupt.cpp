@@ -17,7 +17,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void remember(int signal) {
   interrupted = true;
-  std::signal(signal, SIG_DFL);
+  // The limit of processor time (`ulimit -S -t`) is signalled every second until the hard limit kills.
+  if (signal != SIGXCPU) std::signal(signal, SIG_DFL);
 }
 
 // Whether messages have been written to a pipe that nobody reads any more.

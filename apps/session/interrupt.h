@@ -9,10 +9,10 @@
 
 namespace kaustik::app {
 
-// While a guard exists, the first SIGINT, SIGTERM or SIGHUP sets the flag and a second one ends the process
-// as usual; signals that were ignored stay so. A pipe that loses its reader raises no SIGPIPE: if it was to
-// read the messages, that counts as a signal. The destructor restores the previous handlers. Only one guard
-// may exist at a time.
+// While a guard exists, the first SIGINT, SIGTERM, SIGHUP or SIGXCPU sets the flag and a second one ends the
+// process as usual, except SIGXCPU; signals that were ignored stay so. A pipe that loses its reader raises no
+// SIGPIPE: if it was to read the messages, that counts as a signal. The destructor restores the previous
+// handlers. Only one guard may exist at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -25,7 +25,7 @@ class InterruptGuard {
 
  private:
   using Handler = void (*)(int);
-  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
   std::array<Handler, kSignals.size()> previous_{};
   Handler previous_pipe_;

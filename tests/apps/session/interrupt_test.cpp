@@ -12,12 +12,20 @@ namespace kaustik::app {
 namespace {
 
 TEST(Interrupt, SignalsThatEndAProgramAreFlags) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     const InterruptGuard guard;
     EXPECT_FALSE(guard.requested());
     std::raise(signal);
     EXPECT_TRUE(guard.requested()) << signal;
   }
+}
+
+// The system repeats the signal every second.
+TEST(Interrupt, TheLimitOfProcessorTimeMayBeSignalledAgain) {
+  const InterruptGuard guard;
+  std::raise(SIGXCPU);
+  std::raise(SIGXCPU);
+  EXPECT_TRUE(guard.requested());
 }
 
 // `nohup` ignores SIGHUP, and shells ignore SIGINT for jobs in the background.
