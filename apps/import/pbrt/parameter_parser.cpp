@@ -38,15 +38,17 @@ bool is_value(const Token& token) {
          (token.is(TokenKind::kWord) && is_bool_word(token));
 }
 
-// Programs print these for numbers that are not finite. Meshes may hold such positions and normals, which
-// concern only the faces there.
-bool is_hole_of_mesh(const Token& token, const Parameter& p) {
-  if (p.type != ParameterType::kPoint3 && p.type != ParameterType::kNormal) return false;
+// Programs print these for numbers that are not finite.
+bool is_nan_or_infinity(const Token& token) {
   const size_t sign = token.text.starts_with('-') || token.text.starts_with('+') ? 1 : 0;
   if (token.text.size() <= sign || std::string_view("nNiI").find(token.text[sign]) == std::string_view::npos)
     return false;
   const std::string word = lower_case(token.text.substr(sign));
   return word == "nan" || word == "inf" || word == "infinity" || word.starts_with("nan(");
+}
+
+bool is_hole_of_mesh(const Token& token, const Parameter& p) {
+  return p.may_have_holes() && is_nan_or_infinity(token);
 }
 
 std::string_view wanted(ParameterType type) {
@@ -129,7 +131,9 @@ bool is_tiny(std::string_view text) {
 // Tells whether a word in a list is no directive, all of which begin with a capital letter. A directive means
 // that the list was not closed.
 bool is_stray_word(const Token& token) {
-  return token.is(TokenKind::kWord) && !(token.text[0] >= 'A' && token.text[0] <= 'Z');
+  if (!token.is(TokenKind::kWord)) return false;
+  const bool capital = token.text[0] >= 'A' && token.text[0] <= 'Z';
+  return !capital || is_nan_or_infinity(token);
 }
 
 // Skips the rest of a list after a bad value, so that it causes no further errors.

@@ -111,7 +111,8 @@ LightTree::Item* LightTree::split(Item* begin, Item* end, uint32_t depth) {
   const Vector3 extent = centers.diagonal();
   const auto bucket_of = [&](const Item& i, int axis) {
     const float at = (i.bounds.box.center()[axis] - centers.min[axis]) / extent[axis];
-    return static_cast<size_t>(std::min(kBuckets - 1, static_cast<int>(at * kBuckets)));
+    // Not a number where the extent is beyond the range of floats.
+    return at > 0 ? std::min<size_t>(kBuckets - 1, static_cast<size_t>(std::min(at, 1.0f) * kBuckets)) : 0;
   };
   Split best;
   for (int axis = 0; axis < 3 && depth < kDeepestChosenSplit; ++axis) {

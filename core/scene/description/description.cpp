@@ -38,6 +38,10 @@ std::string_view parameter_type_name(ParameterType type) {
   return "";
 }
 
+bool Parameter::may_have_holes() const {
+  return (type == ParameterType::kPoint3 && name == "P") || (type == ParameterType::kNormal && name == "N");
+}
+
 SourceLocation Parameter::value_location(size_t i) const {
   if (i >= value_places.size()) return location;
   return {location.file, value_places[i].line, value_places[i].column};

@@ -45,6 +45,8 @@ struct Parameter {
   bool inherited = false;
 
   size_t count() const { return numbers.size() + strings.size(); }
+  // Whether these are positions or normals of a mesh or curve. NaN among them concerns only the faces there.
+  bool may_have_holes() const;
   // Location of value i, or of the declaration if there is no such value.
   SourceLocation value_location(size_t i) const;
 };

@@ -93,8 +93,7 @@ bool check_count(const Context& c, const ParameterSpec& spec, const Parameter& p
 
 bool check_range(const Context& c, const ParameterSpec& spec, const Parameter& p) {
   for (size_t i = 0; i < p.numbers.size(); ++i) {
-    const bool of_mesh = p.type == ParameterType::kPoint3 || p.type == ParameterType::kNormal;
-    if (spec.range.contains(p.numbers[i]) || (of_mesh && std::isnan(p.numbers[i]))) continue;
+    if (spec.range.contains(p.numbers[i]) || (p.may_have_holes() && std::isnan(p.numbers[i]))) continue;
     c.diagnostics.error(p.value_location(i), fmt::format("`{}` of {} must be {}, not {}", p.name, c.owner(),
                                                          spec.range.text(), p.numbers[i]));
     return false;

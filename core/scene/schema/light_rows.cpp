@@ -71,6 +71,15 @@ glm::dmat4 to_scene(const LightInputs& in) {
   return relative_to(in.origin, in.light_to_world);
 }
 
+// A place of the light's space in the scene. Nothing, with an error, if it is not finite there.
+std::optional<Point3> position(const LightInputs& in, const glm::dvec3& place) {
+  const Point3 p(to_scene(in) * glm::dvec4(place, 1));
+  if (is_finite(p)) return p;
+  in.diagnostics.error(in.parameters.directive().location,
+                       "the transform takes this light beyond the range of floats");
+  return std::nullopt;
+}
+
 std::optional<glm::dvec3> direction(const LightInputs& in, const glm::dvec3& d) {
   const glm::dvec3 world = glm::dmat3(in.light_to_world) * d;
   const double length = glm::length(world);
@@ -100,7 +109,9 @@ std::optional<glm::mat3> rotation(const LightInputs& in) {
 
 std::optional<Light> make_point(const LightInputs& in) {
   const ParameterReader& p = in.parameters;
-  PointLight light{Point3(to_scene(in) * glm::dvec4(p.vec3("from"), 1)), p.rgb("I")};
+  const auto from = position(in, p.vec3("from"));
+  if (!from) return std::nullopt;
+  PointLight light{*from, p.rgb("I")};
   if (!scale_to(in, "power", white_power(light), light.I)) return std::nullopt;
   return light;
 }
@@ -108,11 +119,12 @@ std::optional<Light> make_point(const LightInputs& in) {
 std::optional<Light> make_spot(const LightInputs& in) {
   const ParameterReader& p = in.parameters;
   const auto axis = direction(in, p.vec3("to") - p.vec3("from"));
-  if (!axis) return std::nullopt;
+  const auto from = position(in, p.vec3("from"));
+  if (!axis || !from) return std::nullopt;
   const double cone = glm::radians(p.number("coneangle"));
   const double start = std::max(0.0, cone - glm::radians(p.number("conedeltaangle")));
   SpotLight light;
-  light.position = Point3(to_scene(in) * glm::dvec4(p.vec3("from"), 1));
+  light.position = *from;
   light.frame = Frame::from_z(Vector3(*axis));
   light.I = p.rgb("I");
   light.cos_falloff_start = static_cast<float>(std::cos(start));
@@ -124,11 +136,12 @@ std::optional<Light> make_spot(const LightInputs& in) {
 std::optional<Light> make_goniometric(const LightInputs& in) {
   const ParameterReader& p = in.parameters;
   const auto map_to_world = rotation(in);
-  if (!has_image(in) || !map_to_world) return std::nullopt;
+  const auto centre = position(in, {0, 0, 0});
+  if (!has_image(in) || !map_to_world || !centre) return std::nullopt;
   GoniometricLight light;
   light.map = in.images.directions(p, "filename", LightImages::Around::kLight);
   if (!light.map) return std::nullopt;
-  light.position = Point3(to_scene(in)[3]);
+  light.position = *centre;
   // As in pbrt, +z of the map is +y of the light.
   light.to_world = *map_to_world * glm::mat3(1, 0, 0, 0, 0, 1, 0, 1, 0);
   light.I = p.rgb("I");
@@ -139,11 +152,12 @@ std::optional<Light> make_goniometric(const LightInputs& in) {
 std::optional<Light> make_projection(const LightInputs& in) {
   const ParameterReader& p = in.parameters;
   const auto axes = rotation(in);
-  if (!has_image(in) || !axes) return std::nullopt;
+  const auto centre = position(in, {0, 0, 0});
+  if (!has_image(in) || !axes || !centre) return std::nullopt;
   const auto image = in.images.get(p, "filename");
   if (!image) return std::nullopt;
   ProjectionLight light;
-  light.position = Point3(to_scene(in)[3]);
+  light.position = *centre;
   light.to_world = *axes;
   light.image = std::make_shared<const ProjectedImage>(image, p.number("fov"));
   if (!scale_to(in, "power", luminance(light.power()), light.scale)) return std::nullopt;

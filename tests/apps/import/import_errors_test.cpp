@@ -209,6 +209,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"(MakeNamedMedium "s" "string type" "uniformgrid" "point3 p1" [1 0 1] "float density" [1])",
              "2:62: error: the box of this grid, from `p0` to `p1`, is flat or too small, or its "
              "transform cannot be inverted"},
+        Case{R"(Scale 1e30 1e30 1e30 LightSource "point" "point3 from" [1e30 0 0])",
+             "2:22: error: the transform takes this light beyond the range of floats"},
+        Case{R"(Scale 1e30 1e30 1e30 LightSource "spot" "point3 from" [1e30 0 0])",
+             "2:22: error: the transform takes this light beyond the range of floats"},
         Case{R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [1 -1 0])",
              "2:68: error: `sigma_a` of medium \"homogeneous\" must be >= 0, not -1"},
         Case{"MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [0 0 0]\n"

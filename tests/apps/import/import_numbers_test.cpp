@@ -20,6 +20,15 @@ TEST_F(ImportNumbers, NanAndInfinityAreRefused) {
   }
 }
 
+// Meshes alone may hold points that are not finite.
+TEST_F(ImportNumbers, LightsAreAtFinitePlaces) {
+  for (const std::string bad : {"nan", "-nan", "NaN", "Infinity", "-inf"}) {
+    EXPECT_THAT(first_lines("LightSource \"point\" \"point3 from\" [0 " + bad + " 3]"),
+                testing::MatchesRegex("2:38: error: [^\n]*`" + bad + "`[^\n]*\n"));
+    EXPECT_FALSE(loaded_);
+  }
+}
+
 TEST_F(ImportNumbers, NumbersBeyondTheRangeOfFloatsAreRefused) {
   for (const std::string bad : {"1e39", "-1e39", "1e300", "1e999", "-inf"}) {
     const std::string message = ": error: `" + bad + "` is beyond the range of floats\n";
