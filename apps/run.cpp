@@ -99,6 +99,8 @@ int run(int argc, const char* const* argv, std::ostream& out, std::ostream& err)
     code = run_program(argc, argv, out, err);
   } catch (const std::bad_alloc&) {  // before the command ran
     err << "kaustik: out of memory\n";
+  } catch (const std::exception& error) {
+    err << "kaustik: " << error.what() << '\n';
   }
   errno = 0;
   if (out.flush()) return code;

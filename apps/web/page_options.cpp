@@ -3,13 +3,19 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 
-#include "apps/command_line/whole_numbers.h"
+#include "apps/command_line/values.h"
 
 namespace kaustik::app {
 
 namespace {
 
-constexpr int kLastPort = 65535;
+int port_of(const std::string& text) {
+  constexpr uint64_t kLast = 65535;
+  const auto port = parse_count(text);
+  if (!port || *port > kLast)
+    throw OptionError("--port", fmt::format("`{}`: expected a whole number, 0 to {}", text, kLast));
+  return static_cast<int>(*port);
+}
 
 std::string address_of(const std::string& text) {
   in6_addr ignored{};
@@ -29,9 +35,7 @@ void add_page_options(Command& command, PageOptions& options, const std::string&
   const std::vector<std::string> all_need = needs.empty() ? std::vector<std::string>{} : std::vector{needs};
   command
       .add_parsed("--port", "N", "Port of the page: 0 to 65535. Default: 0, any that is free",
-                  [&options](const std::string& text) {
-                    options.port = text == "0" ? 0 : int(whole_number("--port", text, kLastPort));
-                  })
+                  [&options](const std::string& text) { options.port = port_of(text); })
       .needs = all_need;
   command
       .add_parsed(

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/command_line/other_names.h"
+#include "apps/commands/commands.h"
 #include "apps/settings/table/table.h"
 #include "core/version.h"
 #include "tests/apps/support/program.h"
@@ -26,6 +27,37 @@ TEST_F(CommandLine, HelpAndVersionSucceed) {
   const Outcome version_line = run_kaustik({"--version"});
   EXPECT_EQ(version_line.code, kDone);
   EXPECT_THAT(version_line.out, HasSubstr(std::string(version())));
+}
+
+// Any other exception would end the program without naming the option.
+TEST_F(CommandLine, OptionsRefuseValuesByOptionErrors) {
+  for (const auto make : {make_render_command, make_view_command, make_shoot_command, make_resume_command,
+                          make_merge_command, make_split_command, make_status_command, make_photons_command,
+                          make_compare_command, make_denoise_command, make_info_command, make_convert_command,
+                          make_bench_command, make_sweep_command}) {
+    const Command command = make();
+    for (const Option& option : command.options) {
+      if (option.form() == ValueForm::kNone) continue;
+      for (const char* value : {"", "x", "-1", "nan", "1e400", "99999999999999999999", "\xff"}) {
+        try {
+          option.assign(Texts(size_t(option.values), value));
+        } catch (const OptionError& error) {
+          EXPECT_THAT(error.what(), HasSubstr(option.long_name())) << command.name;
+        } catch (const std::exception& error) {
+          ADD_FAILURE() << command.name << " " << option.long_name() << " " << value << ": " << error.what();
+        }
+      }
+    }
+  }
+}
+
+TEST_F(CommandLine, PortsAreWholeNumbers) {
+  const std::string scene = small_scene(film(4, 4));
+  for (const std::string port : {"nan", "-1", "65536"}) {
+    const Outcome outcome = run_kaustik({"view", scene, "--port", port});
+    EXPECT_EQ(outcome.code, kBadCommandLine);
+    EXPECT_THAT(outcome.err, HasSubstr("--port: `" + port + "`: expected a whole number, 0 to 65535"));
+  }
 }
 
 TEST_F(CommandLine, RenderHelpExplainsEverySettingWithItsDefault) {
