@@ -50,6 +50,8 @@ nlohmann::json parse(const std::string& file, const std::string& text, std::ostr
                       "this is not JSON: expected an object with `keys` or `turntable`");
     err << diagnostics.format_all();
     refuse(fmt::format("{}: 1 error", file));
+  } catch (const nlohmann::json::out_of_range&) {
+    refuse(fmt::format("{}: it holds a number beyond the range of doubles", file));
   }
 }
 

@@ -99,6 +99,7 @@ TEST_F(CameraPaths, ThatCannotBeReadAreRefused) {
               HasSubstr("`keys[0].fov` must be between"));
   EXPECT_THAT(complaint(R"({"turntable": {"frames": 0}})"), HasSubstr("`turntable.frames` must be 1"));
   EXPECT_THAT(complaint(R"({"turntable": {"frames": 3, "axis": [0, 0, 0]}})"), HasSubstr("must not be zero"));
+  EXPECT_THAT(complaint(R"({"turntable": {"frames": 1e400}})"), HasSubstr("beyond the range of doubles"));
 }
 
 TEST(FrameNames, HaveTheNumberInPlaceOfThePattern) {

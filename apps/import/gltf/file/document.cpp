@@ -126,8 +126,8 @@ void Document::read_json(std::string_view bytes) {
   } catch (const Json::parse_error& error) {
     // The library's own message quotes the file, which may be of any kind.
     throw FormatError(fmt::format("its JSON cannot be read: there is an error at byte {}", error.byte));
-  } catch (const Json::exception&) {
-    throw FormatError("its JSON cannot be read");
+  } catch (const Json::out_of_range&) {
+    throw FormatError("its JSON holds a number beyond the range of doubles");
   }
   if (!json_->is_object()) throw FormatError("its JSON is not an object");
 }

@@ -86,6 +86,7 @@ TEST_F(ImportGltf, DamagedContainersAreRefused) {
   EXPECT_THAT(error(write("a.glb", file)), HasSubstr("chunk 0 promises"));
   EXPECT_THAT(error(write("a.gltf", "{ \"asset\": ")), HasSubstr("its JSON cannot be read"));
   EXPECT_THAT(error(write("a.gltf", std::string(100000, '['))), HasSubstr("its JSON cannot be read"));
+  EXPECT_THAT(error(write("a.gltf", "{ \"asset\": 1e400 }")), HasSubstr("beyond the range of doubles"));
   EXPECT_THAT(error(write("a.gltf", "{}")), HasSubstr("it is not glTF 2.0"));
   std::string empty = glb(json, "");
   empty.replace(8, 4, std::string("\x0c\0\0\0", 4));  // the length of a file that ends behind its header
