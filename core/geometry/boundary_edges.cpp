@@ -263,9 +263,9 @@ void add_placed(const OwnEdges& own, const Transform& t, uint32_t group, std::ve
   for (const BoundaryEdge& e : own.edges) {
     const Point3 inner = 0.5f * (e.a + e.b) - e.height * e.outward;
     BoundaryEdge placed =
-        make_edge(t.point(e.a), t.point(e.b), t.point(inner), glm::normalize(t.normal(e.n)), group);
+        make_edge(t.point(e.a), t.point(e.b), t.point(inner), unit_vector(t.normal(e.n)), group);
     if (!(placed.height > 0)) continue;
-    if (e.beyond != Normal3(0)) placed.beyond = glm::normalize(t.normal(e.beyond));
+    if (e.beyond != Normal3(0)) placed.beyond = unit_vector(t.normal(e.beyond));
     placed.both_sides = e.both_sides;
     edges->push_back(placed);
   }

@@ -47,7 +47,7 @@ void fill(const InstancedMesh& instance, const Shape& shape, const Ray& /*ray*/,
   const Point3 p = p0 + (b1 * e1 + b2 * e2);
   si.p = t.point(p);
   si.p_error = instance_error(t, p, e1, e2);
-  si.n = glm::normalize(t.normal(triangle_normal(e1, e2)));
+  si.n = unit_vector(t.normal(triangle_normal(e1, e2)));
   if (!mesh.N.empty()) {
     const Normal3 ns = (1 - b1 - b2) * mesh.N[i0] + b1 * mesh.N[i1] + b2 * mesh.N[i2];
     if (shade(t.normal(ns), si)) return;

@@ -75,7 +75,7 @@ void add_rim(const S& q, const Rim& rim, const Shape& shape, std::vector<Boundar
     const glm::dvec3 middle = q.point_at(m.s, m.phi);
     const glm::dvec3 in = q.point_at(m.s + kStep * rim.inward.s, m.phi + kStep * rim.inward.phi) - middle;
     const Point3 inner = world(middle + in / kStep * (rim.inward.s != 0 ? 1.0 : std::min(1.0, q.turn())));
-    const Normal3 n = glm::normalize(q.to_world.normal(Normal3(q.normal_at(middle))));
+    const Normal3 n = unit_vector(q.to_world.normal(Normal3(q.normal_at(middle))));
     const BoundaryEdge edge = make_edge(world(q.point_at(a.s, a.phi)), world(q.point_at(b.s, b.phi)), inner,
                                         shape.flip_normal ? -n : n, shape.surface_group);
     if (edge.height > 0) edges->push_back(edge);

@@ -13,10 +13,6 @@ constexpr float gamma_bound(int n) {
   return n * kUnitRoundoff / (1 - n * kUnitRoundoff);
 }
 
-inline float max_abs_component(const glm::vec3& v) {
-  return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
-}
-
 // Distance by which a ray must leave a computed surface point p so that neither the error of p nor that of
 // the next intersection test brings it back. `position` bounds |p| per coordinate: p and the moved origin are
 // each rounded once to that magnitude (sqrt(3) roundings each along a normal; 6 leave room). `extent` bounds

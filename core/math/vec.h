@@ -27,6 +27,9 @@ inline float max_component(const glm::vec3& v) {
   return std::max(v.x, std::max(v.y, v.z));
 }
 // 0, 1 or 2: the first of the largest components.
+inline float max_abs_component(const glm::vec3& v) {
+  return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+}
 template <class T, glm::qualifier Q>
 int largest_axis(const glm::vec<3, T, Q>& v) {
   return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2;
@@ -49,6 +52,15 @@ inline bool is_grey(const Rgb& c) {
 }
 inline bool is_finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+// Squares of lengths between these bounds are exact enough to normalise by.
+inline constexpr float kLeastSquare = 1e-30f, kLargestSquare = 1e30f;
+// The unit vector along v, also where the square of its length is beyond the range of floats; the x axis
+// where v is zero or not finite.
+inline glm::vec3 unit_vector(const glm::vec3& v) {
+  const float square = length_squared(v);
+  if (square > kLeastSquare && square < kLargestSquare) return glm::normalize(v);
+  return is_finite(v) && v != glm::vec3(0) ? glm::normalize(v / max_abs_component(v)) : glm::vec3(1, 0, 0);
 }
 
 }  // namespace kaustik

@@ -62,10 +62,12 @@ float smooth_step(float low, float high, float x) {
   return t * t * (3 - 2 * t);
 }
 
-// Number of octaves that are coarser than the footprint; its fraction is the weight of the last one.
+// Number of octaves that are coarser than the footprint; its fraction is the weight of the last one. Zero for
+// footprints that are not a number.
 float visible_octaves(const Vector3& dpdx, const Vector3& dpdy, int count) {
   const float squared = std::max(glm::dot(dpdx, dpdx), glm::dot(dpdy, dpdy));
-  return std::clamp(-1 - 0.5f * std::log2(squared), 0.0f, float(count));
+  const float octaves = -1 - 0.5f * std::log2(squared);
+  return octaves > 0 ? std::min(octaves, float(count)) : 0;
 }
 
 constexpr float kLacunarity = 1.99f, kMeanOfAbsoluteNoise = 0.2f;

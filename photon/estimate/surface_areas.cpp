@@ -45,7 +45,7 @@ struct Facet {
 // even if the transform mirrors.
 void place(const Transform& to_world, Facet* facet) {
   for (Point3& p : facet->c) p = to_world.point(p);
-  facet->n = glm::normalize(to_world.normal(facet->n));
+  facet->n = unit_vector(to_world.normal(facet->n));
 }
 
 void add_facets(const Shape& shape, std::vector<Facet>* facets) {

@@ -67,6 +67,7 @@ TEST(PbrtMutator, DependsOnTextAndSeedOnly) {
     const std::string mutant = mutate_pbrt(kScene, 1 << 16, seed);
     EXPECT_EQ(mutant, mutate_pbrt(kScene, 1 << 16, seed));
     changed += mutant != kScene ? 1 : 0;
+    EXPECT_LE(mutate_pbrt("", 50, seed).size(), 50u);
     EXPECT_LE(mutate_pbrt(kScene, 50, seed).size(), 50u);
     EXPECT_LE(splice_pbrt(kScene, kScene, 50, seed).size(), 50u);
   }

@@ -90,7 +90,7 @@ struct Between {
   float t;
 
   explicit Between(float x) {
-    const float at = std::clamp(x, 0.0f, 1.0f) * (kNodes - 1);
+    const float at = x > 0 ? std::min(x, 1.0f) * (kNodes - 1) : 0;  // zero for NaN, too
     i = std::min(int(at), kNodes - 2);
     t = at - float(i);
   }

@@ -24,7 +24,7 @@ class RoughTransmittance {
   RoughTransmittance(float alpha, float eta);
 
   float operator()(float cos_theta) const {
-    const float at = std::sqrt(std::min(cos_theta, 1.0f)) * (kNodes - 1);
+    const float at = cos_theta > 0 ? std::sqrt(std::min(cos_theta, 1.0f)) * (kNodes - 1) : 0;
     const int i = std::min(int(at), kNodes - 2);
     return through_[i] + (at - float(i)) * (through_[i + 1] - through_[i]);
   }

@@ -74,7 +74,7 @@ SurfacePoint Quadric::at_hit(const Ray& ray, float t, const Point2& uv) const {
   // Back to the surface: the error of the ray's length remains only along the surface.
   if (kind == QuadricKind::kSphere) p = local;
   if (kind == QuadricKind::kCylinder) p = {local.x, local.y, p.z};
-  return {to_world.point(p), error(), glm::normalize(to_world.normal(local))};
+  return {to_world.point(p), error(), unit_vector(to_world.normal(local))};
 }
 
 glm::dvec3 Quadric::point_at(double s, double phi) const {
@@ -95,7 +95,8 @@ glm::dvec3 Quadric::point_at(double s, double phi) const {
 
 glm::dvec3 Quadric::normal_at(const glm::dvec3& p) const {
   if (kind == QuadricKind::kDisk) return {0, 0, 1};
-  return glm::normalize(kind == QuadricKind::kSphere ? p : glm::dvec3(p.x, p.y, 0));
+  const glm::dvec3 across = kind == QuadricKind::kSphere ? p : glm::dvec3(p.x, p.y, 0);
+  return across == glm::dvec3(0) ? glm::dvec3(1, 0, 0) : glm::normalize(across);
 }
 
 Point3 Quadric::sample_uniform(const Point2& u) const {

@@ -32,9 +32,9 @@ float intersect_sphere(const Sphere& sphere, const Ray& ray) {
 }
 
 SurfacePoint Sphere::at_hit(const Ray& ray, float t, const Point2& /*uv*/) const {
-  const Vector3 on_sphere =
-      glm::normalize(to_world.inverse_point(ray.o) + t * to_world.inverse_vector(ray.d));
-  return {to_world.point(on_sphere), sphere_error(to_world), glm::normalize(to_world.normal(on_sphere))};
+  // Rounding may lose the point of a ray from very far away, whatever its place on the sphere.
+  const Vector3 on_sphere = unit_vector(to_world.inverse_point(ray.o) + t * to_world.inverse_vector(ray.d));
+  return {to_world.point(on_sphere), sphere_error(to_world), unit_vector(to_world.normal(on_sphere))};
 }
 
 Bounds3 Sphere::bounds() const {

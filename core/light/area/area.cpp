@@ -44,7 +44,7 @@ SurfaceSample sample_surface(const SweptEmitter& e, const Point2& u) {
   const auto sample = [&](const auto& shape) {
     const Transform& t = shape.to_world;
     const Point3 p = shape.sample_uniform(u);
-    const Normal3 n = glm::normalize(t.normal(Normal3(shape.normal_at(glm::dvec3(p)))));
+    const Normal3 n = unit_vector(t.normal(Normal3(shape.normal_at(glm::dvec3(p)))));
     return SurfaceSample{t.point(p), shape.error(), e.inward ? -n : n};
   };
   return std::visit(sample, e.shape);

@@ -90,6 +90,23 @@ HWY_INLINE Vec3<Vf> Normalize(const Vec3<Vf>& v) {
   return hn::Div(hn::Set(Floats(), 1.0f), hn::Sqrt(Dot(v, v))) * v;
 }
 
+// Computes unit_vector().
+HWY_INLINE Vec3<Vf> UnitVector(const Vec3<Vf>& v) {
+  const Floats d;
+  const Vf zero = hn::Zero(d), one = hn::Set(d, 1.0f), largest = LargestMagnitude(v), square = Dot(v, v);
+  const Mask ordinary =
+      hn::And(hn::Gt(square, hn::Set(d, kLeastSquare)), hn::Lt(square, hn::Set(d, kLargestSquare)));
+  const Vec3<Vf> unit = Normalize(v);
+  if (hn::AllTrue(d, ordinary)) return unit;
+  const Mask finite = hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::IsFinite(v.z));
+  const Mask scaled = hn::And(finite, hn::Gt(largest, zero));
+  const Vec3<Vf> other = Normalize({hn::Div(v.x, largest), hn::Div(v.y, largest), hn::Div(v.z, largest)});
+  const auto select = [&](Vf its, Vf of_other, Vf axis) HWY_ATTR {
+    return hn::IfThenElse(ordinary, its, hn::IfThenElse(scaled, of_other, axis));
+  };
+  return {select(unit.x, other.x, one), select(unit.y, other.y, zero), select(unit.z, other.z, zero)};
+}
+
 HWY_INLINE void StoreWhere(Mask mask, const Vec3<Vf>& v, Columns3& c, size_t k) {
   const Vec3<Vf> old = Load(c, k);
   Store(
@@ -110,8 +127,8 @@ void LocateOnSphere(VertexLanes& lanes, uint32_t shape, const Transform& to_worl
     const Mask here = hn::RebindMask(d, same);
     const Vec3<Vf> o = Multiply(to_world.inverse_linear, Load(lanes.ray.o, k) - center);
     const Vec3<Vf> to = Multiply(to_world.inverse_linear, Load(lanes.ray.d, k));
-    const Vec3<Vf> on_sphere = Normalize(o + hn::Load(d, lanes.hit.t + k) * to);
-    const Vec3<Vf> n = Normalize(Multiply(glm::transpose(to_world.inverse_linear), on_sphere));
+    const Vec3<Vf> on_sphere = UnitVector(o + hn::Load(d, lanes.hit.t + k) * to);
+    const Vec3<Vf> n = UnitVector(Multiply(glm::transpose(to_world.inverse_linear), on_sphere));
     StoreWhere(here, hn::Load(d, lanes.flip + k) * n, lanes.n, k);
     StoreWhere(here, Multiply(to_world.linear, on_sphere) + center, lanes.p, k);
     hn::Store(hn::IfThenElse(here, hn::Set(d, p_error), hn::Load(d, lanes.p_error + k)), d,

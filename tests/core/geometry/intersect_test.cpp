@@ -124,6 +124,28 @@ TEST(Interaction, NormalsFollowOrientation) {
   EXPECT_GT(glm::dot(si.n, si.ns), 0);
 }
 
+// In the first two, rounding loses the point of a ray from far away; the squares of the others' inverse maps
+// are beyond the range of floats.
+TEST(Interaction, RoundShapesHaveNormalsAtAnyScale) {
+  constexpr float kFar = 0x1p60f, kLarge = 0x1p66f, kSmall = 0x1p-66f;
+  struct Case {
+    Quadric shape;
+    Ray ray;
+    float t;
+  };
+  const auto of_radius = [](float r) { return Transform::from_matrix(glm::dmat4(glm::dmat3(double(r)))); };
+  for (const Case& c : {Case{{of_radius(0.5f)}, {{0, 0, kFar}, {0, 0, -1}}, kFar},
+                        Case{{of_radius(0.5f), QuadricKind::kCylinder}, {{kFar, 0, 0}, {-1, 0, 0}}, kFar},
+                        Case{{of_radius(kLarge)}, {Point3(0), {0, 0, 1}}, kLarge},
+                        Case{{of_radius(kSmall)}, {Point3(0), {0, 0, 1}}, kSmall}}) {
+    for (const SurfacePoint& at :
+         {c.shape.at_hit(c.ray, c.t, {}), Sphere{c.shape.to_world}.at_hit(c.ray, c.t, {})}) {
+      EXPECT_TRUE(is_finite(at.p)) << c.t;
+      EXPECT_NEAR(glm::length(at.n), 1, 1e-6f) << c.t;
+    }
+  }
+}
+
 TEST(Interaction, CarriesTheShapesIndices) {
   std::vector<Shape> shapes = {test::sphere({0, 0, 5}, 1), test::sphere({0, 0, 10}, 1)};
   shapes[1].material = 3;

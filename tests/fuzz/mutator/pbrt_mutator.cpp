@@ -239,6 +239,7 @@ class PbrtMutator {
 
   // A string of the scene, or one that means something to a reader.
   std::string name_of_scene() {
+    if (text_.empty()) return quoted(any(kTexts));
     const PbrtDirective& directive = any(text_);
     if (below(2) == 0 || directive.arguments.empty()) return quoted(any(kTexts));
     const std::string& argument = any(directive.arguments);

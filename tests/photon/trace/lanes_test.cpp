@@ -11,6 +11,7 @@
 #include "photon/trace/record_sink.h"
 #include "tests/core/support/bsdf_examples.h"
 #include "tests/photon/support/photon_sets.h"
+#include "tests/support/shapes.h"
 
 namespace kaustik::photon {
 namespace {
@@ -95,9 +96,21 @@ void fill(const Vertices& v, VertexLanes& lanes) {
   }
 }
 
+// Lane 6 has a ray from so far away that rounding loses the point of its hit, and lane 14 a large sphere.
+void make_extreme(Vertices& v) {
+  constexpr float kFar = 0x1p60f, kLarge = 0x1p65f;
+  v.shapes[6] = test::sphere(Point3(0), 0.5f, 6);
+  v.rays[6] = {{0, 0, kFar}, {0, 0, -1}};
+  v.hits[6].t = kFar;
+  v.shapes[14] = test::sphere(Point3(0), kLarge, 14);
+  v.rays[14] = {Point3(0), v.rays[14].d};
+  v.hits[14].t = kLarge;
+}
+
 TEST(VertexLanes, PointsMatchMakeInteraction) {
   for (uint64_t seed = 0; seed < 50; ++seed) {
-    const Vertices v = make_vertices(seed);
+    Vertices v = make_vertices(seed);
+    if (seed % 2 == 1) make_extreme(v);
     VertexLanes lanes{};
     fill(v, lanes);
     locate_lanes(lanes, v.shapes, kPhotonLanes);
