@@ -13,7 +13,7 @@ namespace {
 std::string listed(const std::vector<std::string>& names) {
   if (names.empty()) return "the file has no camera";
   constexpr size_t kMostListed = 20;
-  std::string text = "the file has";
+  std::string text = names.size() == 1 ? "the file has camera" : "the file has the cameras";
   for (size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
     text += fmt::format("{} {}{}", i == 0 ? "" : ",", i + 1,
                         names[i].empty() ? std::string() : fmt::format(" `{}`", names[i]));
@@ -30,9 +30,11 @@ std::optional<size_t> find_camera(const std::vector<std::string>& names, const s
   const char* const end = asked.data() + asked.size();
   const auto [stop, code] = std::from_chars(asked.data(), end, number);
   if (code == std::errc() && stop == end && number >= 1 && number <= names.size()) return number - 1;
-  error =
-      fmt::format("--camera {}: there is no such camera{}; {}", asked,
-                  name_hint(asked, std::vector<std::string_view>(names.begin(), names.end())), listed(names));
+  std::vector<std::string_view> named(names.begin(), names.end());
+  std::erase(named, "");
+  const auto nearest = nearest_name(asked, named);
+  error = fmt::format("--camera {}: there is no such camera{}; {}", asked,
+                      nearest ? fmt::format("; did you mean `{}`?", *nearest) : "", listed(names));
   return std::nullopt;
 }
 
