@@ -3,7 +3,9 @@
 // Lengths are in metres; Rgb is linear Rec. 709.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 #include <numbers>
@@ -26,10 +28,10 @@ inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 inline float max_component(const glm::vec3& v) {
   return std::max(v.x, std::max(v.y, v.z));
 }
-// 0, 1 or 2: the first of the largest components.
 inline float max_abs_component(const glm::vec3& v) {
   return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
 }
+// 0, 1 or 2: the first of the largest components.
 template <class T, glm::qualifier Q>
 int largest_axis(const glm::vec<3, T, Q>& v) {
   return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2;
@@ -53,14 +55,18 @@ inline bool is_grey(const Rgb& c) {
 inline bool is_finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
-// Squares of lengths between these bounds are exact enough to normalise by.
+// Vectors are normalised as they are if the squares of their lengths lie between these bounds.
 inline constexpr float kLeastSquare = 1e-30f, kLargestSquare = 1e30f;
+// The bits of a float that hold the exponent of its power of two.
+inline constexpr uint32_t kExponentBits = 0x7f800000;
 // The unit vector along v, also where the square of its length is beyond the range of floats; the x axis
-// where v is zero or not finite.
+// where v is zero or not finite. Powers of two scale exactly, so that a scene of any scale has the same bits.
 inline glm::vec3 unit_vector(const glm::vec3& v) {
   const float square = length_squared(v);
   if (square > kLeastSquare && square < kLargestSquare) return glm::normalize(v);
-  return is_finite(v) && v != glm::vec3(0) ? glm::normalize(v / max_abs_component(v)) : glm::vec3(1, 0, 0);
+  if (!is_finite(v) || v == glm::vec3(0)) return {1, 0, 0};
+  const float scale = std::bit_cast<float>(std::bit_cast<uint32_t>(max_abs_component(v)) & kExponentBits);
+  return glm::normalize(v / std::max(scale, std::numeric_limits<float>::min()));
 }
 
 }  // namespace kaustik

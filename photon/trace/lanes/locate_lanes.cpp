@@ -93,18 +93,20 @@ HWY_INLINE Vec3<Vf> Normalize(const Vec3<Vf>& v) {
 // Computes unit_vector().
 HWY_INLINE Vec3<Vf> UnitVector(const Vec3<Vf>& v) {
   const Floats d;
-  const Vf zero = hn::Zero(d), one = hn::Set(d, 1.0f), largest = LargestMagnitude(v), square = Dot(v, v);
+  const Vf zero = hn::Zero(d), one = hn::Set(d, 1.0f), square = Dot(v, v), largest = LargestMagnitude(v);
   const Mask ordinary =
       hn::And(hn::Gt(square, hn::Set(d, kLeastSquare)), hn::Lt(square, hn::Set(d, kLargestSquare)));
   const Vec3<Vf> unit = Normalize(v);
   if (hn::AllTrue(d, ordinary)) return unit;
   const Mask finite = hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::IsFinite(v.z));
-  const Mask scaled = hn::And(finite, hn::Gt(largest, zero));
-  const Vec3<Vf> other = Normalize({hn::Div(v.x, largest), hn::Div(v.y, largest), hn::Div(v.z, largest)});
-  const auto select = [&](Vf its, Vf of_other, Vf axis) HWY_ATTR {
-    return hn::IfThenElse(ordinary, its, hn::IfThenElse(scaled, of_other, axis));
+  const Mask proper = hn::And(finite, hn::Gt(largest, zero));
+  const Vf power = hn::And(largest, hn::BitCast(d, hn::Set(Words(), kExponentBits)));
+  const Vf scale = hn::Max(power, hn::Set(d, std::numeric_limits<float>::min()));
+  const Vec3<Vf> scaled = Normalize({hn::Div(v.x, scale), hn::Div(v.y, scale), hn::Div(v.z, scale)});
+  const auto select = [&](Vf its, Vf of_scaled, Vf of_axis) HWY_ATTR {
+    return hn::IfThenElse(ordinary, its, hn::IfThenElse(proper, of_scaled, of_axis));
   };
-  return {select(unit.x, other.x, one), select(unit.y, other.y, zero), select(unit.z, other.z, zero)};
+  return {select(unit.x, scaled.x, one), select(unit.y, scaled.y, zero), select(unit.z, scaled.z, zero)};
 }
 
 HWY_INLINE void StoreWhere(Mask mask, const Vec3<Vf>& v, Columns3& c, size_t k) {
