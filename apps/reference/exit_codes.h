@@ -27,9 +27,7 @@ inline constexpr std::array<ExitCodeRow, 5> kExitCodes = {
       "The scene is wrong. Every error of its files is printed with file, line and column."},
      {kInterrupted, "interrupted",
       "SIGINT, SIGTERM, SIGHUP or SIGXCPU interrupted the command, or nobody reads its messages any more. "
-      "`render` "
-      "and `resume` write what is complete, `sweep` "
-      "keeps its "
-      "finished points, all other commands write nothing. A second signal ends the program at once."}}};
+      "`render` and `resume` write what is complete, `sweep` keeps its finished points, all other commands "
+      "write nothing. A second signal, except SIGXCPU, ends the program at once."}}};
 
 }  // namespace kaustik::app

@@ -90,14 +90,15 @@ HWY_INLINE Vec3<Vf> Normalize(const Vec3<Vf>& v) {
   return hn::Div(hn::Set(Floats(), 1.0f), hn::Sqrt(Dot(v, v))) * v;
 }
 
-// Computes unit_vector().
-HWY_INLINE Vec3<Vf> UnitVector(const Vec3<Vf>& v) {
+// Computes unit_vector() in the lanes of `here`; the others, which may hold anything, are not worth more
+// work.
+HWY_INLINE Vec3<Vf> UnitVector(Mask here, const Vec3<Vf>& v) {
   const Floats d;
   const Vf zero = hn::Zero(d), one = hn::Set(d, 1.0f), square = Dot(v, v), largest = LargestMagnitude(v);
   const Mask ordinary =
       hn::And(hn::Gt(square, hn::Set(d, kLeastSquare)), hn::Lt(square, hn::Set(d, kLargestSquare)));
   const Vec3<Vf> unit = Normalize(v);
-  if (hn::AllTrue(d, ordinary)) return unit;
+  if (hn::AllTrue(d, hn::Or(ordinary, hn::Not(here)))) return unit;
   const Mask finite = hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::IsFinite(v.z));
   const Mask proper = hn::And(finite, hn::Gt(largest, zero));
   const Vf power = hn::And(largest, hn::BitCast(d, hn::Set(Words(), kExponentBits)));
@@ -129,8 +130,8 @@ void LocateOnSphere(VertexLanes& lanes, uint32_t shape, const Transform& to_worl
     const Mask here = hn::RebindMask(d, same);
     const Vec3<Vf> o = Multiply(to_world.inverse_linear, Load(lanes.ray.o, k) - center);
     const Vec3<Vf> to = Multiply(to_world.inverse_linear, Load(lanes.ray.d, k));
-    const Vec3<Vf> on_sphere = UnitVector(o + hn::Load(d, lanes.hit.t + k) * to);
-    const Vec3<Vf> n = UnitVector(Multiply(glm::transpose(to_world.inverse_linear), on_sphere));
+    const Vec3<Vf> on_sphere = UnitVector(here, o + hn::Load(d, lanes.hit.t + k) * to);
+    const Vec3<Vf> n = UnitVector(here, Multiply(glm::transpose(to_world.inverse_linear), on_sphere));
     StoreWhere(here, hn::Load(d, lanes.flip + k) * n, lanes.n, k);
     StoreWhere(here, Multiply(to_world.linear, on_sphere) + center, lanes.p, k);
     hn::Store(hn::IfThenElse(here, hn::Set(d, p_error), hn::Load(d, lanes.p_error + k)), d,
