@@ -60,24 +60,18 @@ Json shapes_json(const Scene& scene) {
   return out;
 }
 
-// Whether textures decide the material's colours: their images are not read here.
-bool textured(const Scene& scene, const Material& material) {
-  if (const MixedMaterial* mixed = material.mixed())
-    return textured(scene, scene.materials[mixed->first]) || textured(scene, scene.materials[mixed->second]);
-  return material.textured() && material.textured()->makes_bsdf();
-}
-
 Json materials_json(const Scene& scene) {
   const std::vector<uint64_t> uses = uses_of(scene, scene.materials.size(), &Shape::material);
   Json out = Json::array();
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
     const Material& material = scene.materials[i];
-    out.push_back({{"name", name},
-                   {"type", type_name(material)},
-                   {"albedo", textured(scene, material) ? Json(nullptr) : triple(albedo(material.typical()))},
-                   {"disperses", material.dispersion() != nullptr},
-                   {"shapes", uses[i]}});
+    out.push_back(
+        {{"name", name},
+         {"type", type_name(material)},
+         {"albedo", material.has_textured_bsdf() ? Json(nullptr) : triple(albedo(material.typical()))},
+         {"disperses", material.is_dispersive()},
+         {"shapes", uses[i]}});
   }
   return out;
 }
@@ -153,8 +147,8 @@ std::string emission_text(const Medium& medium) {
   return medium.emits() ? fmt::format(", emits {} W/(m^2 sr)", triple_text(medium.Le)) : "";
 }
 
-std::string albedo_text(const Scene& scene, const Material& material) {
-  if (textured(scene, material)) return "with textures";
+std::string albedo_text(const Material& material) {
+  if (material.has_textured_bsdf()) return "with textures";
   return "albedo " + triple_text(albedo(material.typical()));
 }
 
@@ -184,8 +178,8 @@ std::string info_text(const std::string& path, const Job& job) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const std::string name = i < scene.material_names.size() ? scene.material_names[i] : std::string();
     text += fmt::format("material   {}: {}, {}{}\n", name.empty() ? fmt::format("#{}", i) : name,
-                        type_name(scene.materials[i]), albedo_text(scene, scene.materials[i]),
-                        scene.materials[i].dispersion() ? ", disperses" : "");
+                        type_name(scene.materials[i]), albedo_text(scene.materials[i]),
+                        scene.materials[i].is_dispersive() ? ", disperses" : "");
   }
   for (const Light& light : scene.lights) {
     text += fmt::format("light      {}, power {} W\n", name_of(light), triple_text(power(light)));

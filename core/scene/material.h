@@ -51,6 +51,11 @@ class Material {
   const TexturedMaterial* textured() const { return textured_.get(); }
   // Index of refraction by wavelength; null unless it depends on that.
   const Spectrum* dispersion() const { return dispersion_.get(); }
+  // Whether the index of refraction depends on the wavelength, that of one of its materials if it is a
+  // mixture.
+  bool is_dispersive() const { return mixed_ ? mixed_->dispersive : dispersion_ != nullptr; }
+  // Whether textures decide the BSDF, of one of its materials if it is a mixture.
+  bool has_textured_bsdf() const { return mixed_ ? mixed_->textured : textured_ && textured_->makes_bsdf(); }
   // Null unless the material is a mixture.
   const MixedMaterial* mixed() const { return mixed_ ? &*mixed_ : nullptr; }
   // The kinds of lobes that its BSDFs can have.

@@ -18,6 +18,9 @@ struct MixedMaterial {
   // point the choice is made anew.
   Lobes lobes;
   uint32_t amount_texture = kNoIndex;  // float texture that replaces `amount`, clamped to [0, 1]
+  uint32_t depth = 1;                  // choices at a hit, at most: more than one where mixtures are mixed
+  bool dispersive = false;             // one of the materials is
+  bool textured = false;               // textures decide the BSDF of one of the materials
 
   // Returns the index of the material chosen at p; share is the amount there.
   uint32_t choose(const Point3& p, const Vector3& wo, float share) const;

@@ -30,13 +30,6 @@ bool scatters_nothing(const Material& material) {
   return diffuse && is_black(diffuse->reflectance);
 }
 
-bool disperses(const Scene& scene, const Material& material) {
-  if (const MixedMaterial* mixed = material.mixed())
-    return disperses(scene, scene.materials[mixed->first]) ||
-           disperses(scene, scene.materials[mixed->second]);
-  return material.dispersion();
-}
-
 // Whether this holds for a medium that a path may be in: on a side of a surface that separates two, around
 // the camera or around a light.
 template <class Holds>
@@ -60,7 +53,7 @@ SceneNeeds needs_of(const Scene& scene) {
     needs.delta |= parts.specular && !parts.glossy;
     needs.glossy |= parts.glossy && !parts.diffuse && !transmits(material.typical());
     needs.diffuse |= parts.diffuse;
-    needs.dispersion |= disperses(scene, material);
+    needs.dispersion |= material.is_dispersive();
   }
   needs.media = any_medium(scene, [](const Medium&) { return true; });
   needs.scattering = any_medium(scene, [](const Medium& m) { return m.scatters(); });

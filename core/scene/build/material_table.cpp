@@ -14,6 +14,25 @@ namespace kaustik {
 
 namespace {
 
+constexpr uint32_t kDeepestMixture = 256;
+
+uint32_t depth_of(const Material& material) {
+  return material.mixed() ? material.mixed()->depth : 0;
+}
+
+// The mixture of two of the materials, half of each.
+MixedMaterial mixture_of(const std::vector<Material>& materials, const uint32_t (&of)[2]) {
+  const Material &first = materials[of[0]], &second = materials[of[1]];
+  MixedMaterial mixed{of[0], of[1], 0.5f, first.lobes()};
+  mixed.lobes.diffuse |= second.lobes().diffuse;
+  mixed.lobes.specular |= second.lobes().specular;
+  mixed.lobes.glossy &= second.lobes().glossy;
+  mixed.depth = 1 + std::max(depth_of(first), depth_of(second));
+  mixed.dispersive = first.is_dispersive() || second.is_dispersive();
+  mixed.textured = first.has_textured_bsdf() || second.has_textured_bsdf();
+  return mixed;
+}
+
 TextureValue value_of(const ParameterSpec& spec) {
   return spec.types.front() == ParameterType::kRgb ? TextureValue::kSpectrum : TextureValue::kFloat;
 }
@@ -110,18 +129,21 @@ uint32_t MaterialTable::mix(const MaterialDescription& material, const TypeSpec&
         "material \"interface\" is not a surface and cannot be mixed: the other one is taken");
     return found[1 - i];
   }
-  const Material &first = materials_[found[0]], &second = materials_[found[1]];
-  MixedMaterial mixed{found[0], found[1], 0.5f, first.lobes()};
+  MixedMaterial mixed = mixture_of(materials_, found);
+  if (mixed.depth > kDeepestMixture) {
+    diagnostics.error(material.type_location,
+                      fmt::format("this mixture of mixtures is {} deep: at most {} are supported",
+                                  mixed.depth, kDeepestMixture));
+    return default_material();
+  }
   const Parameter* amount = material.find("amount");
   if (amount && amount->type == ParameterType::kTexture) {
     mixed.amount_texture = textures_.find(*amount, TextureValue::kFloat, diagnostics);
   } else {
     mixed.amount = static_cast<float>(ParameterReader(material, spec).number("amount"));
   }
-  mixed.lobes.diffuse |= second.lobes().diffuse;
-  mixed.lobes.specular |= second.lobes().specular;
-  mixed.lobes.glossy &= second.lobes().glossy;
-  return add(Material(mixed, first.typical()), material.name.empty() ? material.type : material.name);
+  return add(Material(mixed, materials_[found[0]].typical()),
+             material.name.empty() ? material.type : material.name);
 }
 
 uint32_t MaterialTable::default_material() {

@@ -123,7 +123,7 @@ std::vector<MaterialRow> make_material_rows() {
        }},
       {{"mix",
         "At each hit one of two materials; the second with probability `amount`. Both are named materials "
-        "defined before it, and may be mixtures themselves.",
+        "defined before it, and may be mixtures themselves, 256 deep at most.",
         {two_names("materials", "names of the first and the second material"),
          textured(number("amount", 0.5, "", kUnit, "probability of the second material"))}},
        nullptr},
