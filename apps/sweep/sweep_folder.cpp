@@ -12,6 +12,7 @@
 #include "apps/sweep/sweep_files.h"
 #include "core/files/content_hash.h"
 #include "core/files/input_file.h"
+#include "core/files/pending_file.h"
 
 namespace kaustik::app {
 
@@ -74,6 +75,8 @@ SweepFolder::SweepFolder(const std::string& path, const Json& common)
   if (*there != Json::parse(common_))
     refuse(fmt::format("{} holds the results of another sweep: choose another folder. {}", path,
                        difference(*there, Json::parse(common_))));
+  // The lock keeps other sweeps out.
+  for (const fs::path& each : {folder_, folder_ / "cells"}) remove_all_leftovers(each);
 }
 
 std::string SweepFolder::key(const Json& own) const {

@@ -35,6 +35,28 @@ bool can_be_named_later() {
   return there;
 }
 
+// Whether new_temporary_name() may have made this name.
+bool is_temporary_name(std::string_view name) {
+  if (!name.starts_with('.') || !name.ends_with(kEnding)) return false;
+  name.remove_suffix(kEnding.size());
+  if (name.size() < kRandomDigits + 3) return false;
+  const std::string_view random = name.substr(name.size() - kRandomDigits);
+  return random.find_first_not_of("0123456789abcdef") == random.npos &&
+         name[name.size() - kRandomDigits - 1] == '.';
+}
+
+// Removes the temporary files in the folder for whose names `is_chosen` holds.
+template <class IsChosen>
+void remove_temporaries(const fs::path& folder, const IsChosen& is_chosen) {
+  std::error_code error;
+  for (fs::directory_iterator i(folder.empty() ? "." : folder, error), end; !error && i != end;
+       i.increment(error)) {
+    const std::string name = i->path().filename().string();
+    std::error_code ignored;
+    if (is_temporary_name(name) && is_chosen(name)) fs::remove(i->path(), ignored);
+  }
+}
+
 }  // namespace
 
 void throw_file_error(int error) {
@@ -99,21 +121,35 @@ void PendingFile::close() {
   if (close_file(file) != 0) throw_file_error(errno);
 }
 
-void PendingFile::finish() {
+void PendingFile::complete() {
   flush();
   if (sync_file(file_) != 0) throw_file_error(errno);
   struct stat status {};
   if (::fstat(file_, &status) != 0) throw_file_error(errno);
   if (static_cast<uint64_t>(status.st_size) != size_) throw FileError("the file has lost some of its bytes");
-  if (!named_) {
-    if (name_file(file_, temporary_.c_str()) != 0) throw_file_error(errno);
-    named_ = true;
-  }
+}
+
+void PendingFile::wait_under_temporary_name() {
+  if (!named_ && name_file(file_, temporary_.c_str()) != 0) throw_file_error(errno);
+  named_ = true;
   close();
 }
 
+void PendingFile::finish() {
+  complete();
+  wait_under_temporary_name();
+}
+
 void PendingFile::commit() {
-  if (file_ >= 0) finish();
+  if (file_ >= 0) {
+    complete();
+    if (!named_) {
+      if (name_file(file_, final_.c_str()) == 0) return close();
+      // The system has no call that names an open file and replaces another one.
+      if (errno != EEXIST) throw_file_error(errno);
+    }
+    wait_under_temporary_name();
+  }
   if (rename_file(temporary_.c_str(), final_.c_str()) != 0) throw_file_error(errno);
   named_ = false;
 }
@@ -126,15 +162,13 @@ void write_file(const fs::path& path, std::string_view bytes) {
 
 void remove_leftovers(const fs::path& path) {
   const std::string beginning = hidden_name_beginning(path);
-  std::error_code error;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
-    const std::string name = i->path().filename().string();
-    std::error_code ignored;
-    if (name.size() == beginning.size() + kRandomDigits + kEnding.size() && name.starts_with(beginning) &&
-        name.ends_with(kEnding))
-      fs::remove(i->path(), ignored);
-  }
+  remove_temporaries(path.parent_path(), [&](std::string_view name) {
+    return name.size() == beginning.size() + kRandomDigits + kEnding.size() && name.starts_with(beginning);
+  });
+}
+
+void remove_all_leftovers(const fs::path& folder) {
+  remove_temporaries(folder, [](std::string_view) { return true; });
 }
 
 }  // namespace kaustik

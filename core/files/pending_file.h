@@ -12,9 +12,10 @@
 namespace kaustik {
 
 // Is written without a name where the file system allows it (O_TMPFILE): then nothing is left even of a
-// process that is killed. Elsewhere it has a temporary name beside the final one, which no other process can
-// know or have planted (O_EXCL). Without commit() the destructor removes it, and an existing file of the
-// final name is left untouched. All functions but the destructor throw FileError with the system's reason.
+// process that is killed. Elsewhere, and just before it replaces an existing file, it has a temporary name
+// beside the final one, which no other process can know or have planted (O_EXCL). Without commit() the
+// destructor removes it, and an existing file of the final name is left untouched. All functions but the
+// destructor throw FileError with the system's reason.
 class PendingFile {
  public:
   explicit PendingFile(std::filesystem::path final_name);
@@ -37,6 +38,9 @@ class PendingFile {
   void open();
   void write_through(const char* bytes, size_t size);
   void flush();
+  // Waits until all bytes are on the disk.
+  void complete();
+  void wait_under_temporary_name();
   void close();
 
   std::filesystem::path final_, temporary_;
@@ -52,5 +56,7 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 // Removes what processes that were killed have left of files of this name. No other process may be writing
 // it.
 void remove_leftovers(const std::filesystem::path& path);
+// Removes those of all files in the folder, into which no other process may be writing.
+void remove_all_leftovers(const std::filesystem::path& folder);
 
 }  // namespace kaustik

@@ -185,7 +185,11 @@ TEST_F(SweepCommand, ContinuesAfterAKillBetweenCells) {
   ASSERT_FALSE(kept.empty());
   EXPECT_LT(kept.size(), 8u);
   EXPECT_FALSE(exists("out/report.html"));
+  const std::string left = "out/.report.html.0123456789abcdef.partial",
+                    left_cell = "out/cells/.a.json.0123456789abcdef.partial";
+  for (const std::string& name : {left, left_cell}) write(name, "of a killed process");
   expect_done(sweep(more));
+  EXPECT_FALSE(exists(left) || exists(left_cell));
   for (const auto& [name, text] : kept) EXPECT_EQ(cells()[name], text);
   const Json resumed = result()["cells"], whole = result("whole")["cells"];
   ASSERT_EQ(resumed.size(), whole.size());

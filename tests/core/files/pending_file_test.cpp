@@ -89,6 +89,16 @@ TEST_F(WriteFile, EveryFailureLeavesTheOldFile) {
   }
 }
 
+// So that a process that is killed leaves nothing: a new file gets its name in one step.
+TEST_F(WriteFile, NewFilesHaveNoTemporaryName) {
+  test::SystemFaults faults;
+  faults.fail(SystemCall::kLink, 2, EIO);
+  faults.fail(SystemCall::kRename, 1, EIO);
+  EXPECT_EQ(failure(path_, "new"), "");
+  EXPECT_EQ(text_of(path_), "new");
+  EXPECT_EQ(failure(path_, "again"), std::strerror(EIO));
+}
+
 TEST_F(WriteFile, NamesMayHaveTheLengthThatTheSystemAllows) {
   for (const char* const character : {"x", "\u00e9", "\u4e2d"}) {  // one, two and three bytes
     std::string name;
@@ -157,6 +167,10 @@ TEST(PendingFile, LeftoversAreRemoved) {
     std::ofstream(folder / name) << "x";
   remove_leftovers(folder / "a.kpart");
   EXPECT_FALSE(fs::exists(left));
+  EXPECT_EQ(files_in(folder), 3u);
+  std::ofstream(folder / ".c.kpart.0123456789abcdeg.partial") << "x";
+  remove_all_leftovers(folder);
+  EXPECT_FALSE(fs::exists(folder / ".b.kpart.0123456789abcdef.partial"));
   EXPECT_EQ(files_in(folder), 3u);
 }
 
