@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/diagnostics/nearest_name.h"
 #include "core/diagnostics/source_location.h"
 #include "core/files/read_root.h"
 
@@ -34,6 +35,15 @@ class DiagnosticList {
   void error(const SourceLocation& where, std::string message, std::vector<DiagnosticNote> notes = {});
   void warning(const SourceLocation& where, std::string message, std::vector<DiagnosticNote> notes = {});
   void append(DiagnosticList other);
+  // name_hint() among names of the scene, of which there may be very many: names() returns them. A file with
+  // thousands of wrong names would take minutes, so after kMostCompared comparisons there are no more hints.
+  template <class Names>
+  std::string hint(std::string_view name, const Names& names) {
+    if (compared_ > kMostCompared) return {};
+    const std::vector<std::string_view> candidates = names();
+    compared_ += candidates.size();
+    return name_hint(name, candidates);
+  }
   // Sorts by file (in the order of opening), line and column; keeps the order of entries with the same
   // location.
   void sort_by_location();
@@ -46,7 +56,10 @@ class DiagnosticList {
   size_t warning_count() const { return entries_.size() - error_count(); }
 
  private:
+  static constexpr size_t kMostCompared = 1'000'000;  // takes a second or less
+
   std::vector<Diagnostic> entries_;
+  size_t compared_ = 0;
 };
 
 // Names and texts of the files that locations refer to. Texts never move, so views into them remain valid.

@@ -66,11 +66,14 @@ void SceneParser::leave_out_unknown_textures(Directive& directive) {
     if (p.type != ParameterType::kTexture || p.strings.size() != 1) return false;
     const std::string& name = p.strings[0];
     if (float_textures_.contains(name) || spectrum_textures_.contains(name)) return false;
-    std::vector<std::string_view> names(spectrum_textures_.begin(), spectrum_textures_.end());
-    names.insert(names.end(), float_textures_.begin(), float_textures_.end());
+    const auto names = [&] {
+      std::vector<std::string_view> all(spectrum_textures_.begin(), spectrum_textures_.end());
+      all.insert(all.end(), float_textures_.begin(), float_textures_.end());
+      return all;
+    };
     repeated_.say_one_of("texture/" + name, p.value_location(0),
                          fmt::format("no texture is named `{}` up to here: `{}` keeps its default{}", name,
-                                     p.name, name_hint(name, names)));
+                                     p.name, diagnostics_.hint(name, names)));
     return true;
   });
 }

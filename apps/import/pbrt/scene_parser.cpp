@@ -159,8 +159,7 @@ void SceneParser::run(const Token& word) {
 }
 
 void SceneParser::report_unknown(const Token& word) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, entry] : directives()) names.push_back(name);
+  const std::vector<std::string_view> names = keys_of(directives());
   diagnostics_.error(word.location, fmt::format("unknown directive `{}`{}", word.text.substr(0, 60),
                                                 name_hint(word.text, names)));
 }

@@ -76,11 +76,10 @@ void SceneParser::on_coord_sys_transform(const Token& word) {
     set_transform(found->second);
     return;
   }
-  std::vector<std::string_view> names;
-  for (const auto& [known, m] : coordinate_systems_) names.push_back(known);
+  const auto names = [&] { return keys_of(coordinate_systems_); };
   repeated_.say_one_of(fmt::format("coordinate system/{}", name->text), name->location,
                        fmt::format("no coordinate system is named `{}`: the transform stays as it is{}",
-                                   name->text, name_hint(name->text, names)));
+                                   name->text, diagnostics_.hint(name->text, names)));
 }
 
 void SceneParser::on_active_transform(const Token& word) {

@@ -222,10 +222,9 @@ void Builder::add_instance(size_t index, const std::map<std::string_view, std::v
   const InstanceDescription& instance = description_.instances[index];
   const auto found = items_of.find(instance.object);
   if (found == items_of.end()) {
-    std::vector<std::string_view> names;
-    for (const auto& [name, items] : items_of) names.push_back(name);
+    const auto names = [&] { return keys_of(items_of); };
     diagnostics_.error(instance.location, fmt::format("no object is named `{}`{}", instance.object,
-                                                      name_hint(instance.object, names)));
+                                                      diagnostics_.hint(instance.object, names)));
     return;
   }
   if (!is_usable_transform(instance.instance_to_world)) {

@@ -157,14 +157,10 @@ uint32_t MaterialTable::resolve(const MaterialReference& reference, DiagnosticLi
   const auto found = by_name_.find(reference.name);
   if (found != by_name_.end()) return found->second;
   if (reported_.insert(reference.name).second) {
-    const std::vector<std::string_view> names = [&] {
-      std::vector<std::string_view> all;
-      for (const auto& [name, index] : by_name_) all.push_back(name);
-      return all;
-    }();
+    const auto names = [&] { return keys_of(by_name_); };
     diagnostics.warning(reference.location,
                         fmt::format("no material is named `{}`: diffuse with reflectance 0.5 stands in{}",
-                                    reference.name, name_hint(reference.name, names)));
+                                    reference.name, diagnostics.hint(reference.name, names)));
   }
   return default_material();
 }

@@ -81,10 +81,9 @@ MediumIndex MediumTable::resolve(const MediumReference& reference, DiagnosticLis
   const auto found = by_name_.find(reference.name);
   if (found != by_name_.end()) return found->second;
   if (!reported_.insert(reference.name).second) return kVacuum;
-  std::vector<std::string_view> names;
-  for (const auto& [name, index] : by_name_) names.push_back(name);
+  const auto names = [&] { return keys_of(by_name_); };
   diagnostics.error(reference.location, fmt::format("no medium is named `{}`{}", reference.name,
-                                                    name_hint(reference.name, names)));
+                                                    diagnostics.hint(reference.name, names)));
   return kVacuum;
 }
 

@@ -205,6 +205,8 @@ class TextureTable::Maker {
 TextureTable::TextureTable(const SceneDescription& description, const ImageLoader& images, WarnedOnce& warned,
                            DiagnosticList& diagnostics)
     : description_(description), images_(images) {
+  for (const TextureDescription& t : description.textures)
+    first_.try_emplace({t.value_type, t.name}, t.name_location);
   for (const TextureDescription& texture : description.textures) add(texture, warned, diagnostics);
   load_images(diagnostics);
   share_library();
@@ -240,12 +242,9 @@ void TextureTable::add(const TextureDescription& texture, WarnedOnce& warned, Di
   }
   const auto [known, is_new] = names(value).emplace(texture.name, static_cast<uint32_t>(set_->size()));
   if (!is_new) {
-    const auto first = std::find_if(
-        description_.textures.begin(), description_.textures.end(),
-        [&](const auto& t) { return t.name == texture.name && t.value_type == texture.value_type; });
     diagnostics.error(texture.name_location,
                       fmt::format("{} texture `{}` is defined twice", texture.value_type, texture.name),
-                      {{first->name_location, "first defined here"}});
+                      {{first_.at({texture.value_type, texture.name}), "first defined here"}});
   }
   set_->add(std::move(made), Transform::from_matrix(texture.texture_to_world));
   to_world_.push_back(texture.texture_to_world);
@@ -293,11 +292,9 @@ uint32_t TextureTable::find(const Parameter& parameter, TextureValue value,
   if (const auto found = known.find(name); found != known.end()) return found->second;
   const std::string_view kind = value == TextureValue::kFloat ? "float" : "spectrum";
   const SourceLocation where = parameter.value_location(0);
-  const auto same = [&](const TextureDescription& t) { return t.name == name && t.value_type == kind; };
-  const auto later = std::find_if(description_.textures.begin(), description_.textures.end(), same);
-  if (later != description_.textures.end()) {
+  if (const auto later = first_.find({kind, name}); later != first_.end()) {
     diagnostics.error(where, fmt::format("texture `{}` is used before it is defined", name),
-                      {{later->name_location, "defined here"}});
+                      {{later->second, "defined here"}});
     return kNoIndex;
   }
   const bool is_float = value == TextureValue::kFloat;
@@ -307,10 +304,9 @@ uint32_t TextureTable::find(const Parameter& parameter, TextureValue value,
                                            parameter.name, kind, name, is_float ? "its red" : "its grey"));
     return found->second;
   }
-  std::vector<std::string_view> candidates;
-  for (const auto& [candidate, index] : known) candidates.push_back(candidate);
-  diagnostics.error(where,
-                    fmt::format("no {} texture is named `{}`{}", kind, name, name_hint(name, candidates)));
+  const auto candidates = [&] { return keys_of(known); };
+  diagnostics.error(
+      where, fmt::format("no {} texture is named `{}`{}", kind, name, diagnostics.hint(name, candidates)));
   return kNoIndex;
 }
 

@@ -63,6 +63,8 @@ class TextureTable {
   std::vector<uint64_t> cost_;        // lookups per evaluation, for each of the set's textures
   std::vector<ImageRequest> requests_;
   std::map<std::string, uint32_t, std::less<>> by_name_[2];
+  // By type of value and name, where each texture is defined first.
+  std::map<std::pair<std::string_view, std::string_view>, SourceLocation> first_;
 };
 
 }  // namespace kaustik

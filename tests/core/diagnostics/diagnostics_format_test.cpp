@@ -102,6 +102,21 @@ TEST(NearestName, FindsTheNearestNameWithinReach) {
   EXPECT_EQ(nearest_name(std::string(1'000'000, 'e'), names), std::nullopt);
 }
 
+// A file may name thousands of things that it does not define among thousands that it does.
+TEST(Diagnostics, HintsEndAfterManyComparisons) {
+  Diagnostics d;
+  const std::vector<std::string> all(10'000, "material");
+  int hints = 0, lists = 0;
+  const auto names = [&] {
+    ++lists;
+    return std::vector<std::string_view>(all.begin(), all.end());
+  };
+  for (int i = 0; i < 1000; ++i) hints += d.hint("materail", names) == "; did you mean `material`?";
+  EXPECT_GE(hints, 100);
+  EXPECT_LT(hints, 110);
+  EXPECT_EQ(lists, hints);
+}
+
 TEST(Diagnostics, EqualWarningsAreCountedButNoErrors) {
   Diagnostics d;
   const uint32_t file = d.files.add("a.pbrt", "x\ny\n");
