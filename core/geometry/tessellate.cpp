@@ -3,16 +3,21 @@
 #include "core/geometry/tessellate.h"
 
 #include <cmath>
+#include <utility>
 
 namespace kaustik {
 namespace {
 
-constexpr int kAround = 96;  // per full turn
+// Pieces along the axis and about it.
+template <SweptShape S>
+std::pair<int, int> pieces_of(const S& q, int around) {
+  return {q.strips(around), std::max(1, int(std::ceil(around * q.turn() / (2 * std::numbers::pi))))};
+}
 
 template <SweptShape S>
-TriangleMesh tessellate(const S& q, bool flip_normal) {
-  const int up = q.strips(kAround);
-  const int around = std::max(1, int(std::ceil(kAround * q.turn() / (2 * std::numbers::pi))));
+TriangleMesh tessellate(const S& q, bool flip_normal, int per_turn) {
+  const auto [strips, sectors] = pieces_of(q, per_turn);
+  const int up = strips, around = sectors;  // lambdas capture no structured bindings
   TriangleMesh mesh;
   for (int i = 0; i <= up; ++i) {
     for (int j = 0; j <= around; ++j) {
@@ -34,10 +39,17 @@ TriangleMesh tessellate(const S& q, bool flip_normal) {
 
 }  // namespace
 
-TriangleMesh tessellated(const Shape& shape) {
+TriangleMesh tessellated(const Shape& shape, int around) {
   const auto swept = swept_of(shape);
   if (!swept) return {};
-  return std::visit([&](const auto& s) { return tessellate(s, shape.flip_normal); }, *swept);
+  return std::visit([&](const auto& s) { return tessellate(s, shape.flip_normal, around); }, *swept);
+}
+
+uint64_t triangle_count(const Shape& shape, int around) {
+  const auto swept = swept_of(shape);
+  if (!swept) return primitive_count(shape);
+  const auto [up, sectors] = std::visit([&](const auto& s) { return pieces_of(s, around); }, *swept);
+  return uint64_t{2} * uint64_t(up) * uint64_t(sectors);
 }
 
 }  // namespace kaustik

@@ -5,8 +5,14 @@
 
 namespace kaustik {
 
-// Triangles in world space with corners on the surface, up to 96 about the axis: their area is within 0.1 %
-// of that of a round shape. N are the outside normals, negated if flip_normal is set. Empty for meshes.
-TriangleMesh tessellated(const Shape& shape);
+// Pieces about the axis, per full turn, with which the area is within 0.1 % of that of a round shape.
+inline constexpr int kFineTurn = 96;
+
+// Triangles in world space with corners on the surface. around: pieces per full turn. N are the outside
+// normals, negated if flip_normal is set. Empty for meshes.
+TriangleMesh tessellated(const Shape& shape, int around = kFineTurn);
+
+// How many triangles that takes, or a mesh has.
+uint64_t triangle_count(const Shape& shape, int around = kFineTurn);
 
 }  // namespace kaustik

@@ -11,6 +11,7 @@
 #include "core/geometry/tessellate.h"
 #include "core/geometry/triangle_bounds.h"
 #include "core/parallel/parallel.h"
+#include "photon/estimate/ball_share.h"
 #include "photon/estimate/walls.h"
 
 namespace kaustik::photon {
@@ -48,8 +49,16 @@ void place(const Transform& to_world, Facet* facet) {
   facet->n = unit_vector(to_world.normal(facet->n));
 }
 
-void add_facets(const Shape& shape, std::vector<Facet>* facets) {
-  const TriangleMesh quadric = tessellated(shape);
+// Pieces of a full turn about a quadric's axis, of which the side of a voxel holds one, but no fewer than
+// keep their normals within four degrees.
+int around_of(const Shape& shape, double voxel) {
+  constexpr double kCoarseTurn = 48;
+  const double turn = std::numbers::pi * double(max_component(bounds_of(shape).diagonal()));
+  return static_cast<int>(std::clamp(std::ceil(turn / voxel), kCoarseTurn, double(kFineTurn)));
+}
+
+void add_facets(const Shape& shape, double voxel, std::vector<Facet>* facets) {
+  const TriangleMesh quadric = tessellated(shape, around_of(shape, voxel));
   const auto* const instance = std::get_if<InstancedMesh>(&shape.geometry);
   const TriangleMesh& mesh = shape.mesh() ? *shape.mesh() : quadric;
   facets->reserve(facets->size() + mesh.indices.size());
@@ -218,7 +227,7 @@ std::vector<Piece> pieces_of(const Scene& scene, const std::vector<bool>& chosen
   std::vector<std::vector<Piece>> of_group(shapes.size());
   parallel::for_index(size_t{0}, shapes.size(), [&](size_t g) {
     std::vector<Facet> facets;
-    for (const uint32_t i : shapes[g]) add_facets(scene.shapes[i], &facets);
+    for (const uint32_t i : shapes[g]) add_facets(scene.shapes[i], double(voxel), &facets);
     drop_copies(&facets);
     Cutter cutter(scene.bounds, voxel, uint32_t(g), &of_group[g]);
     for (const Facet& facet : facets) cutter.cut(facet);
@@ -228,19 +237,36 @@ std::vector<Piece> pieces_of(const Scene& scene, const std::vector<bool>& chosen
   return pieces;
 }
 
-// Chooses the groups that are curved enough to be summed, as long as their pieces fit into kMostPieces.
-std::vector<bool> curved_groups(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius) {
+// By surface group, the radius of a ball that is all of the group, negative where its normals point to the
+// centre; otherwise zero.
+std::vector<float> lone_balls(const Scene& scene, size_t groups) {
+  std::vector<float> balls(groups);
+  std::vector<bool> seen(groups);
+  for (const Shape& shape : scene.shapes) {
+    const auto* const sphere = std::get_if<Sphere>(&shape.geometry);
+    const double radius = sphere ? sphere->radius().value_or(0) : 0;
+    const bool alone = !seen[shape.surface_group];
+    balls[shape.surface_group] = alone ? float(shape.flip_normal ? -radius : radius) : 0;
+    seen[shape.surface_group] = true;
+  }
+  return balls;
+}
+
+// Chooses the groups that are curved enough to be summed, as long as their pieces fit into kMostPieces. Balls
+// take none.
+std::vector<bool> curved_groups(const Scene& scene, const std::vector<SurfaceBend>& bends,
+                                const std::vector<float>& balls, float radius) {
+  const double voxel = double(radius) / SurfaceAreas::kFineness;
   std::vector<double> pieces(bends.size());
   std::vector<bool> curved(bends.size());
   for (const Shape& shape : scene.shapes) {
-    pieces[shape.surface_group] += double(primitive_count(shape));
+    pieces[shape.surface_group] += double(triangle_count(shape, around_of(shape, voxel)));
     if (scene.materials[shape.material].lobes().diffuse) curved[shape.surface_group] = true;
   }
-  const double voxel = double(radius) / SurfaceAreas::kFineness;
   double total = 0;
   for (size_t g = 0; g < bends.size(); ++g) {
     const SurfaceBend& bend = bends[g];
-    pieces[g] += 4 * bend.area / (voxel * voxel);
+    pieces[g] = balls[g] != 0 ? 0 : pieces[g] + 4 * bend.area / (voxel * voxel);
     curved[g] = curved[g] && bend.oriented && bend.bend * double(radius) > SurfaceAreas::kFlat * bend.area &&
                 total + pieces[g] <= double(SurfaceAreas::kMostPieces);
     if (curved[g]) total += pieces[g];
@@ -254,18 +280,39 @@ SurfaceAreas::SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& b
     : radius_(radius) {
   const float voxel = radius / kFineness;
   if (!(voxel > 0) || !std::isfinite(voxel)) return;
-  covered_ = curved_groups(scene, bends, radius);
+  balls_ = lone_balls(scene, bends.size());
+  covered_ = curved_groups(scene, bends, balls_, radius);
+  std::vector<bool> in_pieces = covered_;
+  for (size_t g = 0; g < balls_.size(); ++g)
+    if (balls_[g] != 0) in_pieces[g] = false;
   pieces_ = PhotonMap::build(
-      joined(pieces_of(scene, covered_, voxel), std::ldexp(1.0f, std::ilogb(voxel * voxel))), {scene.bounds});
+      joined(pieces_of(scene, in_pieces, voxel), std::ldexp(1.0f, std::ilogb(voxel * voxel))),
+      {scene.bounds});
+}
+
+uint64_t SurfaceAreas::most_pieces(const Scene& scene) {
+  uint64_t groups = 0, pieces = 0;
+  for (const Shape& shape : scene.shapes) groups = std::max(groups, uint64_t{shape.surface_group} + 1);
+  const std::vector<float> balls = lone_balls(scene, groups);
+  for (const Shape& shape : scene.shapes)
+    if (balls[shape.surface_group] == 0 && scene.materials[shape.material].lobes().diffuse)
+      pieces += triangle_count(shape);
+  return std::min(pieces, kMostPieces);
 }
 
 double SurfaceAreas::share(const SurfaceInteraction& si, const KernelSpec& kernel, float radius,
                            const WallCut* cut) const {
-  GatherCounters ignored;
-  const GatherQuery query{si.p, si.n, si.surface_group, radius, kAllPhotons};
-  const Rgb share =
-      cut ? gather_flux(pieces_, query, kernel, *cut, ignored) : gather_flux(pieces_, query, kernel, ignored);
-  return std::clamp(double(share.x), kLeastOfCurved, 1.0);
+  double share = 0;
+  if (const float ball = balls_[si.surface_group]; ball != 0) {
+    share = share_on_ball(si, ball, kernel, radius, cut);
+  } else {
+    GatherCounters ignored;
+    const GatherQuery query{si.p, si.n, si.surface_group, radius, kAllPhotons};
+    share = double((cut ? gather_flux(pieces_, query, kernel, *cut, ignored)
+                        : gather_flux(pieces_, query, kernel, ignored))
+                       .x);
+  }
+  return std::clamp(share, kLeastOfCurved, 1.0);
 }
 
 }  // namespace kaustik::photon

@@ -3,9 +3,10 @@
 //
 // The disc of a density estimate is flat. On a ball smaller than the disc, on a wire or at a fold, fewer
 // photons are in reach than even light would bring to a plane, and the estimate is too dark by the missing
-// share. That share does not follow from edges (photon/estimate/boundary_correction.h). Here it is summed
-// over the surface itself, as if each piece held one photon whose flux is the piece's area. A piece counts
-// under the same conditions as a photon: same group, near normal, same kernel.
+// share. That share does not follow from edges (photon/estimate/boundary_correction.h). On a ball it has a
+// closed form (photon/estimate/ball_share.h). Elsewhere it is summed over the surface itself, as if each
+// piece held one photon whose flux is the piece's area. A piece counts under the same conditions as a photon:
+// same group, near normal, same kernel.
 
 #include <vector>
 
@@ -36,6 +37,9 @@ class SurfaceAreas {
   // surface group.
   SurfaceAreas(const Scene& scene, const std::vector<SurfaceBend>& bends, float radius);
 
+  // How many pieces there may be for any radius.
+  static uint64_t most_pieces(const Scene& scene);
+
   // Whether share() is known for the group.
   bool covers(uint32_t surface_group) const {
     return surface_group < covered_.size() && covered_[surface_group];
@@ -61,6 +65,7 @@ class SurfaceAreas {
 
   float radius_;
   std::vector<bool> covered_;
+  std::vector<float> balls_;  // by surface group: of a lone ball its radius as share_on_ball() takes it, or 0
   PhotonMap pieces_;
 };
 

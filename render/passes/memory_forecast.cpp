@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/wall_feet.h"
+#include "photon/estimate/surface_areas.h"
 #include "photon/shoot/memory_estimate.h"
 #include "render/film/error_estimate.h"
 #include "render/film/film_totals.h"
@@ -22,6 +23,8 @@ constexpr uint64_t kOthers = 24;
 constexpr uint64_t kWall = 190;
 // Of a triangle while the sides of its mesh are matched, and of a side that is an edge of its mesh or a bend.
 constexpr uint64_t kSides = 50, kOpenSide = 175;
+// Of a piece of a curved surface, when walls and sides are done with.
+constexpr uint64_t kPiece = 100;
 
 }  // namespace
 
@@ -49,7 +52,8 @@ uint64_t surfaces_bytes(const Scene& scene, const SideEstimate& sides, const Ren
   for (const uint64_t count : counts)
     if (walls + count <= accel::kMostWallTriangles) walls += count;
   const auto edges = static_cast<uint64_t>(double(kOpenSide) * sides.open);
-  return kWall * walls + kSides * (counts.empty() ? 0 : counts.back()) + edges;
+  const uint64_t finding = kWall * walls + kSides * (counts.empty() ? 0 : counts.back());
+  return std::max(finding, kPiece * photon::SurfaceAreas::most_pieces(scene)) + edges;
 }
 
 uint64_t photons_bytes(const RenderInput& input, uint64_t passes) {

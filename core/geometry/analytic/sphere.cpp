@@ -41,10 +41,16 @@ Bounds3 Sphere::bounds() const {
   return bounds_about(to_world.translation, half_extent(to_world.linear, 3), sphere_error(to_world));
 }
 
+std::optional<double> Sphere::radius() const {
+  if (!is_similarity(to_world.linear)) return std::nullopt;
+  const glm::dmat3 m(to_world.linear);
+  return std::sqrt((glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])) / 3);
+}
+
 // Integrates the area element of an ellipsoid, |det M| |M^-T n| per solid angle of the unit sphere. The
-// integrand is smooth and periodic in phi, so the midpoint rule converges fast; it is exact for a round
-// sphere.
+// integrand is smooth and periodic in phi, so the midpoint rule converges fast.
 double Sphere::area() const {
+  if (const auto r = radius()) return 4 * std::numbers::pi * *r * *r;
   constexpr int kRings = 128, kSectors = 64;
   const glm::dmat3 m(to_world.linear);
   const glm::dmat3 inverse_transpose = glm::transpose(glm::inverse(m));

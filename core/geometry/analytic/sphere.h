@@ -1,6 +1,8 @@
 #pragma once
 // Whole spheres and ellipsoids.
 
+#include <optional>
+
 #include "core/geometry/analytic/quadric.h"
 
 namespace kaustik {
@@ -17,6 +19,8 @@ struct Sphere {
   SurfacePoint at_hit(const Ray& ray, float t, const Point2& uv) const;
   Bounds3 bounds() const;
   double area() const;
+  // In metres; nothing for an ellipsoid.
+  std::optional<double> radius() const;
   Bounds3 local_bounds() const { return {Point3(-1), Point3(1)}; }
   Quadric swept() const { return {to_world}; }
 };

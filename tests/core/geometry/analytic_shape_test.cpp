@@ -127,6 +127,8 @@ TEST(AnalyticShape, SamplesAreUniformAndInvertible) {
     Shape in_own_space;
     in_own_space.geometry = local;
     const TriangleMesh mesh = tessellated(in_own_space);
+    EXPECT_EQ(triangle_count(shape), mesh.indices.size());
+    EXPECT_EQ(triangle_count(shape, 24), tessellated(shape, 24).indices.size());
     glm::dvec3 centroid(0);
     double area = 0;
     for (const auto& [a, b, c] : mesh.indices) {
