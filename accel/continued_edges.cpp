@@ -43,8 +43,10 @@ bool goes_on(const Bvh& bvh, const BoundaryEdge& edge) {
 
 }  // namespace
 
-std::vector<BoundaryEdge> without_continued(std::vector<BoundaryEdge> edges, const Bvh& bvh) {
-  drop_edges(&edges, [&](const BoundaryEdge& edge) { return goes_on(bvh, edge); });
+std::vector<BoundaryEdge> without_continued(std::vector<BoundaryEdge> edges, const Bvh& bvh,
+                                            const std::function<bool()>& go_on) {
+  drop_edges(
+      &edges, [&](const BoundaryEdge& edge) { return goes_on(bvh, edge); }, go_on);
   if (edges.size() < edges.capacity() / 2) edges.shrink_to_fit();
   return edges;
 }

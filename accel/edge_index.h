@@ -2,6 +2,7 @@
 // Finds the boundary edges near a point: by a linear walk in surface groups that have few edges (walls,
 // tables), and by a tree of boxes in each of the others.
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -43,7 +44,10 @@ class EdgeIndex {
 // continues although no triangle shares them, as at T-junctions and between unwelded facets. From three
 // points of each edge, moved outward by 1/1000 of the facet (more where coordinates round more coarsely), it
 // looks for a facet within 60 degrees of the edge's normal and twice that distance away; two finds out of
-// three drop the whole edge. Only edges with nothing beyond them are tested.
-std::vector<BoundaryEdge> without_continued(std::vector<BoundaryEdge> edges, const Bvh& bvh);
+// three drop the whole edge. Only edges with nothing beyond them are tested. Where many surfaces lie in one
+// place this takes long: go_on, if it is not empty, is called now and then, and all edges stay if it returns
+// false.
+std::vector<BoundaryEdge> without_continued(std::vector<BoundaryEdge> edges, const Bvh& bvh,
+                                            const std::function<bool()>& go_on = {});
 
 }  // namespace kaustik::accel

@@ -109,18 +109,25 @@ void PassPhotons::free_maps() {
   for (size_t k = 0; k < photon::kPhotonKinds; ++k) maps_.of(PhotonKind(k)) = {};
 }
 
-void PassPhotons::explore(const RenderInput& input) {
-  if (!kinds_needed(input.plan).any()) return;
+bool PassPhotons::explore(const RenderInput& input, const ProgressCallback& progress) {
+  if (!kinds_needed(input.plan).any()) return true;
   ExploredScene& known = *explored_;
   const Stopwatch watch;
   if (!known.edges) {
     std::vector<BoundaryEdge> edges = find_boundary_edges(input.scene.shapes, &known.bends);
-    edges = merge_edges(accel::without_continued(std::move(edges), input.bvh));
-    known.edges = std::make_unique<accel::EdgeIndex>(std::move(edges));
+    bool cancelled = false;
+    const auto go_on = [&] {
+      cancelled = progress && !progress({"build", 0, 1});
+      return !cancelled;
+    };
+    edges = accel::without_continued(std::move(edges), input.bvh, go_on);
+    if (cancelled) return false;
+    known.edges = std::make_unique<accel::EdgeIndex>(merge_edges(std::move(edges)));
   }
   if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather)
     known.surroundings = std::make_unique<const Surroundings>(input);
   known.seconds += watch.seconds();
+  return true;
 }
 
 // Finds the feet of walls for the radii of the first pass of this process; later passes have smaller discs.
@@ -211,7 +218,11 @@ bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const Pr
 
   const PhaseWatch watch;
   build_maps(input, std::move(shot));
-  explore(input);
+  const auto in_this_pass = [&](Progress p) {
+    p.pass = pass.pass, p.passes = pass.shares;
+    return !progress || progress(p);
+  };
+  if (!explore(input, in_this_pass)) return false;
   prepare_gathers(input, pass);
   note_radii(*radii_, statistics);
   add_sizes(maps_, statistics);

@@ -53,8 +53,9 @@ class PassPhotons {
   // is chosen from these maps. Adds the counts of the photons to statistics.
   void adopt(const RenderInput& input, KeptPhotons&& kept, bool radii_known, RenderStatistics* statistics);
 
-  // Finds what make() needs to know about the scene and does not know yet, except the feet of walls.
-  void explore(const RenderInput& input);
+  // Finds what make() needs to know about the scene and does not know yet, except the feet of walls. False
+  // when the progress callback cancelled.
+  bool explore(const RenderInput& input, const ProgressCallback& progress = {});
   // Makes the visibility tree for `predicted`, unless it exists. It depends on scene and settings but not on
   // the pass; whatever it predicts, the image is unbiased. Its time is added to that of the photons.
   void predict_visibility(const RenderInput& input, RenderStatistics* statistics);

@@ -243,7 +243,7 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
   trial.first.photons = PassPhotons(std::move(explored));
   PassPhotons& photons = trial.first.photons;
   photons.mark_as_trial();
-  photons.explore(input);
+  photons.explore(input, progress);
   const auto shoot = [&](uint64_t count) {
     const Stopwatch watch;
     RenderSettings few = input.settings;

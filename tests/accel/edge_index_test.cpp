@@ -185,5 +185,16 @@ TEST(ContinuedEdges, IgnoresSurfacesOfOtherGroups) {
   EXPECT_EQ(edges_left(scene), 3u + 4 + 4);
 }
 
+TEST(ContinuedEdges, AllStayWhereTheSearchIsCancelled) {
+  Scene scene;
+  add_rectangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0);
+  add_rectangle(scene, {1, -1, 0}, {1, 0, 0}, {0, 3, 0}, 0);
+  test::finish(scene);
+  const Bvh bvh(scene);
+  const std::vector<BoundaryEdge> edges = find_boundary_edges(scene.shapes);
+  EXPECT_LT(without_continued(edges, bvh, [] { return true; }).size(), edges.size());
+  EXPECT_EQ(without_continued(edges, bvh, [] { return false; }).size(), edges.size());
+}
+
 }  // namespace
 }  // namespace kaustik::accel

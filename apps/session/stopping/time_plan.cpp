@@ -108,7 +108,7 @@ class TimePlan {
     const double before = left();
     // Exploring takes at most about as long as loading did.
     if (before < total_.seconds() && may_take_paths()) return take_paths();
-    render::PassPhotons(explored_).explore(input());
+    render::PassPhotons(explored_).explore(input(), progress_);
     return explored_->seconds > kHurry * before ? hurry() : settle_by_trials();
   }
 
