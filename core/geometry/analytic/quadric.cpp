@@ -142,17 +142,18 @@ Bounds3 Quadric::bounds() const {
   return box;
 }
 
-// Integrates the area element |det M| |M^-T n| per local area. It depends smoothly on phi and z; the midpoint
-// rule is exact for similarities, and along s for cylinders and disks.
+// Integrates the area element |det M| |M^-T n| per local area. It depends smoothly on phi and z, and on
+// neither of them where areas keep even; on cylinders it does not depend on z.
 double Quadric::area() const {
-  constexpr int kRings = 128, kSectors = 256;
+  const bool even = keeps_areas_even();
+  const int rings = even || kind == QuadricKind::kCylinder ? 1 : 128, sectors = even ? 1 : 256;
   const glm::dmat3 m(to_world.linear);
   const glm::dmat3 inverse_transpose = glm::transpose(glm::inverse(m));
   double mean = 0;
-  for (int i = 0; i < kRings; ++i) {
-    for (int j = 0; j < kSectors; ++j) {
-      const glm::dvec3 p = point_at((i + 0.5) / kRings, double(phi_max) * (j + 0.5) / kSectors);
-      mean += glm::length(inverse_transpose * normal_at(p)) / (kRings * kSectors);
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < sectors; ++j) {
+      const glm::dvec3 p = point_at((i + 0.5) / rings, double(phi_max) * (j + 0.5) / sectors);
+      mean += glm::length(inverse_transpose * normal_at(p)) / (rings * sectors);
     }
   }
   const double hole = inner;

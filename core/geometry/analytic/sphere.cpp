@@ -2,6 +2,10 @@
 
 #include "core/geometry/analytic/sphere.h"
 
+#include <array>
+#include <cmath>
+#include <numbers>
+
 #include "core/geometry/analytic/quadric_bounds.h"
 
 namespace kaustik {
@@ -54,14 +58,16 @@ double Sphere::area() const {
   constexpr int kRings = 128, kSectors = 64;
   const glm::dmat3 m(to_world.linear);
   const glm::dmat3 inverse_transpose = glm::transpose(glm::inverse(m));
+  std::array<glm::dvec3, kSectors> equator;  // normals there
+  for (int j = 0; j < kSectors; ++j) {
+    const double phi = 2 * std::numbers::pi * (j + 0.5) / kSectors;
+    equator[size_t(j)] = inverse_transpose * glm::dvec3(std::cos(phi), std::sin(phi), 0);
+  }
   double sum = 0;
   for (int i = 0; i < kRings; ++i) {
     const double z = (2 * i + 1.0) / kRings - 1;
     const double r = std::sqrt(1 - z * z);
-    for (int j = 0; j < kSectors; ++j) {
-      const double phi = 2 * std::numbers::pi * (j + 0.5) / kSectors;
-      sum += glm::length(inverse_transpose * glm::dvec3(r * std::cos(phi), r * std::sin(phi), z));
-    }
+    for (const glm::dvec3& n : equator) sum += glm::length(r * n + z * inverse_transpose[2]);
   }
   return std::abs(glm::determinant(m)) * sum * 4 * std::numbers::pi / (kRings * kSectors);
 }

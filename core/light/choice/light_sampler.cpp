@@ -47,8 +47,7 @@ std::optional<LightSampler::Choice> LightSampler::choose(const LightReceiver& x,
 float LightSampler::probability(const LightReceiver& x, uint32_t light) const {
   const float by_power = power_.pdf(light);
   if (by_power_) return by_power;
-  if (std::find(placeless_.begin(), placeless_.end(), light) != placeless_.end())
-    return mixed(share(), by_power);
+  if (std::binary_search(placeless_.begin(), placeless_.end(), light)) return mixed(share(), by_power);
   return mixed(tree_.empty() ? 0 : share() * tree_.probability(x, light), by_power);
 }
 

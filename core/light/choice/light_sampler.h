@@ -41,7 +41,7 @@ class LightSampler {
   bool by_power_ = true;
   DiscreteDistribution power_;
   LightTree tree_;
-  std::vector<uint32_t> placeless_;
+  std::vector<uint32_t> placeless_;  // in ascending order
 };
 
 }  // namespace kaustik
