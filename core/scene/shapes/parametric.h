@@ -21,7 +21,8 @@ struct ParametricPoint {
 TriangleMesh grid_of(int columns, int rows, const std::function<ParametricPoint(double, double)>& surface);
 
 // pbrt's cone, paraboloid and hyperboloid (Pharr 2016, section 3.5), 256 columns per full turn: 0.01 % of the
-// radius too narrow at most. Nothing, with an error, if nothing of the shape is left.
+// radius too narrow at most. Rows follow curves only, so a cone has one. Nothing, with an error, if nothing
+// of the shape is left.
 std::optional<TriangleMesh> make_cone(const ParameterReader& p, DiagnosticList& diagnostics);
 std::optional<TriangleMesh> make_paraboloid(const ParameterReader& p, DiagnosticList& diagnostics);
 std::optional<TriangleMesh> make_hyperboloid(const ParameterReader& p, DiagnosticList& diagnostics);

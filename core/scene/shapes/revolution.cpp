@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/scene/shapes/parametric.h"
 
@@ -22,11 +23,12 @@ ParametricPoint turned(const glm::dvec3& p, const glm::dvec3& n, double phi, con
 }
 
 // profile(t): the point and normal at azimuth 0, and v as uv.y. A full turn closes exactly.
-TriangleMesh revolve(const ParameterReader& p, const std::function<ParametricPoint(double)>& profile) {
+TriangleMesh revolve(const ParameterReader& p, int rows,
+                     const std::function<ParametricPoint(double)>& profile) {
   const double turn = glm::radians(p.number("phimax"));
   const bool full = p.number("phimax") == 360;
   const int columns = std::max(1, int(std::ceil(kColumnsPerTurn * p.number("phimax") / 360)));
-  return grid_of(columns, kRows, [&](double s, double t) {
+  return grid_of(columns, rows, [&](double s, double t) {
     const ParametricPoint at = profile(t);
     return turned(at.p, at.n, full && s == 1 ? 0 : s * turn, {static_cast<float>(s), at.uv.y});
   });
@@ -61,7 +63,7 @@ TriangleMesh grid_of(int columns, int rows, const std::function<ParametricPoint(
 
 std::optional<TriangleMesh> make_cone(const ParameterReader& p, DiagnosticList& /*diagnostics*/) {
   const double radius = p.number("radius"), height = p.number("height");
-  return revolve(p, [&](double v) {
+  return revolve(p, 1, [&](double v) {
     return ParametricPoint{
         {(1 - v) * radius, 0, v * height}, {height, 0, radius}, {0, static_cast<float>(v)}};
   });
@@ -80,7 +82,7 @@ std::optional<TriangleMesh> make_paraboloid(const ParameterReader& p, Diagnostic
   }
   // Rows are even in the distance from the axis, which is radius at the top.
   const double inner = radius * std::sqrt(low / top), slope = radius * radius / (2 * top);
-  return revolve(p, [&](double t) {
+  return revolve(p, kRows, [&](double t) {
     const double r = std::lerp(inner, radius, t), z = top * r * r / (radius * radius);
     return ParametricPoint{{r, 0, z}, {r, 0, -slope}, {0, static_cast<float>((z - low) / (top - low))}};
   });
@@ -93,7 +95,11 @@ std::optional<TriangleMesh> make_hyperboloid(const ParameterReader& p, Diagnosti
     diagnostics.error(p.location("p1"), "the line from `p1` to `p2` sweeps no surface about the z axis");
     return std::nullopt;
   }
-  return revolve(p, [&](double v) {
+  // Its lines are straight: rows are as many as there are columns from one end of a line to the other.
+  const glm::dvec2 a(from), b(p.vec3("p2"));
+  const double twist = std::abs(std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b)));
+  const int rows = std::clamp(int(std::ceil(kColumnsPerTurn * twist / (2 * std::numbers::pi))), 1, kRows);
+  return revolve(p, rows, [&](double v) {
     const glm::dvec3 at = from + v * along;
     return ParametricPoint{at, glm::cross(glm::dvec3(-at.y, at.x, 0), along), {0, static_cast<float>(v)}};
   });

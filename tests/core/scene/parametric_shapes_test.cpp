@@ -58,6 +58,7 @@ TEST_F(ParametricShapes, ConesHaveTheirArea) {
   const auto mesh = make_cone(reader("cone"), diagnostics_);
   const double whole = std::numbers::pi * 2 * std::sqrt(13.0);
   EXPECT_NEAR(area(*mesh), whole, kFlat * whole);
+  EXPECT_EQ(mesh->indices.size(), 256u);  // straight lines take no rows
   number("phimax", 90);
   const auto quarter = make_cone(reader("cone"), diagnostics_);
   EXPECT_NEAR(area(*quarter), whole / 4, kFlat * whole);
@@ -89,6 +90,19 @@ TEST_F(ParametricShapes, HyperboloidsHaveTheirEquation) {
   for (const Point3& p : mesh->P)
     EXPECT_NEAR(double(p.x) * p.x + double(p.y) * p.y, 1 + double(p.z) * p.z, 16 * kEpsilon * 2);
   expect_normals(*mesh, [](const glm::dvec3& p) { return glm::dvec3(p.x, p.y, -p.z); });
+}
+
+// A line that meets the axis when it is prolonged sweeps a cone, cut off at the height of 3 of 4 metres.
+TEST_F(ParametricShapes, HyperboloidsMayBeCones) {
+  add(ParameterType::kPoint3, "p1", {2, 0, 0}), add(ParameterType::kPoint3, "p2", {0.5, 0, 3});
+  const auto mesh = make_hyperboloid(reader("hyperboloid"), diagnostics_);
+  EXPECT_EQ(mesh->indices.size(), 512u);
+  const double whole = std::numbers::pi * 2 * std::hypot(2.0, 4.0);
+  EXPECT_NEAR(area(*mesh), whole * 15 / 16, kFlat * whole);
+  expect_normals(*mesh, [](const glm::dvec3& p) {
+    const double r = std::hypot(p.x, p.y);
+    return glm::dvec3(2 * p.x / r, 2 * p.y / r, 1);
+  });
 }
 
 // A rational quadratic arc of weights 1, 1/sqrt(2), 1 is a quarter of a circle.
