@@ -26,4 +26,9 @@ std::string MemoryRoom::lacks(uint64_t bytes) const {
                      size_text(left));
 }
 
+std::string MemoryRoom::exceeded() const {
+  if (left() > 0) return {};
+  return fmt::format("the shapes up to this one take more memory than {} allows", source_);
+}
+
 }  // namespace kaustik

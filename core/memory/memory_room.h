@@ -21,6 +21,8 @@ class MemoryRoom {
   uint64_t left() const;
   // Why so many bytes more cannot be taken; empty if they can.
   std::string lacks(uint64_t bytes) const;
+  // Says that the process holds more than the limit; empty if it does not.
+  std::string exceeded() const;
 
  private:
   uint64_t limit_ = std::numeric_limits<uint64_t>::max();

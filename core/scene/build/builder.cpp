@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 
 #include "core/diagnostics/nearest_name.h"
@@ -115,6 +116,8 @@ class Builder {
   bool fits_memory(const std::map<std::string_view, std::vector<size_t>>& items_of);
   void set_alpha(const ShapeDescription& shape, Item& item);
   void add_instance(size_t index, const std::map<std::string_view, std::vector<size_t>>& items_of);
+  bool fills_memory(const TriangleMesh* mesh, const ShapeDescription& shape,
+                    DiagnosticList& diagnostics) const;
   void load_sources();
   std::optional<ShapeSource> make_source(const Item& item, const glm::dvec3& mesh_origin,
                                          DiagnosticList& diagnostics) const;
@@ -245,9 +248,26 @@ std::optional<ShapeSource> Builder::make_source(const Item& item, const glm::dve
                            mesh_origin);
 }
 
+// Whether the shape, of many that were made of a few numbers each, was the last one to fit into memory; then
+// this is an error. Smaller shapes are not asked about.
+bool Builder::fills_memory(const TriangleMesh* mesh, const ShapeDescription& shape,
+                           DiagnosticList& diagnostics) const {
+  constexpr size_t kFewTriangles = 128;
+  if (!mesh || mesh->indices.size() < kFewTriangles) return false;
+  std::string exceeded = diagnostics_.files.root().room().exceeded();
+  if (exceeded.empty()) return false;
+  diagnostics.error(shape.location, std::move(exceeded));
+  return true;
+}
+
 void Builder::load_sources() {
+  std::atomic<bool> full = false;
   parallel::for_index(size_t{0}, items_.size(), [&](size_t i) {
-    items_[i].source = make_source(items_[i], glm::dvec3(0), items_[i].diagnostics);
+    if (full) return;
+    Item& item = items_[i];
+    item.source = make_source(item, glm::dvec3(0), item.diagnostics);
+    const auto* const mesh = item.source ? std::get_if<TriangleMesh>(&item.source->geometry) : nullptr;
+    if (fills_memory(mesh, *item.description, item.diagnostics)) full = true;
   });
   for (Item& item : items_) {
     item.messages = item.diagnostics.entries().size();
@@ -388,6 +408,7 @@ void Builder::place(Scene& scene) {
     shape.alpha = item.alpha;
     shape.alpha_texture = item.alpha_texture;
     if (placements_[i].light && !lights_->make(*item.description, shape, scene.lights)) continue;
+    if (placements_[i].light && fills_memory(shape.mesh(), *item.description, diagnostics_)) return;
     scene.light_media.resize(scene.lights.size(), item.media.outside);
     names.push_back(group_key(placements_[i]));
     places.push_back(group_name(*item.description));

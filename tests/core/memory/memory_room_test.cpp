@@ -28,6 +28,9 @@ TEST(MemoryRoom, SaysWhatIsLackingAndWhy) {
   const std::string lack = room.lacks(3'000'000'000);
   EXPECT_TRUE(lack.starts_with("it needs about 3 GB of memory, but --memory leaves ")) << lack;
   EXPECT_EQ(MemoryRoom(1, "--memory").left(), 0u);
+  EXPECT_EQ(room.exceeded(), "");
+  EXPECT_EQ(MemoryRoom(1, "--memory").exceeded(),
+            "the shapes up to this one take more memory than --memory allows");
 }
 
 }  // namespace

@@ -54,6 +54,33 @@ TEST(Builder, LoadsMeshesInParallelAndKeepsTheirOrder) {
   for (size_t i = 0; i < 64; ++i) EXPECT_EQ(primitive_count(scene->shapes[i]), i + 1);
 }
 
+// A shape of a few numbers may be made of tens of thousands of triangles: those up to the limit are made.
+TEST(Builder, ShapesMustFitIntoMemory) {
+  const auto fits = [](const std::string& type, bool emits) {
+    SceneDescription d;
+    d.shapes.assign(3, shape_of(type, {}));
+    d.area_lights.emplace_back().type = "diffuse";
+    for (ShapeDescription& shape : d.shapes) {
+      shape.object_to_world = glm::scale(glm::dmat4(1), glm::dvec3(1, 1, 2));
+      if (emits) shape.area_light = 0;
+    }
+    Diagnostics diagnostics;
+    diagnostics.files.root().set_room(MemoryRoom(1, "the test"));
+    const bool built = build_scene(d, {}, diagnostics).has_value();
+    if (!built) {
+      EXPECT_GE(diagnostics.error_count(), 1u);
+      for (const Diagnostic& error : diagnostics.entries())
+        if (error.severity == Severity::kError) {
+          EXPECT_EQ(error.message, "the shapes up to this one take more memory than the test allows");
+        }
+    }
+    return built;
+  };
+  EXPECT_FALSE(fits("paraboloid", false));
+  EXPECT_TRUE(fits("sphere", false));
+  EXPECT_FALSE(fits("sphere", true));  // scaled unevenly, it shines as triangles
+}
+
 TEST(Builder, ReportsEveryMeshThatFailsInFileOrder) {
   SceneDescription d;
   for (int i = 0; i < 20; ++i) d.shapes.push_back(mesh_file(std::to_string(i)));
