@@ -1,12 +1,11 @@
 #pragma once
 // Drops edges by a test that takes long.
 
-#include <algorithm>
 #include <functional>
 #include <vector>
 
 #include "core/geometry/boundary_edges.h"
-#include "core/parallel/parallel.h"
+#include "core/parallel/cancellable.h"
 
 namespace kaustik::accel {
 
@@ -15,13 +14,9 @@ namespace kaustik::accel {
 template <class Test>
 void drop_edges(std::vector<BoundaryEdge>* edges, const Test& drops,
                 const std::function<bool()>& go_on = {}) {
-  constexpr size_t kAtATime = 1 << 14;
   std::vector<uint8_t> dropped(edges->size());
-  for (size_t begin = 0; begin < edges->size(); begin += kAtATime) {
-    if (go_on && !go_on()) return;
-    parallel::for_index(begin, std::min(begin + kAtATime, edges->size()),
-                        [&](size_t i) { dropped[i] = drops((*edges)[i]); });
-  }
+  const auto test = [&](size_t i) { dropped[i] = drops((*edges)[i]); };
+  if (!parallel::for_index_while(go_on, size_t{0}, edges->size(), test)) return;
   size_t kept = 0;
   for (size_t i = 0; i < edges->size(); ++i)
     if (!dropped[i]) (*edges)[kept++] = (*edges)[i];

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/parallel/parallel.h"
+#include "core/parallel/cancellable.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
 #include "render/camera/shading_point.h"
@@ -111,18 +111,19 @@ Surroundings::Cell Surroundings::explore(const RenderInput& input, const Surface
   return sum;
 }
 
-Surroundings::Surroundings(const RenderInput& input) {
+Surroundings::Surroundings(const RenderInput& input, const std::function<bool()>& go_on) {
   const std::vector<VisiblePoint> points = visible_points(input, pilot_count(input));
   struct Found {
     Cell front, back;
   };
   std::vector<Found> found(points.size());
-  parallel::for_index(size_t{0}, points.size(), [&](size_t i) {
+  const auto look_around = [&](size_t i) {
     Sampler sampler(hash_combine(input.settings.seed, kClearanceStream), i);
     const VisiblePoint& x = points[i];
     found[i].front = explore(input, x.si, x.query.n, sampler);
     if (x.both_sides) found[i].back = explore(input, x.si, -x.query.n, sampler);
-  });
+  };
+  if (!parallel::for_index_while(go_on, size_t{0}, points.size(), look_around)) return;
   for (size_t grid = 0; grid < grids_.size(); ++grid) grids_[grid] = {points, kResolution[grid]};
   for (size_t i = 0; i < points.size(); ++i) {
     add(points[i].query.p, points[i].query.n, found[i].front);

@@ -2,6 +2,7 @@
 // What is around the points that the camera sees: how near other surfaces are, and how unevenly they shine.
 
 #include <array>
+#include <functional>
 #include <unordered_map>
 
 #include "core/sampling/sampler.h"
@@ -28,7 +29,8 @@ struct Place {
 // thread-safe.
 class Surroundings {
  public:
-  explicit Surroundings(const RenderInput& input);
+  // go_on: is called now and then; where it returns false, the exploration ends early and is of no use.
+  explicit Surroundings(const RenderInput& input, const std::function<bool()>& go_on = {});
 
   // The surface at p whose lit side has the normal n; clearance 0 where nothing is known, since the camera
   // hardly sees it.

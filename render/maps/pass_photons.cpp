@@ -113,19 +113,22 @@ bool PassPhotons::explore(const RenderInput& input, const ProgressCallback& prog
   if (!kinds_needed(input.plan).any()) return true;
   ExploredScene& known = *explored_;
   const Stopwatch watch;
+  bool cancelled = false;
+  const auto go_on = [&] {
+    cancelled = progress && !progress({"build", 0, 1});
+    return !cancelled;
+  };
   if (!known.edges) {
     std::vector<BoundaryEdge> edges = find_boundary_edges(input.scene.shapes, &known.bends);
-    bool cancelled = false;
-    const auto go_on = [&] {
-      cancelled = progress && !progress({"build", 0, 1});
-      return !cancelled;
-    };
     edges = accel::without_continued(std::move(edges), input.bvh, go_on);
     if (cancelled) return false;
     known.edges = std::make_unique<accel::EdgeIndex>(merge_edges(std::move(edges)));
   }
-  if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather)
-    known.surroundings = std::make_unique<const Surroundings>(input);
+  if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather) {
+    auto surroundings = std::make_unique<const Surroundings>(input, go_on);
+    if (cancelled) return false;
+    known.surroundings = std::move(surroundings);
+  }
   known.seconds += watch.seconds();
   return true;
 }
