@@ -50,9 +50,10 @@ void place(const Transform& to_world, Facet* facet) {
 }
 
 // Pieces of a full turn about a quadric's axis, of which the side of a voxel holds one, but no fewer than
-// keep their normals within four degrees.
+// keep their normals within four degrees. Meshes have their own triangles, which are not visited here.
 int around_of(const Shape& shape, double voxel) {
   constexpr double kCoarseTurn = 48;
+  if (shape.mesh()) return kFineTurn;
   const double turn = std::numbers::pi * double(max_component(bounds_of(shape).diagonal()));
   return static_cast<int>(std::clamp(std::ceil(turn / voxel), kCoarseTurn, double(kFineTurn)));
 }
