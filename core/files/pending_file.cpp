@@ -35,25 +35,26 @@ bool can_be_named_later() {
   return there;
 }
 
-// Whether new_temporary_name() may have made this name.
-bool is_temporary_name(std::string_view name) {
-  if (!name.starts_with('.') || !name.ends_with(kEnding)) return false;
+// The hidden_name_beginning() of a name that new_temporary_name() may have made; empty for other names.
+std::string_view beginning_of_temporary(std::string_view name) {
+  if (!name.ends_with(kEnding)) return {};
   name.remove_suffix(kEnding.size());
-  if (name.size() < kRandomDigits + 3) return false;
-  const std::string_view random = name.substr(name.size() - kRandomDigits);
-  return random.find_first_not_of("0123456789abcdef") == random.npos &&
-         name[name.size() - kRandomDigits - 1] == '.';
+  const size_t digits = name.size() - std::min(name.size(), kRandomDigits);
+  if (name.find_first_not_of("0123456789abcdef", digits) != name.npos) return {};
+  name = name.substr(0, digits);
+  return name.size() > 2 && name.starts_with('.') && name.ends_with('.') ? name : std::string_view();
 }
 
-// Removes the temporary files in the folder for whose names `is_chosen` holds.
+// Removes the temporary files in the folder for whose beginnings `is_chosen` holds.
 template <class IsChosen>
 void remove_temporaries(const fs::path& folder, const IsChosen& is_chosen) {
   std::error_code error;
   for (fs::directory_iterator i(folder.empty() ? "." : folder, error), end; !error && i != end;
        i.increment(error)) {
     const std::string name = i->path().filename().string();
+    const std::string_view beginning = beginning_of_temporary(name);
     std::error_code ignored;
-    if (is_temporary_name(name) && is_chosen(name)) fs::remove(i->path(), ignored);
+    if (!beginning.empty() && is_chosen(beginning)) fs::remove(i->path(), ignored);
   }
 }
 
@@ -161,10 +162,8 @@ void write_file(const fs::path& path, std::string_view bytes) {
 }
 
 void remove_leftovers(const fs::path& path) {
-  const std::string beginning = hidden_name_beginning(path);
-  remove_temporaries(path.parent_path(), [&](std::string_view name) {
-    return name.size() == beginning.size() + kRandomDigits + kEnding.size() && name.starts_with(beginning);
-  });
+  const std::string of_path = hidden_name_beginning(path);
+  remove_temporaries(path.parent_path(), [&](std::string_view beginning) { return beginning == of_path; });
 }
 
 void remove_all_leftovers(const fs::path& folder) {
