@@ -16,6 +16,18 @@ namespace kaustik::pbrt {
 // The shapes and materials of the file alone: a model that comes alone gets no floor.
 inline const ImportOptions kWithoutFloor{.view = {.floor = Floor::kOff}};
 
+// Named materials m0, of this type and parameters, and m1 to m<count>, each of which mixes the one before it
+// with itself: 2^count paths lead from the last one to the first. One line each.
+inline std::string nested_mixtures(const std::string& first, int count) {
+  std::string text = "MakeNamedMaterial \"m0\" \"string type\" " + first + "\n";
+  for (int i = 1; i <= count; ++i) {
+    const std::string before = "\"m" + std::to_string(i - 1) + "\" ";
+    text += "MakeNamedMaterial \"m" + std::to_string(i) +
+            "\" \"string type\" \"mix\" \"string materials\" [ " + before + before + "]\n";
+  }
+  return text;
+}
+
 class ImportTest : public testing::Test {
  protected:
   void SetUp() override { folder_ = test::empty_output_folder(); }

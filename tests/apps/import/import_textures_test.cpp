@@ -327,17 +327,8 @@ TEST_F(ImportTextures, ANormalMapMayBeTheOnlyImage) {
 }
 
 TEST_F(ImportTextures, RefusesMixturesOfTooManyMixtures) {
-  const auto chain = [](int mixtures) {
-    std::string text = "MakeNamedMaterial \"m0\" \"string type\" \"mirror\"\n";
-    for (int i = 1; i <= mixtures; ++i) {
-      const std::string before = "\"m" + std::to_string(i - 1) + "\" ";
-      text += "MakeNamedMaterial \"m" + std::to_string(i) +
-              "\" \"string type\" \"mix\" \"string materials\" [ " + before + before + "]\n";
-    }
-    return text;
-  };
-  EXPECT_EQ(first_lines(chain(256)), "");
-  EXPECT_EQ(first_lines(chain(257)),
+  EXPECT_EQ(first_lines(nested_mixtures("\"mirror\"", 256)), "");
+  EXPECT_EQ(first_lines(nested_mixtures("\"mirror\"", 257)),
             "259:40: error: this mixture of mixtures is 257 deep: at most 256 are supported\n");
 }
 

@@ -71,15 +71,9 @@ TEST_F(ImportDispersion, ConstantIndicesDoNotDisperse) {
   EXPECT_FALSE(scene.needs.dispersion);
 }
 
-// Each mixture names the one before it twice: 2^60 paths lead to the glass.
 TEST_F(ImportDispersion, MixturesOfMixturesDisperse) {
-  std::string text = R"(MakeNamedMaterial "m0" "string type" "dielectric" "spectrum eta" "glass-BK7")";
-  for (int i = 1; i <= 60; ++i) {
-    const std::string before = "\"m" + std::to_string(i - 1) + "\" ";
-    text += "\nMakeNamedMaterial \"m" + std::to_string(i) +
-            "\" \"string type\" \"mix\" \"string materials\" [ " + before + before + "]";
-  }
-  const Scene scene = world(text + "\nNamedMaterial \"m60\" Shape \"sphere\"");
+  const Scene scene = world(nested_mixtures(R"("dielectric" "spectrum eta" "glass-BK7")", 60) +
+                            "NamedMaterial \"m60\" Shape \"sphere\"");
   EXPECT_TRUE(scene.needs.dispersion);
   EXPECT_TRUE(scene.materials[scene.shapes[0].material].is_dispersive());
   EXPECT_FALSE(scene.materials[scene.shapes[0].material].has_textured_bsdf());
