@@ -136,7 +136,7 @@ TEST(LightTree, IsNeverZeroWhereALightContributes) {
 TEST(LightTree, TakesLightsAtTheEndsOfTheRangeOfFloats) {
   constexpr float kEnd = std::numeric_limits<float>::max();
   std::vector<Light> all;
-  for (const float x : {-kEnd, 0.0f, 1.0f, 2.0f, 3.0f, kEnd}) all.push_back(PointLight{{x, 0, 0}, Rgb(1)});
+  for (const float x : {-kEnd, 0.0f, 1.0f, 2.0f, 3.0f, kEnd}) all.emplace_back(PointLight{{x, 0, 0}, Rgb(1)});
   const LightTree tree(all);
   const double sum = sum_of_probabilities(tree, {{0, 1, 0}, {0, 1, 0}, true}, int(all.size()));
   EXPECT_TRUE(sum >= 0 && sum < 1.001) << sum;
