@@ -23,6 +23,7 @@ void SettingOverrides::add(const Setting& setting, std::vector<std::string> text
 }
 
 void SettingOverrides::append(const SettingOverrides& others) {
+  std::erase_if(given_, [&](const auto& given) { return others.sets(given.first->name); });
   given_.insert(given_.end(), others.given_.begin(), others.given_.end());
   if (!others.root_.empty()) root_ = others.root_;
 }

@@ -16,7 +16,8 @@ class SettingOverrides {
  public:
   // Adds a setting. Throws OptionError when the values are invalid.
   void add(const Setting& setting, std::vector<std::string> texts);
-  // Appends all settings of `others`, and takes their root if they have one.
+  // Appends all settings of `others`, and takes their root if they have one. Their values replace those of
+  // the same settings here, so that a page that gives settings for days does not make the list longer.
   void append(const SettingOverrides& others);
   // Those that are for this process alone, which no manifest holds: --threads, --memory, --root.
   SettingOverrides of_machine() const;
@@ -25,6 +26,8 @@ class SettingOverrides {
   // gives itself.
   void apply(Settings& settings) const;
   bool sets(std::string_view name) const;
+  // The number of values that are given, counting each time that a setting is given.
+  size_t size() const { return given_.size(); }
   // The value of --root; empty if it is not given.
   const std::string& root() const { return root_; }
   // Throws OptionError if there is no such folder.
