@@ -50,6 +50,22 @@ MediumIndex walk_media(const Bvh* interfaces, const Ray& ray, float distance, Me
   return medium;
 }
 
+// The medium in which a photon of this light starts, along its ray. A light that is infinitely far shines in
+// the medium on the near side of the first interface that its ray meets, whatever medium it is declared in,
+// since light samples walk from the other end and end there, too. Where no interface is met, or a surface
+// comes before it, the light is in its own medium.
+template <class Accel>
+MediumIndex medium_at_start(const Scene& scene, const Accel& accel, uint32_t light, const Ray& ray) {
+  const MediumIndex declared = medium_of_light(scene, light);
+  const Bvh* const interfaces = interfaces_of(accel);
+  if (!interfaces || bounds_of(scene.lights[light])) return declared;
+  const Hit hit = interfaces->intersect(ray);
+  if (!hit.valid() || accel.occluded(Ray{ray.o, ray.d, hit.t})) return declared;
+  const SurfaceInteraction si = make_interaction(interfaces->scene().shapes, ray, hit);
+  const MediumInterface& media = interfaces->scene().shapes[si.shape].media;
+  return glm::dot(ray.d, si.n) > 0 ? media.inside : media.outside;
+}
+
 // The share of light that gets from the ray's start to `distance`. medium: in, out: where it starts and ends.
 inline Rgb transmittance(const Scene& scene, const Bvh* interfaces, const Ray& ray, float distance,
                          MediumIndex* medium) {

@@ -10,12 +10,13 @@ namespace kaustik::photon::detail {
 template <class Accel, class Sink>
 void Tracer<Accel, Sink>::enter_media(size_t count) {
   for (size_t k = 0; k < count; ++k) {
+    if (!starts_.emitted[k]) continue;
     const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light).light;
-    const MediumIndex medium = medium_of_light(scene_, light);
+    const Ray ray = starts_.ray.get(k);
+    MediumIndex medium = accel::medium_at_start(scene_, bvh_, light, ray);
     walkers_.state[k] = WalkState().in(medium);
-    if (medium == kVacuum || bounds_of(scene_.lights[light])) continue;
-    const Ray back{starts_.ray.get(k).o, -starts_.ray.get(k).d};
-    const Rgb left = transmittance(scene_.media[medium], back, 0, kInfinity);
+    if (bounds_of(scene_.lights[light])) continue;
+    const Rgb left = accel::transmittance(scene_, interfaces_, {ray.o, -ray.d}, kInfinity, &medium);
     set_lane(starts_.flux, k, left * get_lane(starts_.flux, k));
   }
 }

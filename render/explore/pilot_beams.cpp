@@ -43,7 +43,8 @@ void follow_from_lamp(const RenderInput& input, Sampler& sampler, std::vector<Be
   const auto start = photon::emit_photon(input.scene, u, 1, input.settings.emission);
   if (!start) return;
   const uint32_t light = photon::light_of_photon(input.scene, u.light).light;
-  follow(input, start->ray, medium_of_light(input.scene, light), sampler, beams);
+  const MediumIndex medium = accel::medium_at_start(input.scene, input.bvh, light, start->ray);
+  follow(input, start->ray, medium, sampler, beams);
 }
 
 void follow_from_view(const RenderInput& input, uint64_t index, uint64_t count, Sampler& sampler,

@@ -53,8 +53,8 @@ std::optional<VisiblePoint> lit_point(const RenderInput& input, uint32_t reflect
   const photon::EmissionNumbers u = photon::emission_numbers(input.scene, sampler);
   const auto start = photon::emit_photon(input.scene, u, 1, input.settings.emission);
   if (!start) return {};
-  const MediumIndex medium =
-      medium_of_light(input.scene, photon::light_of_photon(input.scene, u.light).light);
+  const uint32_t light = photon::light_of_photon(input.scene, u.light).light;
+  const MediumIndex medium = accel::medium_at_start(input.scene, input.bvh, light, start->ray);
   std::optional<VisiblePoint> point = first_diffuse(input, start->ray, medium, sampler);
   for (uint32_t i = 0; point && i < reflections; ++i) {
     const Frame frame = Frame::from_z(point->query.n);

@@ -170,6 +170,25 @@ TEST(MediaAgreement, SunsAreAbsorbedOnTheirInfiniteWay) {
   }
 }
 
+// A sun that is declared in the fog of a ball shines from outside of it: its light is absorbed from where the
+// ball begins, by paths and by photons.
+TEST(MediaAgreement, SunsMeetAMediumWhereItBegins) {
+  constexpr float kRadius = 0.5f;
+  Scene scene;
+  add_shape(scene, horizontal({0, 0, 0}, 1, 1, true, add_material(scene, Lambertian{Rgb(0.5f)})));
+  scene.lights.push_back(DistantLight{{0, 1, 0}, Rgb(3)});
+  look_at(scene, {0.2f, 2, 0.1f}, {0, 0, 0}, {0, 0, 1}, 20, kSize, kSize);
+  fill(scene, Rgb(0.1f), Rgb(0.1f));
+  add_interface(scene, sphere({0, 0, 0}, 3, 0), {scene.camera_medium, kVacuum});
+  finalize_scene(scene);
+  const auto by_paths = films(scene, settings_of(Method::kMc, 64, kRadius, 100));
+  for (const Method method : {Method::kPhoton, Method::kAuto}) {
+    const Comparison c(scene, by_paths, method, kRadius);
+    for (const Layer layer : {Layer::kDirect, Layer::kMediaDirect}) c.expect_agreement_everywhere(layer);
+    for (const Layer layer : {Layer::kIndirect, Layer::kMediaIndirect}) c.expect_agreement(layer, -1, 0.5);
+  }
+}
+
 // Light is lost, unlike in the same box without media.
 TEST(MediaAgreement, MediaDarkenTheBox) {
   const RenderSettings settings = settings_of(Method::kPhoton, 16, 0.1f, 1);
