@@ -203,6 +203,34 @@ HWY_INLINE Vf Columns(const ColumnTable& table, Vf t) {
   return hn::LoadU(d, lanes);
 }
 
+// The weights of photons over the shares of the kernel that the ray sees.
+HWY_INLINE Vf OverShares(const BeamSight& sight, const BesideBeam& photons, Vf weight) {
+  const Floats d;
+  float t[HWY_MAX_BYTES / sizeof(float)], share[HWY_MAX_BYTES / sizeof(float)];
+  hn::StoreU(hn::IfThenElseZero(photons.counts, photons.t), d, t);
+  for (size_t k = 0; k < hn::Lanes(d); ++k) share[k] = sight.share(t[k]);
+  return hn::Div(weight, hn::LoadU(d, share));
+}
+
+// What the photons of one block add to the sum, and where they are abreast of the ray.
+struct BlockParts {
+  float part[2 * BoxTree::kBlockPhotons], t[2 * BoxTree::kBlockPhotons];
+
+  // Whether the ray sees a photon that is chosen in proportion to its part.
+  bool seen(const PhotonMap& map, const BeamSight& sight, uint32_t block) const {
+    float all = 0;
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; ++j) all += part[j];
+    float at = sight.number(block) * all;
+    uint32_t chosen = BoxTree::kBlockPhotons;
+    for (uint32_t j = 0; j < BoxTree::kBlockPhotons && at >= 0; ++j) {
+      if (!(part[j] > 0)) continue;
+      chosen = j;
+      at -= part[j];
+    }
+    return chosen < BoxTree::kBlockPhotons && sight.sees(t[chosen], map.photon(block + chosen).p);
+  }
+};
+
 glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Medium& medium, KernelType kernel,
                        float slope, GatherCounters& counters) {
   const LaneBeam beam(query);
@@ -216,6 +244,7 @@ glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Mediu
       const Floats d;
       Vf of_block[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
       uint64_t accepted = 0;
+      BlockParts parts{};
       for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(d))) {
         const BesideBeam photons(beam, c, block + j);
         if (hn::AllFalse(d, photons.counts)) continue;
@@ -224,17 +253,23 @@ glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Mediu
         Vf weight = hn::Mul(Weight<kType>(photons.squared, hn::Set(d, slope)), power.scale);
         if (medium.g != 0) weight = hn::Mul(weight, Phase(beam, c, block + j, medium.g));
         weight = hn::IfThenElseZero(photons.counts, weight);
+        if (query.sight) weight = OverShares(*query.sight, photons, weight);
         Vf column = hn::IfThenElseZero(photons.counts, photons.t);
         if (query.columns) column = Columns(*query.columns, column);
-        Vf left = hn::Zero(d);
+        Vf left = hn::Zero(d), part = hn::Zero(d);
         for (int k = 0; k < 3; ++k) {
           if (k == 0 || !grey) left = hn::Exp(d, hn::Mul(hn::Set(d, -sigma_t[k]), column));
-          of_block[k] = hn::MulAdd(hn::Mul(weight, left), power.component[k], of_block[k]);
+          const Vf light = hn::Mul(weight, left);
+          of_block[k] = hn::MulAdd(light, power.component[k], of_block[k]);
+          part =
+              hn::MulAdd(light, hn::Mul(power.component[k], hn::Set(d, RgbOfPower::unit(k, converts))), part);
         }
+        hn::StoreU(part, d, parts.part + j);
+        hn::StoreU(photons.t, d, parts.t + j);
       }
       counters.candidates += BoxTree::kBlockPhotons;
       counters.accepted += accepted;
-      if (accepted == 0) return;
+      if (accepted == 0 || (query.sight && !parts.seen(map, *query.sight, block))) return;
       for (int k = 0; k < 3; ++k)
         sum[k] += double(hn::GetLane(hn::SumOfLanes(d, of_block[k])) * RgbOfPower::unit(k, converts));
     });

@@ -4,6 +4,7 @@
 
 #include "core/math/ray.h"
 #include "core/medium/medium.h"
+#include "photon/gather/beam_sight.h"
 #include "photon/gather/gather_query.h"
 #include "photon/gather/kernel.h"
 #include "photon/map/photon_map.h"
@@ -18,6 +19,7 @@ struct BeamQuery {
   float radius = 0;    // metres
   uint32_t medium = 0;
   const ColumnTable* columns = nullptr;  // of the ray, where the medium's density changes; else null
+  const BeamSight* sight = nullptr;      // what gather_along() takes surfaces to hide; null: nothing
 };
 
 // Photons that count, in ascending order of the map: their indices, places on the ray in metres from its
@@ -41,7 +43,9 @@ uint64_t count_along(const PhotonMap& map, const BeamQuery& query);
 inline constexpr uint64_t kCandidatesOfQuery = 256;
 
 // Sum over the photons that count of  T(t) p(wi, -d) K(distance) flux, in W/(m^2 sr), where d is the ray's
-// direction. The order of the sum is fixed.
+// direction. The order of the sum is fixed. query.sight: photons count where the ray sees them, divided by
+// the share of the kernel that it sees. One photon of a block, chosen in proportion to its part of the sum,
+// decides for all of the block, so that the sum is right in the mean.
 Rgb gather_along(const PhotonMap& map, const BeamQuery& query, const Medium& medium, const KernelSpec& kernel,
                  GatherCounters& counters);
 

@@ -45,7 +45,7 @@ Rgb gathered(const RenderContext& ctx, const Beam& beam, const ColumnTable* colu
              TileCounters& counters) {
   const photon::BeamQuery query{beam.ray, beam.distance, gather.estimate.radius, beam.medium, columns};
   return photon::estimate_beam(gather.map, query, ctx.scene.media[beam.medium], gather.estimate.kernel,
-                               gather.estimate.nearest, counters.gather);
+                               gather.estimate.nearest, counters.gather, &ctx.bvh);
 }
 
 }  // namespace

@@ -1,0 +1,85 @@
+#include "photon/gather/beam_sight.h"
+
+#include <bit>
+#include <cmath>
+
+#include "core/math/frame.h"
+#include "core/sampling/sampler.h"
+
+namespace kaustik::photon {
+
+namespace {
+
+uint64_t seed_of(const Ray& ray) {
+  uint64_t seed = 0;
+  for (int a = 0; a < 3; ++a)
+    seed = hash_combine(
+        seed, uint64_t{std::bit_cast<uint32_t>(ray.o[a])} << 32 | std::bit_cast<uint32_t>(ray.d[a]));
+  return seed;
+}
+
+// The kernel's mass within x radii.
+float mass_within(const KernelSpec& kernel, float x) {
+  float mass = 0, all = 0, power = x * x;
+  for (const float term : mass_terms<float>(kernel)) {
+    mass += term * power;
+    all += term;
+    power *= x;
+  }
+  return mass / all;
+}
+
+float number_of(uint64_t bits) {
+  return float(bits >> 40) * 0x1p-24f;
+}
+
+}  // namespace
+
+BeamSight::BeamSight(const accel::Bvh& bvh, const Ray& ray, float distance, float radius,
+                     const KernelSpec& kernel)
+    : bvh_(bvh), ray_(ray), seed_(seed_of(ray)) {
+  const auto& bounds = bvh.scene().bounds;
+  const float behind =
+      glm::dot(bounds.center() - ray.o, ray.d) + 0.5f * glm::length(bounds.diagonal()) + radius;
+  length_ = std::min(distance, behind);
+  if (!(length_ > 0) || !(radius > 0) || !(length_ < kInfinity)) return;
+  points_ = int(std::clamp(std::ceil(2 * length_ / radius), 1.0f, float(kMostPoints)));
+  for (int i = 0; i < points_; ++i) {
+    const float t = (float(i) + 0.5f) / float(points_) * length_;
+    const float turn = number_of(hash_combine(seed_, ~uint64_t(i)));
+    shares_[size_t(i)] = share_at(t, turn, radius, kernel);
+  }
+}
+
+float BeamSight::share_at(float t, float turn, float radius, const KernelSpec& kernel) const {
+  const Frame frame = Frame::from_z(ray_.d);
+  float sum = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const float angle = 2 * kPi * (float(i) + turn) / kDirections;
+    const Vector3 d = frame.to_world({std::cos(angle), std::sin(angle), 0});
+    const Hit hit = bvh_.intersect(Ray{ray_.at(t), d, radius});
+    sum += hit.valid() ? mass_within(kernel, hit.t / radius) : 1;
+  }
+  return std::max(sum / kDirections, kLeastShare);
+}
+
+float BeamSight::share(float t) const {
+  if (points_ == 0 || t > length_) return 1;
+  const float at = std::clamp(t / length_ * float(points_) - 0.5f, 0.0f, float(points_ - 1));
+  const int i = std::min(int(at), std::max(points_ - 2, 0));
+  const float part = at - float(i);
+  const float next = shares_[size_t(std::min(i + 1, points_ - 1))];
+  return (1 - part) * shares_[size_t(i)] + part * next;
+}
+
+bool BeamSight::sees(float t, const Point3& p) const {
+  const Point3 from = ray_.at(t);
+  const float distance = glm::distance(from, p);
+  return !(distance > 0) || !bvh_.occluded(Ray{from, (p - from) / distance, distance});
+}
+
+float BeamSight::number(uint32_t block) const {
+  return number_of(hash_combine(seed_, block));
+}
+
+}  // namespace kaustik::photon
