@@ -3,6 +3,7 @@
 #include "photon/gather/beam.h"
 
 #include <cmath>
+#include <numeric>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "photon/gather/beam.cpp"
@@ -214,67 +215,120 @@ HWY_INLINE Vf OverShares(const BeamSight& sight, const BesideBeam& photons, Vf w
 
 // What the photons of one block add to the sum, and where they are abreast of the ray.
 struct BlockParts {
-  float part[2 * BoxTree::kBlockPhotons], t[2 * BoxTree::kBlockPhotons];
+  static constexpr uint32_t kSize = BoxTree::kBlockPhotons;
 
-  // Whether the ray sees a photon that is chosen in proportion to its part.
-  bool seen(const PhotonMap& map, const BeamSight& sight, uint32_t block) const {
-    float all = 0;
-    for (uint32_t j = 0; j < BoxTree::kBlockPhotons; ++j) all += part[j];
-    float at = sight.number(block) * all;
-    uint32_t chosen = BoxTree::kBlockPhotons;
-    for (uint32_t j = 0; j < BoxTree::kBlockPhotons && at >= 0; ++j) {
+  float part[2 * kSize] = {}, t[2 * kSize] = {};
+  glm::dvec3 sum{0};
+  uint64_t accepted = 0;
+
+  float all() const { return std::accumulate(part, part + kSize, 0.0f); }
+  // The photon at this place, from zero to all(), of the parts one after the other.
+  uint32_t at(float place) const {
+    uint32_t chosen = 0;
+    for (uint32_t j = 0; j < kSize && place >= 0; ++j) {
       if (!(part[j] > 0)) continue;
       chosen = j;
-      at -= part[j];
+      place -= part[j];
     }
-    return chosen < BoxTree::kBlockPhotons && sight.sees(t[chosen], map.photon(block + chosen).p);
+    return chosen;
   }
 };
+
+// Adds blocks to a sum if the ray sees one of their photons, which is chosen in proportion to its part.
+class SeenBlocks {
+ public:
+  SeenBlocks(const PhotonMap& map, const BeamSight* sight) : map_(map), sight_(sight) {}
+
+  void add(uint32_t block, const BlockParts& parts) {
+    waiting_ += parts.sum;
+    const float part = sight_ ? parts.all() : 0;
+    if (!(part > 0)) return;
+    all_ += part;
+    // Of the blocks that wait, each keeps its share of the choice.
+    const float place = sight_->number(block) * all_;
+    if (place < part) {
+      const uint32_t j = parts.at(place);
+      chosen_ = block + j;
+      t_ = parts.t[j];
+    }
+    if (++blocks_ == kBlocksOfRay) decide();
+  }
+
+  glm::dvec3 sum() {
+    decide();
+    return sum_;
+  }
+
+ private:
+  // Blocks of sixteen photons that share a ray; they are neighbours in the map.
+  static constexpr int kBlocksOfRay = 4;
+
+  void decide() {
+    if (!sight_ || (blocks_ > 0 && sight_->sees(t_, map_.photon(chosen_).p))) sum_ += waiting_;
+    waiting_ = glm::dvec3(0);
+    all_ = 0;
+    blocks_ = 0;
+  }
+
+  const PhotonMap& map_;
+  const BeamSight* sight_;
+  glm::dvec3 sum_{0}, waiting_{0};
+  float all_ = 0, t_ = 0;
+  uint32_t chosen_ = 0;
+  int blocks_ = 0;
+};
+
+// The sum over the photons of one block, as if the ray saw them.
+template <KernelType kType>
+BlockParts PartsOfBlock(const PhotonColumns& c, const LaneBeam& beam, const BeamQuery& query,
+                        const Medium& medium, float slope, bool converts, uint32_t block) {
+  const Floats d;
+  const Rgb sigma_t = medium.sigma_t();
+  const bool grey = is_grey(sigma_t);
+  Vf of_block[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  BlockParts parts;
+  for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(d))) {
+    const BesideBeam photons(beam, c, block + j);
+    if (hn::AllFalse(d, photons.counts)) continue;
+    parts.accepted += hn::CountTrue(d, photons.counts);
+    const RgbOfPower power(Rgb9e5Power(c, block + j), converts);
+    Vf weight = hn::Mul(Weight<kType>(photons.squared, hn::Set(d, slope)), power.scale);
+    if (medium.g != 0) weight = hn::Mul(weight, Phase(beam, c, block + j, medium.g));
+    weight = hn::IfThenElseZero(photons.counts, weight);
+    if (query.sight) weight = OverShares(*query.sight, photons, weight);
+    Vf column = hn::IfThenElseZero(photons.counts, photons.t);
+    if (query.columns) column = Columns(*query.columns, column);
+    Vf left = hn::Zero(d), part = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) {
+      if (k == 0 || !grey) left = hn::Exp(d, hn::Mul(hn::Set(d, -sigma_t[k]), column));
+      const Vf light = hn::Mul(weight, left);
+      of_block[k] = hn::MulAdd(light, power.component[k], of_block[k]);
+      const Vf watts = hn::Mul(power.component[k], hn::Set(d, RgbOfPower::unit(k, converts)));
+      part = hn::MulAdd(light, watts, part);
+    }
+    hn::StoreU(part, d, parts.part + j);
+    hn::StoreU(photons.t, d, parts.t + j);
+  }
+  for (int k = 0; k < 3; ++k)
+    parts.sum[k] = double(hn::GetLane(hn::SumOfLanes(d, of_block[k])) * RgbOfPower::unit(k, converts));
+  return parts;
+}
 
 glm::dvec3 GatherAlong(const PhotonMap& map, const BeamQuery& query, const Medium& medium, KernelType kernel,
                        float slope, GatherCounters& counters) {
   const LaneBeam beam(query);
-  const PhotonColumns& c = map.columns();
-  const Rgb sigma_t = medium.sigma_t();
-  const bool grey = is_grey(sigma_t);
-  const bool converts = !grey && map.colours() == FluxColours::kXyz;
-  glm::dvec3 sum(0);
+  const bool converts = !is_grey(medium.sigma_t()) && map.colours() == FluxColours::kXyz;
+  SeenBlocks seen(map, query.sight);
   with_kernel(kernel, [&]<KernelType kType>() HWY_ATTR {
     VisitAlong(map, beam, [&](uint32_t block) HWY_ATTR {
-      const Floats d;
-      Vf of_block[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-      uint64_t accepted = 0;
-      BlockParts parts{};
-      for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(d))) {
-        const BesideBeam photons(beam, c, block + j);
-        if (hn::AllFalse(d, photons.counts)) continue;
-        accepted += hn::CountTrue(d, photons.counts);
-        const RgbOfPower power(Rgb9e5Power(c, block + j), converts);
-        Vf weight = hn::Mul(Weight<kType>(photons.squared, hn::Set(d, slope)), power.scale);
-        if (medium.g != 0) weight = hn::Mul(weight, Phase(beam, c, block + j, medium.g));
-        weight = hn::IfThenElseZero(photons.counts, weight);
-        if (query.sight) weight = OverShares(*query.sight, photons, weight);
-        Vf column = hn::IfThenElseZero(photons.counts, photons.t);
-        if (query.columns) column = Columns(*query.columns, column);
-        Vf left = hn::Zero(d), part = hn::Zero(d);
-        for (int k = 0; k < 3; ++k) {
-          if (k == 0 || !grey) left = hn::Exp(d, hn::Mul(hn::Set(d, -sigma_t[k]), column));
-          const Vf light = hn::Mul(weight, left);
-          of_block[k] = hn::MulAdd(light, power.component[k], of_block[k]);
-          part =
-              hn::MulAdd(light, hn::Mul(power.component[k], hn::Set(d, RgbOfPower::unit(k, converts))), part);
-        }
-        hn::StoreU(part, d, parts.part + j);
-        hn::StoreU(photons.t, d, parts.t + j);
-      }
+      const BlockParts parts =
+          PartsOfBlock<kType>(map.columns(), beam, query, medium, slope, converts, block);
       counters.candidates += BoxTree::kBlockPhotons;
-      counters.accepted += accepted;
-      if (accepted == 0 || (query.sight && !parts.seen(map, *query.sight, block))) return;
-      for (int k = 0; k < 3; ++k)
-        sum[k] += double(hn::GetLane(hn::SumOfLanes(d, of_block[k])) * RgbOfPower::unit(k, converts));
+      counters.accepted += parts.accepted;
+      if (parts.accepted > 0) seen.add(block, parts);
     });
   });
-  return sum;
+  return seen.sum();
 }
 
 }  // namespace kaustik::photon::HWY_NAMESPACE

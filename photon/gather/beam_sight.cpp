@@ -44,9 +44,12 @@ BeamSight::BeamSight(const accel::Bvh& bvh, const Ray& ray, float distance, floa
   length_ = std::min(distance, behind);
   if (!(length_ > 0) || !(radius > 0) || !(length_ < kInfinity)) return;
   points_ = int(std::clamp(std::ceil(2 * length_ / radius), 1.0f, float(kMostPoints)));
+  // The directions of neighbouring points fill each other's gaps.
+  constexpr float kGolden = 0.618034f;
+  const float first = number_of(hash_combine(seed_, ~uint64_t{0}));
   for (int i = 0; i < points_; ++i) {
     const float t = (float(i) + 0.5f) / float(points_) * length_;
-    const float turn = number_of(hash_combine(seed_, ~uint64_t(i)));
+    const float turn = std::fmod(first + kGolden * float(i), 1.0f);
     shares_[size_t(i)] = share_at(t, turn, radius, kernel);
   }
 }

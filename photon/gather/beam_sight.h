@@ -24,7 +24,7 @@ class BeamSight {
   float number(uint32_t block) const;
 
  private:
-  static constexpr int kMostPoints = 8, kDirections = 8;
+  static constexpr int kMostPoints = 8, kDirections = 4;
   // The estimate is divided by at least so much, lest the noise of few photons becomes bright spots.
   static constexpr float kLeastShare = 1.0f / 16;
 
