@@ -26,6 +26,7 @@ inline PhotonPaths record_photon_paths(const Scene& scene, const accel::Bvh& bvh
       paths.rays.push_back(ray);
       return bvh.intersect(ray);
     }
+    bool occluded(const Ray& ray) const { return bvh.occluded(ray); }
   };
   PhotonPaths paths;
   photon::TraceCounters counters;
@@ -50,6 +51,7 @@ inline std::vector<Ray> record_photon_packets(const Scene& scene, const accel::B
       bvh.intersect(lanes, asked, hits);
     }
     Hit intersect(const Ray& ray) const { return bvh.intersect(ray); }
+    bool occluded(const Ray& ray) const { return bvh.occluded(ray); }
   };
   std::vector<Ray> rays;
   photon::TraceCounters counters;
