@@ -61,6 +61,25 @@ void report_radii(const render::RenderStatistics& s, const Console& console) {
         fmt::format("gather radius{}: {}", s.passes > 1 ? " of the first pass" : "", fmt::join(radii, ", ")));
 }
 
+// Warns where nearly all photons miss what is seen, and the few that are left tell indirect light at a
+// handful of places only: each disc is then as wide as much of the scene, and the light in it has one tone.
+void warn_of_starved_map(const render::RenderResult& result, const Console& console) {
+  // A disc should hold 200 photons (docs/decisions/031-gather-radius.md), so these are 16 discs side by side.
+  constexpr uint64_t kFew = 16 * 200;
+  constexpr uint64_t kLost = 64;  // emitted photons for each that was stored
+  const render::RenderStatistics& s = result.statistics;
+  if (!render::reads_indirect_photons(result.plan)) return;
+  const size_t kind = size_t(photon::PhotonKind::kIndirect);
+  const uint64_t stored = s.photons.stored[kind] + s.guided.stored[kind];
+  const uint64_t emitted = s.photons.emitted + s.guided.emitted;
+  if (stored >= kFew || stored * kLost >= emitted) return;
+  console.warning(
+      fmt::format("only {} of {} photons bring indirect light to surfaces, too few to tell how it varies: "
+                  "expect wide patches of one tone, or none of it. --method mc needs no photons; more "
+                  "--photons help in proportion",
+                  grouped(stored), grouped(emitted)));
+}
+
 // Logs the seconds of each phase, which add up to the total. That of a continued or merged render is the time
 // of this process alone, while the phases contain those of the parts before.
 void report_times(const render::RenderStatistics& s, const render::OuterTimes& t, const Console& console) {
@@ -97,6 +116,7 @@ void report_photons(const render::RenderResult& result, const Console& console) 
         grouped(s.guide_hits)));
   report_energy(s, console);
   report_radii(s, console);
+  warn_of_starved_map(result, console);
   if (result.plan.direct == render::DirectEstimator::kLecture) {
     console.note(fmt::format(
         "lecture: {} points decided by photons ({} of them in a larger cell); shadow rays at {} points with "

@@ -72,5 +72,32 @@ TEST_F(RenderLog, WarnsOfRadiiThatAreALargeShareOfTheScene) {
   EXPECT_THAT(log_of({"--radius", "3", "--method", "raytrace"}), Not(HasSubstr("the gather radius of")));
 }
 
+// A cube of 1 m on land of 400 m under an open sky: hardly a photon of the sky meets both.
+constexpr const char* kCubeOnLand = R"(Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+LookAt 3 3 2  0 0 0.5  0 0 1
+Camera "perspective"
+WorldBegin
+LightSource "infinite" "rgb L" [1 1 1]
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
+  "point3 P" [-200 -200 0 200 -200 0 200 200 0 -200 200 0]
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3  4 5 6 4 6 7]
+  "point3 P" [0 -.5 0 0 .5 0 0 .5 1 0 -.5 1  -.5 0 0 .5 0 0 .5 0 1 -.5 0 1]
+)";
+
+TEST_F(RenderLog, WarnsOfMapsThatNearlyAllPhotonsMiss) {
+  const std::string warning = "photons bring indirect light to surfaces";
+  const auto log = [&](const std::string& scene, const std::string& indirect) {
+    const Outcome outcome = run_kaustik({"render", scene, "-o", path("a.exr"), "--photons", "50k", "--spp",
+                                         "1", "--guide", "off", "--indirect", indirect});
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return outcome.err;
+  };
+  const std::string cube = write("cube.pbrt", kCubeOnLand), room = small_scene(film(16, 16));
+  EXPECT_THAT(log(cube, "photons"), HasSubstr(warning));
+  EXPECT_THAT(log(cube, "final-gather"), HasSubstr(warning));
+  EXPECT_THAT(log(cube, "paths"), Not(HasSubstr(warning)));
+  EXPECT_THAT(log(room, "photons"), Not(HasSubstr(warning)));
+}
+
 }  // namespace
 }  // namespace kaustik::app
