@@ -10,11 +10,14 @@ namespace kaustik::photon {
 
 namespace {
 
-uint64_t seed_of(const Ray& ray) {
+// The same for scenes scaled by powers of two.
+uint64_t seed_of(const Scene& scene, const Ray& ray) {
+  const float radius = scene.bounds.radius();
+  const float scale = radius > 0 && std::isfinite(radius) ? std::ldexp(1.0f, -std::ilogb(radius)) : 1;
   uint64_t seed = 0;
   for (int a = 0; a < 3; ++a)
     seed = hash_combine(
-        seed, uint64_t{std::bit_cast<uint32_t>(ray.o[a])} << 32 | std::bit_cast<uint32_t>(ray.d[a]));
+        seed, uint64_t{std::bit_cast<uint32_t>(scale * ray.o[a])} << 32 | std::bit_cast<uint32_t>(ray.d[a]));
   return seed;
 }
 
@@ -37,7 +40,7 @@ float number_of(uint64_t bits) {
 
 BeamSight::BeamSight(const accel::Bvh& bvh, const Ray& ray, float distance, float radius,
                      const KernelSpec& kernel)
-    : bvh_(bvh), ray_(ray), seed_(seed_of(ray)) {
+    : bvh_(bvh), ray_(ray), seed_(seed_of(bvh.scene(), ray)) {
   const auto& bounds = bvh.scene().bounds;
   const float behind =
       glm::dot(bounds.center() - ray.o, ray.d) + 0.5f * glm::length(bounds.diagonal()) + radius;
