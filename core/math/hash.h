@@ -14,5 +14,9 @@ constexpr uint64_t mix64(uint64_t x) {
 constexpr uint64_t hash_combine(uint64_t a, uint64_t b) {
   return mix64(a ^ (b + 0x9e3779b97f4a7c15ull + (a << 6) + (a >> 2)));
 }
+// The first 24 bits of a hash as a number in [0, 1).
+constexpr float unit_number(uint64_t hash) {
+  return static_cast<float>(hash >> 40) * 0x1p-24f;
+}
 
 }  // namespace kaustik

@@ -31,8 +31,7 @@ bool stops_at(const Scene& scene, const Ray& ray, const Hit& hit, uint64_t ray_h
   if (alpha >= 1) return true;
   if (!(alpha > 0)) return false;
   const uint64_t primitive = uint64_t{hit.shape} << 32 | hit.primitive;
-  constexpr float kToUnit = 0x1p-24f;
-  return static_cast<float>(hash_combine(ray_hash, primitive) >> 40) * kToUnit < alpha;
+  return unit_number(hash_combine(ray_hash, primitive)) < alpha;
 }
 
 }  // namespace kaustik

@@ -21,8 +21,7 @@ uint32_t MixedMaterial::choose(const Point3& p, const Vector3& wo, float share) 
   constexpr uint32_t kSignAndMantissa = 0x807fffff, kAll = 0xffffffff;
   const uint64_t of_materials = hash_combine(first, second);
   const uint64_t hash = with_bits_of(with_bits_of(of_materials, p, kSignAndMantissa), wo, kAll);
-  const float u = static_cast<float>(hash >> 40) * 0x1p-24f;  // in [0, 1)
-  return u < share ? second : first;
+  return unit_number(hash) < share ? second : first;
 }
 
 }  // namespace kaustik

@@ -9,8 +9,8 @@ namespace kaustik::photon {
 // photons near it of  T(t) p(wo, wi) K(d) times the flux that the medium scatters (Jarosz, Zwicker and Jensen
 // 2008, "The Beam Radiance Estimate for Volumetric Photon Mapping", with one radius for all photons). The
 // kernel is one of the plane across the ray. nearest > 0: where more photons than that are in reach, the
-// radius shrinks until about so many are, as if they were spread evenly. bvh: whose surfaces
-// hide photons; null: none. The order of the sum is fixed.
+// radius shrinks until about so many are, as if they were spread evenly. bvh: whose surfaces hide photons;
+// null: none. The order of the sum is fixed.
 Rgb estimate_beam(const PhotonMap& map, BeamQuery query, const Medium& medium, const KernelSpec& kernel,
                   uint32_t nearest, GatherCounters& counters, const accel::Bvh* bvh = nullptr);
 

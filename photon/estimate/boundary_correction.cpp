@@ -142,12 +142,6 @@ double mass_behind_edge(const KernelSpec& kernel, double d, double t1, double t2
   return mass_of(kernel, [&](int power) { return angle - over(power); }) / kTwoPi;
 }
 
-MassWithin::MassWithin(const KernelSpec& kernel) : c_(mass_terms<double>(kernel)) {
-  double sum = 0;
-  for (const double term : c_) sum += term;
-  for (double& term : c_) term /= sum;
-}
-
 int sign_of_edge(const BoundaryEdge& edge, const SurfaceInteraction& si, float radius) {
   const auto view = view_of(edge, si, double(radius));
   return !view ? 0 : view->leaves ? 1 : -1;

@@ -35,20 +35,6 @@ namespace kaustik::photon {
 // for d >= 1.
 double mass_behind_edge(const KernelSpec& kernel, double d, double t1, double t2);
 
-// The share of the kernel's mass within rho radii of the centre, a polynomial.
-class MassWithin {
- public:
-  explicit MassWithin(const KernelSpec& kernel);
-  double operator()(double rho) const {  // 0 <= rho <= 1
-    double sum = 0;
-    for (size_t j = c_.size(); j-- > 0;) sum = sum * rho + c_[j];
-    return sum * rho * rho;
-  }
-
- private:
-  std::array<double, KernelRow::kCoefficients> c_;
-};
-
 // 1 if si's surface ends at this edge as seen from si, -1 if it begins again there, 0 if the edge is no end
 // of it within `radius` metres.
 int sign_of_edge(const BoundaryEdge& edge, const SurfaceInteraction& si, float radius);

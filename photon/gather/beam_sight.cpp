@@ -1,39 +1,20 @@
 #include "photon/gather/beam_sight.h"
 
-#include <bit>
 #include <cmath>
 
 #include "core/math/frame.h"
-#include "core/sampling/sampler.h"
+#include "core/math/hash.h"
+#include "core/scene/alpha.h"
 
 namespace kaustik::photon {
 
 namespace {
 
-// The same for scenes scaled by powers of two.
+// A hash of the ray that is the same for scenes scaled by powers of two.
 uint64_t seed_of(const Scene& scene, const Ray& ray) {
   const float radius = scene.bounds.radius();
   const float scale = radius > 0 && std::isfinite(radius) ? std::ldexp(1.0f, -std::ilogb(radius)) : 1;
-  uint64_t seed = 0;
-  for (int a = 0; a < 3; ++a)
-    seed = hash_combine(
-        seed, uint64_t{std::bit_cast<uint32_t>(scale * ray.o[a])} << 32 | std::bit_cast<uint32_t>(ray.d[a]));
-  return seed;
-}
-
-// The kernel's mass within x radii.
-float mass_within(const KernelSpec& kernel, float x) {
-  float mass = 0, all = 0, power = x * x;
-  for (const float term : mass_terms<float>(kernel)) {
-    mass += term * power;
-    all += term;
-    power *= x;
-  }
-  return mass / all;
-}
-
-float number_of(uint64_t bits) {
-  return float(bits >> 40) * 0x1p-24f;
+  return hash_ray(scale * ray.o, ray.d);
 }
 
 }  // namespace
@@ -49,7 +30,7 @@ BeamSight::BeamSight(const accel::Bvh& bvh, const Ray& ray, float distance, floa
   points_ = int(std::clamp(std::ceil(2 * length_ / radius), 1.0f, float(kMostPoints)));
   // The directions of neighbouring points fill each other's gaps.
   constexpr float kGolden = 0.618034f;
-  const float first = number_of(hash_combine(seed_, ~uint64_t{0}));
+  const float first = unit_number(hash_combine(seed_, ~uint64_t{0}));
   for (int i = 0; i < points_; ++i) {
     const float t = (float(i) + 0.5f) / float(points_) * length_;
     const float turn = std::fmod(first + kGolden * float(i), 1.0f);
@@ -59,12 +40,13 @@ BeamSight::BeamSight(const accel::Bvh& bvh, const Ray& ray, float distance, floa
 
 float BeamSight::share_at(float t, float turn, float radius, const KernelSpec& kernel) const {
   const Frame frame = Frame::from_z(ray_.d);
+  const MassWithin mass_within(kernel);
   float sum = 0;
   for (int i = 0; i < kDirections; ++i) {
     const float angle = 2 * kPi * (float(i) + turn) / kDirections;
     const Vector3 d = frame.to_world({std::cos(angle), std::sin(angle), 0});
     const Hit hit = bvh_.intersect(Ray{ray_.at(t), d, radius});
-    sum += hit.valid() ? mass_within(kernel, hit.t / radius) : 1;
+    sum += hit.valid() ? float(mass_within(double(hit.t / radius))) : 1;
   }
   return std::max(sum / kDirections, kLeastShare);
 }
@@ -85,7 +67,7 @@ bool BeamSight::sees(float t, const Point3& p) const {
 }
 
 float BeamSight::number(uint32_t block) const {
-  return number_of(hash_combine(seed_, block));
+  return unit_number(hash_combine(seed_, block));
 }
 
 }  // namespace kaustik::photon

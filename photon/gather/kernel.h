@@ -88,6 +88,24 @@ std::array<T, KernelRow::kCoefficients> mass_terms(const KernelSpec& kernel) {
   return terms;
 }
 
+// The share of the kernel's mass within rho radii of the centre, a polynomial.
+class MassWithin {
+ public:
+  explicit MassWithin(const KernelSpec& kernel) : c_(mass_terms<double>(kernel)) {
+    double sum = 0;
+    for (const double term : c_) sum += term;
+    for (double& term : c_) term /= sum;
+  }
+  double operator()(double rho) const {  // 0 <= rho <= 1
+    double sum = 0;
+    for (size_t j = c_.size(); j-- > 0;) sum = sum * rho + c_[j];
+    return sum * rho * rho;
+  }
+
+ private:
+  std::array<double, KernelRow::kCoefficients> c_;
+};
+
 // K(d) = scale w, where w is a polynomial in slope s: s is d^2 where the kernel is even(), else d.
 struct KernelTerms {
   float scale = 0;  // 1/m^2
