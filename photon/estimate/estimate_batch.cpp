@@ -33,7 +33,7 @@ EstimateBatch::Disc EstimateBatch::disc(const PhotonMap& map, const SurfaceInter
 
 double EstimateBatch::share(Disc disc, const EstimateSettings& settings) {
   Gather& g = gathers_[disc];
-  if (!g.share) g.share = settings.edges ? share_of_disc(settings, g.si, g.query.radius, g.cut.get()) : 1;
+  if (!g.share) g.share = settings.edges ? share_of_disc(settings, g.si, g.radii.mean, g.cut.get()) : 1;
   return *g.share;
 }
 
@@ -48,7 +48,7 @@ uint32_t EstimateBatch::gather_near(const PhotonMap& map, const Point& x) const 
   uint32_t i = latest_[pixel_];
   for (int looked_at = 0; i != kNone && looked_at < kLookedAt; ++looked_at, i = gathers_[i].previous) {
     const Gather& g = gathers_[i];
-    const float shared = kShared * g.query.radius;
+    const float shared = kShared * g.radii.mean;
     if (g.map == &map && g.coat == x.coat && g.query.surface_group == x.si.surface_group &&
         length_squared(g.query.p - x.si.p) <= shared * shared && glm::dot(g.query.n, x.n) > kSameSide) {
       if (!g.cut || !g.cut->hides(x.si.p, x.wo)) return i;
@@ -58,28 +58,41 @@ uint32_t EstimateBatch::gather_near(const PhotonMap& map, const Point& x) const 
 }
 
 uint32_t EstimateBatch::prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x) {
-  GatherQuery query{x.si.p, x.n, x.si.surface_group, settings.radius, kAllPhotons};
-  if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters_);
-  std::unique_ptr<const WallCut> cut;
-  if (settings.walls && settings.walls->near(x.si.p))
-    cut = std::make_unique<const WallCut>(*settings.walls, x.si, x.wo, x.n, query.radius);
-  if (cut && !cut->cuts()) cut.reset();
-  gathers_.push_back({&map, query, x.coat, latest_[pixel_], x.si, std::move(cut)});
+  const GatherQuery query = query_at(map, x.si, x.n, settings, counters_);
+  gathers_.push_back({&map, query, x.coat, latest_[pixel_], x.si, {query.radius, query.radius}, nullptr});
+  if (!query.discs) cut_by_walls(settings, x, &gathers_.back());
   return latest_[pixel_] = static_cast<uint32_t>(gathers_.size() - 1);
 }
 
+void EstimateBatch::cut_by_walls(const EstimateSettings& settings, const Point& x, Gather* gather) {
+  if (!settings.walls || !(gather->radii.widest > 0) || !settings.walls->near(x.si.p)) return;
+  gather->cut = std::make_unique<const WallCut>(*settings.walls, x.si, x.wo, x.n, gather->radii.widest);
+  if (!gather->cut->cuts()) gather->cut.reset();
+}
+
+// How wide the photons' own discs are is known when their flux is summed; only then is it known whether walls
+// cut them.
 void EstimateBatch::complete(const EstimateSettings& settings, const Point& x, uint32_t number) {
   Gather& gather = gathers_[number];
-  const PhotonMap& map = *gather.map;
-  const uint64_t accepted = counters_.accepted;
-  const KernelSpec& kernel = settings.kernel;
-  gather.flux = x.coat != Coat{} ? gather_through_coat(gather, kernel, x)
-                : gather.cut     ? gather_flux(map, gather.query, kernel, *gather.cut, counters_)
-                                 : gather_flux(map, gather.query, kernel, counters_);
+  uint64_t accepted = counters_.accepted;
+  if (gather.query.discs) {
+    gather.flux = gather_flux(*gather.map, gather.query, settings.kernel, counters_, &gather.radii);
+    cut_by_walls(settings, x, &gather);
+  }
+  if (!gather.query.discs || gather.cut || x.coat != Coat{}) {
+    accepted = counters_.accepted;
+    gather.flux = gather_visible(gather, settings.kernel, x);
+  }
   gather.flux /= float(share(number, settings));
   gather.accepted = float(counters_.accepted - accepted);
   gather.done = true;
   ++completed_;
+}
+
+Rgb EstimateBatch::gather_visible(const Gather& gather, const KernelSpec& kernel, const Point& x) {
+  if (x.coat != Coat{}) return gather_through_coat(gather, kernel, x);
+  if (gather.cut) return gather_flux(*gather.map, gather.query, kernel, *gather.cut, counters_);
+  return gather_flux(*gather.map, gather.query, kernel, counters_);
 }
 
 Rgb EstimateBatch::gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x) {

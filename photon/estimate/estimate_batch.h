@@ -13,10 +13,10 @@ namespace kaustik::photon {
 
 class EstimateBatch {
  public:
-  // Points on one surface that are closer than this fraction of the disc's radius share one gather. Of the k
-  // photons in the disc, at most a share of 2 kShared / pi, a sixth, lies outside the second point's disc,
-  // and about as many others lie inside it, so its own estimate would add little information. Neither
-  // estimate is closer to the true value than the other.
+  // Points on one surface that are closer than this fraction of the disc's radius, or of the mean radius of
+  // the photons' own discs, share one gather. Of the k photons in the disc, at most a share of 2 kShared /
+  // pi, a sixth, lies outside the second point's disc, and about as many others lie inside it, so its own
+  // estimate would add little information. Neither estimate is closer to the true value than the other.
   static constexpr float kShared = 1.0f / 4;
 
   static constexpr uint32_t kPixels = 16;
@@ -63,6 +63,7 @@ class EstimateBatch {
     Coat coat;
     uint32_t previous;                   // previous gather of the same pixel
     SurfaceInteraction si;               // the disc's centre
+    DiscRadii radii;                     // of the photons' own discs once the gather is done
     std::unique_ptr<const WallCut> cut;  // null where no wall cuts the disc
     std::optional<double> share{};       // of the disc on the surface
     uint8_t note = 0;                    // of the caller
@@ -86,7 +87,9 @@ class EstimateBatch {
   uint32_t find_or_prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
   uint32_t gather_near(const PhotonMap& map, const Point& x) const;
   uint32_t prepare(const PhotonMap& map, const EstimateSettings& settings, const Point& x);
+  static void cut_by_walls(const EstimateSettings& settings, const Point& x, Gather* gather);
   void complete(const EstimateSettings& settings, const Point& x, uint32_t number);
+  Rgb gather_visible(const Gather& gather, const KernelSpec& kernel, const Point& x);
   Rgb gather_through_coat(const Gather& gather, const KernelSpec& kernel, const Point& x);
 
   uint32_t pixel_ = 0;

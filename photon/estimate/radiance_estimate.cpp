@@ -99,35 +99,57 @@ struct SeenPoint {
   const Bsdf& bsdf;
 };
 
+// What a gather asks for, and the radii of the discs that it finds.
+struct Disc {
+  GatherQuery query;
+  DiscRadii radii;
+};
+
+// Where photons have their own discs, walls and the surface's border ask for their radii before the sum.
+Disc disc_of(const PhotonMap& map, const GatherQuery& query, const EstimateSettings& settings,
+             GatherCounters& counters) {
+  Disc disc{query, {query.radius, query.radius}};
+  if (query.discs) gather_flux(map, query, settings.kernel, counters, &disc.radii);
+  return disc;
+}
+
 // Sum is ReflectedRadiance or GlossyTail, more its last members.
 template <class Sum, class... More>
-Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const GatherQuery& disc,
+Rgb radiance_of_disc(const PhotonMap& map, const SeenPoint& x, const Disc& disc,
                      const EstimateSettings& settings, GatherCounters& counters, const More&... more) {
+  if (disc.query.discs && !(disc.radii.widest > 0)) return Rgb(0);
   const Frame frame = x.si.shading_frame();
   const Vector3 wo = frame.to_local(x.wo);
   std::optional<WallCut> cut;
   if (settings.walls && settings.walls->near(x.si.p))
-    cut.emplace(*settings.walls, x.si, x.wo, disc.n, disc.radius);
+    cut.emplace(*settings.walls, x.si, x.wo, disc.query.n, disc.radii.widest);
   const WallCut* const cuts = cut && cut->cuts() ? &*cut : nullptr;
-  const Rgb Lr = std::visit(Sum{{map, disc, settings.kernel, frame, wo, cuts, counters}, more...}, x.bsdf);
+  const Rgb Lr =
+      std::visit(Sum{{map, disc.query, settings.kernel, frame, wo, cuts, counters}, more...}, x.bsdf);
   if (!settings.edges || settings.leaf || is_black(Lr)) return Lr;
-  return Lr / float(share_of_disc(settings, x.si, disc.radius, cuts));
+  return Lr / float(share_of_disc(settings, x.si, disc.radii.mean, cuts));
 }
 
 // Reflected (or transmitted) radiance due to the photons that arrived on the side of n.
 Rgb radiance_from_side(const PhotonMap& map, const SeenPoint& x, const Normal3& n,
                        const EstimateSettings& settings, GatherCounters& counters, BiasEstimate* bias) {
-  const SurfaceInteraction& si = x.si;
-  GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
-  if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters);
-  if (settings.leaf) query.within = map.find_cell(si.p, settings.node_photons, query.radius).range;
-  const Rgb Lr = radiance_of_disc<ReflectedRadiance>(map, x, query, settings, counters);
+  GatherQuery query = query_at(map, x.si, n, settings, counters);
+  if (settings.leaf) query.within = map.find_cell(x.si.p, settings.node_photons, query.radius).range;
+  Disc disc = disc_of(map, query, settings, counters);
+  const Rgb Lr = radiance_of_disc<ReflectedRadiance>(map, x, disc, settings, counters);
   if (bias) {
-    query.radius /= 2;
+    disc.query.radius /= 2;
+    disc.radii = {disc.radii.mean / 2, disc.radii.widest / 2};
     bias->bias +=
-        (Lr - radiance_of_disc<ReflectedRadiance>(map, x, query, settings, bias->counters)) * (4 / 3.0f);
+        (Lr - radiance_of_disc<ReflectedRadiance>(map, x, disc, settings, bias->counters)) * (4 / 3.0f);
   }
   return Lr;
+}
+
+// Radius of the disc whose photons count in a K-nearest estimate, at most query.radius.
+float disc_of_nearest(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
+  const float radius = nearest_radius(map, query, k, counters);
+  return radius < query.radius ? std::nextafter(radius, 0.0f) : radius;
 }
 
 }  // namespace
@@ -136,13 +158,16 @@ double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction&
                      const WallCut* cut) {
   if (settings.areas && settings.areas->covers(si.surface_group, radius))
     return settings.areas->share(si, settings.kernel, radius, cut);
-  if (cut) return std::max(cut->share(si, settings.kernel, *settings.edges), kLeastShare);
+  if (cut) return std::max(cut->share(si, settings.kernel, *settings.edges, radius), kLeastShare);
   return surface_share(*settings.edges, si, settings.kernel, radius);
 }
 
-float disc_of_nearest(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters) {
-  const float radius = nearest_radius(map, query, k, counters);
-  return radius < query.radius ? std::nextafter(radius, 0.0f) : radius;
+GatherQuery query_at(const PhotonMap& map, const SurfaceInteraction& si, const Normal3& n,
+                     const EstimateSettings& settings, GatherCounters& counters) {
+  GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons, settings.discs};
+  if (!query.discs && settings.nearest > 0)
+    query.radius = disc_of_nearest(map, query, settings.nearest, counters);
+  return query;
 }
 
 Rgb estimate_radiance(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
@@ -160,9 +185,8 @@ Rgb estimate_glossy_tail(const PhotonMap& map, const SurfaceInteraction& si, con
                          GatherCounters& counters) {
   if (map.empty()) return Rgb(0);
   const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
-  GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons};
-  if (settings.nearest > 0) query.radius = disc_of_nearest(map, query, settings.nearest, counters);
-  return radiance_of_disc<GlossyTail>(map, {si, wo, bsdf}, query, settings, counters, most_pdf);
+  const Disc disc = disc_of(map, query_at(map, si, n, settings, counters), settings, counters);
+  return radiance_of_disc<GlossyTail>(map, {si, wo, bsdf}, disc, settings, counters, most_pdf);
 }
 
 }  // namespace kaustik::photon

@@ -6,18 +6,18 @@
 #include "core/geometry/interaction.h"
 #include "photon/estimate/surface_areas.h"
 #include "photon/estimate/walls.h"
-#include "photon/gather/gather_query.h"
-#include "photon/gather/kernel.h"
-#include "photon/map/photon_map.h"
+#include "photon/gather/gather.h"
 
 namespace kaustik::photon {
 
 struct EstimateSettings {
   float radius = 0;  // r0, metres
   KernelSpec kernel;
-  uint32_t nearest = 0;        // K > 0: the radius shrinks to the K-th nearest photon
+  uint32_t nearest = 0;        // K > 0: without discs, the radius shrinks to the K-th nearest photon
   bool leaf = false;           // the lecture's leaf lookup instead of the exact search
   uint32_t node_photons = 64;  // N0 of the leaf lookup
+  // The photons' own discs, none wider than `radius`. Null: the photons around a point all have one radius.
+  const PhotonDiscs* discs = nullptr;
   // Edges of surfaces, for boundary correction. Null: every disc is assumed to lie on the surface as a whole.
   // Not used by the leaf lookup, whose cells cut the disc anyway.
   const accel::EdgeIndex* edges = nullptr;
@@ -65,9 +65,11 @@ Rgb estimate_glossy_tail(const PhotonMap& map, const SurfaceInteraction& si, con
                          const Bsdf& bsdf, const EstimateSettings& settings, float most_pdf,
                          GatherCounters& counters);
 
-// Radius of the disc whose photons count in a K-nearest estimate, at most query.radius. The K-th photon
-// itself is excluded: K - 1 photons in the disc that reaches the K-th give an unbiased estimate of density, K
-// photons do not (Silverman 1986, section 5.2).
-float disc_of_nearest(const PhotonMap& map, const GatherQuery& query, uint32_t k, GatherCounters& counters);
+// The query for the photons that count at si on the side of n. With settings.nearest and without discs, its
+// radius is that of the disc whose photons count in a K-nearest estimate. The K-th photon itself is excluded:
+// K - 1 photons in the disc that reaches the K-th give an unbiased estimate of density, K photons do not
+// (Silverman 1986, section 5.2).
+GatherQuery query_at(const PhotonMap& map, const SurfaceInteraction& si, const Normal3& n,
+                     const EstimateSettings& settings, GatherCounters& counters);
 
 }  // namespace kaustik::photon

@@ -71,7 +71,7 @@ void Walls::mark(const BoundaryEdge& foot) {
 
 WallCut::WallCut(const Walls& walls, const SurfaceInteraction& si, const Vector3& wo, const Normal3& n,
                  float radius)
-    : frame_(Frame::from_z(si.n)), radius_(double(radius)), step_(4 * double(si.p_error)) {
+    : frame_(Frame::from_z(si.n)), step_(4 * double(si.p_error)) {
   x_ = glm::dvec3(si.p) + step_ * glm::dvec3(wo);
   std::array<uint32_t, kMostFeet> found;
   const size_t count = walls.feet().find(si.p, radius, si.surface_group, found);
@@ -100,10 +100,10 @@ bool WallCut::hides(const Point3& p, const Vector3& w) const {
   });
 }
 
-double WallCut::share(const SurfaceInteraction& si, const KernelSpec& kernel,
-                      const accel::EdgeIndex& ends) const {
+double WallCut::share(const SurfaceInteraction& si, const KernelSpec& kernel, const accel::EdgeIndex& ends,
+                      float radius) const {
   std::array<uint32_t, kMaxEdgesInReach> found;
-  const size_t count = ends.find(si.p, float(radius_), si.surface_group, found);
+  const size_t count = ends.find(si.p, radius, si.surface_group, found);
   struct End {
     Line line;
     double sign;
@@ -111,21 +111,21 @@ double WallCut::share(const SurfaceInteraction& si, const KernelSpec& kernel,
   std::vector<End> outline;
   LineFan<kMaxEdgesInReach> outline_fan;
   for (size_t i = 0; i < count && count <= found.size(); ++i)
-    if (const int sign = sign_of_edge(ends[found[i]], si, float(radius_))) {
+    if (const int sign = sign_of_edge(ends[found[i]], si, radius)) {
       const Line line = line_of(ends[found[i]]);
       outline_fan.add(outline.size(), line.a, line.b);
       outline.push_back({line, double(sign)});
     }
   const MassWithin mass_within(kernel);
-  const double per_radius = 1 / radius_;
+  const double rim = double(radius), per_radius = 1 / rim;
   double sum = 0;
   for (const Direction& direction : directions()) {
-    double wall = radius_;
+    double wall = rim;
     fan_.any_in(direction.sector, [&](size_t i) {
       wall = std::min(wall, distance_to(feet_[i].a, feet_[i].b, direction.d));
       return false;
     });
-    const double within = wall < radius_ ? mass_within(wall * per_radius) : 1;
+    const double within = wall < rim ? mass_within(wall * per_radius) : 1;
     sum += within;
     outline_fan.any_in(direction.sector, [&](size_t i) {
       const End& end = outline[i];

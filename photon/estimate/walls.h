@@ -73,9 +73,10 @@ class WallCut {
   bool cuts() const { return !feet_.empty(); }
   // Whether a point of the surface that is lit or seen from the direction w is behind a wall.
   bool hides(const Point3& p, const Vector3& w) const;
-  // The kernel's mass in front of the walls and on the surface, in [0, 1]. si: as constructed with. ends:
-  // where the surface ends.
-  double share(const SurfaceInteraction& si, const KernelSpec& kernel, const accel::EdgeIndex& ends) const;
+  // The mass of a kernel of `radius` metres, at most that of the constructor, in front of the walls and on
+  // the surface, in [0, 1]. si: as constructed with. ends: where the surface ends.
+  double share(const SurfaceInteraction& si, const KernelSpec& kernel, const accel::EdgeIndex& ends,
+               float radius) const;
 
  private:
   struct Line {
@@ -87,7 +88,7 @@ class WallCut {
   Line line_of(const BoundaryEdge& edge) const;
 
   Frame frame_;
-  double radius_, step_;
+  double step_;
   glm::dvec3 x_;
   std::vector<Line> feet_;
   LineFan<kMostFeet> fan_;  // of feet_

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "photon/gather/gather_query.h"
+#include "photon/gather/photon_discs.h"
 #include "photon/map/box_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -64,11 +64,34 @@ HWY_INLINE Vf DistanceSquared(Sphere q, const BoxNode& node, uint32_t b) {
   return LengthSquared(gap(q.x, 0), gap(q.y, 1), gap(q.z, 2));
 }
 
-// Mask of the boxes that the sphere meets. Empty boxes have infinite distance, so even an infinite sphere
-// does not meet them.
-HWY_INLINE Mask Meets(Sphere q, const BoxNode& node, uint32_t b) {
-  const Vf reach = hn::Min(q.radius_squared, hn::Set(Floats(), std::numeric_limits<float>::max()));
-  return hn::Le(DistanceSquared(q, node, b), reach);
+// The distances of photons and boxes as they are compared with the query's radius: unchanged.
+struct OneRadius {
+  HWY_INLINE Vf OfPhotons(Vf distance_squared, uint64_t) const { return distance_squared; }
+  HWY_INLINE Vf OfBoxes(Vf distance_squared, size_t, uint32_t) const { return distance_squared; }
+};
+
+// The same where photons have their own discs. A box is stretched no more than any photon in it.
+struct OwnRadii {
+  const float* stretch;
+  const PhotonDiscs::Least* least;
+
+  explicit OwnRadii(const PhotonDiscs& discs) : stretch(discs.stretch()), least(discs.least()) {}
+  // i: number of the first photon.
+  HWY_INLINE Vf OfPhotons(Vf distance_squared, uint64_t i) const {
+    return hn::Mul(distance_squared, hn::LoadU(Floats(), stretch + i));
+  }
+  // node: number among all nodes of the tree; b: number of the first box.
+  HWY_INLINE Vf OfBoxes(Vf distance_squared, size_t node, uint32_t b) const {
+    return hn::Mul(distance_squared, hn::Load(Floats(), least[node].of_box + b));
+  }
+};
+
+// Mask of the boxes of node `number` that the sphere meets. Empty boxes have infinite distance, so even an
+// infinite sphere does not meet them.
+template <class Reach>
+HWY_INLINE Mask Meets(Sphere q, const BoxNode& node, Reach reach, size_t number, uint32_t b) {
+  const Vf most = hn::Min(q.radius_squared, hn::Set(Floats(), std::numeric_limits<float>::max()));
+  return hn::Le(reach.OfBoxes(DistanceSquared(q, node, b), number, b), most);
 }
 
 // Positions of the set bits of each byte, in ascending order.
@@ -177,8 +200,9 @@ struct FoundBlocks {
 };
 
 // Finds the blocks in nodes of the lowest level, at most FoundBlocks::kNodes of them.
-HWY_INLINE void FindBlocks(const BoxTree& tree, const LaneQuery& q, const uint32_t* nodes, size_t size,
-                           FoundBlocks& found) {
+template <class Reach>
+HWY_INLINE void FindBlocks(const BoxTree& tree, const LaneQuery& q, Reach reach, const uint32_t* nodes,
+                           size_t size, FoundBlocks& found) {
   const Floats d;
   const Words u;
   const BoxNode* const boxes = tree.level(0).data();
@@ -192,7 +216,7 @@ HWY_INLINE void FindBlocks(const BoxTree& tree, const LaneQuery& q, const uint32
       const Vu first = hn::ShiftLeft<4>(Numbers(block));
       static_assert(BoxTree::kBlockPhotons == 1 << 4);
       const Vu surface = hn::Load(u, surfaces[*node].of_block + b);
-      Mask meets = Meets(sphere, boxes[*node], b);
+      Mask meets = Meets(sphere, boxes[*node], reach, *node, b);
       Mask is_same = hn::RebindMask(d, hn::Eq(surface, packed));
       if (HWY_UNLIKELY(!q.all)) {
         const Vu last = hn::Add(first, hn::Set(u, BoxTree::kBlockPhotons - 1));
@@ -214,17 +238,19 @@ HWY_INLINE void FindBlocks(const BoxTree& tree, const LaneQuery& q, const uint32
 
 // Calls visit(FoundBlocks) for the blocks below nodes of a level. The nodes must be in ascending order; the
 // blocks then ascend from one call to the next.
-template <class Fn>
-void VisitBlocks(const BoxTree& tree, const LaneQuery& q, int level, const uint32_t* nodes, size_t size,
-                 const Fn& visit) {
+template <class Reach, class Fn>
+void VisitBlocks(const BoxTree& tree, const LaneQuery& q, Reach reach, int level, const uint32_t* nodes,
+                 size_t size, const Fn& visit) {
   const Floats d;
   const Words u;
+  const BoxNode* const boxes = tree.level(level).data();
+  const size_t first = size_t(boxes - tree.nodes().data());
   for (; size > 0;
        nodes += std::min(size, FoundBlocks::kNodes), size -= std::min(size, FoundBlocks::kNodes)) {
     const size_t some = std::min(size, FoundBlocks::kNodes);
     if (level == 0) {
       FoundBlocks found;
-      FindBlocks(tree, q, nodes, some, found);
+      FindBlocks(tree, q, reach, nodes, some, found);
       visit(found);
       continue;
     }
@@ -232,18 +258,18 @@ void VisitBlocks(const BoxTree& tree, const LaneQuery& q, int level, const uint3
     size_t found = 0;
     for (size_t i = 0; i < some; ++i) {
       for (uint32_t b = 0; b < BoxNode::kBoxes; b += uint32_t(hn::Lanes(d))) {
-        const Mask meets = Meets(q.sphere, tree.level(level)[nodes[i]], b);
+        const Mask meets = Meets(q.sphere, boxes[nodes[i]], reach, first + nodes[i], b);
         found += StoreLanes(u, Numbers(nodes[i] * BoxNode::kBoxes + b), meets, below + found);
       }
     }
-    VisitBlocks(tree, q, level - 1, below, found, visit);
+    VisitBlocks(tree, q, reach, level - 1, below, found, visit);
   }
 }
 
-template <class Fn>
-HWY_INLINE void VisitBlocks(const BoxTree& tree, const BoxTree::Start& start, const LaneQuery& q,
+template <class Reach, class Fn>
+HWY_INLINE void VisitBlocks(const BoxTree& tree, const BoxTree::Start& start, const LaneQuery& q, Reach reach,
                             const Fn& visit) {
-  VisitBlocks(tree, q, start.level, start.nodes, start.size, visit);
+  VisitBlocks(tree, q, reach, start.level, start.nodes, start.size, visit);
 }
 
 }  // namespace kaustik::photon::HWY_NAMESPACE

@@ -66,6 +66,8 @@ struct FluxSum {
 
   HWY_INLINE FluxSum() : x(hn::Zero(Floats())), y(x), z(x), runs_x(x), runs_y(x), runs_z(x), total(0) {}
 
+  HWY_INLINE Vf Stretched(Vf distance_squared, uint64_t) const { return distance_squared; }
+
   // Must be called before photons from i on are added; i must ascend.
   HWY_INLINE void Reach(uint64_t i) {
     if (HWY_UNLIKELY(i >> kShift != run)) Fold(i >> kShift);
@@ -106,6 +108,33 @@ struct FluxSum {
   }
 };
 
+// The same sums over photons that have their own discs. A kernel on a smaller disc is higher by the stretch.
+template <KernelType kType>
+struct DiscFluxSum : FluxSum<kType> {
+  OwnRadii reach;
+  Vf sum, least;  // of the stretches of the photons that counted
+
+  HWY_INLINE explicit DiscFluxSum(OwnRadii radii)
+      : reach(radii), sum(hn::Zero(Floats())), least(hn::Inf(Floats())) {}
+
+  HWY_INLINE Vf Stretched(Vf distance_squared, uint64_t i) const {
+    return reach.OfPhotons(distance_squared, i);
+  }
+  HWY_INLINE void Add(const PhotonColumns& c, uint64_t i, Vf stretched, Mask counts, Vf slope) {
+    const Rgb9e5Power power(c, i);
+    const Vf stretch = hn::LoadU(Floats(), reach.stretch + i);
+    FluxSum<kType>::Add(power, hn::Mul(hn::Mul(Weight<kType>(stretched, slope), stretch), power.scale),
+                        counts);
+    sum = hn::Add(sum, hn::IfThenElseZero(counts, stretch));
+    least = hn::Min(least, hn::IfThenElse(counts, stretch, hn::Inf(Floats())));
+  }
+  HWY_INLINE void AddTo(GatherSum& to) {
+    FluxSum<kType>::AddTo(to);
+    to.stretch += double(hn::GetLane(hn::SumOfLanes(Floats(), sum)));
+    to.least_stretch = std::min(to.least_stretch, hn::GetLane(hn::MinOfLanes(Floats(), least)));
+  }
+};
+
 // Adds blocks in which the surface of each photon must be checked.
 template <class Sum>
 HWY_INLINE void AddOthers(const PhotonColumns& c, const LaneQuery& q, const uint32_t* blocks, size_t size,
@@ -114,7 +143,7 @@ HWY_INLINE void AddOthers(const PhotonColumns& c, const LaneQuery& q, const uint
     sum.Reach(blocks[b]);
     for (uint32_t j = 0; j < BoxTree::kBlockPhotons; j += uint32_t(hn::Lanes(Floats()))) {
       const uint64_t i = uint64_t(blocks[b]) + j;
-      const Vf distance_squared = DistanceSquared(q.sphere, c, i);
+      const Vf distance_squared = sum.Stretched(DistanceSquared(q.sphere, c, i), i);
       sum.Add(c, i, distance_squared, Counts(q, c, i, distance_squared), slope);
     }
   }

@@ -9,14 +9,19 @@
 
 namespace kaustik::photon {
 
+class PhotonDiscs;
+
 // A photon counts if it is within radius of p (d <= radius, metres), on the same surface group (modulo 2^16),
-// and its normal is near n (kNormalCosine). n is a unit vector on the viewer's side.
+// and its normal is near n (kNormalCosine). n is a unit vector on the viewer's side. With discs, which must
+// be those of the map, the distance d of each photon is stretched first, so that a radius of discs->largest()
+// asks for the photons whose own discs cover p, and half of it for those whose discs of half the size do.
 struct GatherQuery {
   Point3 p{0};
   Normal3 n{0, 0, 1};
   uint32_t surface_group = 0;
   float radius = 0;
-  PhotonRange within = kAllPhotons;  // restricts the search, for instance to a cell in the leaf lookup
+  PhotonRange within = kAllPhotons;    // restricts the search, for instance to a cell in the leaf lookup
+  const PhotonDiscs* discs = nullptr;  // the photons' own discs; null: all photons reach equally far
 
   // Negative if radius is negative or NaN, so that no photon counts.
   float radius_squared() const { return radius >= 0 ? radius * radius : -1.0f; }

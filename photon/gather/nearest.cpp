@@ -39,7 +39,7 @@ size_t FindDistances(const PhotonMap& map, const BoxTree::Start& start, const Ga
   const PhotonColumns c = map.columns();
   const LaneQuery q(query, map.size());
   size_t size = 0;
-  VisitBlocks(map.boxes(), start, q, [&](const FoundBlocks& found) HWY_ATTR {
+  VisitBlocks(map.boxes(), start, q, OneRadius(), [&](const FoundBlocks& found) HWY_ATTR {
     const size_t most = (found.same_size + found.other_size) * BoxTree::kBlockPhotons;
     float* const to = distances.reserve(size, most);
     size_t end = size;

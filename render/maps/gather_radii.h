@@ -10,8 +10,8 @@ namespace kaustik::render {
 // Gather radii r0 of the first pass, in metres; 0 for maps that are not used.
 struct GatherRadii {
   float direct = 0, caustic = 0, indirect = 0;
-  // If > 0, the map's radius shrinks to the k-th nearest photon, with k counted over all passes. Set where
-  // the user gave neither a radius nor --nearest.
+  // If > 0, the map's radius shrinks to the k-th nearest photon, or caustic photons have discs of their own
+  // by a rule of k, with k counted over all passes. Set where the user gave neither a radius nor --nearest.
   uint32_t caustic_nearest = 0, direct_nearest = 0;
   float medium_caustic = 0, medium_indirect = 0;
   // The same for rays through media: with k photons in reach.

@@ -64,6 +64,22 @@ GatherRadii settle_radii(const RenderInput& input, const PassShare& pass, const 
           kinds.medium_indirect ? radii.medium_indirect_nearest : 0};
 }
 
+// At an edge the squared bias of a disc of radius r goes like r, so that r ~ M^(-1/3) balances it with the
+// noise, and M^(1/3) photons are in the disc: the root of the M^(2/3) of even light. Measured
+// (docs/decisions/064-caustic-photons-have-discs-of-their-own.md). nearest: M^(2/3) of all passes; squared:
+// how much this pass has shrunk them.
+photon::DiscRule disc_rule(uint32_t nearest, float largest, double squared, const RenderSettings& settings,
+                           const PassShare& pass) {
+  constexpr double kFewestOfRoot = 8.5, kMostOfNearest = 2;
+  // The rule's photons without the factor of the radius; they follow its square.
+  const double factor = double(settings.radius_factor) * double(settings.radius_factor);
+  const auto of_pass = [&](double of_all) {
+    return std::max(kFewestInReach, uint32_t(std::lround(of_all * squared / double(pass.shares))));
+  };
+  return {of_pass(kFewestOfRoot * factor * std::sqrt(nearest / factor)), of_pass(kMostOfNearest * nearest),
+          largest};
+}
+
 // The smallest 2^(k/2) metres that is at least the radius. So passes whose radii differ little share the
 // areas that are made for it.
 float at_least(float radius) {
@@ -80,6 +96,7 @@ void add_sizes(const PhotonMaps& maps, RenderStatistics* s) {
     bytes += map.memory_bytes();
     s->octree_nodes += map.octree().nodes().size();
   }
+  if (maps.caustic.discs) bytes += maps.caustic.discs->memory_bytes();
   s->photon_bytes = std::max(s->photon_bytes, bytes);
 }
 
@@ -107,6 +124,8 @@ void PassPhotons::build_maps(const RenderInput& input, photon::ShootResult&& sho
 
 void PassPhotons::free_maps() {
   for (size_t k = 0; k < photon::kPhotonKinds; ++k) maps_.of(PhotonKind(k)) = {};
+  maps_.caustic.discs = nullptr;
+  maps_.caustic.estimate.discs = nullptr;
 }
 
 bool PassPhotons::explore(const RenderInput& input, const ProgressCallback& progress) {
@@ -210,6 +229,19 @@ void PassPhotons::set_areas(const Scene& scene) {
   }
 }
 
+// Gives each caustic photon a disc of its own, unless the user asks for a radius, for the nearest photons or
+// for the lecture's cells: caustics are sharp where they focus and thin elsewhere.
+void PassPhotons::set_discs(const RenderSettings& settings, const PassShare& pass) {
+  GatherMap& caustic = maps_.caustic;
+  caustic.discs = nullptr;
+  if (radii_->caustic_nearest > 0 && settings.nearest == 0 && settings.lookup != Lookup::kLeaf) {
+    const double squared = shrink_.squared(pass.pass, settings.alpha.value_or(1));
+    caustic.discs = std::make_shared<const photon::PhotonDiscs>(
+        caustic.map, disc_rule(radii_->caustic_nearest, caustic.estimate.radius, squared, settings, pass));
+  }
+  caustic.estimate.discs = caustic.discs.get();
+}
+
 bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
                        RenderStatistics* statistics) {
   if (!kinds_needed(input.plan).any()) return true;
@@ -261,6 +293,7 @@ void PassPhotons::prepare_gathers(const RenderInput& input, const PassShare& pas
   find_walls(input.scene);
   set_estimates(input, pass);
   set_areas(input.scene);
+  set_discs(input.settings, pass);
 }
 
 void PassPhotons::choose_radii_anew(const RenderInput& input, const PassShare& pass) {

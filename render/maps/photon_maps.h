@@ -15,7 +15,9 @@ class Surroundings;
 struct GatherMap {
   photon::PhotonMap map;
   photon::EstimateSettings estimate;
-  std::shared_ptr<const photon::SurfaceAreas> areas;  // keeps alive what estimate.areas points to
+  // Keep alive what the estimate points to.
+  std::shared_ptr<const photon::SurfaceAreas> areas;
+  std::shared_ptr<const photon::PhotonDiscs> discs;
 };
 
 // Maps of kinds that the plan does not need are empty.

@@ -16,16 +16,16 @@ using photon::PhotonKind;
 void add_photons(const photon::PhotonMap& map, const photon::EstimateSettings& estimate,
                  const SurfaceInteraction& si, const Normal3& n, ProbedMap* probed) {
   photon::GatherCounters counters;
-  photon::GatherQuery query{si.p, n, si.surface_group, estimate.radius, photon::kAllPhotons};
-  if (estimate.nearest > 0) query.radius = photon::disc_of_nearest(map, query, estimate.nearest, counters);
+  photon::GatherQuery query = photon::query_at(map, si, n, estimate, counters);
   if (estimate.leaf) query.within = map.find_cell(si.p, estimate.node_photons, query.radius).range;
   probed->radius = query.radius;
   const photon::KernelTerms terms = photon::kernel_terms(estimate.kernel, query.radius);
-  photon::for_each_photon(
+  photon::for_each_index(
       map, query,
-      [&](const photon::Photon& p, float distance_squared) {
-        const float weight = photon::kernel_value(estimate.kernel.type, terms, distance_squared);
-        probed->photons.push_back({p, std::sqrt(distance_squared), weight});
+      [&](uint32_t i, float stretched_squared) {
+        const float stretch = query.discs ? query.discs->stretch()[i] : 1;
+        const float weight = stretch * photon::kernel_value(estimate.kernel.type, terms, stretched_squared);
+        probed->photons.push_back({map.photon(i), std::sqrt(stretched_squared / stretch), weight});
       },
       counters);
 }

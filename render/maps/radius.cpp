@@ -30,7 +30,7 @@ struct RadiusRule {
 // smooth.
 constexpr RadiusRule kDirectRule{160, 64};
 constexpr RadiusRule kIndirectRule{500, 200};
-constexpr RadiusRule kCausticRule{232, kFewestInReach};
+constexpr RadiusRule kCausticRule{232, 24};
 // Photons in reach of a ray through a medium; the kernel lies across the ray, so that the same rule holds.
 constexpr RadiusRule kMediumIndirectRule{200, 64};
 constexpr RadiusRule kMediumCausticRule{100, 32};
@@ -42,9 +42,9 @@ constexpr double kShareOfClearance = 0.2, kLeastOfK = 0.5;
 // Where direct photons are denser than at the median point by more than this, the radius shrinks: near a lamp
 // their light is bright enough to show where a wider disc spreads it.
 constexpr double kDirectDensity = 2;
-// Factor for the median distance: where caustics are dense the k-th nearest photon sets the radius, this one
-// where they are sparse.
-constexpr float kCausticReach = 2;
+// Factors for the median distance of caustics, for where they are sparse: where they are dense the photons'
+// own discs are narrower, or the k-th nearest photon sets the radius.
+constexpr float kCausticReach = 4, kMediumCausticReach = 2, kLeafReach = 2;
 
 // Photons that divide the map's flux evenly, in the order of the map. (Guided photons are dense where they
 // are dim.)
@@ -182,6 +182,7 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   const bool signed_light = maps.direct.map.empty() && !maps.shadow.empty();
   const photon::PhotonMap& direct = signed_light ? maps.shadow : maps.direct.map;
   const uint32_t caustic = photons_to_reach(kCausticRule, maps.caustic.map, pass);
+  const float caustic_reach = settings.lookup == Lookup::kLeaf ? kLeafReach : kCausticReach;
   const uint32_t of_direct = photons_to_reach(kDirectRule, direct, pass);
   const auto scaled = [&](double k) {
     return uint32_t(std::lround(std::clamp(k * double(f) * double(f), double(kFewestInReach), 1e9)));
@@ -196,11 +197,11 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   const uint32_t medium_indirect = photons_to_reach(kMediumIndirectRule, maps.medium_indirect.map, pass);
   const bool by_photons = input.plan.direct == DirectEstimator::kPhotons;
   return {choose(direct, signed_light ? photon_points(direct) : visible, of_direct),
-          kCausticReach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
+          caustic_reach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
           f * indirect_radius(maps, visible, reach, pass),
           scaled(caustic),
           by_photons ? scaled(kDirectDensity * of_direct) : 0,
-          kCausticReach * along(maps.medium_caustic.map, medium_caustic, RayChoice::kMedianPhoton),
+          kMediumCausticReach * along(maps.medium_caustic.map, medium_caustic, RayChoice::kMedianPhoton),
           along(maps.medium_indirect.map, medium_indirect, RayChoice::kMedian),
           scaled(medium_caustic),
           scaled(2.0 * medium_indirect)};

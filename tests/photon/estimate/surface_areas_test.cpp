@@ -197,7 +197,7 @@ TEST(SurfaceAreas, KeepTheBrightnessOfAWire) {
   const PhotonMap map = PhotonMap::build(make_buffer(photons, 0x1p-17f));
   const SurfaceAreas areas = areas_of({test::tube(kWire, kLength, 128, 64)}, kRadius);
   const accel::EdgeIndex edges{{}};
-  EstimateSettings settings{kRadius, {}, 0, false, 64, &edges, &areas};
+  EstimateSettings settings{kRadius, {}, 0, false, 64, nullptr, &edges, &areas};
   const auto irradiance = [&](const Normal3& n) {
     GatherCounters counters;
     const SurfaceInteraction si = at({kWire * n.x, kWire * n.y, 0.3f}, n);
@@ -228,7 +228,7 @@ TEST(SurfaceAreas, KeepTheBrightnessOfABall) {
   const PhotonMap map = PhotonMap::build(make_buffer(photons, 0x1p-22f));
   const SurfaceAreas areas = areas_of({ball(kBall)}, kRadius);
   const accel::EdgeIndex edges{{}};
-  const EstimateSettings settings{kRadius, {}, 0, false, 64, &edges, &areas};
+  const EstimateSettings settings{kRadius, {}, 0, false, 64, nullptr, &edges, &areas};
   for (const Normal3& n : {Normal3(1, 0, 0), Normal3(0, -1, 0), glm::normalize(Normal3(1, 2, 3))}) {
     GatherCounters counters;
     const Rgb Lr = estimate_radiance(map, at(kBall * n, n), n, Lambertian{Rgb(1)}, settings, counters);

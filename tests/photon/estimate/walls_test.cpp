@@ -84,7 +84,7 @@ TEST(WallCut, ShareIsTheMassThatIsNotHidden) {
         const WallCut cut(walls, si, kUp, si.n, kRadius);
         EXPECT_TRUE(cut.cuts());
         // A foot may end anywhere between two directions: up to eight ends of feet move by half a step.
-        EXPECT_NEAR(cut.share(si, kernel, ends), grid_share(cut, kernel, si, inside),
+        EXPECT_NEAR(cut.share(si, kernel, ends, kRadius), grid_share(cut, kernel, si, inside),
                     kGridError + 8 * 0.5 / WallCut::kDirections)
             << feet.size() << " at " << si.p.x << ' ' << si.p.y;
       }
@@ -99,7 +99,7 @@ TEST(WallCut, AStraightWallIsAnEdge) {
     for (const float d : {0x1p-20f, 0.01f, 0.1f, 0.19f}) {
       const SurfaceInteraction si = at(0.5f - d, 0.5f);
       const WallCut cut(walls, si, kUp, si.n, kRadius);
-      EXPECT_NEAR(cut.share(si, {type}, accel::EdgeIndex({})),
+      EXPECT_NEAR(cut.share(si, {type}, accel::EdgeIndex({}), kRadius),
                   1 - mass_behind_edge({type}, double(d / kRadius), -99, 99), 1.0 / WallCut::kDirections);
     }
 }

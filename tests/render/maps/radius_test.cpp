@@ -37,11 +37,11 @@ TEST(CausticRadius, FollowsTheFluxNotTheCount) {
   const RenderSettings settings;
   const EstimatorPlan plan;
   const GatherRadii radii = choose_radii({scene, bvh, settings, plan}, {}, maps);
-  // At the even density k photons lie within half that radius. The distance to the k-th photon has the
-  // relative deviation 1/(2 sqrt k), and the median of 1024 of them 1.25/32 of that; 1 in 20 points is so
+  // At the even density k photons lie within a quarter of that radius. The distance to the k-th photon has
+  // the relative deviation 1/(2 sqrt k), and the median of 1024 of them 1.25/32 of that; 1 in 20 points is so
   // near the border that its disc is wider.
   const double k = 232 * std::pow(2 * kEach / 1e6, 2 / 3.0);
-  const double expected = 2 * std::sqrt(k * double(kSide * kSide) / (double(kPi) * kEach));
+  const double expected = 4 * std::sqrt(k * double(kSide * kSide) / (double(kPi) * kEach));
   EXPECT_NEAR(double(radii.caustic), expected, 0.05 * expected);
 }
 
