@@ -11,7 +11,6 @@
 #include "core/stopwatch.h"
 #include "render/adaptive/sample_counts.h"
 #include "render/camera/pixel_range.h"
-#include "render/estimators/disc_pilots.h"
 #include "render/film/error_estimate.h"
 #include "render/maps/pass_photons.h"
 #include "render/passes/passes.h"
@@ -92,17 +91,14 @@ class PassRenderer {
     const PassShare part = share(pass);
     if (!make_maps(part, statistics)) return false;
     has_maps();
-    RenderContext ctx{input_,
-                      photons_.maps(),
-                      photons_.visibility(),
-                      photons_.sky(),
-                      part,
-                      pass_samples(part, input_.settings, input_.plan),
-                      camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
+    const RenderContext ctx{input_,
+                            photons_.maps(),
+                            photons_.visibility(),
+                            photons_.sky(),
+                            part,
+                            pass_samples(part, input_.settings, input_.plan),
+                            camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
     const PhaseWatch watch;
-    const uint64_t samples = ctx.samples.end - ctx.samples.first;
-    const auto discs = measure_discs(ctx, disc_pilot_points(ctx, samples));
-    ctx.discs = discs.get();
     const bool finished = render_tiles(ctx, progress_, film, statistics, adaptive_work_, on_pixels_);
     on_pixels_ = {};  // later passes are added to a picture that is there
     statistics->render_s += watch.end("render");

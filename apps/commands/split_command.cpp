@@ -12,7 +12,7 @@
 #include "apps/machine/thread_limit.h"
 #include "apps/session/isa_option.h"
 #include "apps/session/render_session.h"
-#include "apps/session/stopping/fixed_plan.h"
+#include "apps/session/stopping/source_choice.h"
 #include "render/settings/names.h"
 
 namespace kaustik::app {
@@ -45,7 +45,7 @@ std::optional<render::PassSums> settle(const InterruptGuard& interrupt, const Re
   const accel::Bvh bvh(job.scene, job.settings.render.threads);
   ProgressBar bar(console);
   const render::ProgressCallback progress = shown_in(bar, interrupt);
-  if (session.try_paths) settle_paths(job.scene, bvh, progress, &job.settings);
+  if (session.settle_sources) settle_sources(job.scene, bvh, &job.settings.render);
   return render::begin_passes(job.scene, bvh, job.settings.render, progress);
 }
 

@@ -11,7 +11,7 @@
 #include "apps/import/import_scene.h"
 #include "apps/machine/thread_limit.h"
 #include "apps/sequence/frame_names.h"
-#include "apps/session/stopping/fixed_plan.h"
+#include "apps/session/stopping/source_choice.h"
 #include "apps/session/tone.h"
 #include "core/scene/build/camera_builder.h"
 #include "render/passes/passes.h"
@@ -178,11 +178,13 @@ class StandingWorld {
   void shoot(const InterruptGuard& interrupt, const Console& console) {
     ProgressBar bar(console);
     const render::ProgressCallback progress = shown_in(bar, interrupt);
-    if (std::exchange(session_.try_paths, false)) settle_paths(job_.scene, *bvh_, progress, &job_.settings);
-    const render::RenderSettings& settings = job_.settings.render;
+    render::RenderSettings& settings = job_.settings.render;
+    if (std::exchange(session_.settle_sources, false)) settle_sources(job_.scene, *bvh_, &settings);
     render::EstimatorPlan plan = render::make_plan(settings, job_.scene.needs);
     if (!render::kinds_needed(plan).any() || render::choose_passes(job_.scene, *bvh_, settings, &plan) > 1)
       return;
+    // The frames share photons that carry all light.
+    settings = with_photons(settings, plan);
     KeptMaps& maps = session_.maps;
     if (maps.from) maps.from->check_columns();
     maps.explored = std::make_shared<render::ExploredScene>();
@@ -228,8 +230,7 @@ void settle_moving_world(const Sequence& sequence, const SettingOverrides& given
   job = moved_job(sequence, 0, given, job, console);
   with_thread_limit(job.settings.render.threads, console, [&] {
     const accel::Bvh bvh(job.scene, job.settings.render.threads);
-    const auto go_on = [&](const render::Progress&) { return !interrupt.requested(); };
-    if (std::exchange(session.try_paths, false)) settle_paths(job.scene, bvh, go_on, &job.settings);
+    if (std::exchange(session.settle_sources, false)) settle_sources(job.scene, bvh, &job.settings.render);
     settle_exposure(job, session, bvh, interrupt, console);
   });
 }

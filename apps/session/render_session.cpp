@@ -12,8 +12,7 @@
 #include "apps/session/denoising.h"
 #include "apps/session/render_job.h"
 #include "apps/session/stopping/denoising_time.h"
-#include "apps/session/stopping/fixed_plan.h"
-#include "apps/session/stopping/path_choice.h"
+#include "apps/session/stopping/source_choice.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "apps/session/stopping/time_plan.h"
 #include "render/camera/pixel_range.h"
@@ -74,14 +73,12 @@ FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& 
     if (live) live->tell({.phase = "trials"}, 0, std::nullopt);
     return settle_time(job.scene, bvh, total, seconds_after, go_on, console, &job.settings);
   }
-  FilledTime filled;
-  if (!session.try_paths) return filled;
-  ProgressBar bar(console);
-  filled.work = settle_paths(job.scene, bvh, shown_by(bar, interrupt, live, console), &job.settings);
-  bar.clear();
-  const std::string& paths = filled.work.paths;
-  if (!paths.empty()) console.note(fmt::format("{}: rendered with{}", kPathsTaken, paths));
-  return filled;
+  if (session.settle_sources) {
+    const std::string sources = settle_sources(job.scene, bvh, &job.settings.render);
+    if (!sources.empty())
+      console.note(fmt::format("light is not divided between photons and paths: rendered with{}", sources));
+  }
+  return {};
 }
 
 // The passes to render: open-ended if a rule decides when to stop, and only the finished ones if the rule is
@@ -250,7 +247,11 @@ void settle_session(const SettingOverrides& given, const Console& console, Job* 
   check_stop_settings(settings.stop);
   if (session->fill_time) return;
   settle_error_settings(console, job->scene.needs, &settings);
-  session->try_paths = !session->maps.any() && may_choose_paths(settings, given, job->scene.needs);
+  session->settle_sources = !session->maps.any();
+  if (session->maps.any()) {  // photons that carry all light serve any number of samples
+    const render::EstimatorPlan plan = render::make_plan(settings.render, job->scene.needs);
+    settings.render = with_photons(settings.render, plan);
+  }
   settle_kept_maps(session->maps, console, job);
   if (session->maps.any() && !session->goal.empty() && session->goal != render::PassSet(0, 1))
     throw ExitError(kBadCommandLine,
@@ -312,7 +313,7 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     const std::optional<double> seconds = job.settings.stop.seconds;
     const double filled_seconds = filled.single_pass ? *seconds : 0;
     times.trials =
-        watch.seconds() - times.bvh - (filled.work.photons ? seconds_of(filled.work.photons->statistics) : 0);
+        watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
     StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total, seconds_after);
@@ -335,7 +336,7 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
     render::PixelsCallback on_pixels = follow(session.done, live.get());
     const render::ProgressCallback progress = shown_by(bar, interrupt, live.get(), console);
     if (session.maps.from && !session.maps.photons) check.emplace(*session.maps.from);
-    const bool map_written = take_photons(session, job, bvh, progress, &filled.work.photons, console);
+    const bool map_written = take_photons(session, job, bvh, progress, &filled.photons, console);
     render::RenderTask task{.passes = goal,
                             .done = std::move(session.done),
                             .after_pass = after_pass,
@@ -343,8 +344,8 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
                             .adaptive_work = std::move(filled.adaptive_work),
                             .on_pixels = std::move(on_pixels),
                             .views = std::move(session.views),
-                            .photons = std::move(filled.work.photons),
-                            .explored = std::move(filled.work.explored)};
+                            .photons = std::move(filled.photons),
+                            .explored = std::move(filled.explored)};
     RenderOutcome outcome{render_task(session, job, bvh, progress, rule, std::move(task), console), times};
     bar.clear();
     if (check) check->finish();

@@ -32,9 +32,9 @@ struct RenderSession {
   render::PassSet goal;  // empty = all passes that the settings ask for
   bool bounded =
       false;  // `goal` holds even with a stop rule, which otherwise renders an open-ended number of passes
-  render::PassSums done;   // finished passes, from a partial result
-  bool fill_time = false;  // choose photons and samples that fill --time, see settle_time()
-  bool try_paths = false;  // choose between photon maps and paths, see settle_paths(); not with fill_time
+  render::PassSums done;        // finished passes, from a partial result
+  bool fill_time = false;       // choose photons and samples that fill --time, see settle_time()
+  bool settle_sources = false;  // see settle_sources(); not with fill_time
 };
 
 // A render of the job that others may follow.

@@ -22,7 +22,7 @@ bool reads(const render::EstimatorPlan& plan, SettingReader reader) {
     case SettingReader::kLectureTest:
       return plan.direct == render::DirectEstimator::kLecture;
     case SettingReader::kAdaptiveSamples:
-      return !render::traces_paths(plan);
+      return !render::traces_paths(plan) || render::splits_sources(plan);  // which may name photons
   }
   return true;
 }

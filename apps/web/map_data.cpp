@@ -109,8 +109,6 @@ std::string_view name_of(render::ProbeUse use) {
       return "tested";
     case render::ProbeUse::kRefused:
       return "refused";
-    case render::ProbeUse::kFinalGather:
-      return "final-gather";
     case render::ProbeUse::kAdded:
       break;
   }

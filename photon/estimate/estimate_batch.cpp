@@ -24,19 +24,6 @@ bool EstimateBatch::add(const PhotonMap& map, const SurfaceInteraction& si, cons
   return true;
 }
 
-EstimateBatch::Disc EstimateBatch::disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo,
-                                        const Bsdf& bsdf, const EstimateSettings& settings) {
-  const std::optional<SeparatedF> f = separated(bsdf, si.shading_frame().to_local(wo));
-  const Normal3 n = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
-  return find_or_prepare(map, settings, {si, wo, n, f ? f->coat : Coat{}});
-}
-
-double EstimateBatch::share(Disc disc, const EstimateSettings& settings) {
-  Gather& g = gathers_[disc];
-  if (!g.share) g.share = settings.edges ? share_of_disc(settings, g.si, g.radii.mean, g.cut.get()) : 1;
-  return *g.share;
-}
-
 uint32_t EstimateBatch::find_or_prepare(const PhotonMap& map, const EstimateSettings& settings,
                                         const Point& x) {
   const uint32_t near = gather_near(map, x);
@@ -83,7 +70,8 @@ void EstimateBatch::complete(const EstimateSettings& settings, const Point& x, u
     accepted = counters_.accepted;
     gather.flux = gather_visible(gather, settings.kernel, x);
   }
-  gather.flux /= float(share(number, settings));
+  if (settings.edges && !is_black(gather.flux))
+    gather.flux /= float(share_of_disc(settings, gather.si, gather.radii.mean, gather.cut.get()));
   gather.accepted = float(counters_.accepted - accepted);
   gather.done = true;
   ++completed_;

@@ -34,18 +34,6 @@ class EstimateBatch {
   bool add(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
            const EstimateSettings& settings, const Rgb& weight, Rgb* radiance, float* photons);
 
-  // A disc before its photons are gathered: the number of its gather, until begin_block().
-  using Disc = uint32_t;
-  // Returns the disc of this point or of one nearby in the same pixel, whose gather a following add() then
-  // completes.
-  Disc disc(const PhotonMap& map, const SurfaceInteraction& si, const Vector3& wo, const Bsdf& bsdf,
-            const EstimateSettings& settings);
-  // The share of the disc on the surface, found out when it is first asked for.
-  double share(Disc disc, const EstimateSettings& settings);
-  // What the caller notes of the disc, 0 at first. The reference is valid until the next call of disc() or
-  // add().
-  uint8_t& note(Disc disc) { return gathers_[disc].note; }
-
   // Adds the estimates that were taken, in the order of the add() calls, and the counts of the gathers to
   // `counters`. They are added after everything that was added to the sums directly.
   void flush(GatherCounters& counters);
@@ -65,8 +53,6 @@ class EstimateBatch {
     SurfaceInteraction si;               // the disc's centre
     DiscRadii radii;                     // of the photons' own discs once the gather is done
     std::unique_ptr<const WallCut> cut;  // null where no wall cuts the disc
-    std::optional<double> share{};       // of the disc on the surface
-    uint8_t note = 0;                    // of the caller
     bool done = false;                   // whether the photons have been gathered
     Rgb flux{0};                         // W/m^2 through the coat, corrected for the share
     float accepted = 0;

@@ -12,6 +12,7 @@
 namespace kaustik::photon {
 
 class EmissionGuide;
+class SourceSplit;
 
 struct KindMask {
   bool direct = false, shadow = false, caustic = false, indirect = false;
@@ -42,6 +43,11 @@ struct TraceSettings {
   // Number of photons that a caustic leaves on each of its segments in a medium, all together with the light
   // that the medium scatters there. At least 1.
   uint32_t photons_on_segments = 1;
+  // The shares of photons in the light of its sources; null: they carry all. Photons that do not carry the
+  // light of their source end where they would scatter it.
+  const SourceSplit* split = nullptr;
+  // What is divided: caustics, and what photons carry on from the surfaces where they are first scattered.
+  bool split_caustics = false, split_indirect = false;
   // Only the requested kinds are traced: without `indirect`, for instance, a photon ends at its first diffuse
   // surface.
   KindMask kinds;

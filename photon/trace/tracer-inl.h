@@ -106,6 +106,7 @@ class Tracer {
     if (settings_.guide) weigh_starts(count);
     std::fill_n(walkers_.state, count, WalkState());
     if (!scene_.light_media.empty()) enter_media(count);
+    if (settings_.split) choose_carriers(count);
     to_energy_lanes(starts_.flux, count, units_per_watt_, walkers_.energy);
     for (size_t k = 0; k < count; ++k) {
       const Rgb flux = get_lane(starts_.flux, k);
@@ -113,6 +114,33 @@ class Tracer {
       if (goes_on_[k]) counters_.energy.emitted += walkers_.energy[k];
     }
     push(starts_.ray, starts_.flux, count);
+  }
+
+  // Draws which photons carry what their lights send through specular surfaces.
+  void choose_carriers(size_t count) {
+    for (size_t k = 0; k < count; ++k) {
+      if (!starts_.emitted[k]) continue;
+      const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light).light;
+      const Ray start = starts_.ray.get(k);
+      if (number_of(k, kLightShareDimension) < settings_.split->of_light(light, {start.o, -start.d}))
+        walkers_.state[k] = walkers_.state[k].carrier();
+    }
+  }
+  float number_of(size_t k, uint32_t dimension) const {
+    return Sampler(stream_, index_of(k), dimension).next_1d();
+  }
+
+  // Whether the photon carries on what diffuse lobes at p scatter of it. n: normal on the side of the photon.
+  bool carries_on(size_t k, const Point3& p, const Normal3& n, bool both_sides) const {
+    const PhotonKind kind = walkers_.state[k].kind();
+    if (!settings_.split || !settings_.split_indirect || kind == PhotonKind::kIndirect) return true;
+    if (kind == PhotonKind::kCaustic && walkers_.state[k].is_carrier()) return true;
+    return number_of(k, kSurfaceShareDimension) < settings_.split->of_surface(p, n, both_sides);
+  }
+  // Whether the photon leaves a record of this kind.
+  bool leaves(size_t k, PhotonKind kind) const {
+    const bool divided = settings_.split && settings_.split_caustics && kind == PhotonKind::kCaustic;
+    return settings_.kinds[kind] && (!divided || walkers_.state[k].is_carrier());
   }
 
   void weigh_starts(size_t count) {
@@ -262,11 +290,13 @@ class Tracer {
   void arrive_in_lane(size_t k) {
     const bool met = !(lanes_.traits[k] & kMissedTrait), specular = lanes_.traits[k] & kSpecularTrait;
     const PhotonKind kind = walkers_.state[k].kind();
-    const bool leaves = met & !specular & settings_.kinds[kind] & (lanes_.cos_in[k] != 0);
-    left_[k] = leaves ? static_cast<uint8_t>(kind) : kNothing;
-    counters_.stored[static_cast<size_t>(kind)] += leaves;
+    const bool left = met & !specular & leaves(k, kind) & (lanes_.cos_in[k] != 0);
+    left_[k] = left ? static_cast<uint8_t>(kind) : kNothing;
+    counters_.stored[static_cast<size_t>(kind)] += left;
     const bool wanted = follows_indirect_ | (specular & follows_caustics_);
-    const bool asked = met & wanted & !walkers_.state[k].is_straight() & !is_last(k);
+    bool asked = met & wanted & !walkers_.state[k].is_straight() & !is_last(k);
+    if (settings_.split && asked && !specular)
+      asked = carries_on(k, get_lane(lanes_.p, k), get_lane(lanes_.facing, k), false);
     scatters_[k] = asked;
     counters_.dropped_invalid += asked & (lanes_.fate[k] == VertexLanes::kInvalid);
     goes_on_[k] = asked & (lanes_.fate[k] == VertexLanes::kAlive);
@@ -327,7 +357,7 @@ class Tracer {
   // The one wavelength that this part of the photon has once it is dispersed. Those of all parts are spread
   // evenly over the numbers from which wavelengths are made.
   float wavelength_of(size_t k) const {
-    const float first = Sampler(photon_stream(settings_), index_of(k), kWavelengthDimension).next_1d();
+    const float first = number_of(k, kWavelengthDimension);
     const float u = first + float(walkers_.state[k].part()) / float(WalkState::kParts);
     return sample_wavelength(u < 1 ? u : u - 1);
   }
@@ -341,7 +371,7 @@ class Tracer {
 
   void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon, bool specular) {
     const PhotonKind kind = walkers_.state[k].kind();
-    if (!specular && settings_.kinds[kind]) record(k, kind, si, photon);
+    if (!specular && leaves(k, kind)) record(k, kind, si, photon);
     if (settings_.kinds.shadow && casts_shadow(kind, specular))
       start_straight(k, si.spawn(photon.ray.d), photon.flux);
   }
@@ -394,7 +424,8 @@ class Tracer {
     const auto sample =
         bsdf.sample_f(wo_local, B::kDrawsLobe ? u(2) : 0, {u(0), u(1)}, TransportMode::kImportance);
     if (!sample) return false;
-    scatters_[k] = sample->specular || follows_indirect_;
+    const Normal3 facing = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
+    scatters_[k] = sample->specular || (follows_indirect_ && carries_on(k, si.p, facing, B::kTransmits));
     if (!scatters_[k]) return false;
     WalkState& state = walkers_.state[k];
     state = sample->specular ? state.behind_specular() : state.behind_diffuse();
@@ -430,6 +461,7 @@ class Tracer {
   // What the paths must be followed for.
   const bool follows_caustics_ = settings_.kinds.caustic || settings_.kinds.medium_caustic;
   const bool follows_indirect_ = settings_.kinds.indirect || settings_.kinds.medium_indirect;
+  const uint64_t stream_ = photon_stream(settings_);
   int unit_exponent_;  // of the energy ledger
   float units_per_watt_ = std::ldexp(1.0f, -unit_exponent_);
   SobolKeyTable keys_;

@@ -23,6 +23,7 @@
 #include "accel/bvh.h"
 #include "photon/emission/emission_guide.h"
 #include "photon/record/photon.h"
+#include "photon/sources/source_split.h"
 #include "photon/trace/lanes/energy_lanes.h"
 #include "photon/trace/lanes/vertex_lanes.h"
 #include "photon/trace/trace_settings.h"
@@ -34,6 +35,10 @@ inline constexpr uint32_t kEmissionDimensions = 8;
 inline constexpr uint32_t kVertexDimensions = 4;
 // The last of the dimensions for emission chooses the wavelength, for photons that meet dispersive glass.
 inline constexpr uint32_t kWavelengthDimension = kEmissionDimensions - 1;
+// Those before decide whether the photon carries the light of its source: of its light, and of the surface
+// where it is first scattered.
+inline constexpr uint32_t kLightShareDimension = kEmissionDimensions - 3;
+inline constexpr uint32_t kSurfaceShareDimension = kEmissionDimensions - 2;
 
 // A straight ray leaves at most this many shadow photons, far more than any real scene has surfaces in a row.
 inline constexpr uint32_t kMaxStraightSurfaces = 1 << 16;

@@ -97,7 +97,7 @@ Rgb left_of_light(const accel::Bvh& bvh, const Point& x, const LightSample& s) {
 template <class Point>
 std::optional<WeightedLightSample> sample_light(const RenderContext& ctx, uint32_t light, float expected,
                                                 const Point& x, LightWeight weight, LobePart part,
-                                                const Point2& u) {
+                                                const LightShares& shares, const Point2& u) {
   const Light& from = ctx.scene.lights[light];
   const LightReceiver receiver = x.receiver();
   const SkyGuide::Directions guide = is_infinite(from) ? sky_guide(ctx, receiver) : SkyGuide::Directions{};
@@ -108,7 +108,7 @@ std::optional<WeightedLightSample> sample_light(const RenderContext& ctx, uint32
   const float pdf = s->pdf * expected;
   const bool shared = weight == LightWeight::kMis && !is_delta(from);
   const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
-  WeightedLightSample weighted{*s, f * s->Li * (w / pdf)};
+  WeightedLightSample weighted{*s, f * s->Li * (w / pdf * shares.of(light, {position(x), s->wi}))};
   if (ctx.scene.needs.media) weighted.contribution *= left_of_light(ctx.bvh, x, *s);
   return weighted;
 }
@@ -164,11 +164,12 @@ Point2 shifted(const Point2& u, uint32_t k) {
 // predicted for sure, a hidden light needs no sample and a visible one no ray.
 template <class Point>
 Rgb sample_one_light(const RenderContext& ctx, uint32_t light, const Point& x, LightWeight weight,
-                     float u_ray, const Point2& u, TileCounters& counters, LobePart part) {
+                     float u_ray, const Point2& u, TileCounters& counters, LobePart part,
+                     const LightShares& shares) {
   const photon::VisibilityPrediction prediction = predicted(ctx, x, part, light);
   const bool traced = u_ray < prediction.p;
   if (!traced && prediction.v == 0) return Rgb(0);
-  const auto s = sample_light(ctx, light, 1, x, weight, part, u);
+  const auto s = sample_light(ctx, light, 1, x, weight, part, shares, u);
   if (!s) return Rgb(0);
   return s->contribution *
          (traced ? prediction.v + (trace_visibility(ctx, x, s->at, counters) - prediction.v) / prediction.p
@@ -178,14 +179,15 @@ Rgb sample_one_light(const RenderContext& ctx, uint32_t light, const Point& x, L
 // Draws kLightChoices lights, stratified by u_light.
 template <class Point>
 Rgb sample_chosen_lights(const RenderContext& ctx, const Point& x, LightWeight weight, float u_light,
-                         float u_ray, const Point2& u, TileCounters& counters, LobePart part) {
+                         float u_ray, const Point2& u, TileCounters& counters, LobePart part,
+                         const LightShares& shares) {
   CompetingSamples samples;
   for (uint32_t k = 0; k < kLightChoices; ++k) {
     const float stratum = std::min((float(k) + u_light) / kLightChoices, kOneMinusEpsilon);
     const auto choice = ctx.scene.light_sampler.choose(x.receiver(), stratum);
     if (!choice) continue;
     const float expected = kLightChoices * choice->probability;
-    if (const auto s = sample_light(ctx, choice->light, expected, x, weight, part, shifted(u, k)))
+    if (const auto s = sample_light(ctx, choice->light, expected, x, weight, part, shares, shifted(u, k)))
       samples.add(*s, predicted(ctx, x, part, choice->light));
   }
   return samples.estimate(ctx, x, u_ray, counters);
@@ -193,13 +195,13 @@ Rgb sample_chosen_lights(const RenderContext& ctx, const Point& x, LightWeight w
 
 // Returns f Li / pdf of one sample of the light, as if nothing were in the way.
 Rgb unoccluded_from(const RenderContext& ctx, uint32_t light, const ShadingPoint& x, const Point2& u) {
-  const auto s = sample_light(ctx, light, 1, x, LightWeight::kAlone, LobePart::kDiffuse, u);
+  const auto s = sample_light(ctx, light, 1, x, LightWeight::kAlone, LobePart::kDiffuse, {}, u);
   return s ? s->contribution : Rgb(0);
 }
 
 template <class Point>
 Rgb sample_direct_at(const RenderContext& ctx, const Point& x, LightWeight weight, Sampler& sampler,
-                     TileCounters& counters, LobePart part) {
+                     TileCounters& counters, LobePart part, const LightShares& shares) {
   const float u_light = sampler.next_1d();
   const Point2 u = sampler.next_2d();
   const Scene& scene = ctx.scene;
@@ -207,23 +209,23 @@ Rgb sample_direct_at(const RenderContext& ctx, const Point& x, LightWeight weigh
   if (samples_each(scene)) {
     Rgb sum(0);
     for (uint32_t light = 0; light < scene.lights.size(); ++light)
-      sum += sample_one_light(ctx, light, x, weight, u_light, u, counters, part);
+      sum += sample_one_light(ctx, light, x, weight, u_light, u, counters, part, shares);
     return sum;
   }
   const float u_ray = sampler.next_1d();
-  return sample_chosen_lights(ctx, x, weight, u_light, u_ray, u, counters, part);
+  return sample_chosen_lights(ctx, x, weight, u_light, u_ray, u, counters, part, shares);
 }
 
 }  // namespace
 
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
-                  TileCounters& counters, LobePart part) {
-  return sample_direct_at(ctx, x, weight, sampler, counters, part);
+                  TileCounters& counters, LobePart part, const LightShares& shares) {
+  return sample_direct_at(ctx, x, weight, sampler, counters, part, shares);
 }
 
 Rgb sample_direct(const RenderContext& ctx, const MediumPoint& x, LightWeight weight, Sampler& sampler,
                   TileCounters& counters) {
-  return sample_direct_at(ctx, x, weight, sampler, counters, LobePart::kDiffuse);
+  return sample_direct_at(ctx, x, weight, sampler, counters, LobePart::kDiffuse, {});
 }
 
 bool direct_needs_bsdf_sample(const Scene& scene, const ShadingPoint& x) {
@@ -250,9 +252,10 @@ Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w) 
   return area ? area->Le(si, w) : Rgb(0);
 }
 
-Rgb escaped(const Scene& scene, const Ray& ray) {
+Rgb escaped(const Scene& scene, const Ray& ray, const LightShares& shares) {
   Rgb sum(0);
-  for (const uint32_t i : scene.infinite_lights) sum += escaped_radiance(scene.lights[i], ray);
+  for (const uint32_t i : scene.infinite_lights)
+    sum += escaped_radiance(scene.lights[i], ray) * shares.of(i, ray);
   return sum;
 }
 
@@ -263,14 +266,15 @@ float emitter_hit_weight(const Scene& scene, const LightReceiver& x, const Vecto
   return power_heuristic(bsdf_pdf, samples_of(scene, x, si.light) * area->pdf_Li(x.p, wi, si));
 }
 
-Rgb escaped_weighted(const RenderContext& ctx, const LightReceiver& x, const Ray& ray, float bsdf_pdf) {
+Rgb escaped_weighted(const RenderContext& ctx, const LightReceiver& x, const Ray& ray, float bsdf_pdf,
+                     const LightShares& shares) {
   Rgb sum(0);
   const SkyGuide::Directions guide = sky_guide(ctx, x);
   for (const uint32_t i : ctx.scene.infinite_lights) {
     const Light& light = ctx.scene.lights[i];
     const float light_pdf =
         samples_of(ctx.scene, x, i) * guided_pdf(escaped_pdf(light, x, ray.d), guide, ray.d);
-    sum += escaped_radiance(light, ray) * power_heuristic(bsdf_pdf, light_pdf);
+    sum += escaped_radiance(light, ray) * (power_heuristic(bsdf_pdf, light_pdf) * shares.of(i, ray));
   }
   return sum;
 }

@@ -4,6 +4,7 @@
 
 #include "render/camera/medium_point.h"
 #include "render/camera/shading_point.h"
+#include "render/estimators/path_shares.h"
 #include "render/estimators/render_context.h"
 
 namespace kaustik::render {
@@ -21,9 +22,9 @@ enum class LightWeight {
 // between blocks, including glass, since light through specular surfaces belongs to the caustic class. Delta
 // lights always have weight one. With ctx.visibility most shadow rays are skipped, and V is an unbiased
 // estimate that may be negative (photon/visibility/visibility_tree.h). The number of dimensions that are
-// drawn depends on the number of lights only. part: the lobes of f that count.
+// drawn depends on the number of lights only. part: the lobes of f that count; shares: of the lights.
 Rgb sample_direct(const RenderContext& ctx, const ShadingPoint& x, LightWeight weight, Sampler& sampler,
-                  TileCounters& counters, LobePart part = LobePart::kDiffuse);
+                  TileCounters& counters, LobePart part = LobePart::kDiffuse, const LightShares& shares = {});
 
 // The same with the phase function of a point in a medium in place of f and the cosine.
 Rgb sample_direct(const RenderContext& ctx, const MediumPoint& x, LightWeight weight, Sampler& sampler,
@@ -46,7 +47,7 @@ Rgb unoccluded_direct(const RenderContext& ctx, const ShadingPoint& x, Sampler& 
 Rgb emitted(const Scene& scene, const SurfaceInteraction& si, const Vector3& w);
 
 // Radiance of the infinite lights, for a ray of unit direction that escapes.
-Rgb escaped(const Scene& scene, const Ray& ray);
+Rgb escaped(const Scene& scene, const Ray& ray, const LightShares& shares = {});
 
 // MIS weight of BSDF sampling, bsdf_pdf^2 / (bsdf_pdf^2 + light_pdf^2), for a ray from x in direction wi that
 // met the emitter `si`; bsdf_pdf is its density.
@@ -55,6 +56,7 @@ float emitter_hit_weight(const Scene& scene, const LightReceiver& x, const Vecto
 
 // Radiance of the infinite lights for a ray from x that escapes, each light multiplied by the MIS weight of
 // BSDF sampling.
-Rgb escaped_weighted(const RenderContext& ctx, const LightReceiver& x, const Ray& ray, float bsdf_pdf);
+Rgb escaped_weighted(const RenderContext& ctx, const LightReceiver& x, const Ray& ray, float bsdf_pdf,
+                     const LightShares& shares = {});
 
 }  // namespace kaustik::render

@@ -20,11 +20,11 @@ struct PathState {
   int diffuse = 0;                   // scattering events by diffuse lobes or media, x included
   bool from_medium = false;          // the last of these was in a medium
   bool specular = false;             // the last event was specular
+  float share = 1;                   // of paths in the light of the last diffuse event
   bool has_pdf = false;              // that event was by no delta lobe, so lights were sampled there too
   LightReceiver ref;                 // where that event was
   float pdf = 0;                     // density of the ray that left it
   Point3 from{0};                    // the point that the ray left
-  float segment = 0;                 // length of the path since the last diffuse event, metres
   MediumIndex medium = kVacuum;      // of the ray
   float wavelength = kNoWavelength;  // for which dispersive glass refracts
   bool dispersed = false;            // the path has only this wavelength
@@ -45,12 +45,14 @@ void disperse(PathState* path) {
   path->beta = Rgb(1);
 }
 
+// Whether the caustic map tells what light comes to the points of a path through specular surfaces. Where
+// sources are split, photons carry their share of it on into the indirect map.
 bool caustics_by_map(const RenderContext& ctx) {
-  return ctx.plan.caustics == CausticEstimator::kPhotons;
+  return reads_caustic_photons(ctx.plan) && ctx.plan.indirect != IndirectEstimator::kSplit;
 }
 
 bool follows_indirect(PathReach reach) {
-  return reach >= PathReach::kMaps;
+  return reach == PathReach::kRoulette;
 }
 
 bool collects_lights(const PathState& path) {
@@ -64,9 +66,25 @@ bool collects_media(const PathState& path) {
 // the event that leads to the light is specular. Points in media that paths meet read no map.
 Rgb* owner_of_light(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
   if (path.diffuse > 1)
-    return specular && caustics_by_map(ctx) && !path.from_medium ? nullptr : &light->indirect;
-  if (specular) return ctx.plan.caustics == CausticEstimator::kPaths ? &light->caustic : nullptr;
+    return specular && caustics_by_map(ctx) && !path.from_medium &&
+                   ctx.plan.caustics != CausticEstimator::kSplit
+               ? nullptr
+               : &light->indirect;
+  const bool finds_caustics =
+      ctx.plan.caustics == CausticEstimator::kPaths || ctx.plan.caustics == CausticEstimator::kSplit;
+  if (specular) return finds_caustics ? &light->caustic : nullptr;
   return path.from_medium || samples_lights(ctx.plan.direct) ? &light->direct : nullptr;
+}
+
+// Shares of paths in the lights that the path meets. specular: whether the event that leads to them is
+// specular.
+LightShares shares_of_met(const RenderContext& ctx, const PathState& path, bool specular) {
+  const bool split_indirect = path.diffuse > 1 && ctx.plan.indirect == IndirectEstimator::kSplit;
+  const float of_surface = split_indirect ? path.share : 1;
+  // Other indirect light that comes through specular surfaces has the caustic map's share at its last point.
+  const bool split_lights =
+      specular && !path.from_medium && (split_indirect || ctx.plan.caustics == CausticEstimator::kSplit);
+  return split_lights ? path_shares_of_lights(ctx, of_surface) : LightShares{of_surface};
 }
 
 // The same for what media emit.
@@ -94,36 +112,25 @@ void add_light(const RenderContext& ctx, const PathState& path, const SurfaceInt
   Rgb* owner = owner_of_light(ctx, path, path.specular, light);
   if (!owner) return;
   const float w = path.has_pdf ? emitter_hit_weight(ctx.scene, path.ref, ray.d, path.pdf, si) : 1;
-  *owner += path.beta * Le * w;
+  *owner += path.beta * Le * (w * shares_of_met(ctx, path, path.specular).of(si.light, ray));
 }
 
 void add_escape(const RenderContext& ctx, const PathState& path, const Ray& ray, PathLight* light) {
   if (ctx.scene.infinite_lights.empty()) return;
-  if (Rgb* owner = owner_of_light(ctx, path, path.specular, light))
-    *owner +=
-        path.beta * (path.has_pdf ? escaped_weighted(ctx, path.ref, ray, path.pdf) : escaped(ctx.scene, ray));
+  Rgb* const owner = owner_of_light(ctx, path, path.specular, light);
+  if (!owner) return;
+  const LightShares shares = shares_of_met(ctx, path, path.specular);
+  *owner += path.beta * (path.has_pdf ? escaped_weighted(ctx, path.ref, ray, path.pdf, shares)
+                                      : escaped(ctx.scene, ray, shares));
 }
 
 // Light that arrives at y, the end of a diffuse segment, from the lights and through specular surfaces, and
 // is scattered along the path by y's diffuse lobes.
-Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, LightWeight weight, Sampler& sampler,
-             TileCounters& counters) {
-  Rgb sum = sample_direct(ctx, y, weight, sampler, counters);
+Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler, TileCounters& counters) {
+  Rgb sum = sample_direct(ctx, y, LightWeight::kMis, sampler, counters);
   if (caustics_by_map(ctx))
     sum += photon::estimate_radiance(ctx.maps.caustic.map, y.si, y.wo, *y.bsdf, ctx.maps.caustic.estimate,
                                      counters.gather);
-  return sum;
-}
-
-// All light that y scatters along the path, with the indirect map in place of further events.
-Rgb arriving_at_end(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler,
-                    TileCounters& counters) {
-  const bool shared = direct_needs_bsdf_sample(ctx.scene, y);
-  const Rgb gathered = photon::estimate_radiance(ctx.maps.indirect.map, y.si, y.wo, *y.bsdf,
-                                                 ctx.maps.indirect.estimate, counters.gather);
-  Rgb sum = arriving(ctx, y, shared ? LightWeight::kMis : LightWeight::kAlone, sampler, counters) +
-            disc_factor(ctx, y) * gathered;
-  if (shared) sum += trace_path(ctx, y, PathReach::kLights, sampler, counters).direct;
   return sum;
 }
 
@@ -176,7 +183,6 @@ void continue_path(const MediumPoint& m, PathState* path, Ray* ray, Sampler& sam
   path->specular = false;
   path->from_medium = true;
   ++path->diffuse;
-  path->segment = 0;
   path->has_pdf = true;
   path->ref = m.receiver();
   path->pdf = scatter_pdf(m, wi);
@@ -185,9 +191,10 @@ void continue_path(const MediumPoint& m, PathState* path, Ray* ray, Sampler& sam
   *ray = spawn(m, wi);
 }
 
-// Samples a scattering event and continues the path; false where it ends.
-bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, PathState* path, Ray* ray,
-                   Sampler& sampler) {
+// Samples a scattering event and continues the path; false where it ends. share: of paths in the light that
+// diffuse lobes scatter here.
+bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, float share, PathState* path,
+                   Ray* ray, Sampler& sampler) {
   const auto s = scatter(v, sampler, part);
   if (!s || is_black(s->weight)) return false;
   if (selects_wavelength(*v.bsdf, v.wo_local, *s)) disperse(path);
@@ -195,7 +202,7 @@ bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, Path
   if (!s->transmission) path->roulette *= max_component(s->weight);
   path->specular = s->specular;
   path->diffuse += !s->specular;
-  if (!s->specular) path->segment = 0, path->from_medium = false;
+  if (!s->specular) path->from_medium = false, path->share = share;
   path->has_pdf = !s->specular || s->glossy;
   path->ref = v.receiver();
   path->pdf = s->pdf;
@@ -217,29 +224,22 @@ bool survives(PathState* path, Sampler& sampler) {
   return true;
 }
 
-// Whether maps give all the light that y's diffuse lobes scatter.
-bool reads_maps_at(const RenderContext& ctx, PathReach reach, const PathState& path) {
-  return reach == PathReach::kMaps && path.segment >= ctx.maps.indirect.estimate.radius;
-}
-
 // Adds the light that the path collects at y and chooses the lobes by which it goes on; nothing where it
 // ends.
-std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, PathReach reach,
+std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, PathReach reach, float share,
                              PathState* path, PathLight* light, Sampler& sampler, TileCounters& counters) {
   const Lobes parts = lobes(*y.bsdf);
-  const bool at_end = reads_maps_at(ctx, reach, *path);
   if (parts.diffuse && follows_indirect(reach)) {
-    if (collects_lights(*path))
-      light->indirect += path->beta * (at_end ? arriving_at_end(ctx, y, sampler, counters)
-                                              : arriving(ctx, y, LightWeight::kMis, sampler, counters));
+    if (collects_lights(*path)) light->indirect += share * path->beta * arriving(ctx, y, sampler, counters);
     if (collects_media(*path))
       light->indirect += path->beta * sample_emission_of_media(ctx, y, sampler, counters);
   }
   if (parts.glossy && collects_lights(*path)) {
     if (Rgb* owner = owner_of_light(ctx, *path, true, light))
-      *owner += path->beta * sample_direct(ctx, y, LightWeight::kMis, sampler, counters, LobePart::kGlossy);
+      *owner += path->beta * sample_direct(ctx, y, LightWeight::kMis, sampler, counters, LobePart::kGlossy,
+                                           shares_of_met(ctx, *path, true));
   }
-  const bool specular_only = at_end || !follows_indirect(reach);
+  const bool specular_only = !follows_indirect(reach);
   if (specular_only && !parts.specular) return {};
   if (parts.diffuse && !survives(path, sampler)) return {};
   return specular_only ? Scatter::kSpecular : Scatter::kEither;
@@ -311,13 +311,13 @@ void follow(const RenderContext& ctx, PathState& path, Ray ray, PathReach reach,
       met ? add_light(ctx, path, si, ray, light.of(path)) : add_escape(ctx, path, ray, light.of(path));
     if (!met) return;
     if (reach == PathReach::kLights || ++path.events > ctx.settings.max_bounces) return;
-    path.segment += distance;
     path.from = si.p;
     ShadingPoint y(ctx.scene, si, -ray.d, {}, path.wavelength);
     if (scatters_one_wavelength(*y.bsdf)) disperse(&path);
     y.medium = path.medium, y.wavelength = wavelength_of(path);
-    const std::optional<Scatter> part = visit(ctx, y, reach, &path, light.of(path), sampler, counters);
-    if (!part || !continue_path(ctx.scene, y, *part, &path, &ray, sampler)) return;
+    const float share = lobes(*y.bsdf).diffuse ? path_share_of_surface(ctx, y) : 1;
+    const std::optional<Scatter> part = visit(ctx, y, reach, share, &path, light.of(path), sampler, counters);
+    if (!part || !continue_path(ctx.scene, y, *part, share, &path, &ray, sampler)) return;
   }
 }
 
@@ -344,7 +344,7 @@ PathLight trace_from(const RenderContext& ctx, const Point& x, PathReach reach, 
 PathLight trace_path(const RenderContext& ctx, const ShadingPoint& x, PathReach reach, Sampler& sampler,
                      TileCounters& counters, PathSources sources) {
   return trace_from(ctx, x, reach, sampler, counters, sources, [&](PathState* path, Ray* ray) {
-    return continue_path(ctx.scene, x, Scatter::kDiffuse, path, ray, sampler);
+    return continue_path(ctx.scene, x, Scatter::kDiffuse, 1, path, ray, sampler);
   });
 }
 

@@ -20,8 +20,6 @@ enum class PathReach {
   kNone,
   kLights,    // one ray: lights that are seen straight from x
   kSpecular,  // through specular surfaces to a light: caustics
-  kMaps,      // to the first diffuse surface that is farther away than the indirect map's radius; the maps
-              // are gathered there (final gather, Jensen 2001, section 9.4)
   kRoulette   // until Russian roulette ends the path
 };
 
@@ -32,23 +30,17 @@ enum class PathSources {
   kLightsAndMedia
 };
 
-// The factors that correct a disc of the indirect map at x; 1 where nothing is known.
-inline Rgb disc_factor(const RenderContext& ctx, const ShadingPoint& x) {
-  return ctx.discs ? ctx.discs->at(x.si.p, glm::dot(x.wo, x.si.n) < 0 ? -x.si.n : x.si.n) : Rgb(1);
-}
-
 // Traces one path that starts at x with a sample of its diffuse lobes. What it meets decides the class:
 //
 //   a light straight from x                direct, with the MIS weight of BSDF sampling (if samples_lights())
 //   a light after specular surfaces only   caustic (--caustics paths)
-//   light after a second diffuse event     indirect (reach kMaps and kRoulette)
+//   light after a second diffuse event     indirect (reach kRoulette)
 //
 // At each further non-specular point y the path collects light samples (with MIS) and the light that arrives
 // at y through specular surfaces. The latter comes from the caustic map if there is one, and lights met
 // through specular surfaces are then not counted again; otherwise from lights met and, at glossy lobes,
 // lights sampled. `--caustics off` therefore leaves out only the class L S+ D S* E; indirect light stays
-// complete as far as paths can find it. With reach kMaps the path ends at the first such y that is not too
-// near, where the indirect map adds the light of all further events. Russian roulette starts at the third
+// complete as far as paths can find it. Russian roulette starts at the third
 // non-specular point. Unbiased except for the maps' kernels. At most max_bounces scattering events from x to
 // the light, x included, apart from those of the map's photons. Requires reach > kNone.
 //

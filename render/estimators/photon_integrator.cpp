@@ -90,21 +90,27 @@ PathReach reach_for_media(const CameraSample& sample) {
   return sample.light == SampleLight::kTraced ? PathReach::kLights : PathReach::kRoulette;
 }
 
+// Russian roulette: returns the weight 1 / q with probability q, otherwise 0. Draws a dimension only for q
+// < 1.
+float roulette_weight(float q, Sampler& sampler) {
+  if (q >= 1) return 1;
+  return sampler.next_1d() < q ? 1 / q : 0;
+}
+
 // Adds the light that the diffuse lobes of x scatter, seen through a specular chain of throughput beta. Paths
 // add nothing to a class that another estimator accounts for.
-void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, bool blurred,
-                   Sampler& sampler, const MapEstimator& maps) {
+void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
+                   const MapEstimator& maps) {
   PixelResult* const result = maps.result;
-  PointPlan point = plan_point(ctx, x, blurred, maps.sample.batch);
+  PointPlan point = plan_point(ctx, x);
   const bool traced_only = maps.sample.light == SampleLight::kTraced;
   if (traced_only) point = {false, std::min(point.path, PathReach::kLights)};
   // When a path leaves x anyway, it finds lights too, and shares the direct light with the light samples.
   const bool shared = samples_lights(ctx.plan.direct) && point.path != PathReach::kNone;
   add_direct(ctx, x, beta, shared ? LightWeight::kMis : LightWeight::kAlone, sampler, maps);
   if (!traced_only) {
-    if (ctx.plan.caustics == CausticEstimator::kPhotons)
-      maps.add(ctx.maps.caustic, x, beta, &result->caustic);
-    if (point.indirect_disc) maps.add(ctx.maps.indirect, x, disc_factor(ctx, x) * beta, &result->indirect);
+    if (reads_caustic_photons(ctx.plan)) maps.add(ctx.maps.caustic, x, beta, &result->caustic);
+    if (point.indirect_disc) maps.add(ctx.maps.indirect, x, beta, &result->indirect);
   }
   const PathLight path =
       trace_paths(ctx, x, point.path, reach_for_media(maps.sample), sampler, maps.counters);
@@ -148,7 +154,6 @@ struct Branch {
   int events = 0;
   LastScatter last{};
   Tail tail = Tail::kNone;
-  bool blurred = false;          // an earlier lobe of the chain blurs more than the indirect map's disc
   float length = 0;              // of the chain
   bool shown = false;            // the chain had a point with lobes that are no delta lobes
   MediumIndex medium = kVacuum;  // of the ray
@@ -163,8 +168,10 @@ Rgb emission_seen(const Scene& scene, const LastScatter& last, const SurfaceInte
   if (!last.glossy || is_black(Le)) return Le;
   return Le * emitter_hit_weight(scene, last.ref, d, last.pdf, si);
 }
-Rgb escape_seen(const RenderContext& ctx, const LastScatter& last, const Ray& ray) {
-  return last.glossy ? escaped_weighted(ctx, last.ref, ray, last.pdf) : escaped(ctx.scene, ray);
+Rgb escape_seen(const RenderContext& ctx, const LastScatter& last, const Ray& ray,
+                const LightShares& shares) {
+  return last.glossy ? escaped_weighted(ctx, last.ref, ray, last.pdf, shares)
+                     : escaped(ctx.scene, ray, shares);
 }
 
 // Russian roulette for chains over coated surfaces whose throughput is below kDim: they soon contribute
@@ -178,13 +185,6 @@ bool survives_coats(Rgb* beta, Sampler& sampler) {
   return true;
 }
 
-// Russian roulette: returns the weight 1 / q with probability q, otherwise 0. Draws a dimension only for q
-// < 1.
-float roulette_weight(float q, Sampler& sampler) {
-  if (q >= 1) return 1;
-  return sampler.next_1d() < q ? 1 / q : 0;
-}
-
 // Probability of the gather at the end of a branch: that of a dim one costs as much as that of a bright one.
 float gather_probability(float share) {
   constexpr float kBright = 0.25f;
@@ -194,14 +194,6 @@ float gather_probability(float share) {
 // Share of the samples that gather in the tails of glossy lobes. A gather takes as long as the rest of the
 // sample, and the samples of a pixel differ little in it.
 constexpr float kTailGathers = 0.25f;
-
-// Whether the chain's glossy lobes blur what lies `distance` ahead by more than the indirect map's disc. A
-// lobe of density pdf is taken for a cone of solid angle 1 / pdf.
-bool is_blurred(const RenderContext& ctx, const Branch& branch, float distance) {
-  const float radius = ctx.maps.indirect.estimate.radius;
-  return branch.blurred ||
-         (branch.last.glossy && distance * distance >= kPi * branch.last.pdf * radius * radius);
-}
 
 // Traces one camera sample through all branches of its specular chains.
 class CameraPath {
@@ -238,14 +230,16 @@ class CameraPath {
   void visit(Branch& branch, const Hit& hit) {
     if (branch.medium != kVacuum || ctx_.scene.interfaces)
       pass_media(branch, hit.valid() ? hit.t : kInfinity);
-    const bool sees_lights = branch.tail != Tail::kBehind;
+    const LightShares shares = shares_seen(branch);
     if (!hit.valid()) {
-      if (sees_lights) add_emission(branch, escape_seen(ctx_, branch.last, branch.ray));
+      if (shares.all > 0) add_emission(branch, escape_seen(ctx_, branch.last, branch.ray, shares));
       return;
     }
     const Vector3 wo = -branch.ray.d;
     const SurfaceInteraction si = make_interaction(ctx_.scene.shapes, branch.ray, hit);
-    if (sees_lights) add_emission(branch, emission_seen(ctx_.scene, branch.last, si, branch.ray.d));
+    if (shares.all > 0 && si.light != kNoIndex)
+      add_emission(
+          branch, shares.of(si.light, branch.ray) * emission_seen(ctx_.scene, branch.last, si, branch.ray.d));
     const RayCone cone = branch.cone.after(hit.t);
     const bool constant = ctx_.scene.materials[si.material].constant();
     ShadingPoint x(ctx_.scene, si, wo, constant ? Footprint{} : cone.on_surface(branch.ray.d, si.n),
@@ -263,8 +257,7 @@ class CameraPath {
     }
     if (parts.diffuse)
       if (const float weight = roulette_weight(gather_probability(branch.share), sampler_); weight > 0)
-        add_reflected(ctx_, x, weight * branch.beta, is_blurred(ctx_, branch, hit.t), sampler_,
-                      maps_of(branch));
+        add_reflected(ctx_, x, weight * branch.beta, sampler_, maps_of(branch));
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
     if (parts.glossy && branch.tail == Tail::kNone) add_glossy(branch, x);
     const SceneNeeds& needs = ctx_.scene.needs;
@@ -272,8 +265,14 @@ class CameraPath {
     if (branch.tail != Tail::kNone && !sees_more) return;
     Branch here = branch;
     here.cone = cone, here.length = length, here.shown = branch.shown || end;
-    if (parts.glossy || parts.diffuse || !split(here, x))
-      continue_specular(here, x, is_blurred(ctx_, branch, hit.t));
+    if (parts.glossy || parts.diffuse || !split(here, x)) continue_specular(here, x);
+  }
+
+  // The shares of lights that the branch's ray meets which it brings: behind a tail photons bring theirs.
+  LightShares shares_seen(const Branch& branch) const {
+    if (branch.tail != Tail::kBehind) return {};
+    if (ctx_.plan.caustics != CausticEstimator::kSplit) return {0};
+    return path_shares_of_lights(ctx_, 1);
   }
 
   // Adds what media scatter along the branch's ray, and takes away what does not get through.
@@ -330,7 +329,7 @@ class CameraPath {
   const MapEstimator& maps_of(const Branch& branch) const { return maps_[branch.dispersed]; }
   float wavelength_of(const Branch& branch) const { return branch.dispersed ? wavelength_ : kNoWavelength; }
 
-  void continue_specular(const Branch& from, const ShadingPoint& x, bool blurred) {
+  void continue_specular(const Branch& from, const ShadingPoint& x) {
     const auto s = scatter(x, sampler_, Scatter::kSpecular);
     if (!s) return;
     Rgb beta = from.beta * s->weight;
@@ -338,7 +337,7 @@ class CameraPath {
     Tail tail = behind_event(from.tail);
     if (tail == Tail::kNone && s->glossy && gathers_tail(ctx_, x) && in_tail(x, s->wi)) tail = Tail::kLeft;
     push({x.si.spawn(s->wi), from.cone, beta, from.share, from.events + 1,
-          LastScatter{s->glossy, x.receiver(), s->pdf}, tail, blurred, from.length, from.shown,
+          LastScatter{s->glossy, x.receiver(), s->pdf}, tail, from.length, from.shown,
           medium_towards(ctx_.scene, x, s->wi),
           from.dispersed || selects_wavelength(*x.bsdf, x.wo_local, *s)});
   }
@@ -354,8 +353,8 @@ class CameraPath {
     if (from.share * std::min(reflected->pdf, refracted->pdf) < kDim) return false;
     for (const BsdfSample* s : {&*reflected, &*refracted})
       push({x.si.spawn(s->wi), from.cone, from.beta * s->weight * s->pdf, from.share * s->pdf,
-            from.events + 1, LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.blurred,
-            from.length, from.shown, medium_towards(ctx_.scene, x, s->wi),
+            from.events + 1, LastScatter{false, x.receiver(), s->pdf}, behind_event(from.tail), from.length,
+            from.shown, medium_towards(ctx_.scene, x, s->wi),
             from.dispersed || selects_wavelength(*x.bsdf, x.wo_local, *s)});
     return true;
   }

@@ -4,7 +4,6 @@
 #include "photon/visibility/visibility_tree.h"
 #include "render/camera/ray_cone.h"
 #include "render/explore/sky_guide.h"
-#include "render/maps/disc_correction.h"
 #include "render/maps/photon_maps.h"
 #include "render/plan/pass_share.h"
 #include "render/plan/render_input.h"
@@ -18,8 +17,7 @@ struct RenderContext : RenderInput {
   const SkyGuide* sky = nullptr;                       // null: light samples of skies are not guided
   PassShare pass{};
   PassSamples samples{};
-  RayCone cone{};                         // cone of a camera ray
-  const DiscCorrection* discs = nullptr;  // null: discs of the indirect map are taken as they are
+  RayCone cone{};  // cone of a camera ray
 };
 
 // Exact counters of one tile; merging them adds integers.

@@ -41,7 +41,7 @@ struct MapManifest {
   std::string scene_hash;  // hash of the contents of the scene's files
   SettingTexts settings;   // those that the photons depend on
   std::string cameras;     // hash of the cameras for which they were shot, or "all"
-  std::string estimators;  // that chose the radii, such as "predicted final-gather"
+  std::string estimators;  // that chose the radii, such as "predicted photons"
   photon::KindMask kinds;  // that were stored
   // As in photon::TraceSettings.
   bool under_glossy = false, shadow_behind_specular = false;

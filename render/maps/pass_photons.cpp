@@ -18,12 +18,11 @@ namespace kaustik::render {
 
 namespace {
 
-// The highest gap below a wall that does not join the discs on both sides: a quarter of `size`, of their
-// radius or of the clearance where that is less, rounded down to a power of two, so that maps of a few more
-// photons find the same feet.
-float gap_below_walls(float size) {
-  constexpr float kShareOfSize = 0.25f;
-  return std::ldexp(1.0f, std::ilogb(kShareOfSize * size));
+// The highest gap below a wall that does not join the discs on both sides: a quarter of their radius, rounded
+// down to a power of two, so that maps of a few more photons find the same feet.
+float gap_below_walls(float radius) {
+  constexpr float kShareOfRadius = 0.25f;
+  return std::ldexp(1.0f, std::ilogb(kShareOfRadius * radius));
 }
 
 // The radius of a render as a share of that of a trial, whose photons are a quarter or less of the render's.
@@ -143,11 +142,6 @@ bool PassPhotons::explore(const RenderInput& input, const ProgressCallback& prog
     if (cancelled) return false;
     known.edges = std::make_unique<accel::EdgeIndex>(merge_edges(std::move(edges)));
   }
-  if (!known.surroundings && input.plan.indirect == IndirectEstimator::kFinalGather) {
-    auto surroundings = std::make_unique<const Surroundings>(input, go_on);
-    if (cancelled) return false;
-    known.surroundings = std::move(surroundings);
-  }
   known.seconds += watch.seconds();
   return true;
 }
@@ -159,8 +153,7 @@ void PassPhotons::find_walls(const Scene& scene) {
   if (std::exchange(walls_are_known_, true)) return;
   const float radius = std::max({radii_->direct, radii_->caustic, radii_->indirect});
   if (!(radius > 0) || !std::isfinite(radius)) return;
-  const float clearance = maps_.surroundings ? maps_.surroundings->lower_quartile() : kInfinity;
-  const float gap = gap_below_walls(std::min(is_trial_ ? kTrialShrink * radius : radius, clearance));
+  const float gap = gap_below_walls(is_trial_ ? kTrialShrink * radius : radius);
   std::optional<WallFeet>& feet = explored_->feet;
   if (!feet || feet->gap != gap) feet = WallFeet{gap, accel::find_wall_feet(scene, *explored_->edges, gap)};
   if (!feet->edges.empty()) walls_ = std::make_unique<photon::Walls>(feet->edges, scene.bounds, radius);
@@ -287,8 +280,7 @@ KeptPhotons PassPhotons::keep(const RenderStatistics& statistics) const {
 
 // Chooses r0 unless it is known, and sets how the maps are gathered.
 void PassPhotons::prepare_gathers(const RenderInput& input, const PassShare& pass) {
-  const bool chooses = input.plan.indirect == IndirectEstimator::kFinalGather;
-  maps_.surroundings = chooses ? explored_->surroundings.get() : nullptr;
+  maps_.split = guides_.split.get();
   if (!radii_) radii_ = settle_radii(input, pass, maps_);
   find_walls(input.scene);
   set_estimates(input, pass);

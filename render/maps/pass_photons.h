@@ -8,7 +8,6 @@
 #include "accel/edge_index.h"
 #include "photon/visibility/visibility_tree.h"
 #include "render/explore/sky_guide.h"
-#include "render/explore/surroundings.h"
 #include "render/maps/gather_radii.h"
 #include "render/maps/kept_photons.h"
 #include "render/maps/photon_maps.h"
@@ -28,7 +27,6 @@ struct ExploredScene {
   std::unique_ptr<const accel::EdgeIndex> edges;  // edges of surfaces
   std::vector<SurfaceBend> bends;                 // bend of surfaces, by surface group; set with edges
   std::optional<WallFeet> feet;
-  std::unique_ptr<const Surroundings> surroundings;
   std::unique_ptr<const SkyGuide> sky;
   double seconds = 0;  // spent in PassPhotons::explore()
 };

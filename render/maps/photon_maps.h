@@ -6,10 +6,9 @@
 #include "photon/estimate/radiance_estimate.h"
 #include "photon/estimate/shadow_classifier.h"
 #include "photon/map/photon_map.h"
+#include "render/maps/learn_split.h"
 
 namespace kaustik::render {
-
-class Surroundings;
 
 // A map and the settings with which it is gathered.
 struct GatherMap {
@@ -26,7 +25,7 @@ struct PhotonMaps {
   GatherMap medium_caustic, medium_indirect;  // gathered along rays: only the radius of the estimate is used
   photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which gathers from it with direct.estimate
   photon::LectureSettings lecture;
-  const Surroundings* surroundings = nullptr;  // for `final-gather`; null for other estimators
+  const LearnedSplit* split = nullptr;  // null: photons carry all light of their classes
 
   photon::PhotonMap& of(photon::PhotonKind kind) {
     photon::PhotonMap* const maps[] = {

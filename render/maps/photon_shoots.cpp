@@ -8,6 +8,7 @@
 
 #include "core/parallel/work_span.h"
 #include "render/explore/visible_density.h"
+#include "render/maps/learn_split.h"
 
 namespace kaustik::render {
 
@@ -56,6 +57,13 @@ PhotonKind in_medium(PhotonKind kind) {
 std::vector<Shoot> plan_shoots(const RenderInput& input, const PassShare& pass, const PhotonGuides& guides) {
   Shoot others{trace_settings(input.settings, input.plan, pass)};
   others.trace.photons_on_segments = std::max(1u, guides.photons_on_segments);
+  others.trace.split = guides.split ? &guides.split->sources : nullptr;
+  others.trace.split_caustics = input.plan.caustics == CausticEstimator::kSplit;
+  others.trace.split_indirect = input.plan.indirect == IndirectEstimator::kSplit;
+  if (guides.split && !guides.split->photons) {
+    if (others.trace.split_indirect) others.trace.kinds.indirect = false;
+    if (others.trace.split_caustics) others.trace.kinds.caustic = false;
+  }
   std::vector<Shoot> shoots;
   const auto guide = [&](PhotonKind kind, const auto& learned, uint64_t photons) {
     if (!others.trace.kinds[kind] || !learned || learned->guide.empty()) return;
@@ -107,22 +115,37 @@ uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& pla
   return kinds.any() ? (photons + 1) / 2 : photons;
 }
 
-void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics) {
-  if (input.settings.guide == Guide::kOff) return;
+void learn_sources(const RenderInput& input, PhotonGuides* guides) {
   const photon::KindMask kinds = kinds_needed(input.plan);
+  const bool splits = splits_sources(input.plan);
+  if (splits && !guides->split) guides->split = learn_split(input, nullptr);
+  if (guides->split && !guides->split->photons) return;
+  // Visible surfaces, by which indirect photons are guided, say nothing about photons in media.
+  const bool guided = input.settings.guide == Guide::kOn && kinds.indirect && !kinds.medium_indirect;
+  if (guided && !guides->indirect) guides->indirect = learn_guide(input, PhotonKind::kIndirect, false);
+  const photon::EmissionGuide none;
+  if (splits && !guides->split)
+    guides->split = learn_split(input, guides->indirect ? &guides->indirect->guide : &none);
+}
+
+void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics) {
   const PhaseWatch watch;
-  const auto learn = [&](PhotonKind kind, bool beside_others, auto* guide) {
-    // Visible surfaces, by which indirect photons are guided, say nothing about photons in media.
-    if (!kinds[kind] || (kind == PhotonKind::kIndirect && kinds.medium_indirect)) return;
-    if (!*guide) *guide = learn_guide(input, kind, beside_others);
-    statistics->guide_photons += (*guide)->emitted;
-    statistics->guide_hits += (*guide)->hits;
-    statistics->guide_boxes += (*guide)->guide.boxes();
-  };
+  learn_sources(input, guides);
+  const photon::KindMask kinds = kinds_needed(input.plan);
+  const bool only_paths =
+      input.plan.caustics == CausticEstimator::kSplit && guides->split && !guides->split->photons;
+  if (input.settings.guide == Guide::kOn && kinds.caustic && !only_paths && !guides->caustic) {
+    const bool uniform_indirect = kinds.indirect && (!guides->indirect || guides->indirect->guide.empty());
+    const bool beside_others = uniform_indirect || kinds.direct || kinds.shadow;
+    guides->caustic = learn_guide(input, PhotonKind::kCaustic, beside_others);
+  }
   statistics->guide_photons = statistics->guide_hits = statistics->guide_boxes = 0;
-  learn(PhotonKind::kIndirect, false, &guides->indirect);
-  const bool uniform_indirect = kinds.indirect && (!guides->indirect || guides->indirect->guide.empty());
-  learn(PhotonKind::kCaustic, uniform_indirect || kinds.direct || kinds.shadow, &guides->caustic);
+  for (const auto* guide : {guides->indirect.get(), guides->caustic.get()}) {
+    if (!guide) continue;
+    statistics->guide_photons += guide->emitted;
+    statistics->guide_hits += guide->hits;
+    statistics->guide_boxes += guide->guide.boxes();
+  }
   statistics->photon_trace_s += watch.end("photon_trace");
 }
 

@@ -5,6 +5,7 @@
 
 #include "photon/shoot/guide_shoot.h"
 #include "photon/shoot/shoot.h"
+#include "render/maps/learn_split.h"
 #include "render/plan/pass_share.h"
 #include "render/plan/progress.h"
 #include "render/plan/render_input.h"
@@ -16,6 +17,8 @@ namespace kaustik::render {
 struct PhotonGuides {
   // Null where the plan does not need them or nothing may be guided.
   std::unique_ptr<const photon::LearnedGuide> caustic, indirect;
+  // The shares of photons, for plans that split sources.
+  std::unique_ptr<const LearnedSplit> split;
   // TraceSettings::photons_on_segments; 0: not known yet.
   uint32_t photons_on_segments = 0;
 };
@@ -30,8 +33,12 @@ photon::TraceSettings trace_settings(const RenderSettings& settings, const Estim
 // as more samples would.
 uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons);
 
-// Learns the guides that the plan needs and that are not there yet. Adds to the photons' seconds, and sets
-// the guide fields of statistics.
+// Learns the shares of photons and paths, if the plan divides sources, and the guide of indirect photons
+// where that needs it; nothing that is there already.
+void learn_sources(const RenderInput& input, PhotonGuides* guides);
+
+// Learns the guides that the plan needs and that are not there yet, after learn_sources(). Adds to the
+// photons' seconds, and sets the guide fields of statistics.
 void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics);
 
 // Chooses how many photons caustics leave on each segment in a medium, if the plan needs them and it is not

@@ -72,9 +72,7 @@ void probe_point(const RenderInput& input, const PhotonMaps& maps, const Shading
     add(PhotonKind::kShadow, maps.shadow, maps.direct.estimate,
         lecture ? ProbeUse::kTested : ProbeUse::kSubtracted);
   if (kinds.caustic) add(PhotonKind::kCaustic, maps.caustic.map, maps.caustic.estimate, ProbeUse::kAdded);
-  if (kinds.indirect)
-    add(PhotonKind::kIndirect, maps.indirect.map, maps.indirect.estimate,
-        plan.indirect == IndirectEstimator::kPhotons ? ProbeUse::kAdded : ProbeUse::kFinalGather);
+  if (kinds.indirect) add(PhotonKind::kIndirect, maps.indirect.map, maps.indirect.estimate, ProbeUse::kAdded);
 }
 
 }  // namespace

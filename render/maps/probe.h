@@ -22,8 +22,7 @@ enum class ProbeUse {
   kAdded,
   kSubtracted,  // that of shadow photons, by `signed`
   kTested,      // shadow photons of `lecture` are only counted, in the cell
-  kRefused,     // the lecture's test lets shadow rays decide
-  kFinalGather  // `final-gather` corrects a disc, or lets a path take its place where it would be too wrong
+  kRefused      // the lecture's test lets shadow rays decide
 };
 
 // One gather.

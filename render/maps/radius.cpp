@@ -10,7 +10,6 @@
 #include "photon/estimate/beam_estimate.h"
 #include "photon/gather/nearest.h"
 #include "render/explore/pilot_beams.h"
-#include "render/explore/surroundings.h"
 #include "render/explore/visible_points.h"
 
 namespace kaustik::render {
@@ -34,11 +33,6 @@ constexpr RadiusRule kCausticRule{232, 24};
 // Photons in reach of a ray through a medium; the kernel lies across the ray, so that the same rule holds.
 constexpr RadiusRule kMediumIndirectRule{200, 64};
 constexpr RadiusRule kMediumCausticRule{100, 32};
-// Where surfaces are near each other, indirect light is not smooth. A disc's bias is in proportion to (r/c)^2
-// at a place of clearance c, so that k ~ (c/r)^(4/3) balances it with the noise: k is smaller by that where r
-// exceeds kShareOfClearance of the clearance that a quarter of the points do not have, and at least kLeastOfK
-// of the rule's, since shares of the bias are known and corrected (render/maps/disc_correction.h).
-constexpr double kShareOfClearance = 0.2, kLeastOfK = 0.5;
 // Where direct photons are denser than at the median point by more than this, the radius shrinks: near a lamp
 // their light is bright enough to show where a wider disc spreads it.
 constexpr double kDirectDensity = 2;
@@ -116,18 +110,13 @@ float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>&
   return reach / 64;
 }
 
-// The radius of the indirect map: the rule's, or a smaller one among near surfaces.
+// The radius of the indirect map. Where paths find some of the light, that of a map of all photons.
 float indirect_radius(const PhotonMaps& maps, const std::vector<VisiblePoint>& points, float reach,
                       const PassShare& pass) {
   const photon::PhotonMap& map = maps.indirect.map;
-  const uint32_t photons = photons_to_reach(kIndirectRule, map, pass);
-  const float radius = auto_radius(map, points, reach, photons, pass);
-  if (!maps.surroundings || map.empty()) return radius;
-  const float clearance = maps.surroundings->lower_quartile();
-  const double share = std::pow(kShareOfClearance * double(clearance / radius), 4.0 / 3);
-  if (!(share < 1)) return radius;
-  const auto fewer = uint32_t(std::lround(double(photons) * std::max(share, kLeastOfK)));
-  return std::min(radius, auto_radius(map, points, reach, fewer, pass));
+  const double left = maps.split ? maps.split->stored : 1;
+  const double photons = photons_to_reach(kIndirectRule, map, pass) * std::cbrt(left);
+  return auto_radius(map, points, reach, std::max(uint32_t(std::lround(photons)), kFewestInReach), pass);
 }
 
 // Which ray the radius of photons in media is chosen for, of those that pass any.
@@ -168,6 +157,10 @@ float beam_radius(const photon::PhotonMap& map, const std::vector<Beam>& beams, 
 }
 
 }  // namespace
+
+double photons_in_reach_of_indirect(double photons) {
+  return std::max(kIndirectRule.of_million * std::pow(photons / 1e6, 2.0 / 3), kIndirectRule.least);
+}
 
 GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {
   const RenderSettings& settings = input.settings;

@@ -21,18 +21,21 @@ inline uint32_t photons_in_reach(uint32_t of_all, uint64_t passes) {
       std::clamp<uint64_t>(rounded, std::min<uint64_t>(kFewestInReach, of_all), of_all));
 }
 
+// How many of this many indirect photons should be in reach of an estimate.
+double photons_in_reach_of_indirect(double photons);
+
 // Returns settings.radius for every map, if it is set; otherwise settings.radius_factor times a choice from
 // the photons: the median distance to the k-th nearest photon, where k ~ M^(2/3) for M photons of all passes
 // balances noise and bias. Direct map (k = 160 for a million photons, at least 64) and indirect map (500,
-// 200; down to half as many if maps.surroundings says that other surfaces are near): around 1024 points that
-// the camera sees. Caustic map (232, 24), and the shadow map if it replaces the direct one: around 1024 of
-// its photons that divide its flux evenly, since caustics and shadows are small. Caustics are sharp where
-// they focus and sparse elsewhere, so no single radius suits both: for them r0 is four times as large, the
-// radius that no photon's own disc exceeds (photon/gather/photon_discs.h); for the leaf lookup it is twice as
-// large and shrinks to the k-th nearest photon. So does the radius of the direct map, to the 2 k-th, where
-// photons give the direct light: light near a lamp is bright. k is smaller for maps with fewer photons.
-// Deterministic: a function of scene and settings only, and scales exactly with the scene for powers of two.
-// maps are those of the first pass, which holds one in pass.shares of the photons; k is divided accordingly.
+// 200; of all photons, where paths find some of the light): around 1024 points that the camera sees. Caustic
+// map (232, 24), and the shadow map if it replaces the direct one: around 1024 of its photons that divide its
+// flux evenly, since caustics and shadows are small. Caustics are sharp where they focus and sparse
+// elsewhere, so no single radius suits both: for them r0 is four times as large, the radius that no photon's
+// own disc exceeds (photon/gather/photon_discs.h); for the leaf lookup it is twice as large and shrinks to
+// the k-th nearest photon. So does the radius of the direct map, to the 2 k-th, where photons give the direct
+// light: light near a lamp is bright. k is smaller for maps with fewer photons. Deterministic: a function of
+// scene and settings only, and scales exactly with the scene for powers of two. maps are those of the first
+// pass, which holds one in pass.shares of the photons; k is divided accordingly.
 GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps);
 
 }  // namespace kaustik::render

@@ -14,7 +14,6 @@
 #include "render/camera/camera_rays.h"
 #include "render/camera/pixel_range.h"
 #include "render/camera/ray_cone.h"
-#include "render/estimators/disc_pilots.h"
 #include "render/tiles/tiles.h"
 
 namespace kaustik::render {
@@ -93,17 +92,6 @@ class WindowTrials {
     RenderSettings tried = input_.settings;
     tried.spp = 2 * kInHalf;
     return seconds(tried, {first, first + kInHalf, 0}, most);
-  }
-  // The time of the pilot paths that measure discs, from a few of them.
-  void time_pilots(SampleCost* cost) const {
-    constexpr uint64_t kPoints = 256, kMost = 1 << 20;
-    const RenderContext ctx = context(input_, {0, 1, 0});
-    const uint64_t each = disc_pilot_points(ctx, 1);
-    if (each == 0) return;
-    const Stopwatch watch;
-    measure_discs(ctx, kPoints);
-    cost->each_pilots = watch.seconds() * double(each) / double(kPoints);
-    cost->most_pilots = double(disc_pilot_points(ctx, kMost)) / double(each);
   }
   std::vector<FilmSums> take_films() { return std::move(films_); }
   // Rays and gathers that the last trial would have taken for the whole picture.
@@ -218,7 +206,7 @@ ErrorSources error_sources(const EstimatorPlan& plan, const std::vector<std::vec
       if (!(unit > 0)) continue;
       // The mean of n samples has an nth of the variance of one.
       const double variance = p.all.error() * p.all.error() * kTrialSamples;
-      const double caustic = plan.caustics == CausticEstimator::kPhotons ? p.caustic.mean() : 0;
+      const double caustic = reads_caustic_photons(plan) ? p.caustic.mean() : 0;
       const double indirect = reads_indirect_photons(plan) ? p.indirect.mean() : 0;
       sum.samples += std::min(variance / unit, kMostOfPixel) / count;
       sum.caustic += caustic * caustic / unit / count;
@@ -304,6 +292,11 @@ SampleTrial try_one_sample(const RenderInput& input, const TrialLimits& limits, 
   }
   for (size_t i = 0; i < first.size(); ++i) add_blocks(first[i], second[i], &trial.blocks);
   trial.errors = error_sources(input.plan, trial.blocks);
+  if (const LearnedSplit* split = photons->maps().split) {
+    // Only what photons bring has their error.
+    const double squared = split->light * split->light;
+    trial.errors.caustic *= squared, trial.errors.indirect *= squared;
+  }
   return trial;
 }
 
@@ -316,8 +309,7 @@ SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photo
   WindowTrials trials(input, *photons);
   const double one = trials.seconds(1, w, most / all);
   const double four = trials.seconds(4, 0);
-  SampleCost cost = sample_cost(one, four, w > 0 ? trials.seconds(4, w) : four, double(w));
-  trials.time_pilots(&cost);
+  const SampleCost cost = sample_cost(one, four, w > 0 ? trials.seconds(4, w) : four, double(w));
   photons->forget_visibility();  // it depends on settings.spp
   return cost;
 }

@@ -20,12 +20,7 @@ struct PhotonCost {
 // take `adaptive` times their work (RenderSettings::adaptive).
 struct SampleCost {
   double fixed = 0, each = 0, each_adaptive = 0;
-  // Of the pilot paths that measure discs (render/estimators/disc_pilots.h), for the first most_pilots
-  // samples.
-  double each_pilots = 0, most_pilots = 0;
-  double of(double spp, double adaptive) const {
-    return fixed + spp * (each + adaptive * each_adaptive) + std::min(spp, most_pilots) * each_pilots;
-  }
+  double of(double spp, double adaptive) const { return fixed + spp * (each + adaptive * each_adaptive); }
 };
 
 // Fits a line to the measured seconds of one sample with adaptive ones, of four samples without and of four

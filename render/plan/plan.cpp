@@ -33,13 +33,11 @@ EstimatorPlan preset(Method method, const SceneNeeds& needs) {
     case Method::kAuto:
       // Direct light with predicted visibility has the error of shadow rays in less time. Nothing is
       // predicted for a sky, since part of it is visible nearly everywhere, nor without surfaces that photons
-      // could light. Indirect light from photons has
-      // less error in the same time than paths on every scene measured, and no fireflies where a small bright
-      // patch lights the room (docs/decisions/032-indirect-light-from-photons.md); a final gather replaces it
-      // where other surfaces are near (docs/decisions/042-final-gather-by-place.md).
+      // could light. Photons carry what small bright places send on, which paths seldom meet; paths find the
+      // rest without the bias of discs (docs/decisions/065-light-is-divided-by-its-sources.md).
       plan.direct =
           needs.any_light && needs.diffuse && !needs.sky_alone ? Direct::kPredicted : Direct::kShadowRays;
-      plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kFinalGather;
+      plan.caustics = Caustic::kSplit, plan.indirect = Indirect::kSplit;
       break;
   }
   return plan;
@@ -52,7 +50,7 @@ void leave_emission_to_paths(const RenderSettings& settings, const SceneNeeds& n
   plan->notes.emplace_back("media emit light: paths find it, since photons come from lights alone");
   if (needs.any_light) return;
   if (!settings.direct) plan->direct = Direct::kShadowRays;
-  if (plan->caustics == Caustic::kPhotons && !settings.caustics) plan->caustics = Caustic::kPaths;
+  if (reads_caustic_photons(*plan) && !settings.caustics) plan->caustics = Caustic::kPaths;
   if (reads_indirect_photons(*plan) && !settings.indirect) plan->indirect = Indirect::kPaths;
 }
 
@@ -81,6 +79,9 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
 // Media follow the estimators of surfaces.
 void choose_for_media(const SceneNeeds& needs, EstimatorPlan* plan) {
   if (!needs.scattering) return;
+  // Photons carry all light in media, so they do so everywhere.
+  if (plan->caustics == Caustic::kSplit) plan->caustics = Caustic::kPhotons;
+  if (plan->indirect == Indirect::kSplit) plan->indirect = Indirect::kPhotons;
   plan->medium_caustics = plan->caustics == Caustic::kPhotons;
   plan->medium_indirect = reads_indirect_photons(*plan);
   plan->notes.push_back(
@@ -136,11 +137,14 @@ void note_limits(const SceneNeeds& needs, EstimatorPlan* plan) {
 
 EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs) {
   EstimatorPlan plan = preset(settings.method, needs);
+  // The bias of discs can be stated where photons carry all.
+  if (settings.method == Method::kAuto && settings.estimate_bias.value_or(false))
+    plan.caustics = Caustic::kPhotons, plan.indirect = Indirect::kPhotons;
   if (settings.direct) plan.direct = *settings.direct;
   if (settings.caustics) plan.caustics = *settings.caustics;
   if (settings.indirect) plan.indirect = *settings.indirect;
-  plan.glossy_tails = settings.method == Method::kAuto && plan.caustics == Caustic::kPhotons &&
-                      needs.glossy && needs.any_light;
+  plan.glossy_tails =
+      settings.method == Method::kAuto && reads_caustic_photons(plan) && needs.glossy && needs.any_light;
   leave_emission_to_paths(settings, needs, &plan);
   leave_out(settings, needs, &plan);
   choose_for_media(needs, &plan);
@@ -156,7 +160,7 @@ photon::KindMask kinds_needed(const EstimatorPlan& plan) {
   photon::KindMask kinds;
   kinds.direct = plan.direct == DirectEstimator::kPhotons || plan.direct == DirectEstimator::kLecture;
   kinds.shadow = plan.direct == DirectEstimator::kLecture || plan.direct == DirectEstimator::kSigned;
-  kinds.caustic = plan.caustics == CausticEstimator::kPhotons;
+  kinds.caustic = reads_caustic_photons(plan);
   kinds.indirect = reads_indirect_photons(plan);
   kinds.medium_caustic = plan.medium_caustics;
   kinds.medium_indirect = plan.medium_indirect;

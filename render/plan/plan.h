@@ -42,14 +42,25 @@ inline bool samples_lights(DirectEstimator direct) {
   return direct == DirectEstimator::kShadowRays || direct == DirectEstimator::kPredicted;
 }
 
-// Whether indirect light is read from a photon map, at visible points or at the ends of paths.
+// Whether indirect light is read from a photon map.
 inline bool reads_indirect_photons(const EstimatorPlan& plan) {
-  return plan.indirect == IndirectEstimator::kPhotons || plan.indirect == IndirectEstimator::kFinalGather;
+  return plan.indirect == IndirectEstimator::kPhotons || plan.indirect == IndirectEstimator::kSplit;
+}
+
+// Whether caustics are read from a photon map.
+inline bool reads_caustic_photons(const EstimatorPlan& plan) {
+  return plan.caustics == CausticEstimator::kPhotons || plan.caustics == CausticEstimator::kSplit;
+}
+
+// Whether photons and paths divide some light by its sources.
+inline bool splits_sources(const EstimatorPlan& plan) {
+  return plan.caustics == CausticEstimator::kSplit || plan.indirect == IndirectEstimator::kSplit;
 }
 
 // Whether paths are followed from the camera side at every point.
 inline bool traces_paths(const EstimatorPlan& plan) {
-  return plan.caustics == CausticEstimator::kPaths || plan.indirect == IndirectEstimator::kPaths;
+  return plan.caustics == CausticEstimator::kPaths || plan.indirect == IndirectEstimator::kPaths ||
+         splits_sources(plan);
 }
 
 }  // namespace kaustik::render

@@ -15,8 +15,8 @@ inline constexpr std::array<std::string_view, 5> kMethodNames = {"auto", "raytra
                                                                  "photon"};
 inline constexpr std::array<std::string_view, 5> kDirectNames = {"shadow-rays", "photons", "lecture",
                                                                  "predicted", "signed"};
-inline constexpr std::array<std::string_view, 3> kCausticNames = {"photons", "paths", "off"};
-inline constexpr std::array<std::string_view, 4> kIndirectNames = {"paths", "photons", "final-gather", "off"};
+inline constexpr std::array<std::string_view, 4> kCausticNames = {"photons", "paths", "split", "off"};
+inline constexpr std::array<std::string_view, 4> kIndirectNames = {"paths", "photons", "split", "off"};
 inline constexpr auto kKernelNames = photon::kKernelNames;
 inline constexpr std::array<std::string_view, 2> kLookupNames = {"exact", "leaf"};
 inline constexpr std::array<std::string_view, 2> kEmissionNames = {"cosine", "uniform-angle"};

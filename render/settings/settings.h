@@ -14,8 +14,8 @@ namespace kaustik::render {
 
 enum class Method { kAuto, kRaytrace, kMc, kHybrid, kPhoton };
 enum class DirectEstimator { kShadowRays, kPhotons, kLecture, kPredicted, kSigned };
-enum class CausticEstimator { kPhotons, kPaths, kOff };
-enum class IndirectEstimator { kPaths, kPhotons, kFinalGather, kOff };
+enum class CausticEstimator { kPhotons, kPaths, kSplit, kOff };
+enum class IndirectEstimator { kPaths, kPhotons, kSplit, kOff };
 using Kernel = photon::KernelType;
 enum class Lookup { kExact, kLeaf };
 enum class Guide { kOff, kOn };  // whether caustic and indirect photons are guided

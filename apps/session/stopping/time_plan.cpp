@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "apps/session/stopping/path_choice.h"
+#include "apps/session/stopping/source_choice.h"
 #include "apps/session/stopping/stop_rules.h"
 #include "render/camera/pixel_range.h"
 #include "render/passes/passes.h"
@@ -51,6 +51,8 @@ constexpr double kLongPass = 4;
 constexpr int kManySamples = 64;
 constexpr int kPasses = 10, kMostSamples = 32;  // planned passes, and samples of each
 constexpr int kMostOfOne = 4096;                // samples of a single pass
+// The samples a pixel for which light is divided between photons and paths, before it is known how many fit.
+constexpr int kSamplesPlanned = 64;
 // Fewest photons for any time: this share of the scene's number, but not more than kEnoughPhotons.
 constexpr double kFewestPhotons = 1.0 / 16, kEnoughPhotons = 62'500;
 
@@ -108,6 +110,8 @@ class TimePlan {
     const double before = left();
     // Exploring takes at most about as long as loading did.
     if (before < total_.seconds() && may_take_paths()) return take_paths();
+    settle_sources();
+    if (!gathers_) return settle_by_trials();
     render::PassPhotons(explored_).explore(input(), progress_);
     return explored_->seconds > kHurry * before ? hurry() : settle_by_trials();
   }
@@ -124,20 +128,14 @@ class TimePlan {
     render::PhotonTrial trial;
     if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored_);
     auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
-    if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
+    if (cancelled(*first)) return {.single_pass = true, .photons = std::move(first)};
     render::SampleTrial sample =
         render::try_one_sample(input(), {.seconds = kSampleTrial / 2 * seconds_}, gathers_, &first->photons);
-    if (gathers_ && left() > 0) choose_paths(trial.cost, &sample, &first->photons);
     if (has_no_time_for(sample, trial.cost.fixed + trial.cost.each * fewest_)) return take_paths();
-    if (gathers_ && !paths_.empty()) {  // fewer kinds of photons cost less
-      trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored_);
-      *first = std::move(trial.first);
-      if (cancelled(*first)) return {.single_pass = true, .work = {.photons = std::move(first)}};
-    }
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
       fill_passes(trial.cost, cost_of(sample), share);
-      return {.work = {.explored = explored_, .paths = paths_}};
+      return {.explored = explored_, .sources = sources_};
     }
     if (gathers_) *first = shoot(photons_within(trial.cost, share * left(), fewest_));
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
@@ -150,7 +148,9 @@ class TimePlan {
     render_.spp = samples_within(cost, render_.adaptive, sure * left(), kMostOfOne);
     if (render_.spp < kFewestFiltered) render_.denoise = false;  // most pixels would have no second half
     return {.single_pass = true,
-            .work = {.photons = std::move(photons), .explored = explored_},
+            .photons = std::move(photons),
+            .explored = explored_,
+            .sources = sources_,
             .adaptive_work = adaptive_work(cost)};
   }
 
@@ -163,7 +163,7 @@ class TimePlan {
   FilledTime hurry() {
     if (may_take_paths() && left() < kShootPerExplored * explored_->seconds) return take_paths();
     const auto first = std::make_shared<render::FirstPhotons>(shoot(fewest_photons()));
-    if (cancelled(*first)) return {.single_pass = true, .work = {.photons = first}};
+    if (cancelled(*first)) return {.single_pass = true, .photons = first};
     const render::SampleTrial sample =
         render::try_one_sample(input(), {.seconds = kSampleTrial * seconds_}, false, &first->photons);
     if (has_no_time_for(sample, 0)) return take_paths();
@@ -171,20 +171,32 @@ class TimePlan {
     return one_pass(cost_of(sample), first);
   }
 
-  bool may_take_paths() const { return !path_candidates(scene_, render_, plan_).empty(); }
+  bool may_take_paths() const {
+    return given_.method == render::Method::kAuto && !given_.indirect && reads_indirect_photons(divided_);
+  }
 
   // Passes of one sample by paths, untried.
   FilledTime take_paths() {
-    adopt(path_candidates(scene_, render_, plan_).back());
+    render::RenderSettings open = render_;
+    open.caustics = given_.caustics, open.indirect = given_.indirect;
+    adopt(with_paths(open, divided_, scene_));
+    sources_ = options_of(render_, given_);
     render_.photons = kErrorPasses * fewest_photons();
     set_passes(1);
-    return {.work = {.explored = explored_, .paths = paths_}, .paths_because = kNoTimeForMaps};
+    return {.explored = explored_, .sources = sources_, .sources_because = kNoTimeForMaps};
   }
 
-  // Replaces the maps of these classes by paths.
-  void adopt(TakenByPaths classes) {
-    paths_ = options_of(classes);
-    render_ = with_paths(render_, classes);
+  // Names photons or paths where one of them does as well alone.
+  void settle_sources() {
+    render::RenderSettings settled = render_;
+    settled.spp = kSamplesPlanned;
+    sources_ = app::settle_sources(scene_, bvh_, &settled);
+    settled.spp = render_.spp;
+    adopt(settled);
+  }
+
+  void adopt(const render::RenderSettings& settings) {
+    render_ = settings;
     plan_ = render::make_plan(render_, scene_.needs);
     gathers_ = render::kinds_needed(plan_).any();
   }
@@ -202,7 +214,7 @@ class TimePlan {
   // Whether the time is filled by passes. Paths have no adaptive samples, which fill the time of a single
   // one.
   bool takes_passes(const render::SampleTrial& sample, double share) const {
-    if (!paths_.empty()) return true;
+    if (render::traces_paths(plan_)) return true;
     return seconds_ > kLongPass &&
            sample.seconds * kManySamples * (1 + double(render_.adaptive)) < (1 - share) * left();
   }
@@ -245,35 +257,6 @@ class TimePlan {
     return best;
   }
 
-  // The number of samples a pixel for which there is time when samples as in this trial fill a share of it.
-  double samples_in(double share, const render::SampleTrial& sample, int passes) const {
-    return std::max((share * left() - passes * sample.fixed) / sample.each, 1.0);
-  }
-
-  // Tries paths in place of photon maps and takes them where the picture's error is less by much.
-  void choose_paths(const render::PhotonCost& cost, render::SampleTrial* sample,
-                    render::PassPhotons* photons) {
-    const render::SampleTrial maps = *sample;
-    const double share = photon_share(cost, maps);
-    const int passes = takes_passes(maps, share) ? kPasses : 1;
-    const double of_pass = std::max(share * left() / std::max(cost.each, 1e-12) / passes, 1.0);
-    const auto judge = [&](const TrialComparison& found, const PathTrial& paths) {
-      const bool gathers = render::kinds_needed(paths.plan).any();
-      const double photons_beside = gathers ? photon_share(cost, paths.sample) : 0;
-      return ErrorsAtCost{
-          noise_of(found.variance_of_maps, samples_in(1 - share, maps, passes)) +
-              found.error_of_maps * share_of_map_error(cost.photons, of_pass),
-          noise_of(found.variance_of_paths, samples_in(1 - photons_beside, paths.sample, kPasses))};
-    };
-    const auto try_paths = [&](const render::RenderInput& tried) {
-      return render::try_one_sample(tried, {.seconds = kSampleTrial / 2 * seconds_}, false, photons);
-    };
-    std::optional<PathTrial> paths = app::choose_paths(input(), maps, try_paths, judge);
-    if (!paths) return;
-    adopt(paths->classes);
-    *sample = std::move(paths->sample);
-  }
-
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
   // them.
   void fill_passes(const render::PhotonCost& photons, const render::SampleCost& samples, double share) {
@@ -302,7 +285,10 @@ class TimePlan {
   bool gathers_;   // whether there are photons at all
   double fewest_;  // photons
   double seconds_after_;
-  std::string paths_;  // the options by which paths replace maps
+  // As the settings were.
+  render::RenderSettings given_ = render_;
+  render::EstimatorPlan divided_ = plan_;
+  std::string sources_;  // the options that name photons or paths
   std::shared_ptr<render::ExploredScene> explored_ = std::make_shared<render::ExploredScene>();
 };
 
@@ -322,16 +308,16 @@ FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatc
                        double seconds_after, const render::ProgressCallback& progress, const Console& console,
                        Settings* settings) {
   FilledTime filled = TimePlan(scene, bvh, total, seconds_after, progress, settings).settle();
-  if (filled.work.photons && !filled.work.photons->photons.radii()) return filled;
+  if (filled.photons && !filled.photons->photons.radii()) return filled;
   if (!filled.single_pass) settle_error_settings(console, scene.needs, settings);
   const render::RenderSettings& render = settings->render;
   const std::string choice =
       filled.single_pass ? ", and adaptive samples until the time is up"
                          : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
                                        render.passes, *render.alpha);
-  if (!filled.work.paths.empty()) console.note(filled.paths_because);
+  if (filled.sources_because) console.note(filled.sources_because);
   console.note(fmt::format("--time {}s is rendered with --spp {} --photons {}{}{}", *settings->stop.seconds,
-                           render.spp, render.photons, filled.work.paths, choice));
+                           render.spp, render.photons, filled.sources, choice));
   return filled;
 }
 

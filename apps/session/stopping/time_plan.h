@@ -7,7 +7,6 @@
 
 #include "accel/bvh.h"
 #include "apps/console/console.h"
-#include "apps/session/stopping/path_choice.h"
 #include "apps/settings/setting_options.h"
 #include "core/scene/scene.h"
 #include "core/stopwatch.h"
@@ -25,9 +24,12 @@ bool time_decides(const Settings& settings, const SettingOverrides& given, const
 struct FilledTime {
   bool single_pass = false;  // one pass, in which adaptive samples are placed best
   // The photons are those of the single pass, if it gathers any, without radii if the progress callback
-  // cancelled. A render with paths in place of maps has passes.
-  TrialWork work{};
-  const char* paths_because = kPathsTaken;  // for the log
+  // cancelled. A render without photons has passes.
+  std::shared_ptr<render::FirstPhotons> photons{};
+  std::shared_ptr<render::ExploredScene> explored{};
+  // The options that name photons or paths, each after a space, and why, for the log; may be null.
+  std::string sources{};
+  const char* sources_because = nullptr;
   // For render::RenderTask: chooses the adaptive samples of a single pass while it is rendered. May be empty.
   std::function<double(double done, double seconds)> adaptive_work{};
 };

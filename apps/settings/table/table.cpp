@@ -195,16 +195,14 @@ void add_methods(std::vector<Setting>& table) {
                                                    render::kCausticNames, std::string(kByMethod),
                                                    "Estimator of caustics, the light that reaches a diffuse "
                                                    "surface by way of mirrors and glass only. photons: "
-                                                   "from photon maps. paths: by path tracing. off: none."));
+                                                   "from photon maps. paths: by path tracing. split: photons "
+                                                   "for small bright lights, paths for others. off: none."));
   table.push_back(choice<render::IndirectEstimator>(
       "indirect", kRenderingCommands, &RenderSettings::indirect, render::kIndirectNames,
       std::string(kByMethod),
       "Estimator of indirect light, which reaches the visible surface after a diffuse reflection elsewhere. "
-      "paths: by path tracing. photons: from photon maps. final-gather: from photon maps where their radius "
-      "is "
-      "small compared with the distance of other surfaces, elsewhere by a path to the next surface, where "
-      "the "
-      "maps are read. off: none."));
+      "paths: by path tracing. photons: from photon maps. split: photons carry the light of bright places, "
+      "paths find that of others. off: none."));
 }
 
 void add_photons(std::vector<Setting>& table) {

@@ -6,8 +6,7 @@ const USES = {
   added: "the picture adds it",
   subtracted: "the picture subtracts it from the unoccluded light",
   tested: "not gathered: the lecture\u2019s test counts these photons in its cell",
-  refused: "not used: shadow rays decide here",
-  "final-gather": "corrected by a factor learned from the picture, or replaced by a path where it would be too wrong"};
+  refused: "not used: shadow rays decide here"};
 
 const triple = v => v.map(short).join("  ");
 

@@ -36,6 +36,10 @@ class WalkState {
   }
   uint32_t part() const { return bits_ / kPart % kParts; }
   bool is_divided() const { return bits_ & kDivided; }
+  // The state of a photon that carries what its light sends through specular surfaces
+  // (SourceSplit::of_light).
+  WalkState carrier() const { return WalkState(bits_ | kCarrier); }
+  bool is_carrier() const { return bits_ & kCarrier; }
   // The state of what dispersive glass refracts.
   WalkState dispersed() const { return WalkState(bits_ | kDispersed); }
   bool is_dispersed() const { return bits_ & kDispersed; }
@@ -48,7 +52,7 @@ class WalkState {
  private:
   explicit WalkState(uint32_t bits) : bits_(bits) {}
   static constexpr uint32_t kSpecular = 1, kDiffuse = 2, kStraight = 4, kDispersed = 8, kDivided = 16,
-                            kPart = 32, kMedium = kPart * kParts, kOneRay = 256 * kMedium;
+                            kCarrier = 32, kPart = 64, kMedium = kPart * kParts, kOneRay = 256 * kMedium;
   uint32_t bits_ = 0;
 };
 

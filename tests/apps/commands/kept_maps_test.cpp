@@ -133,20 +133,6 @@ TEST_F(KeptMapFiles, OfOtherPhotonsAreRefused) {
   expect_refused(refused({"--fov", "50", "--checkpoint", path("a.kpart")}), "was shot for other cameras");
 }
 
-// The radius depends on how indirect light is estimated, although the photons do not.
-TEST_F(KeptMapFiles, ChooseRadiiAnewForOtherEstimators) {
-  scene_ = KAUSTIK_SCENES_DIR "/cornell-spheres/square-lamp-2.pbrt";  // in small_scene() nothing is near
-  expect_done(shoot("a.kmap", {"--indirect", "photons", "--width", "40"}));
-  const auto radii = [&](Arguments more) {
-    more.insert(more.end(), {"-o", path("a.exr"), "--stats", path("a.json"), "--width", "40"});
-    expect_done(render(more));
-    return nlohmann::json::parse(read("a.json"))["radii"];
-  };
-  const auto own = radii({"--photons", "20k", "--save-map", path("own.kmap")});
-  EXPECT_EQ(radii({"--map", path("a.kmap"), "--indirect", "final-gather"}), own);
-  EXPECT_NE(radii({"--map", path("a.kmap")}), own);
-}
-
 TEST_F(KeptMapFiles, OfAnotherSceneAreRefused) {
   expect_done(shoot("a.kmap"));
   small_scene(film(40, 24) + "\n# another file");

@@ -94,7 +94,6 @@ TEST_F(RenderLog, WarnsOfMapsThatNearlyAllPhotonsMiss) {
   };
   const std::string cube = write("cube.pbrt", kCubeOnLand), room = small_scene(film(16, 16));
   EXPECT_THAT(log(cube, "photons"), HasSubstr(warning));
-  EXPECT_THAT(log(cube, "final-gather"), HasSubstr(warning));
   EXPECT_THAT(log(cube, "paths"), Not(HasSubstr(warning)));
   EXPECT_THAT(log(room, "photons"), Not(HasSubstr(warning)));
 }

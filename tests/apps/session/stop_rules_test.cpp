@@ -214,8 +214,8 @@ TEST_F(FilledTime, KeepsExplicitSettings) {
   EXPECT_EQ(stats("part")["passes_of_settings"], 8);
   render("1ms", "mc", {"--method", "mc"});
   EXPECT_EQ(stats("mc")["settings"]["spp"], 16);
-  EXPECT_EQ(stats("mc")["passes_of_settings"], 16);  // no photons: passes of one sample
-  render("1ms", "off", {"--adaptive", "off", "--indirect", "final-gather"});  // or else paths would be taken
+  EXPECT_EQ(stats("mc")["passes_of_settings"], 16);                      // no photons: passes of one sample
+  render("1ms", "off", {"--adaptive", "off", "--indirect", "photons"});  // or else paths would be taken
   EXPECT_EQ(stats("off")["settings"]["adaptive"], 0);
   EXPECT_EQ(stats("off")["passes_of_settings"], 1);
 }
@@ -229,9 +229,9 @@ TEST_F(FilledTime, TakesPathsAtOnceWhereThereIsNoTimeForMaps) {
 }
 
 TEST_F(FilledTime, KeepsAnEstimatorThatIsNamed) {
-  EXPECT_THAT(render("1ms", "a", {"--indirect", "final-gather"}).err,
+  EXPECT_THAT(render("1ms", "a", {"--indirect", "photons"}).err,
               Not(HasSubstr("there is no time to make photon maps")));
-  EXPECT_EQ(stats("a")["settings"]["indirect"], "final-gather");
+  EXPECT_EQ(stats("a")["settings"]["indirect"], "photons");
 }
 
 TEST_F(StopRules, LayersContainTheError) {

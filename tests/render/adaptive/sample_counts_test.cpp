@@ -219,6 +219,7 @@ class SpreadSamples : public ::testing::Test {
     settings.photons = 20'000;
     settings.spp = 8;
     settings.adaptive = adaptive;
+    settings.indirect = IndirectEstimator::kPhotons, settings.caustics = CausticEstimator::kPhotons;
     std::vector<Film> out;
     for (settings.seed = seed; out.size() < kSeeds; ++settings.seed)
       out.push_back(render_with_threads(scene, settings).film);

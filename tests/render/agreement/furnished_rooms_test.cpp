@@ -151,7 +151,7 @@ TEST_P(FurnishedRooms, EachClassHasTheMeanOfPaths) {
   const Scene scene = GetParam().make();
   RenderSettings paths, maps;
   paths.method = Method::kMc, paths.spp = 256, paths.seed = 1;
-  maps.photons = 200'000, maps.spp = 32, maps.seed = 20;
+  maps.photons = 200'000, maps.spp = 64, maps.seed = 20;
   const auto by_paths = films(scene, paths), found = films(scene, maps);
   const double picture = total(by_paths).mean;
   EXPECT_GT(picture, 0);

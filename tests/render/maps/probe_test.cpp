@@ -108,10 +108,6 @@ TEST_F(ProbeTest, SaysWhatThePictureMakesOfAnEstimate) {
   EXPECT_EQ(find(subtracted, PhotonKind::kShadow)->use, ProbeUse::kSubtracted);
   EXPECT_EQ(find(subtracted, PhotonKind::kIndirect)->use, ProbeUse::kAdded);
   EXPECT_FALSE(find(subtracted, PhotonKind::kDirect)) << "`signed` does not gather them";
-  RenderSettings gathered = settings_of(Method::kAuto, DirectEstimator::kShadowRays);
-  gathered.indirect = IndirectEstimator::kFinalGather;
-  shoot(gathered);
-  EXPECT_EQ(find(probe(32, 24), PhotonKind::kIndirect)->use, ProbeUse::kFinalGather);
 }
 
 TEST_F(ProbeTest, FollowsMirrorsAndGlass) {

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "render/explore/surroundings.h"
 #include "render/maps/pass_photons.h"
 #include "tests/photon/support/photon_sets.h"
 #include "tests/photon/support/trace_scenes.h"
@@ -43,52 +42,6 @@ TEST(CausticRadius, FollowsTheFluxNotTheCount) {
   const double k = 232 * std::pow(2 * kEach / 1e6, 2 / 3.0);
   const double expected = 4 * std::sqrt(k * double(kSide * kSide) / (double(kPi) * kEach));
   EXPECT_NEAR(double(radii.caustic), expected, 0.05 * expected);
-}
-
-// The radius of an indirect map of photons that lie evenly on a large floor, whose k-th photon is at the
-// distance `rule` on average, where k is what the rule says without surroundings. height: of a ceiling above
-// the floor, or 0 for the open sky.
-double radius_on_floor(double rule, float height) {
-  constexpr float kSide = 10;
-  constexpr double kOfRule = 200;
-  Scene scene;
-  const uint32_t white = test::add_material(scene, Lambertian{Rgb(0.5f)});
-  test::add_shape(scene, test::horizontal({0, 0, 0}, 100, 100, true, white));
-  if (height > 0) test::add_shape(scene, test::horizontal({0, height, 0}, 100, 100, false, white));
-  test::look_at(scene, {-0.2f, 0.4f, 0}, {0, 0, 0}, {0, 1, 0}, 60, 32, 32);
-  finalize_scene(scene);
-  photon::PhotonMaker make(5);
-  std::vector<photon::Photon> photons;
-  const int count = int(kOfRule * double(kSide * kSide) / (double(kPi) * rule * rule));
-  for (int i = 0; i < count; ++i) {
-    const Point3 p(kSide * (make.uniform() - 0.5f), 0, kSide * (make.uniform() - 0.5f));
-    photons.push_back({p, {0, 1, 0}, Rgb(1), {0, 1, 0}, scene.shapes[0].surface_group});
-  }
-  const accel::Bvh bvh(scene);
-  const RenderSettings settings;
-  const EstimatorPlan plan;
-  const RenderInput input{scene, bvh, settings, plan};
-  const Surroundings surroundings(input);
-  PhotonMaps maps;
-  maps.surroundings = &surroundings;
-  maps.indirect.map = photon::PhotonMap::build(photon::make_buffer(photons, 1));
-  return double(choose_radii(input, {}, maps).indirect);
-}
-
-// The clearance under a ceiling is one and a half times its height. With the share (0.3 h / r)^(4/3) of the
-// rule's photons in reach, where that is below 1 and not below a half, the radius is the root of the share
-// times the rule's.
-TEST(IndirectRadius, IsSmallerAmongNearSurfaces) {
-  // The distance to the k-th of at least 100 photons has the relative deviation 1/(2 sqrt k); neighbouring
-  // points of the small part of the floor that is seen share it. Clearances of cells deviate by 4 %, and the
-  // radius by two thirds of that.
-  constexpr double kTolerance = 4 * 0.5 / 10 / 2 + 0.03;
-  constexpr double kRule = 0.4;
-  EXPECT_NEAR(radius_on_floor(kRule, 0), kRule, kTolerance * kRule);
-  EXPECT_NEAR(radius_on_floor(kRule, 3), kRule, kTolerance * kRule);
-  EXPECT_NEAR(radius_on_floor(kRule, 0.5f), kRule * std::sqrt(0.5), kTolerance * kRule);
-  const double between = std::pow(0.3 / kRule, 2 / 3.0);
-  EXPECT_NEAR(radius_on_floor(kRule, 1), kRule * between, kTolerance * kRule);
 }
 
 // A point lamp of intensity 1 W/sr at height h over a plane gives the irradiance h / (h^2 + d^2)^(3/2) at the

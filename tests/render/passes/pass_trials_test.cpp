@@ -19,6 +19,8 @@ class PassTrials : public ::testing::Test {
   PassTrials() {
     settings_.photons = 30'000;
     settings_.spp = 2;
+    // Sources are divided by the number of samples, which trials only settle.
+    settings_.caustics = CausticEstimator::kPhotons, settings_.indirect = IndirectEstimator::kPhotons;
     plan_ = make_plan(settings_, scene_.needs);
   }
 
@@ -40,23 +42,6 @@ TEST(PassCosts, CostOfSamplesIsLinearInBothCounts) {
   const SampleCost without = sample_cost(seconds(1, 0), seconds(4, 0), seconds(4, 0), 0);
   EXPECT_NEAR(without.of(8, 0), seconds(8, 0), 1e-12);
   EXPECT_EQ(without.each_adaptive, 0);
-}
-
-TEST(PassCosts, PilotPathsAreAsManyAsThereMayBe) {
-  const SampleCost cost{.fixed = 0.25, .each = 0.5, .each_pilots = 0.125, .most_pilots = 3.5};
-  EXPECT_NEAR(cost.of(2, 0), 0.25 + 2 * (0.5 + 0.125), 1e-12);
-  EXPECT_NEAR(cost.of(8, 0), 0.25 + 8 * 0.5 + 3.5 * 0.125, 1e-12);
-}
-
-// For one sample of the 1,600 pixels as for twenty there are 1,024 points, the least; 65,536 are the most.
-TEST_F(PassTrials, TimeThePilotPathsOfDiscs) {
-  PhotonTrial trial = try_photons(input(), 1, {});
-  const SampleCost cost = try_samples(input(), 1, &trial.first.photons);
-  EXPECT_GT(cost.each_pilots, 0);
-  EXPECT_EQ(cost.most_pilots, 65536 / 1024.0);
-  settings_.indirect = IndirectEstimator::kPhotons;
-  plan_ = make_plan(settings_, scene_.needs);
-  EXPECT_EQ(try_samples(input(), 1, &trial.first.photons).each_pilots, 0);
 }
 
 TEST_F(PassTrials, KeepThePhotonsThatTheRenderUses) {

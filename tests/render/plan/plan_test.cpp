@@ -39,7 +39,7 @@ TEST(Plan, PresetsForASceneThatNeedsEverything) {
       {Method::kMc, Direct::kShadowRays, Caustic::kPaths, Indirect::kPaths},
       {Method::kHybrid, Direct::kLecture, Caustic::kPhotons, Indirect::kPaths},
       {Method::kPhoton, Direct::kPhotons, Caustic::kPhotons, Indirect::kPhotons},
-      {Method::kAuto, Direct::kPredicted, Caustic::kPhotons, Indirect::kFinalGather},
+      {Method::kAuto, Direct::kPredicted, Caustic::kSplit, Indirect::kSplit},
   };
   for (const Row& row : table) {
     RenderSettings settings;
@@ -76,7 +76,7 @@ TEST(Plan, NoCausticPassWithoutSpecularSurfaces) {
 TEST(Plan, PathsFindWhatMediaEmit) {
   SceneNeeds needs = needs_of(true);
   needs.media = needs.emissive_media = true;
-  EXPECT_EQ(make_plan({}, needs).indirect, Indirect::kFinalGather);
+  EXPECT_EQ(make_plan({}, needs).indirect, Indirect::kSplit);
   EXPECT_TRUE(mentions(make_plan({}, needs), "media emit light: paths find it"));
   needs.any_light = false;
   for (const Method method : {Method::kMc, Method::kHybrid, Method::kPhoton, Method::kAuto}) {

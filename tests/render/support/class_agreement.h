@@ -57,6 +57,13 @@ inline RenderSettings settings_of(Method method, int spp, float radius, uint64_t
   return settings;
 }
 
+// The settings with photons alone where method auto would divide light between them and paths.
+inline RenderSettings by_photons(RenderSettings settings) {
+  if (settings.method != Method::kAuto) return settings;
+  settings.caustics = CausticEstimator::kPhotons, settings.indirect = IndirectEstimator::kPhotons;
+  return settings;
+}
+
 // Largest relative error of a mean over channels that packed fluxes cause here: each channel is off by up to
 // kPackedFluxError of the largest one. The light of the box is (17, 12, 4), so this is at most 17/4 of that,
 // on a surface that reflects blue only.
@@ -69,8 +76,8 @@ struct Comparison {
 
   Comparison(const Scene& scene, const std::vector<Film>& by_paths, Method method, float radius)
       : mc(by_paths),
-        photons(films(scene, settings_of(method, 16, radius, 200))),
-        half(films(scene, settings_of(method, 16, radius / 2, 300))) {}
+        photons(films(scene, by_photons(settings_of(method, 16, radius, 200)))),
+        half(films(scene, by_photons(settings_of(method, 16, radius / 2, 300)))) {}
 
   void expect_agreement(Layer layer, int block, double meaningful = 0.25) const {
     const Estimate reference = block_estimate(mc, layer, block),
@@ -104,17 +111,19 @@ inline Estimate total(const std::vector<Film>& of) {
   return estimate_of(means);
 }
 
-// The settings combined with every way to estimate direct, caustic and indirect light; the final gather only
-// with the direct light that method auto combines it with, since it takes long.
+// The settings combined with every way to estimate direct, caustic and indirect light; sources are
+// divided only beside the direct light that method auto combines that with.
 inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) {
   settings.photons = 100'000;
   std::vector<RenderSettings> all;
   for (const auto direct : {DirectEstimator::kShadowRays, DirectEstimator::kPhotons,
                             DirectEstimator::kLecture, DirectEstimator::kPredicted, DirectEstimator::kSigned})
-    for (const auto caustics : {CausticEstimator::kPhotons, CausticEstimator::kPaths})
+    for (const auto caustics :
+         {CausticEstimator::kPhotons, CausticEstimator::kPaths, CausticEstimator::kSplit})
       for (const auto indirect :
-           {IndirectEstimator::kPaths, IndirectEstimator::kPhotons, IndirectEstimator::kFinalGather}) {
-        if (indirect == IndirectEstimator::kFinalGather && direct != DirectEstimator::kPredicted) continue;
+           {IndirectEstimator::kPaths, IndirectEstimator::kPhotons, IndirectEstimator::kSplit}) {
+        const bool split = caustics == CausticEstimator::kSplit || indirect == IndirectEstimator::kSplit;
+        if (split && direct != DirectEstimator::kPredicted) continue;
         settings.direct = direct;
         settings.caustics = caustics;
         settings.indirect = indirect;
@@ -122,12 +131,12 @@ inline std::vector<RenderSettings> with_all_estimators(RenderSettings settings) 
       }
   return all;
 }
-// As above, but only so many that each two estimators of different classes meet (final gathers, as above,
-// only predicted direct light): half as many renders, and the full product is left to OneOwner's test.
+// As above, but only so many that each two estimators of different classes meet (divided sources, as
+// above, only predicted direct light): half as many renders, and the full product is left to OneOwner's test.
 inline std::vector<RenderSettings> with_pairs_of_estimators(const RenderSettings& settings) {
   std::vector<RenderSettings> pairs = with_all_estimators(settings);
   std::erase_if(pairs, [](const RenderSettings& s) {
-    if (s.indirect == IndirectEstimator::kFinalGather) return false;
+    if (s.indirect == IndirectEstimator::kSplit || s.caustics == CausticEstimator::kSplit) return false;
     const int parity = int(*s.direct) + int(s.caustics == CausticEstimator::kPaths) +
                        int(s.indirect == IndirectEstimator::kPaths);
     return parity % 2 == 1;

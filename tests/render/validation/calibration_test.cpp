@@ -36,6 +36,7 @@ Film converged(const Scene& scene) {
   settings.spp = 1024;
   settings.passes = 16;
   settings.alpha = 0.8f;
+  settings.caustics = CausticEstimator::kPhotons, settings.indirect = IndirectEstimator::kPhotons;
   settings.seed = 1000;
   return render_all(scene, settings).film;
 }

@@ -131,7 +131,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AutoConverges,
 TEST(AutoConverges, BiasFallsWithMorePhotons) {
   const Scene scene = diffuse_room();
   const auto stated = [&](uint64_t photons) {
-    const auto of_seeds = films(scene, settings_for(Method::kAuto, 4, photons, 300), 24);
+    RenderSettings settings = settings_for(Method::kAuto, 4, photons, 300);
+    settings.indirect = IndirectEstimator::kPhotons;
+    const auto of_seeds = films(scene, settings, 24);
     double squares = 0, noise = 0;
     for (int block = 0; block < kBlocks; ++block) {
       const Estimate bias = estimate_of(means_of(of_seeds, block).bias);

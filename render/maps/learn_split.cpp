@@ -1,0 +1,260 @@
+// Balances the noise of paths against noise and bias of photons, source by source.
+//
+// A source of radiance L that gives a place of radiance Lx the share phi of its light is met by a path with
+// the probability phi Lx / L, so the relative variance of a sample is phi a with a = L / Lx. Photons have the
+// relative variance phi / n where n are in reach, and a bias. Both add up over the sources, so that the
+// shares w of photons that minimise  sum of phi ((1 - w)^2 a + w^2 b)  are  w = a / (a + b).
+
+#include "render/maps/learn_split.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include "core/parallel/parallel.h"
+#include "core/sampling/warp.h"
+#include "photon/shoot/shoot.h"
+#include "render/explore/visible_density.h"
+#include "render/maps/radius.h"
+
+namespace kaustik::render {
+
+namespace {
+
+using photon::Photon;
+using photon::PhotonKind;
+
+// Separates the random numbers of these photons and rays from all others.
+constexpr uint64_t kPilotPass = 0x73706c6974000000, kClearanceStream = 0xC1EA;
+constexpr uint64_t kPilotPhotons = 1u << 16;
+constexpr uint32_t kPoints = 1u << 14;
+// Fewer indirect photons at visible points say little: guided ones are shot then.
+constexpr int64_t kFewestSeen = 1 << 12;
+// A map of as many photons for each that is shot is starved where they bring so much of the light.
+constexpr int64_t kStarved = 1 << 8;
+constexpr double kMuchLight = 0.02;
+constexpr int kRaysEach = 16;
+// The error of a disc is common to the pixels that it covers, while the noise of samples averages out over as
+// many pixels where the picture is filtered or looked at from afar.
+constexpr double kPixels = 64;
+// Photons and paths are divided only where that leaves so much less of the squared error than the better of
+// them alone: both take their time.
+constexpr double kWorthBoth = 0.25;
+
+// What the photons of the pilot left.
+struct Pilot {
+  struct Left {
+    Photon photon;
+    PhotonKind kind;
+    uint32_t index;
+  };
+  std::vector<Left> left;
+
+  std::vector<Photon> of(auto&& wanted) const {
+    std::vector<Photon> photons;
+    for (const Left& l : left)
+      if (wanted(l.kind)) photons.push_back(l.photon);
+    return photons;
+  }
+};
+
+photon::TraceSettings pilot_settings(const RenderInput& input, const photon::EmissionGuide* guide) {
+  photon::TraceSettings trace;
+  trace.seed = input.settings.seed;
+  trace.pass = kPilotPass;
+  trace.photons = kPilotPhotons;
+  trace.max_bounces = input.settings.max_bounces;
+  trace.emission = input.settings.emission;
+  trace.guide = guide && !guide->empty() ? guide : nullptr;
+  trace.kinds.direct = trace.kinds.caustic = trace.kinds.indirect = true;
+  return trace;
+}
+
+// In the order of the photons' indices, those of one index in the order of its path.
+Pilot shoot_pilot(const RenderInput& input, const photon::TraceSettings& trace) {
+  const photon::SurfaceTable surfaces(input.scene);
+  const uint64_t blocks = trace.photons / photon::kLearnBlock;
+  std::vector<std::vector<Pilot::Left>> of_block(blocks);
+  parallel::for_index(uint64_t{0}, blocks, [&](uint64_t block) {
+    const uint64_t first = block * photon::kLearnBlock;
+    photon::TraceCounters ignored;
+    const auto sink = [&](PhotonKind kind, const Photon& photon, uint64_t index) {
+      of_block[block].push_back({photon, kind, uint32_t(index)});
+    };
+    trace_photons(input.scene, surfaces, input.bvh, trace, first, first + photon::kLearnBlock, sink, ignored);
+    std::ranges::stable_sort(of_block[block], {}, &Pilot::Left::index);
+  });
+  Pilot pilot;
+  for (const auto& left : of_block) pilot.left.insert(pilot.left.end(), left.begin(), left.end());
+  return pilot;
+}
+
+// The light that emits a photon, and the radiance of its start.
+float radiance_of_start(const RenderInput& input, const photon::TraceSettings& trace,
+                        const photon::SourceSplit& sources, uint32_t index) {
+  Sampler sampler(photon_stream(trace), index);
+  photon::EmissionNumbers n = photon::emission_numbers(input.scene, sampler);
+  if (trace.guide) {
+    photon::EmissionPoint u{n.position.x, n.position.y, n.direction.x, n.direction.y, n.light};
+    trace.guide->warp(u);
+    n = {{u[0], u[1]}, {u[2], u[3]}, u[4]};
+  }
+  const auto start = photon::emit_photon(input.scene, n, trace.photons, trace.emission);
+  if (!start) return 0;
+  const uint32_t light = photon::light_of_photon(input.scene, n.light).light;
+  return sources.radiance_of_light(light, {start->ray.o, -start->ray.d});
+}
+
+// Harmonic mean of the distances to other surfaces, weighted by the cosine at x: the irradiance varies over
+// distances of about that (Ward, Rubinstein and Clear 1988).
+double clearance_at(const RenderInput& input, const VisiblePoint& x, Sampler& sampler) {
+  const Frame frame = Frame::from_z(x.query.n);
+  double inverse = 0;
+  for (int i = 0; i < kRaysEach; ++i) {
+    const Vector3 wi = frame.to_world(sample_cosine_hemisphere(sampler.next_2d()));
+    if (!(glm::dot(wi, x.query.n) > 0)) continue;
+    const Hit hit = input.bvh.intersect(x.si.spawn(wi));
+    if (hit.valid() && hit.t > 0) inverse += 1 / double(hit.t);
+  }
+  return inverse > 0 ? kRaysEach / inverse : HUGE_VAL;
+}
+
+// Relative error of a disc of radius r at a place of clearance c. The second derivative of the irradiance is
+// about 1 / (2 c)^2 of it, and the second-order term of its mean over the disc is r^2 / 8 times that:
+// r^2 / (32 c^2). Where surfaces are so near that this says little, half of the light may be wrong.
+double error_of_disc(double radius, double clearance) {
+  constexpr double kMost = 0.5;
+  const double ratio = radius / clearance;
+  return std::min(ratio * ratio / 32, kMost);
+}
+
+// Mean squared error of discs with `reach` of `photons` photons, beside their noise.
+double bias_of_discs(const RenderInput& input, const std::vector<VisiblePoint>& points,
+                     const photon::IrradianceTree& pilot, double photons, double reach) {
+  constexpr size_t kEach = 4;
+  std::vector<double> squared((points.size() + kEach - 1) / kEach);
+  parallel::for_index(size_t{0}, squared.size(), [&](size_t i) {
+    Sampler sampler(hash_combine(input.settings.seed, kClearanceStream), i);
+    const VisiblePoint& x = points[kEach * i];
+    const double density = photons / double(kPilotPhotons) * pilot.at(x.query.p, x.query.n).density();
+    const double radius = density > 0 ? std::sqrt(reach / (double(kPi) * density)) : HUGE_VAL;
+    const double error = error_of_disc(radius, clearance_at(input, x, sampler));
+    squared[i] = std::isnan(error) ? 0 : error * error;
+  });
+  double sum = 0;
+  for (const double s : squared) sum += s / double(squared.size());
+  return sum;
+}
+
+// Median radiance of the points, were they white.
+double typical_radiance(const std::vector<VisiblePoint>& points, const photon::IrradianceTree& light) {
+  std::vector<float> found;
+  for (const VisiblePoint& x : points) found.push_back(light.at(x.query.p, x.query.n).irradiance() / kPi);
+  std::erase(found, 0.0f);
+  if (found.empty()) return 0;
+  const auto median = found.begin() + std::ptrdiff_t(found.size() / 2);
+  std::ranges::nth_element(found, median);
+  return double(*median);
+}
+
+// A share of the light of visible places, and the radiance of its source as a multiple of theirs.
+struct SourceOfLight {
+  double share = 0, contrast = 0;
+  double radiance = 0;  // W/(m^2 sr)
+  bool indirect = false;
+};
+
+std::vector<SourceOfLight> sources_of(const RenderInput& input, const photon::TraceSettings& trace,
+                                      const Pilot& pilot, const VisibleDensity& visible,
+                                      const photon::IrradianceTree& light, double least,
+                                      const photon::SourceSplit& split) {
+  std::vector<SourceOfLight> sources;
+  double all = 0;
+  double radiance = 0;  // of the source of the present index
+  uint32_t index = ~0u;
+  for (const Pilot::Left& l : pilot.left) {
+    if (l.kind == PhotonKind::kCaustic)
+      radiance = double(radiance_of_start(input, trace, split, l.index)), index = l.index;
+    const double E = std::max(double(light.at(l.photon.p, l.photon.n).irradiance()), least);
+    const double share = E > 0 ? double(visible.at(l.photon)) * double(luminance(l.photon.flux)) / E : 0;
+    all += share;
+    if (l.kind == PhotonKind::kDirect)
+      radiance = double(split.radiance_of_surface(l.photon.p, l.photon.n, false)), index = l.index;
+    else if (index == l.index)
+      sources.push_back({share, radiance / (E / double(kPi)), radiance, l.kind == PhotonKind::kIndirect});
+  }
+  for (SourceOfLight& source : sources) source.share /= std::max(all, double(FLT_MIN));
+  return sources;
+}
+
+// Predicted squared errors of the light that photons and paths may divide.
+struct Errors {
+  double of_paths = 0, of_photons = 0, of_both = 0;
+};
+
+Errors predicted_errors(const std::vector<SourceOfLight>& sources, double samples, double b) {
+  Errors errors;
+  for (const SourceOfLight& s : sources) {
+    const double a = s.contrast / samples;
+    const bool only_photons = std::isinf(a);
+    errors.of_photons += s.share * b;
+    errors.of_paths += s.share * (only_photons ? b : a);
+    errors.of_both += s.share * (only_photons ? b : a * b / (a + b));
+  }
+  return errors;
+}
+
+std::unique_ptr<LearnedSplit> learned_from(const std::vector<SourceOfLight>& sources,
+                                           const photon::SourceSplit& split, bool paths) {
+  LearnedSplit learned{.sources = split, .photons = false, .paths = paths};
+  double stored = 0, all = 0, light = 0, by_photons = 0;
+  for (const SourceOfLight& s : sources) {
+    const float w = split.share_of(float(s.radiance));
+    learned.photons |= w > 0;
+    light += s.share, by_photons += s.share * double(w);
+    if (s.indirect) ++all, stored += double(w);
+  }
+  if (all > 0) learned.stored = stored / all;
+  if (light > 0) learned.light = by_photons / light;
+  return std::make_unique<LearnedSplit>(learned);
+}
+
+}  // namespace
+
+std::unique_ptr<const LearnedSplit> learn_split(const RenderInput& input,
+                                                const photon::EmissionGuide* guide) {
+  const photon::TraceSettings trace = pilot_settings(input, guide);
+  const Pilot pilot = shoot_pilot(input, trace);
+  const std::vector<VisiblePoint> points = visible_points(input, kPoints);
+  const VisibleDensity visible(points);
+  const std::vector<Photon> firsts = pilot.of([](PhotonKind kind) { return kind != PhotonKind::kIndirect; });
+  const std::vector<Photon> indirect =
+      pilot.of([](PhotonKind kind) { return kind == PhotonKind::kIndirect; });
+  const auto seen = std::ranges::count_if(indirect, [&](const Photon& p) { return visible.at(p) > 0; });
+  if (guide == nullptr && seen < kFewestSeen) return {};
+  const Bounds3& bounds = input.scene.bounds;
+  const photon::IrradianceTree light(pilot.of([](PhotonKind) { return true; }), bounds);
+  const double typical = typical_radiance(points, light);
+  const double photons = double(input.settings.photons);
+  const double reach =
+      photons_in_reach_of_indirect(photons / double(kPilotPhotons) * double(indirect.size()));
+  const double bias = bias_of_discs(input, points, photon::IrradianceTree(indirect, bounds), photons, reach);
+  const double b = 1 / reach + bias, samples = kPixels * double(input.settings.spp);
+  double L0 = b * samples * typical;
+  const std::vector<SourceOfLight> sources = sources_of(
+      input, trace, pilot, visible, light, double(kPi) * typical / 2, {input.scene, firsts, float(L0)});
+  const Errors errors = predicted_errors(sources, samples, b);
+  double of_indirect = 0;
+  for (const SourceOfLight& s : sources) of_indirect += s.indirect ? s.share : 0;
+  if (seen < kStarved && of_indirect > kMuchLight)
+    L0 = HUGE_VAL;
+  else if (errors.of_both > kWorthBoth * std::min(errors.of_paths, errors.of_photons))
+    L0 = errors.of_paths < errors.of_photons ? HUGE_VAL : 0;
+  auto learned = learned_from(sources, {input.scene, firsts, float(L0)}, L0 > 0);
+  // Photons may meet small mirrors and glass later.
+  const bool hidden = input.scene.needs.specular && std::ranges::any_of(input.scene.lights, is_delta);
+  learned->photons |= hidden;
+  return learned;
+}
+
+}  // namespace kaustik::render

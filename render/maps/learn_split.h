@@ -1,0 +1,28 @@
+#pragma once
+// Learns which light photons carry and which paths find.
+
+#include <memory>
+
+#include "photon/emission/emission_guide.h"
+#include "photon/sources/source_split.h"
+#include "render/plan/render_input.h"
+
+namespace kaustik::render {
+
+// The shares of photons in all sources, and what they lead to.
+struct LearnedSplit {
+  photon::SourceSplit sources;
+  // Whether photons and paths have anything to do.
+  bool photons = true, paths = true;
+  // Share of the indirect photons that are left, of those that sources would send if photons carried all.
+  double stored = 1;
+  // Share of the divided light that photons bring to visible places.
+  double light = 1;
+};
+
+// Learns the shares from few photons, which are not counted. guide: that of indirect photons; null: they are
+// not guided. A function of scene and settings. Null where too few photons without a guide arrive at
+// visible points to tell.
+std::unique_ptr<const LearnedSplit> learn_split(const RenderInput& input, const photon::EmissionGuide* guide);
+
+}  // namespace kaustik::render
