@@ -36,6 +36,11 @@ template <class T, glm::qualifier Q>
 int largest_axis(const glm::vec<3, T, Q>& v) {
   return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2;
 }
+// Number, 0 to 5, of the side of a cube through which n points.
+inline int cube_side(const glm::vec3& n) {
+  const int axis = largest_axis(glm::abs(n));
+  return 2 * axis + (n[axis] < 0);
+}
 inline float abs_dot(const glm::vec3& a, const glm::vec3& b) {
   return std::abs(glm::dot(a, b));
 }

@@ -11,13 +11,6 @@ IrradianceTree::Cube IrradianceTree::Cube::child(size_t octant) const {
   return {middle + Vector3(towards(0), towards(1), towards(2)), quarter};
 }
 
-size_t IrradianceTree::side_of(const Normal3& n) {
-  int axis = 0;
-  for (int a = 1; a < 3; ++a)
-    if (std::abs(n[a]) > std::abs(n[axis])) axis = a;
-  return size_t(2 * axis) + (n[axis] < 0);
-}
-
 void IrradianceTree::fill(Nodes& nodes, size_t number, const Cube& cube, int depth,
                           std::span<const Photon*> photons) {
   Node node{photons.size(), 0, 0};
@@ -46,7 +39,7 @@ IrradianceTree::IrradianceTree(const std::vector<Photon>& photons, const Bounds3
     cube_ = {bounds.min - Vector3(side / 12) + Vector3(side / 2), side / 2};
   }
   std::array<std::vector<const Photon*>, 6> of_sides;
-  for (const Photon& photon : photons) of_sides[side_of(photon.n)].push_back(&photon);
+  for (const Photon& photon : photons) of_sides[size_t(cube_side(photon.n))].push_back(&photon);
   for (size_t side = 0; side < sides_.size(); ++side) {
     if (of_sides[side].empty()) continue;
     sides_[side].resize(1);
@@ -55,7 +48,7 @@ IrradianceTree::IrradianceTree(const std::vector<Photon>& photons, const Bounds3
 }
 
 IrradianceTree::Cell IrradianceTree::at(const Point3& p, const Normal3& n) const {
-  const Nodes& nodes = sides_[side_of(n)];
+  const Nodes& nodes = sides_[size_t(cube_side(n))];
   if (nodes.empty()) return {};
   Cube cube = cube_;
   size_t number = 0;

@@ -51,7 +51,6 @@ class IrradianceTree {
     }
     Cube child(size_t octant) const;
   };
-  static size_t side_of(const Normal3& n);
   // Writes node `number`, and those below it, from its photons, which it reorders.
   static void fill(Nodes& nodes, size_t number, const Cube& cube, int depth,
                    std::span<const Photon*> photons);

@@ -65,15 +65,21 @@ bool collects_media(const PathState& path) {
 // Where light that the path meets is added; null when another estimator accounts for it. specular: whether
 // the event that leads to the light is specular. Points in media that paths meet read no map.
 Rgb* owner_of_light(const RenderContext& ctx, const PathState& path, bool specular, PathLight* light) {
-  if (path.diffuse > 1)
-    return specular && caustics_by_map(ctx) && !path.from_medium &&
-                   ctx.plan.caustics != CausticEstimator::kSplit
-               ? nullptr
-               : &light->indirect;
+  if (path.diffuse > 1) {
+    const bool all_by_map = caustics_by_map(ctx) && ctx.plan.caustics == CausticEstimator::kPhotons;
+    return specular && all_by_map && !path.from_medium ? nullptr : &light->indirect;
+  }
   const bool finds_caustics =
       ctx.plan.caustics == CausticEstimator::kPaths || ctx.plan.caustics == CausticEstimator::kSplit;
   if (specular) return finds_caustics ? &light->caustic : nullptr;
   return path.from_medium || samples_lights(ctx.plan.direct) ? &light->direct : nullptr;
+}
+
+// The same for what media emit.
+Rgb* owner_of_emission(const RenderContext& ctx, const PathState& path, PathLight* light) {
+  if (path.diffuse > 1) return &light->indirect;
+  if (!path.specular) return &light->direct;
+  return ctx.plan.caustics != CausticEstimator::kOff ? &light->caustic : nullptr;
 }
 
 // Shares of paths in the lights that the path meets. specular: whether the event that leads to them is
@@ -85,13 +91,6 @@ LightShares shares_of_met(const RenderContext& ctx, const PathState& path, bool 
   const bool split_lights =
       specular && !path.from_medium && (split_indirect || ctx.plan.caustics == CausticEstimator::kSplit);
   return split_lights ? path_shares_of_lights(ctx, of_surface) : LightShares{of_surface};
-}
-
-// The same for what media emit.
-Rgb* owner_of_emission(const RenderContext& ctx, const PathState& path, PathLight* light) {
-  if (path.diffuse > 1) return &light->indirect;
-  if (!path.specular) return &light->direct;
-  return ctx.plan.caustics != CausticEstimator::kOff ? &light->caustic : nullptr;
 }
 
 // Adds what the media emit between the ray's start and `distance`, wherever the path itself is scattered.

@@ -33,16 +33,17 @@ enum class PathSources {
 // Traces one path that starts at x with a sample of its diffuse lobes. What it meets decides the class:
 //
 //   a light straight from x                direct, with the MIS weight of BSDF sampling (if samples_lights())
-//   a light after specular surfaces only   caustic (--caustics paths)
+//   a light after specular surfaces only   caustic (--caustics paths, split)
 //   light after a second diffuse event     indirect (reach kRoulette)
 //
 // At each further non-specular point y the path collects light samples (with MIS) and the light that arrives
 // at y through specular surfaces. The latter comes from the caustic map if there is one, and lights met
 // through specular surfaces are then not counted again; otherwise from lights met and, at glossy lobes,
 // lights sampled. `--caustics off` therefore leaves out only the class L S+ D S* E; indirect light stays
-// complete as far as paths can find it. Russian roulette starts at the third
-// non-specular point. Unbiased except for the maps' kernels. At most max_bounces scattering events from x to
-// the light, x included, apart from those of the map's photons. Requires reach > kNone.
+// complete as far as paths can find it. Where photons carry a share of the light of its sources, the path
+// counts the rest (photon/sources/source_split.h). Russian roulette starts at the third non-specular point.
+// Unbiased except for the maps' kernels. At most max_bounces scattering events from x to the light, x
+// included, apart from those of the map's photons. Requires reach > kNone.
 //
 // Light that dispersive glass refracts on the way has one wavelength. If x has one already, the path has
 // that, and the result is what at_wavelength() is then to be applied to; otherwise the path samples one.

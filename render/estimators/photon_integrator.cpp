@@ -90,13 +90,6 @@ PathReach reach_for_media(const CameraSample& sample) {
   return sample.light == SampleLight::kTraced ? PathReach::kLights : PathReach::kRoulette;
 }
 
-// Russian roulette: returns the weight 1 / q with probability q, otherwise 0. Draws a dimension only for q
-// < 1.
-float roulette_weight(float q, Sampler& sampler) {
-  if (q >= 1) return 1;
-  return sampler.next_1d() < q ? 1 / q : 0;
-}
-
 // Adds the light that the diffuse lobes of x scatter, seen through a specular chain of throughput beta. Paths
 // add nothing to a class that another estimator accounts for.
 void add_reflected(const RenderContext& ctx, const ShadingPoint& x, const Rgb& beta, Sampler& sampler,
@@ -183,6 +176,13 @@ bool survives_coats(Rgb* beta, Sampler& sampler) {
   if (!(sampler.next_1d() < q)) return false;
   *beta /= q;
   return true;
+}
+
+// Russian roulette: returns the weight 1 / q with probability q, otherwise 0. Draws a dimension only for q
+// < 1.
+float roulette_weight(float q, Sampler& sampler) {
+  if (q >= 1) return 1;
+  return sampler.next_1d() < q ? 1 / q : 0;
 }
 
 // Probability of the gather at the end of a branch: that of a dim one costs as much as that of a bright one.

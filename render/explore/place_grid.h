@@ -16,13 +16,7 @@ class PlaceGrid {
   // Key of the cell that holds p, for normals similar to n.
   uint64_t key(const Point3& p, const Normal3& n) const;
 
-  // Key of that cell or of a neighbour, chosen at random with the weights of trilinear interpolation: what is
-  // read by such keys has no borders. The same for equal points.
-  uint64_t blurred_key(const Point3& p, const Normal3& n) const;
-
  private:
-  uint64_t key_of(const glm::vec3& cell, const Normal3& n) const;
-
   Point3 low_{0};
   float cells_ = 0, per_cell_ = 0;  // per_cell_: cells per metre
 };

@@ -31,7 +31,7 @@ std::optional<VisiblePoint> first_diffuse(const RenderInput& input, Ray ray, Med
     const ShadingPoint x(scene, si, -ray.d);
     if (!x.specular()) {
       const Normal3 n = glm::dot(si.n, x.wo) < 0 ? -si.n : si.n;
-      return VisiblePoint{{si.p, n, si.surface_group}, transmits(*x.bsdf), si, x.wo, medium};
+      return VisiblePoint{{si.p, n, si.surface_group}, transmits(*x.bsdf), si, medium};
     }
     const auto s = scatter(x, sampler);
     if (!s) return {};

@@ -13,7 +13,6 @@ struct VisiblePoint {
   photon::GatherQuery query;  // radius unset; n on the viewer's side
   bool both_sides = false;    // the BSDF transmits, so light from the other side is gathered too
   SurfaceInteraction si{};
-  Vector3 wo{0};                 // unit, to the viewer
   MediumIndex medium = kVacuum;  // on the viewer's side
 };
 
@@ -21,7 +20,7 @@ struct VisiblePoint {
 // kAll, the points do not depend on the camera: they lie where light falls. A function of scene and settings.
 std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count);
 
-// Number of visible points from which the surroundings are explored: one for every second pixel, within the
+// Number of visible points from which a scene is explored: one for every second pixel, within the
 // range that is useful; the most for any camera. Independent of the number of samples, which may be settled
 // later.
 uint32_t pilot_count(const RenderInput& input);

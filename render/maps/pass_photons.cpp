@@ -294,12 +294,6 @@ void PassPhotons::choose_radii_anew(const RenderInput& input, const PassShare& p
   prepare_gathers(input, pass);
 }
 
-void PassPhotons::forget_radii() {
-  free_maps();
-  for (GatherMap* gather : gather_maps(maps_)) gather->areas = nullptr;
-  forget_radii_and_walls();
-}
-
 void PassPhotons::forget_radii_and_walls() {
   radii_.reset();
   walls_.reset();

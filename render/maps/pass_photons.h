@@ -65,9 +65,6 @@ class PassPhotons {
   // Tells that these photons are a trial, and that a render of more photons, with smaller discs, follows: it
   // shall find the feet of walls known.
   void mark_as_trial() { is_trial_ = true; }
-  // Forgets r0 and what follows from it, so that the next make() determines it as if it were the first. What
-  // was learned about the scene stays.
-  void forget_radii();
   // The tree depends on the number of samples: call this before they change.
   void forget_visibility() { visibility_.reset(); }
 

@@ -22,14 +22,13 @@ namespace {
 
 // The first trial shoot learns the guides, too, and the second one tells what a photon takes without that.
 constexpr uint64_t kFewPhotons = 1u << 14, kMorePhotons = 1u << 16;
-static_assert(kTrialWindow == 3 * kRayBlock);
-constexpr int kWindow = kTrialWindow;
+// Side of a trial window in pixels: a few blocks of rays, which share gathers.
+constexpr int kWindow = 3 * kRayBlock;
+// Samples of each pixel in a trial that measures errors.
+constexpr int kTrialSamples = 4;
 // This many windows sample the parts of a picture well enough.
 constexpr double kFewWindows = 36, kManyWindows = 120;
 constexpr double kShare = 1.0 / 16;  // of the picture's pixels, within these limits
-// The work of a gather, and that of each photon that it tests, in rays that take as long: medians over ten
-// scenes, from the times of renders with maps and with paths, where a ray took 0.2 to 1 microseconds.
-constexpr double kQueryRays = 2, kCandidateRays = 1.0 / 80;
 
 // Side of a square cell in pixels, a multiple of a block's, such that about this many cover the picture.
 int cell_side(const PixelRange& whole, double wanted) {
@@ -37,11 +36,10 @@ int cell_side(const PixelRange& whole, double wanted) {
   return std::max(kWindow, kRayBlock * int(std::ceil(side / kRayBlock)));
 }
 
-// Windows at hashed positions, one in each cell of a regular grid over the picture. wanted: about their
-// number, or 0.
-std::vector<PixelRange> windows_of(const PixelRange& whole, double wanted) {
-  if (!(wanted > 0))
-    wanted = std::clamp(double(whole.pixels()) * kShare / (kWindow * kWindow), kFewWindows, kManyWindows);
+// Windows at hashed positions, one in each cell of a regular grid over the picture.
+std::vector<PixelRange> windows_of(const PixelRange& whole) {
+  const double wanted =
+      std::clamp(double(whole.pixels()) * kShare / (kWindow * kWindow), kFewWindows, kManyWindows);
   const int cell = cell_side(whole, wanted);
   const auto places = uint64_t((cell - kWindow) / kRayBlock + 1);
   std::vector<PixelRange> windows;
@@ -66,11 +64,11 @@ size_t tiles_of(const PixelRange& range) {
 // Renders trial windows and extrapolates to the picture.
 class WindowTrials {
  public:
-  WindowTrials(const RenderInput& input, const PassPhotons& photons, double windows = 0)
+  WindowTrials(const RenderInput& input, const PassPhotons& photons)
       : input_(input),
         photons_(photons),
         whole_(rendered_range(input.settings.crop, input.scene.camera)),
-        windows_(windows_of(whole_, windows)) {
+        windows_(windows_of(whole_)) {
     // Neighbouring windows are alike, and a trial that is cut short should still see all of the picture.
     std::ranges::stable_sort(windows_, std::less<>(), [](const PixelRange& w) {
       return hash_combine(uint64_t(w.x0) << 32 | uint64_t(w.y0), kWindowOrder);
@@ -94,9 +92,6 @@ class WindowTrials {
     return seconds(tried, {first, first + kInHalf, 0}, most);
   }
   std::vector<FilmSums> take_films() { return std::move(films_); }
-  // Rays and gathers that the last trial would have taken for the whole picture.
-  double rays() const { return rays_; }
-  double gathers() const { return gathers_; }
 
  private:
   static constexpr uint64_t kWindowOrder = 0x717A15;
@@ -106,7 +101,6 @@ class WindowTrials {
     const auto threads = size_t(tbb::this_task_arena::max_concurrency());
     const size_t together = 2 * threads;
     films_.assign(windows_.size(), {});
-    std::vector<RenderStatistics> statistics(windows_.size());
     std::vector<double> took(windows_.size());
     const Stopwatch watch;
     size_t done = 0;
@@ -115,8 +109,7 @@ class WindowTrials {
       parallel::for_index(done, end, [&](size_t i) {
         const Stopwatch of_window;
         // Isolated, since a thread that waits within a window could render another one meanwhile.
-        tbb::this_task_arena::isolate(
-            [&] { films_[i] = render(input, samples, windows_[i], &statistics[i]); });
+        tbb::this_task_arena::isolate([&] { films_[i] = render(input, samples, windows_[i]); });
         took[i] = of_window.seconds();
       });
       done = end;
@@ -128,32 +121,22 @@ class WindowTrials {
     films_.resize(done);
     uint64_t pixels = 0;
     for (const PixelRange& w : windows_) pixels += w.pixels();
-    RenderStatistics sum;
-    for (const RenderStatistics& s : statistics) sum += s;
-    const double part = double(whole_.pixels()) / double(pixels);
-    rays_ = double(sum.rays.all()) * part;
-    gathers_ =
-        (kQueryRays * double(sum.gather_queries) + kCandidateRays * double(sum.gather_candidates)) * part;
-    return seconds * part;
+    return seconds * double(whole_.pixels()) / double(pixels);
   }
 
-  RenderContext context(const RenderInput& input, const PassSamples& samples) const {
-    const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
-    return {input,
-            photons_.maps(),
-            photons_.visibility(),
-            photons_.sky(),
-            pass,
-            samples,
-            camera_cone(input.scene.camera, pass.end_sample)};
-  }
-
-  FilmSums render(const RenderInput& input, const PassSamples& samples, const PixelRange& w,
-                  RenderStatistics* statistics) const {
+  FilmSums render(const RenderInput& input, const PassSamples& samples, const PixelRange& w) const {
     const Camera& camera = input.scene.camera;
-    const RenderContext ctx = context(input, samples);
+    const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
+    const RenderContext ctx{input,
+                            photons_.maps(),
+                            photons_.visibility(),
+                            photons_.sky(),
+                            pass,
+                            samples,
+                            camera_cone(camera, pass.end_sample)};
+    RenderStatistics ignored;
     PassFilm film{FilmSums(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height), {}, {}};
-    render_tiles(ctx, {}, &film, statistics);
+    render_tiles(ctx, {}, &film, &ignored);
     return std::move(film.sums);
   }
 
@@ -162,7 +145,6 @@ class WindowTrials {
   PixelRange whole_;
   std::vector<PixelRange> windows_;
   std::vector<FilmSums> films_;  // of the last trial
-  double rays_ = 0, gathers_ = 0;
 };
 
 double luminance_of(const glm::dvec3& c) {
@@ -190,6 +172,11 @@ void add_blocks(const FilmSums& first, const FilmSums& second,
       for (int x = square.x0; x < square.x1; ++x)
         block.push_back(halves_of(first.at(x - x0, y - y0), second.at(x - x0, y - y0)));
   });
+}
+
+// The unit of relative squares, for light of this luminance in a picture of this mean.
+double relative_unit(double light, double mean) {
+  return light * light + 0.01 * mean * mean;
 }
 
 // What two halves of the samples say: the difference of independent estimates is their noise.
@@ -270,26 +257,15 @@ void learn_for_samples(const RenderInput& input, PassPhotons* photons) {
 
 }  // namespace
 
-SampleTrial try_one_sample(const RenderInput& input, const TrialLimits& limits, bool many,
-                           PassPhotons* photons) {
+SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* photons) {
   constexpr double kHalf = WindowTrials::kInHalf;
-  constexpr int kMany = 8;
   learn_for_samples(input, photons);
-  WindowTrials trials(input, *photons, limits.windows);
-  const double first_seconds = trials.seconds_of_half(0, limits.seconds / (many ? 6 : 2));
-  const double rays = trials.rays(), gathers = trials.gathers();
+  WindowTrials trials(input, *photons);
+  const double first_seconds = trials.seconds_of_half(0, most / 2);
   std::vector<FilmSums> first = trials.take_films();
   SampleTrial trial;
   trial.seconds = (first_seconds + trials.seconds_of_half(WindowTrials::kInHalf)) / (2 * kHalf);
-  trial.rays = (rays + trials.rays()) / (2 * kHalf);
-  trial.gathers = (gathers + trials.gathers()) / 2;
   const std::vector<FilmSums> second = trials.take_films();
-  trial.each = trial.seconds;
-  if (many) {
-    const double seconds = trials.seconds(kMany, 0);
-    trial.each = std::max((seconds - kHalf * trial.seconds) / (kMany - kHalf), seconds / (4 * kMany));
-    trial.fixed = std::max(seconds - kMany * trial.each, 0.0);
-  }
   for (size_t i = 0; i < first.size(); ++i) add_blocks(first[i], second[i], &trial.blocks);
   trial.errors = error_sources(input.plan, trial.blocks);
   if (const LearnedSplit* split = photons->maps().split) {

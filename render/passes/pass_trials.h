@@ -49,14 +49,6 @@ struct ErrorSources {
   double caustic = 0, indirect = 0;  // square of the light that these photon maps give
 };
 
-// The unit of relative squares, for light of this luminance in a picture of this mean.
-inline double relative_unit(double light, double mean) {
-  return light * light + 0.01 * mean * mean;
-}
-
-// Samples of each pixel in a trial that measures errors.
-inline constexpr int kTrialSamples = 4;
-
 // Mean luminances of a pixel by either half of the samples of a trial; their difference is noise.
 struct PixelHalves {
   struct Pair {
@@ -67,29 +59,14 @@ struct PixelHalves {
   Pair all, caustic, indirect;
 };
 
-// How much of the picture a trial renders.
-struct TrialLimits {
-  double seconds = kInfinity;  // no further windows after that; what they show then depends on the clock
-  double windows = 0;          // about so many of kTrialWindow pixels a side; 0: as many as show the picture
-};
-// Side of a trial window in pixels: a few blocks of rays, which share gathers.
-inline constexpr int kTrialWindow = 12;
-
 struct SampleTrial {
-  double seconds = 0;          // for one sample of every pixel, where there are few
-  double fixed = 0, each = 0;  // for n samples of every pixel: fixed + n each; shared gathers are fixed
-  // Work, which is the same on any machine: rays for one sample of every pixel, and the gathers of two, which
-  // they share, in rays that take about as long.
-  double rays = 0, gathers = 0;
+  double seconds = 0;  // for one sample of every pixel, where there are few
   ErrorSources errors;
   std::vector<std::vector<PixelHalves>> blocks;  // pixels of the same blocks in each trial, perhaps of fewer
 };
-// Renders a few samples in windows with these photons. many: eight samples are timed, too, which tells
-// `fixed` from `each`. Except for the times, the result has the same bits on any machine of the same
-// instruction set if `limits` has no seconds. The tree of predicted visibility, which depends on
-// settings.spp, stays with the photons.
-SampleTrial try_one_sample(const RenderInput& input, const TrialLimits& limits, bool many,
-                           PassPhotons* photons);
+// Renders a few samples in windows with these photons, no further windows once `most` seconds have passed.
+// The tree of predicted visibility, which depends on settings.spp, stays with the photons.
+SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* photons);
 
 // Renders one sample and four, without and with adaptive ones, with these photons in as many windows as take
 // about `most` seconds, at least a few. Without photons (cancelled) the result is meaningless.

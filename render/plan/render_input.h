@@ -15,7 +15,7 @@ struct RenderInput {
   const accel::Bvh& bvh;
   const RenderSettings& settings;
   const EstimatorPlan& plan;
-  // Cameras for which photons are guided, radii chosen and surroundings explored, such as those of a
+  // Cameras for which photons are guided, divided from paths and given radii, such as those of a
   // sequence, all of the same size; empty: the scene's.
   std::span<const Camera> views{};
 };

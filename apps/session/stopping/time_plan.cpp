@@ -130,7 +130,7 @@ class TimePlan {
     auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
     if (cancelled(*first)) return {.single_pass = true, .photons = std::move(first)};
     render::SampleTrial sample =
-        render::try_one_sample(input(), {.seconds = kSampleTrial / 2 * seconds_}, gathers_, &first->photons);
+        render::try_one_sample(input(), kSampleTrial / 2 * seconds_, &first->photons);
     if (has_no_time_for(sample, trial.cost.fixed + trial.cost.each * fewest_)) return take_paths();
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
@@ -165,7 +165,7 @@ class TimePlan {
     const auto first = std::make_shared<render::FirstPhotons>(shoot(fewest_photons()));
     if (cancelled(*first)) return {.single_pass = true, .photons = first};
     const render::SampleTrial sample =
-        render::try_one_sample(input(), {.seconds = kSampleTrial * seconds_}, false, &first->photons);
+        render::try_one_sample(input(), kSampleTrial * seconds_, &first->photons);
     if (has_no_time_for(sample, 0)) return take_paths();
     first->photons.forget_visibility();  // it depends on the number of samples
     return one_pass(cost_of(sample), first);
