@@ -73,12 +73,13 @@ FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& 
     if (live) live->tell({.phase = "trials"}, 0, std::nullopt);
     return settle_time(job.scene, bvh, total, seconds_after, go_on, console, &job.settings);
   }
-  if (session.settle_sources) {
-    const std::string sources = settle_sources(job.scene, bvh, &job.settings.render);
-    if (!sources.empty())
-      console.note(fmt::format("light is not divided between photons and paths: rendered with{}", sources));
-  }
-  return {};
+  if (!session.settle_sources) return {};
+  const auto explored = std::make_shared<render::ExploredScene>();
+  explored->guides = std::make_unique<render::PhotonGuides>();
+  const std::string sources = settle_sources(job.scene, bvh, &job.settings.render, explored->guides.get());
+  if (!sources.empty())
+    console.note(fmt::format("light is not divided between photons and paths: rendered with{}", sources));
+  return {.explored = explored};
 }
 
 // The passes to render: open-ended if a rule decides when to stop, and only the finished ones if the rule is

@@ -19,6 +19,12 @@ namespace kaustik::photon {
 // EmissionNumbers as a point of the unit cube: position (2), direction (2), light.
 inline constexpr uint32_t kEmissionNumbers = 5;
 using EmissionPoint = std::array<float, kEmissionNumbers>;
+inline EmissionPoint point_of(const EmissionNumbers& n) {
+  return {n.position.x, n.position.y, n.direction.x, n.direction.y, n.light};
+}
+inline EmissionNumbers numbers_of(const EmissionPoint& u) {
+  return {{u[0], u[1]}, {u[2], u[3]}, u[4]};
+}
 
 // A start whose photons were useful.
 struct GuideHit {

@@ -98,7 +98,7 @@ class GuideLearner {
       };
       trace_photons(scene_, surfaces_, bvh_, trace, first, end, sink, counters[block]);
       for (uint64_t i = first; i < end; ++i)
-        if (squares[i - first] > 0) of_block[block].push_back(start_of(trace, i, squares[i - first]));
+        if (squares[i - first] > 0) of_block[block].push_back(useful_start(trace, i, squares[i - first]));
     });
     for (const auto& found : of_block) starts_.insert(starts_.end(), found.begin(), found.end());
     for (const TraceCounters& of : counters) rays_ += of.rays;
@@ -109,14 +109,10 @@ class GuideLearner {
     return settings_.importance ? double(settings_.importance(photon)) : 1;
   }
 
-  Start start_of(const TraceSettings& trace, uint64_t index, double square) const {
-    Sampler sampler(photon_stream(trace), index);
-    const EmissionNumbers n = emission_numbers(scene_, sampler);
-    Start start{{n.position.x, n.position.y, n.direction.x, n.direction.y, n.light}};
-    const double weight = trace.guide ? double(trace.guide->warp(start.u)) : 1;
-    const double to_one = double(trace.photons) / weight;
-    start.square = square * to_one * to_one;
-    return start;
+  Start useful_start(const TraceSettings& trace, uint64_t index, double square) const {
+    const GuidedStart start = start_of(scene_, trace, index);
+    const double to_one = double(trace.photons) / double(start.weight);
+    return {start.u, square * to_one * to_one};
   }
 
   // The starts of all rounds as if drawn from one density, the sum over the rounds of photons times density
@@ -142,6 +138,13 @@ class GuideLearner {
 };
 
 }  // namespace
+
+GuidedStart start_of(const Scene& scene, const TraceSettings& trace, uint64_t index) {
+  Sampler sampler(photon_stream(trace), index);
+  GuidedStart start{point_of(emission_numbers(scene, sampler))};
+  if (trace.guide) start.weight = trace.guide->warp(start.u);
+  return start;
+}
 
 LearnedGuide learn_guide(const Scene& scene, const accel::Bvh& bvh, const GuideSettings& settings) {
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return {};

@@ -22,6 +22,10 @@ class SourceSplit {
   // W/(m^2 sr); 0: photons carry all, infinite: paths all but what no ray can hit.
   SourceSplit(const Scene& scene, const std::vector<Photon>& firsts, float balance);
 
+  void set_balance(float balance) { balance_ = balance; }
+  // Whether paths have any share.
+  bool leaves_to_paths() const { return balance_ > 0; }
+
   // Share of photons in what a surface at p scatters on of the light that comes straight from the lights. n:
   // normal on the side of the light; both_sides: the surface scatters through, so either side counts.
   float of_surface(const Point3& p, const Normal3& n, bool both_sides) const {

@@ -8,7 +8,7 @@ namespace kaustik::render {
 
 // Whether paths bring some of the light that they divide with photons.
 inline bool paths_share(const RenderContext& ctx) {
-  return ctx.maps.split && ctx.maps.split->paths;
+  return ctx.maps.split && ctx.maps.split->sources.leaves_to_paths();
 }
 
 // Share of paths in what y scatters on of the light that comes straight from the lights.

@@ -13,6 +13,7 @@
 
 #include "core/parallel/parallel.h"
 #include "core/sampling/warp.h"
+#include "photon/shoot/guide_shoot.h"
 #include "photon/shoot/shoot.h"
 #include "render/explore/visible_density.h"
 #include "render/maps/radius.h"
@@ -27,7 +28,6 @@ using photon::PhotonKind;
 // Separates the random numbers of these photons and rays from all others.
 constexpr uint64_t kPilotPass = 0x73706c6974000000, kClearanceStream = 0xC1EA;
 constexpr uint64_t kPilotPhotons = 1u << 16;
-constexpr uint32_t kPoints = 1u << 14;
 // Fewer indirect photons at visible points say little: guided ones are shot then.
 constexpr int64_t kFewestSeen = 1 << 12;
 // A map of as many photons for each that is shot is starved where they bring so much of the light.
@@ -89,16 +89,10 @@ Pilot shoot_pilot(const RenderInput& input, const photon::TraceSettings& trace) 
   return pilot;
 }
 
-// The light that emits a photon, and the radiance of its start.
+// Radiance of the light where it emits the photon.
 float radiance_of_start(const RenderInput& input, const photon::TraceSettings& trace,
                         const photon::SourceSplit& sources, uint32_t index) {
-  Sampler sampler(photon_stream(trace), index);
-  photon::EmissionNumbers n = photon::emission_numbers(input.scene, sampler);
-  if (trace.guide) {
-    photon::EmissionPoint u{n.position.x, n.position.y, n.direction.x, n.direction.y, n.light};
-    trace.guide->warp(u);
-    n = {{u[0], u[1]}, {u[2], u[3]}, u[4]};
-  }
+  const photon::EmissionNumbers n = photon::numbers_of(photon::start_of(input.scene, trace, index).u);
   const auto start = photon::emit_photon(input.scene, n, trace.photons, trace.emission);
   if (!start) return 0;
   const uint32_t light = photon::light_of_photon(input.scene, n.light).light;
@@ -204,25 +198,25 @@ Errors predicted_errors(const std::vector<SourceOfLight>& sources, double sample
   return errors;
 }
 
-std::unique_ptr<LearnedSplit> learned_from(const std::vector<SourceOfLight>& sources,
-                                           const photon::SourceSplit& split, bool paths) {
-  LearnedSplit learned{.sources = split, .photons = false, .paths = paths};
+LearnedSplit learned_from(const std::vector<SourceOfLight>& sources, photon::SourceSplit&& split) {
+  LearnedSplit learned{.sources = std::move(split), .photons = false};
   double stored = 0, all = 0, light = 0, by_photons = 0;
   for (const SourceOfLight& s : sources) {
-    const float w = split.share_of(float(s.radiance));
+    const float w = learned.sources.share_of(float(s.radiance));
     learned.photons |= w > 0;
     light += s.share, by_photons += s.share * double(w);
     if (s.indirect) ++all, stored += double(w);
   }
   if (all > 0) learned.stored = stored / all;
   if (light > 0) learned.light = by_photons / light;
-  return std::make_unique<LearnedSplit>(learned);
+  return learned;
 }
 
 }  // namespace
 
 std::unique_ptr<const LearnedSplit> learn_split(const RenderInput& input,
                                                 const photon::EmissionGuide* guide) {
+  constexpr uint32_t kPoints = 1u << 14;
   const photon::TraceSettings trace = pilot_settings(input, guide);
   const Pilot pilot = shoot_pilot(input, trace);
   const std::vector<VisiblePoint> points = visible_points(input, kPoints);
@@ -240,21 +234,20 @@ std::unique_ptr<const LearnedSplit> learn_split(const RenderInput& input,
       photons_in_reach_of_indirect(photons / double(kPilotPhotons) * double(indirect.size()));
   const double bias = bias_of_discs(input, points, photon::IrradianceTree(indirect, bounds), photons, reach);
   const double b = 1 / reach + bias, samples = kPixels * double(input.settings.spp);
-  double L0 = b * samples * typical;
-  const std::vector<SourceOfLight> sources = sources_of(
-      input, trace, pilot, visible, light, double(kPi) * typical / 2, {input.scene, firsts, float(L0)});
+  photon::SourceSplit split(input.scene, firsts, float(b * samples * typical));
+  const std::vector<SourceOfLight> sources =
+      sources_of(input, trace, pilot, visible, light, double(kPi) * typical / 2, split);
   const Errors errors = predicted_errors(sources, samples, b);
   double of_indirect = 0;
   for (const SourceOfLight& s : sources) of_indirect += s.indirect ? s.share : 0;
   if (seen < kStarved && of_indirect > kMuchLight)
-    L0 = HUGE_VAL;
+    split.set_balance(kInfinity);
   else if (errors.of_both > kWorthBoth * std::min(errors.of_paths, errors.of_photons))
-    L0 = errors.of_paths < errors.of_photons ? HUGE_VAL : 0;
-  auto learned = learned_from(sources, {input.scene, firsts, float(L0)}, L0 > 0);
+    split.set_balance(errors.of_paths < errors.of_photons ? kInfinity : 0);
+  LearnedSplit learned = learned_from(sources, std::move(split));
   // Photons may meet small mirrors and glass later.
-  const bool hidden = input.scene.needs.specular && std::ranges::any_of(input.scene.lights, is_delta);
-  learned->photons |= hidden;
-  return learned;
+  learned.photons |= input.scene.needs.specular && std::ranges::any_of(input.scene.lights, is_delta);
+  return std::make_unique<const LearnedSplit>(std::move(learned));
 }
 
 }  // namespace kaustik::render

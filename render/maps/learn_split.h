@@ -12,8 +12,7 @@ namespace kaustik::render {
 // The shares of photons in all sources, and what they lead to.
 struct LearnedSplit {
   photon::SourceSplit sources;
-  // Whether photons and paths have anything to do.
-  bool photons = true, paths = true;
+  bool photons = true;  // whether photons have anything to do
   // Share of the indirect photons that are left, of those that sources would send if photons carried all.
   double stored = 1;
   // Share of the divided light that photons bring to visible places.

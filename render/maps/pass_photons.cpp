@@ -238,6 +238,7 @@ void PassPhotons::set_discs(const RenderSettings& settings, const PassShare& pas
 bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
                        RenderStatistics* statistics) {
   if (!kinds_needed(input.plan).any()) return true;
+  if (const auto known = std::exchange(explored_->guides, nullptr)) guides_ = std::move(*known);
   learn_guides(input, &guides_, statistics);
   learn_segments(input, &guides_, statistics);
   free_maps();

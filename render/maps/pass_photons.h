@@ -28,6 +28,8 @@ struct ExploredScene {
   std::vector<SurfaceBend> bends;                 // bend of surfaces, by surface group; set with edges
   std::optional<WallFeet> feet;
   std::unique_ptr<const SkyGuide> sky;
+  // What few photons told about those of a render with these settings, for the first pass to take.
+  std::unique_ptr<PhotonGuides> guides;
   double seconds = 0;  // spent in PassPhotons::explore()
 };
 

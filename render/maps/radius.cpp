@@ -96,9 +96,12 @@ float median_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint
 }
 
 // k for the photons of all passes together; the map holds those of one.
+double photons_to_reach(const RadiusRule& rule, double photons) {
+  const double root = std::cbrt(photons / 1e6);
+  return std::clamp(rule.of_million * root * root, rule.least, 1e9);
+}
 uint32_t photons_to_reach(const RadiusRule& rule, const photon::PhotonMap& map, const PassShare& pass) {
-  const double root = std::cbrt(double(map.size()) * double(pass.shares) / 1e6);
-  return static_cast<uint32_t>(std::lround(std::clamp(rule.of_million * root * root, rule.least, 1e9)));
+  return uint32_t(std::lround(photons_to_reach(rule, double(map.size()) * double(pass.shares))));
 }
 
 // If every point fails with k photons, fewer are tried; the last resort is a fixed fraction of the scene.
@@ -159,7 +162,7 @@ float beam_radius(const photon::PhotonMap& map, const std::vector<Beam>& beams, 
 }  // namespace
 
 double photons_in_reach_of_indirect(double photons) {
-  return std::max(kIndirectRule.of_million * std::pow(photons / 1e6, 2.0 / 3), kIndirectRule.least);
+  return photons_to_reach(kIndirectRule, photons);
 }
 
 GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {

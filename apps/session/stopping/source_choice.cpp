@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "render/maps/photon_shoots.h"
 #include "render/settings/names.h"
 
 namespace kaustik::app {
@@ -21,7 +20,7 @@ render::RenderSettings with_photons(render::RenderSettings settings, const rende
 render::RenderSettings with_paths(render::RenderSettings settings, const render::EstimatorPlan& plan,
                                   const Scene& scene) {
   if (settings.method != render::Method::kAuto) return settings;
-  const bool hits_all = std::ranges::none_of(scene.lights, [](const Light& l) { return is_delta(l); });
+  const bool hits_all = std::ranges::none_of(scene.lights, is_delta);
   const bool split_caustics = plan.caustics == CausticEstimator::kSplit;
   if (!settings.indirect && reads_indirect_photons(plan) && (hits_all || !split_caustics))
     settings.indirect = IndirectEstimator::kPaths;
@@ -39,14 +38,19 @@ std::string options_of(const render::RenderSettings& settings, const render::Ren
   return options;
 }
 
-std::string settle_sources(const Scene& scene, const accel::Bvh& bvh, render::RenderSettings* settings) {
+std::string settle_sources(const Scene& scene, const accel::Bvh& bvh, render::RenderSettings* settings,
+                           render::PhotonGuides* guides) {
   const render::EstimatorPlan plan = render::make_plan(*settings, scene.needs);
   if (!splits_sources(plan)) return {};
-  render::PhotonGuides guides;
-  render::learn_sources({scene, bvh, *settings, plan}, &guides);
-  if (guides.split->photons && guides.split->paths) return {};
+  render::PhotonGuides learned;
+  render::learn_sources({scene, bvh, *settings, plan}, &learned);
+  const bool photons = learned.split->photons, paths = learned.split->sources.leaves_to_paths();
   const render::RenderSettings given = *settings;
-  *settings = guides.split->paths ? with_paths(given, plan, scene) : with_photons(given, plan);
+  if (!paths || !photons) {
+    *settings = paths ? with_paths(given, plan, scene) : with_photons(given, plan);
+    learned.split = nullptr;
+  }
+  if (guides && photons) *guides = std::move(learned);
   return options_of(*settings, given);
 }
 

@@ -5,7 +5,7 @@
 
 #include "accel/bvh.h"
 #include "core/scene/scene.h"
-#include "render/plan/plan.h"
+#include "render/maps/photon_shoots.h"
 
 namespace kaustik::app {
 
@@ -22,7 +22,9 @@ std::string options_of(const render::RenderSettings& settings, const render::Ren
 // Where the plan divides light between photons and paths, finds out from few photons what that is worth
 // (render/maps/learn_split.h), and names one of them in the settings if it does as well alone. Returns the
 // options that say so, each after a space; empty where nothing is named. The result depends on scene and
-// settings alone, so that the parts of a render choose alike. Call it within the render's task arena.
-std::string settle_sources(const Scene& scene, const accel::Bvh& bvh, render::RenderSettings* settings);
+// settings alone, so that the parts of a render choose alike. guides: receives what was learned that a render
+// with these settings needs; may be null. Call it within the render's task arena.
+std::string settle_sources(const Scene& scene, const accel::Bvh& bvh, render::RenderSettings* settings,
+                           render::PhotonGuides* guides = nullptr);
 
 }  // namespace kaustik::app
