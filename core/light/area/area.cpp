@@ -133,6 +133,26 @@ std::optional<LightSample> sample_by_area(const DiffuseAreaLight& light, const P
   return LightSample{wi, emitting.L, pdf, offset_origin(s.p, s.p_error, s.n, -wi), false};
 }
 
+// Chooses the direction first, then a point of the disc that the sphere shows it: radiance is even over
+// directions and discs. So the directions towards a small target are the same for all points, and a guide of
+// emission finds them as one box of u_dir (photon/emission/emission_guide.h).
+std::optional<EmissionSample> emitted_by_sphere(const SphereEmitter& e, bool twosided, const Rgb& flux,
+                                                const Point2& u_pos, const Point2& u_dir) {
+  bool inward = e.inward;
+  Point2 u = u_dir;
+  if (twosided) {
+    inward = u.x < 0.5f;
+    u.x = inward ? 2 * u.x : 2 * u.x - 1;
+  }
+  Vector3 local = sample_cosine_hemisphere(u_pos);
+  if (!(local.z > 0)) return std::nullopt;
+  if (inward) local.z = -local.z;
+  const Vector3 d = sample_uniform_sphere(u);
+  const Vector3 out = Frame::from_z(d).to_world(local);
+  const float error = sphere_error(e.center, e.radius);
+  return EmissionSample{{e.center + (e.radius + (inward ? -error : error)) * out, d}, flux};
+}
+
 }  // namespace
 
 std::optional<LightSample> DiffuseAreaLight::sample_Li(const Point3& ref, const Point2& u) const {
@@ -158,6 +178,8 @@ float DiffuseAreaLight::pdf_Li(const Point3& ref, const Vector3& wi,
 
 std::optional<EmissionSample> DiffuseAreaLight::sample_Le(const Point2& u_pos, const Point2& u_dir,
                                                           EmissionMode mode) const {
+  if (const auto* sphere = std::get_if<SphereEmitter>(&surface); sphere && mode == EmissionMode::kCosine)
+    return emitted_by_sphere(*sphere, twosided, flux_of(area, L), u_pos, u_dir);
   // Filled in place where it is returned: copying a value that has just been written would stall on the
   // writes.
   std::optional<EmissionSample> start;
