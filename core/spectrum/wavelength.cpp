@@ -82,17 +82,43 @@ const std::vector<Bin>& bins() {
   return all;
 }
 
+// The bin that holds a number, found from one near it (Chen and Asau 1974).
+class BinSearch {
+ public:
+  BinSearch() {
+    for (const Bin& bin : bins()) up_to_.push_back(bin.up_to);
+    up_to_.back() = 1;
+    for (size_t i = 0; i < first_.size(); ++i) {
+      const auto found = std::upper_bound(up_to_.begin(), up_to_.end(), double(i) / double(first_.size()));
+      first_[i] = static_cast<uint32_t>(found - up_to_.begin());
+    }
+  }
+  // u: in [0, 1).
+  size_t bin_of(double u) const {
+    size_t bin = first_[static_cast<size_t>(u * double(first_.size()))];
+    while (!(u < up_to_[bin])) ++bin;
+    return bin;
+  }
+
+ private:
+  std::vector<double> up_to_;
+  std::array<uint32_t, 1024> first_{};  // the bins of the multiples of 1/1024
+};
+
+const BinSearch& bin_search() {
+  static const BinSearch search;
+  return search;
+}
+
 }  // namespace
 
 float sample_wavelength(float u) {
   const std::vector<Bin>& all = bins();
-  auto bin = std::upper_bound(all.begin(), all.end(), double(u),
-                              [](double value, const Bin& b) { return value < b.up_to; });
-  if (bin == all.end()) --bin;
-  const double before = bin == all.begin() ? 0 : std::prev(bin)->up_to;
+  const size_t bin = bin_search().bin_of(double(u));
+  const double before = bin == 0 ? 0 : all[bin - 1].up_to;
   // Rounding must not lead into the next bin.
-  const double t = std::clamp((double(u) - before) / (bin->up_to - before), 0.001, 0.999);
-  return static_cast<float>(kFirstNanometre + double(bin - all.begin()) - 0.5 + t);
+  const double t = std::clamp((double(u) - before) / (all[bin].up_to - before), 0.001, 0.999);
+  return static_cast<float>(kFirstNanometre + double(bin) - 0.5 + t);
 }
 
 Rgb at_wavelength(const Rgb& c, float wavelength) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace kaustik::photon {
 
@@ -12,7 +13,7 @@ IrradianceTree::Cube IrradianceTree::Cube::child(size_t octant) const {
 }
 
 void IrradianceTree::fill(Nodes& nodes, size_t number, const Cube& cube, int depth,
-                          std::span<const Photon*> photons) {
+                          std::span<const Photon*> photons, std::vector<const Photon*>& sorted) {
   Node node{photons.size(), 0, 0};
   for (const Photon* photon : photons) node.flux += double(luminance(photon->flux));
   const bool divided = photons.size() > kFullCell && depth < kDeepest;
@@ -22,11 +23,18 @@ void IrradianceTree::fill(Nodes& nodes, size_t number, const Cube& cube, int dep
   }
   nodes[number] = node;
   if (!divided) return;
-  std::ranges::stable_sort(photons, {}, [&](const Photon* photon) { return cube.octant_of(photon->p); });
+  std::array<size_t, 8> ends{};  // of the octants
+  for (const Photon* photon : photons) ++ends[cube.octant_of(photon->p)];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  sorted.resize(std::max(sorted.size(), photons.size()));
+  std::array<size_t, 8> next = ends;
+  for (size_t i = photons.size(); i > 0; --i)
+    sorted[--next[cube.octant_of(photons[i - 1]->p)]] = photons[i - 1];
+  std::copy_n(sorted.begin(), photons.size(), photons.begin());
   for (size_t octant = 0; octant < 8; ++octant) {
-    const auto [first, last] = std::ranges::equal_range(
-        photons, octant, {}, [&](const Photon* photon) { return cube.octant_of(photon->p); });
-    fill(nodes, node.children + octant, cube.child(octant), depth + 1, {first, last});
+    const size_t first = octant > 0 ? ends[octant - 1] : 0;
+    fill(nodes, node.children + octant, cube.child(octant), depth + 1,
+         photons.subspan(first, ends[octant] - first), sorted);
   }
 }
 
@@ -40,10 +48,11 @@ IrradianceTree::IrradianceTree(const std::vector<Photon>& photons, const Bounds3
   }
   std::array<std::vector<const Photon*>, 6> of_sides;
   for (const Photon& photon : photons) of_sides[size_t(cube_side(photon.n))].push_back(&photon);
+  std::vector<const Photon*> sorted;
   for (size_t side = 0; side < sides_.size(); ++side) {
     if (of_sides[side].empty()) continue;
     sides_[side].resize(1);
-    fill(sides_[side], 0, cube_, 0, of_sides[side]);
+    fill(sides_[side], 0, cube_, 0, of_sides[side], sorted);
   }
 }
 

@@ -51,9 +51,9 @@ class IrradianceTree {
     }
     Cube child(size_t octant) const;
   };
-  // Writes node `number`, and those below it, from its photons, which it reorders.
-  static void fill(Nodes& nodes, size_t number, const Cube& cube, int depth,
-                   std::span<const Photon*> photons);
+  // Writes node `number`, and those below it, from its photons, which it sorts by way of `sorted`.
+  static void fill(Nodes& nodes, size_t number, const Cube& cube, int depth, std::span<const Photon*> photons,
+                   std::vector<const Photon*>& sorted);
 
   Cube cube_;
   std::array<Nodes, 6> sides_;
