@@ -11,7 +11,7 @@
 namespace kaustik::app {
 
 // Renders of at most this many samples a pixel are denoised unless the settings say otherwise.
-inline constexpr int kSamplesDenoised = 16;
+inline constexpr int kSamplesDenoised = 256;
 
 // Where the settings leave it open, turns denoising on for renders of few samples, and off for those whose
 // numbers count: several passes, an error to reach or to show, partial results (writes_sums), crops, whose

@@ -51,12 +51,11 @@ void SettingOverrides::apply(Settings& settings) const {
     settings.render.caustics.reset();
     settings.render.indirect.reset();
   }
-  const auto assign = [&](bool presets) {
+  for (const std::string_view preset : kPresets)
     for (const auto& [setting, texts] : given_)
-      if ((setting->name == "quality") == presets) setting->assign(settings, texts);
-  };
-  assign(true);
-  assign(false);
+      if (setting->name == preset) setting->assign(settings, texts);
+  for (const auto& [setting, texts] : given_)
+    if (!is_preset(setting->name)) setting->assign(settings, texts);
   if (!root_.empty()) settings.import_options.root = root_;
 }
 

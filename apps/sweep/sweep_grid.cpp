@@ -83,6 +83,7 @@ Settings settings_at(const SweepPoint& point, const SweepGrid& grid, const Setti
   }
   if (point.reads_photons()) {
     s.photons = point.photons;
+    s.balance = render::Balance::kOff;
     point.radius.apply(settings);
   }
   return settings;

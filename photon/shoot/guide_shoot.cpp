@@ -92,9 +92,9 @@ class GuideLearner {
     parallel::for_index(uint64_t{0}, blocks, [&](uint64_t block) {
       const uint64_t first = block * kLearnBlock, end = std::min(trace.photons, first + kLearnBlock);
       std::vector<double> squares(end - first);
-      const auto sink = [&](PhotonKind, const Photon& photon, uint64_t index) {
+      const auto sink = [&](PhotonKind kind, const Photon& photon, uint64_t index) {
         const double flux = double(photon.flux.x) + double(photon.flux.y) + double(photon.flux.z);
-        squares[index - first] += importance(photon) * flux * flux;
+        squares[index - first] += importance(kind, photon) * flux * flux;
       };
       trace_photons(scene_, surfaces_, bvh_, trace, first, end, sink, counters[block]);
       for (uint64_t i = first; i < end; ++i)
@@ -105,8 +105,8 @@ class GuideLearner {
     if (rounds_.empty()) uniform_hits_ = starts_.size();
   }
 
-  double importance(const Photon& photon) const {
-    return settings_.importance ? double(settings_.importance(photon)) : 1;
+  double importance(PhotonKind kind, const Photon& photon) const {
+    return settings_.importance ? double(settings_.importance(kind, photon)) : 1;
   }
 
   Start useful_start(const TraceSettings& trace, uint64_t index, double square) const {

@@ -17,10 +17,10 @@ struct GuideSettings {
   uint64_t photons = 0;
   int max_bounces = 16;
   EmissionMode emission = EmissionMode::kCosine;
-  PhotonKind kind = PhotonKind::kCaustic;  // the kind of photon that is to be left
+  PhotonKind kind = PhotonKind::kCaustic;  // the kind of photon that is to be left, on surfaces and in media
   // How much a photon matters where it was left; zero: it is useless. Unset: all matter equally. Must be
-  // thread-safe and a function of the photon alone.
-  std::function<float(const Photon&)> importance{};
+  // thread-safe and a function of the photon alone. The kind tells whether it is in a medium.
+  std::function<float(PhotonKind, const Photon&)> importance{};
   // If more than this fraction of the uniform photons is useful, nothing is guided.
   double enough = 2;
   bool under_glossy = false;  // as in TraceSettings

@@ -20,8 +20,9 @@ class VisibleDensity {
     }
   }
   // Count of the cell that the photon lies in, for normals similar to its own. Thread-safe.
-  float at(const photon::Photon& photon) const {
-    const auto found = counts_.find(grid_.key(photon.p, photon.n));
+  float at(const photon::Photon& photon) const { return at(photon.p, photon.n); }
+  float at(const Point3& p, const Normal3& n) const {
+    const auto found = counts_.find(grid_.key(p, n));
     return found == counts_.end() ? 0 : found->second;
   }
 

@@ -14,8 +14,8 @@
 #include "core/parallel/parallel.h"
 #include "core/sampling/warp.h"
 #include "photon/shoot/guide_shoot.h"
-#include "photon/shoot/shoot.h"
 #include "render/explore/visible_density.h"
+#include "render/maps/pilot_photons.h"
 #include "render/maps/radius.h"
 
 namespace kaustik::render {
@@ -41,23 +41,6 @@ constexpr double kPixels = 64;
 // them alone: both take their time.
 constexpr double kWorthBoth = 0.25;
 
-// What the photons of the pilot left.
-struct Pilot {
-  struct Left {
-    Photon photon;
-    PhotonKind kind;
-    uint32_t index;
-  };
-  std::vector<Left> left;
-
-  std::vector<Photon> of(auto&& wanted) const {
-    std::vector<Photon> photons;
-    for (const Left& l : left)
-      if (wanted(l.kind)) photons.push_back(l.photon);
-    return photons;
-  }
-};
-
 photon::TraceSettings pilot_settings(const RenderInput& input, const photon::EmissionGuide* guide) {
   photon::TraceSettings trace;
   trace.seed = input.settings.seed;
@@ -68,25 +51,6 @@ photon::TraceSettings pilot_settings(const RenderInput& input, const photon::Emi
   trace.guide = guide && !guide->empty() ? guide : nullptr;
   trace.kinds.direct = trace.kinds.caustic = trace.kinds.indirect = true;
   return trace;
-}
-
-// In the order of the photons' indices, those of one index in the order of its path.
-Pilot shoot_pilot(const RenderInput& input, const photon::TraceSettings& trace) {
-  const photon::SurfaceTable surfaces(input.scene);
-  const uint64_t blocks = trace.photons / photon::kLearnBlock;
-  std::vector<std::vector<Pilot::Left>> of_block(blocks);
-  parallel::for_index(uint64_t{0}, blocks, [&](uint64_t block) {
-    const uint64_t first = block * photon::kLearnBlock;
-    photon::TraceCounters ignored;
-    const auto sink = [&](PhotonKind kind, const Photon& photon, uint64_t index) {
-      of_block[block].push_back({photon, kind, uint32_t(index)});
-    };
-    trace_photons(input.scene, surfaces, input.bvh, trace, first, first + photon::kLearnBlock, sink, ignored);
-    std::ranges::stable_sort(of_block[block], {}, &Pilot::Left::index);
-  });
-  Pilot pilot;
-  for (const auto& left : of_block) pilot.left.insert(pilot.left.end(), left.begin(), left.end());
-  return pilot;
 }
 
 // Radiance of the light where it emits the photon.
@@ -159,14 +123,14 @@ struct SourceOfLight {
 };
 
 std::vector<SourceOfLight> sources_of(const RenderInput& input, const photon::TraceSettings& trace,
-                                      const Pilot& pilot, const VisibleDensity& visible,
+                                      const PilotPhotons& pilot, const VisibleDensity& visible,
                                       const photon::IrradianceTree& light, double least,
                                       const photon::SourceSplit& split) {
   std::vector<SourceOfLight> sources;
   double all = 0;
   double radiance = 0;  // of the source of the present index
   uint32_t index = ~0u;
-  for (const Pilot::Left& l : pilot.left) {
+  for (const PilotPhotons::Left& l : pilot.left) {
     if (l.kind == PhotonKind::kCaustic)
       radiance = double(radiance_of_start(input, trace, split, l.index)), index = l.index;
     const double E = std::max(double(light.at(l.photon.p, l.photon.n).irradiance()), least);
@@ -218,7 +182,7 @@ std::unique_ptr<const LearnedSplit> learn_split(const RenderInput& input,
                                                 const photon::EmissionGuide* guide) {
   constexpr uint32_t kPoints = 1u << 14;
   const photon::TraceSettings trace = pilot_settings(input, guide);
-  const Pilot pilot = shoot_pilot(input, trace);
+  const PilotPhotons pilot = shoot_pilot(input, trace);
   const std::vector<VisiblePoint> points = visible_points(input, kPoints);
   const VisibleDensity visible(points);
   const std::vector<Photon> firsts = pilot.of([](PhotonKind kind) { return kind != PhotonKind::kIndirect; });

@@ -2,11 +2,14 @@
 
 #include "render/maps/photon_shoots.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "core/parallel/work_span.h"
+#include "render/explore/pilot_beams.h"
 #include "render/explore/visible_density.h"
 #include "render/maps/learn_split.h"
 
@@ -20,6 +23,22 @@ using photon::PhotonKind;
 // least this, guided ones are not worth their rays (docs/decisions/010-guided-photons.md).
 constexpr double kEnoughCaustics = 1.0 / 64;
 
+// Places in media have no side.
+constexpr Normal3 kNoNormal{0, 0, 1};
+
+// Points of camera rays in media that scatter light, as many as there are visible points.
+std::vector<VisiblePoint> points_in_media(const RenderInput& input) {
+  constexpr uint32_t kBeams = 1u << 11, kOnBeam = 8;
+  const float most = 2 * input.scene.bounds.radius();
+  std::vector<VisiblePoint> points;
+  for (const Beam& beam : pilot_beams(input, kBeams))
+    for (uint32_t i = 0; i < kOnBeam; ++i) {
+      const float t = (float(i) + 0.5f) / float(kOnBeam) * std::min(beam.distance, most);
+      points.push_back({{beam.ray.at(t), kNoNormal}});
+    }
+  return points;
+}
+
 // Learns a guide for one kind, which depends on scene and settings alone. Indirect photons lie wherever there
 // is light, even outside a room, so those near visible points count most.
 std::unique_ptr<const photon::LearnedGuide> learn_guide(const RenderInput& input, PhotonKind kind,
@@ -29,10 +48,13 @@ std::unique_ptr<const photon::LearnedGuide> learn_guide(const RenderInput& input
   photon::GuideSettings guide{s.seed, s.photons, s.max_bounces, s.emission, kind};
   guide.under_glossy = input.plan.glossy_tails;
   if (beside_others) guide.enough = kEnoughCaustics;
-  std::optional<VisibleDensity> visible;
+  std::optional<VisibleDensity> visible, in_media;
   if (kind == PhotonKind::kIndirect) {
     visible.emplace(visible_points(input, kPoints));
-    guide.importance = [&](const photon::Photon& photon) { return visible->at(photon); };
+    if (input.plan.medium_indirect) in_media.emplace(points_in_media(input));
+    guide.importance = [&](PhotonKind left, const photon::Photon& photon) {
+      return left == PhotonKind::kIndirect ? visible->at(photon) : in_media->at(photon.p, kNoNormal);
+    };
   }
   return std::make_unique<const photon::LearnedGuide>(photon::learn_guide(input.scene, input.bvh, guide));
 }
@@ -51,6 +73,29 @@ void take(PhotonKind kind, Shoot* from, Shoot* to) {
 // The kind that the same paths leave in media.
 PhotonKind in_medium(PhotonKind kind) {
   return kind == PhotonKind::kCaustic ? PhotonKind::kMediumCaustic : PhotonKind::kMediumIndirect;
+}
+
+uint64_t multiple(double of, uint64_t photons) {
+  return std::max<uint64_t>(1, uint64_t(std::llround(of * double(photons))));
+}
+
+// The paths of caustics and of indirect light are shot together unless one of them needs far more.
+void set_counts(const PhotonCounts& counts, std::vector<Shoot>* shoots, Shoot* others) {
+  constexpr double kFarMore = 1.5;
+  const uint64_t photons = others->trace.photons;
+  for (Shoot& shoot : *shoots)
+    shoot.trace.photons = multiple(shoot.trace.kinds.caustic ? counts.caustic : counts.indirect, photons);
+  photon::KindMask& kinds = others->trace.kinds;
+  if (kinds.direct || kinds.shadow) return;
+  if (kinds.caustic && kinds.indirect && counts.indirect > kFarMore * counts.caustic) {
+    Shoot caustics = *others;
+    caustics.trace.kinds = {};
+    take(PhotonKind::kCaustic, others, &caustics);
+    caustics.trace.photons = multiple(counts.caustic, photons);
+    shoots->insert(shoots->begin(), caustics);
+  }
+  others->trace.photons =
+      multiple(std::max(kinds.caustic ? counts.caustic : 0, kinds.indirect ? counts.indirect : 0), photons);
 }
 
 // One shoot for each guided kind, and one for all others.
@@ -77,6 +122,7 @@ std::vector<Shoot> plan_shoots(const RenderInput& input, const PassShare& pass, 
   };
   guide(PhotonKind::kIndirect, guides.indirect, pass.photons);
   guide(PhotonKind::kCaustic, guides.caustic, guided_photons(input.settings, input.plan, pass.photons));
+  if (guides.counts) set_counts(*guides.counts, &shoots, &others);
   if (others.trace.kinds.any()) shoots.insert(shoots.begin(), others);
   return shoots;
 }
@@ -120,12 +166,27 @@ void learn_sources(const RenderInput& input, PhotonGuides* guides) {
   const bool splits = splits_sources(input.plan);
   if (splits && !guides->split) guides->split = learn_split(input, nullptr);
   if (guides->split && !guides->split->photons) return;
-  // Visible surfaces, by which indirect photons are guided, say nothing about photons in media.
-  const bool guided = input.settings.guide == Guide::kOn && kinds.indirect && !kinds.medium_indirect;
+  const bool guided = input.settings.guide == Guide::kOn && kinds.indirect;
   if (guided && !guides->indirect) guides->indirect = learn_guide(input, PhotonKind::kIndirect, false);
   const photon::EmissionGuide none;
   if (splits && !guides->split)
     guides->split = learn_split(input, guides->indirect ? &guides->indirect->guide : &none);
+}
+
+// Media: their photons share the shoots of those on surfaces.
+void learn_counts(const RenderInput& input, PhotonGuides* guides) {
+  if (guides->counts || input.settings.balance == Balance::kOff) return;
+  PhotonNeed caustic, indirect;
+  bool together = false;
+  const PassShare any = pass_share(0, 1, input.settings.photons, input.settings.spp);
+  for (const Shoot& shoot : plan_shoots(input, any, *guides)) {
+    const photon::KindMask& kinds = shoot.trace.kinds;
+    if (kinds.direct || kinds.shadow || kinds.medium_caustic || kinds.medium_indirect) return;
+    together |= kinds.caustic && kinds.indirect;
+    if (kinds.caustic) caustic = photons_needed(input, shoot.trace, PhotonKind::kCaustic);
+    if (kinds.indirect) indirect = photons_needed(input, shoot.trace, PhotonKind::kIndirect);
+  }
+  guides->counts = within_limits(caustic, indirect, together);
 }
 
 void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics) {
@@ -139,6 +200,7 @@ void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatisti
     const bool beside_others = uniform_indirect || kinds.direct || kinds.shadow;
     guides->caustic = learn_guide(input, PhotonKind::kCaustic, beside_others);
   }
+  learn_counts(input, guides);
   statistics->guide_photons = statistics->guide_hits = statistics->guide_boxes = 0;
   for (const auto* guide : {guides->indirect.get(), guides->caustic.get()}) {
     if (!guide) continue;

@@ -6,6 +6,7 @@
 #include "photon/shoot/guide_shoot.h"
 #include "photon/shoot/shoot.h"
 #include "render/maps/learn_split.h"
+#include "render/maps/photon_counts.h"
 #include "render/plan/pass_share.h"
 #include "render/plan/progress.h"
 #include "render/plan/render_input.h"
@@ -19,6 +20,8 @@ struct PhotonGuides {
   std::unique_ptr<const photon::LearnedGuide> caustic, indirect;
   // The shares of photons, for plans that split sources.
   std::unique_ptr<const LearnedSplit> split;
+  // How many photons to emit, where that follows what is seen of them.
+  std::optional<PhotonCounts> counts;
   // TraceSettings::photons_on_segments; 0: not known yet.
   uint32_t photons_on_segments = 0;
 };

@@ -59,7 +59,7 @@ uint64_t surfaces_bytes(const Scene& scene, const SideEstimate& sides, const Ren
 uint64_t photons_bytes(const RenderInput& input, uint64_t passes) {
   const RenderSettings& settings = input.settings;
   if (!kinds_needed(input.plan).any()) return 0;
-  const PassShare each = pass_share(0, passes, settings.photons, settings.spp);
+  const PassShare each = pass_share(0, passes, most_photons(settings), settings.spp);
   return photon::forecast_bytes(input.scene, input.bvh, trace_settings(settings, input.plan, each),
                                 photon::PhotonUse::kMaps, guided_photons(settings, input.plan, each.photons));
 }

@@ -20,6 +20,7 @@ inline constexpr std::array<std::string_view, 4> kIndirectNames = {"paths", "pho
 inline constexpr auto kKernelNames = photon::kKernelNames;
 inline constexpr std::array<std::string_view, 2> kLookupNames = {"exact", "leaf"};
 inline constexpr std::array<std::string_view, 2> kEmissionNames = {"cosine", "uniform-angle"};
+inline constexpr std::array<std::string_view, 2> kBalanceNames = {"off", "on"};
 inline constexpr std::array<std::string_view, 2> kGuideNames = {"off", "on"};
 inline constexpr std::array<std::string_view, 2> kForCameraNames = {"this", "all"};
 

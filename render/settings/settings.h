@@ -18,6 +18,8 @@ enum class CausticEstimator { kPhotons, kPaths, kSplit, kOff };
 enum class IndirectEstimator { kPaths, kPhotons, kSplit, kOff };
 using Kernel = photon::KernelType;
 enum class Lookup { kExact, kLeaf };
+// Whether caustic and indirect photons are as many as few of them tell is worth their time.
+enum class Balance { kOff, kOn };
 enum class Guide { kOff, kOn };  // whether caustic and indirect photons are guided
 // The cameras for which photons are guided and radii chosen: the one of the render, or any in the scene.
 enum class ForCamera { kThis, kAll };
@@ -35,8 +37,9 @@ struct RenderSettings {
   std::optional<IndirectEstimator> indirect;
 
   uint64_t photons = 1'000'000;  // emitted in all passes; rounded up to a multiple of the passes, as spp is
-  std::optional<float> radius;   // gather radius r0 in metres; unset = auto
-  float radius_factor = 1;       // > 0; multiplies the automatic radii where radius is unset
+  Balance balance = Balance::kOff;  // kOn: `photons` is the scale of the number of each kind
+  std::optional<float> radius;      // gather radius r0 in metres; unset = auto
+  float radius_factor = 1;          // > 0; multiplies the automatic radii where radius is unset
   // In (0, 1]: how slowly the radius shrinks from pass to pass (Knaus and Zwicker 2011); 1 or unset: not at
   // all.
   std::optional<float> alpha;

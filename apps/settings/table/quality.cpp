@@ -22,7 +22,8 @@ std::string described(const QualityPreset& preset) {
 std::string explanation() {
   std::vector<std::string> presets;
   for (const QualityPreset& preset : kQualityPresets) presets.push_back(described(preset));
-  return fmt::format("Preset of --photons, --spp and --passes. {}.", fmt::join(presets, "; "));
+  return fmt::format("Preset of --photons, --balance-photons (on), --spp and --passes. {}.",
+                     fmt::join(presets, "; "));
 }
 
 }  // namespace
@@ -45,6 +46,7 @@ Setting quality_setting() {
     if (preset == kQualityPresets.end())
       return fmt::format("`{}` is not a valid value{}", texts[0], name_hint(texts[0], names));
     settings.render.photons = preset->photons;
+    settings.render.balance = render::Balance::kOn;
     settings.render.spp = preset->spp;
     settings.render.passes = preset->passes;
     return std::nullopt;

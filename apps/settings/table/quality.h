@@ -14,13 +14,12 @@ struct QualityPreset {
   int spp;
   uint64_t passes;
 };
-inline constexpr std::array<QualityPreset, 4> kQualityPresets = {{{"draft", 200'000, 4, 0},
-                                                                  {"medium", 1'000'000, 16, 0},
-                                                                  {"high", 5'000'000, 64, 0},
+inline constexpr std::array<QualityPreset, 4> kQualityPresets = {{{"draft", 500'000, 4, 0},
+                                                                  {"medium", 4'000'000, 8, 0},
+                                                                  {"high", 16'000'000, 32, 0},
                                                                   {"reference", 64'000'000, 1024, 64}}};
 
-// Assigning it replaces photons, spp and passes. Callers assign the quality before other settings from the
-// same source, so that explicit values win (SettingOverrides::apply, settings_from_scene).
+// Assigning it replaces photons, their balance, spp and passes.
 Setting quality_setting();
 
 }  // namespace kaustik::app

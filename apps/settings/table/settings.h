@@ -24,8 +24,17 @@ struct ToneChoice {
   render::Tonemap tonemap = render::Tonemap::kFilmic;
 };
 
+// The settings of a render for which nothing is given: those of --quality medium.
+inline render::RenderSettings medium_quality() {
+  render::RenderSettings settings;
+  settings.photons = 4'000'000;
+  settings.balance = render::Balance::kOn;
+  settings.spp = 8;
+  return settings;
+}
+
 struct Settings {
-  render::RenderSettings render;
+  render::RenderSettings render = medium_quality();
   ToneChoice tone;
   StopSettings stop;
   ImportOptions import_options;

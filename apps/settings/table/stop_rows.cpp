@@ -132,7 +132,7 @@ Setting estimate_bias_row() {
 Setting denoise_row() {
   return switch_row(
       "denoise", SettingsCommand::kRender, &render::RenderSettings::denoise,
-      "on for --time and for up to 16 samples a pixel; off for more, and with --passes, --target-error, "
+      "on for --time and for up to 256 samples a pixel; off for more, and with --passes, --target-error, "
       "--crop, "
       "partial results or --method mc",
       "Filter noise out of the picture. EXR files then hold the unfiltered picture as the layer noisy; other "

@@ -53,7 +53,7 @@ Setting count(std::string_view name, CommandSet commands, std::string_view unit,
             .value_name = "COUNT",
             .unit = unit,
             .doc = doc};
-  const uint64_t preset = static_cast<uint64_t>(RenderSettings{}.*field);
+  const uint64_t preset = static_cast<uint64_t>(medium_quality().*field);
   s.default_text = preset == 0 && !zero.empty() ? std::string(zero) : count_text(preset);
   const bool any_size = most == std::numeric_limits<uint64_t>::max();
   s.range = any_size ? fmt::format("{} or more", least) : fmt::format("{} to {}", least, count_text(most));
@@ -81,7 +81,7 @@ template <class Enum, size_t N>
 Setting choice(std::string_view name, CommandSet commands, Enum RenderSettings::*field,
                const std::array<std::string_view, N>& names, std::string_view doc) {
   return choice<Enum>(name, commands, field, names,
-                      std::string(names[static_cast<size_t>(RenderSettings{}.*field)]), doc);
+                      std::string(names[static_cast<size_t>(medium_quality().*field)]), doc);
 }
 
 Setting crop_setting() {
@@ -205,9 +205,27 @@ void add_methods(std::vector<Setting>& table) {
       "paths find that of others. off: none."));
 }
 
+// The number of photons. Who gives one means just as many.
+Setting photons_setting() {
+  Setting s = count("photons", kRenderAndPhotons, "photons", &RenderSettings::photons, 1, kMaxUint64, {},
+                    "Number of photons to emit; half as many again if caustics are guided. With "
+                    "--balance-photons on, which is the default where no number is given: their scale.");
+  s.reader = SettingReader::kEmission;
+  s.assign = [assign = std::move(s.assign)](Settings& settings, ValueTexts texts) -> Complaint {
+    Complaint complaint = assign(settings, texts);
+    if (!complaint) settings.render.balance = render::Balance::kOff;
+    return complaint;
+  };
+  return s;
+}
+
 void add_photons(std::vector<Setting>& table) {
-  table.push_back(count("photons", kRenderAndPhotons, "photons", &RenderSettings::photons, 1, kMaxUint64, {},
-                        "Number of photons to emit."));
+  table.push_back(photons_setting());
+  table.push_back(choice<render::Balance>(
+      "balance-photons", kRenderAndPhotons, &RenderSettings::balance, render::kBalanceNames,
+      "on; off with --photons",
+      "on: few photons tell how many caustic and how many indirect ones are worth their time in this scene, "
+      "at most 4 times --photons of each. off: --photons of them."));
   table.back().reader = SettingReader::kEmission;
   table.push_back(count(
       "passes", kRenderingCommands, "passes", &RenderSettings::passes, 0, kMaxInt, "0 (as memory allows)",
@@ -307,8 +325,9 @@ constexpr std::array<std::string_view, 16> kEveryday = {
     "height",  "crop", "exposure",     "aov",    "camera",  "look-at", "sky",     "threads"};
 
 // What kept photon maps depend on.
-constexpr std::array<std::string_view, 10> kOfPhotons = {
-    "photons", "emission", "guide", "for-camera", "max-bounces", "seed", "at", "light-unit", "sky", "floor"};
+constexpr std::array<std::string_view, 11> kOfPhotons = {
+    "photons", "balance-photons", "emission", "guide", "for-camera", "max-bounces", "seed",
+    "at",      "light-unit",      "sky",      "floor"};
 constexpr std::array<std::string_view, 4> kOfEstimators = {"method", "direct", "caustics", "indirect"};
 
 // What `kaustik shoot` takes besides: the camera, for which photons are guided, among others.

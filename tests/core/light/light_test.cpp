@@ -185,6 +185,21 @@ TEST(Light, EmittedRaysDoNotMeetTheirConvexLight) {
   }
 }
 
+// So a guide finds a small target by two numbers, whatever the place is.
+TEST(Light, DirectionsOfPhotonsFromASphereDoNotDependOnThePlace) {
+  for (const LightCase& c : test::light_cases()) {
+    const auto* area = std::get_if<DiffuseAreaLight>(&c.light);
+    if (!area || !std::holds_alternative<SphereEmitter>(area->surface)) continue;
+    const auto emitted = [&](const Point2& u_pos) {
+      return area->sample_Le(u_pos, {0.3f, 0.8f}, EmissionMode::kCosine);
+    };
+    const auto a = emitted({0.2f, 0.6f}), b = emitted({0.7f, 0.1f});
+    ASSERT_TRUE(a && b) << c.name;
+    EXPECT_EQ(a->ray.d, b->ray.d) << c.name;
+    EXPECT_NE(a->ray.o, b->ray.o) << c.name;
+  }
+}
+
 TEST(Light, PowerDistributionFollowsTheLightsPower) {
   std::vector<Light> lights = {PointLight{Point3(0), Rgb(1)}, PointLight{Point3(0), Rgb(0)},
                                PointLight{Point3(0), Rgb(3)}};
