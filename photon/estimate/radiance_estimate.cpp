@@ -165,6 +165,7 @@ double share_of_disc(const EstimateSettings& settings, const SurfaceInteraction&
 GatherQuery query_at(const PhotonMap& map, const SurfaceInteraction& si, const Normal3& n,
                      const EstimateSettings& settings, GatherCounters& counters) {
   GatherQuery query{si.p, n, si.surface_group, settings.radius, kAllPhotons, settings.discs};
+  if (settings.clear) query.radius = settings.clear->at(si, n);
   if (!query.discs && settings.nearest > 0)
     query.radius = disc_of_nearest(map, query, settings.nearest, counters);
   return query;

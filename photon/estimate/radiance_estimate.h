@@ -4,6 +4,7 @@
 #include "accel/edge_index.h"
 #include "core/bsdf/bsdf.h"
 #include "core/geometry/interaction.h"
+#include "photon/estimate/clear_radius.h"
 #include "photon/estimate/surface_areas.h"
 #include "photon/estimate/walls.h"
 #include "photon/gather/gather.h"
@@ -26,6 +27,9 @@ struct EstimateSettings {
   const SurfaceAreas* areas = nullptr;
   // Walls that hide photons, for discs of up to `radius`. Null: there are none.
   const Walls* walls = nullptr;
+  // Narrows discs where other surfaces are near; none is wider than `radius`. Null: all have `radius`. Not
+  // used beside discs, `nearest` or the leaf lookup.
+  const ClearRadius* clear = nullptr;
 };
 
 // Share of the kernel's mass on si's surface within `radius` metres, in (0, 1], by which a sum over photons

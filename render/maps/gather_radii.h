@@ -16,6 +16,9 @@ struct GatherRadii {
   float medium_caustic = 0, medium_indirect = 0;
   // The same for rays through media: with k photons in reach.
   uint32_t medium_caustic_nearest = 0, medium_indirect_nearest = 0;
+  // If > 0, discs of indirect photons follow the clearance, and where photons are of usual density the widest
+  // hold so many, counted over all passes. Set likewise.
+  uint32_t indirect_widest = 0;
   bool operator==(const GatherRadii&) const = default;
 };
 

@@ -60,7 +60,8 @@ GatherRadii settle_radii(const RenderInput& input, const PassShare& pass, const 
           kinds.medium_caustic ? radii.medium_caustic : 0,
           kinds.medium_indirect ? radii.medium_indirect : 0,
           kinds.medium_caustic ? radii.medium_caustic_nearest : 0,
-          kinds.medium_indirect ? radii.medium_indirect_nearest : 0};
+          kinds.medium_indirect ? radii.medium_indirect_nearest : 0,
+          kinds.indirect ? radii.indirect_widest : 0};
 }
 
 // At an edge the squared bias of a disc of radius r goes like r, so that r ~ M^(-1/3) balances it with the
@@ -235,6 +236,18 @@ void PassPhotons::set_discs(const RenderSettings& settings, const PassShare& pas
   caustic.estimate.discs = caustic.discs.get();
 }
 
+// Narrows the discs of indirect photons where other surfaces are near.
+void PassPhotons::set_clearance(const RenderInput& input, const PassShare& pass) {
+  GatherMap& indirect = maps_.indirect;
+  indirect.clear = nullptr;
+  if (radii_->indirect_widest > 0) {
+    const double squared = shrink_.squared(pass.pass, input.settings.alpha.value_or(1));
+    indirect.clear = std::make_shared<const photon::ClearRadius>(input.bvh, indirect.estimate.radius,
+                                                                 double(radii_->indirect_widest) * squared);
+  }
+  indirect.estimate.clear = indirect.clear.get();
+}
+
 bool PassPhotons::make(const RenderInput& input, const PassShare& pass, const ProgressCallback& progress,
                        RenderStatistics* statistics) {
   if (!kinds_needed(input.plan).any()) return true;
@@ -287,6 +300,7 @@ void PassPhotons::prepare_gathers(const RenderInput& input, const PassShare& pas
   set_estimates(input, pass);
   set_areas(input.scene);
   set_discs(input.settings, pass);
+  set_clearance(input, pass);
 }
 
 void PassPhotons::choose_radii_anew(const RenderInput& input, const PassShare& pass) {

@@ -95,6 +95,7 @@ class PassPhotons {
   void find_walls(const Scene& scene);
   void set_estimates(const RenderInput& input, const PassShare& pass);
   void set_areas(const Scene& scene);
+  void set_clearance(const RenderInput& input, const PassShare& pass);
   void set_discs(const RenderSettings& settings, const PassShare& pass);
   std::shared_ptr<const photon::SurfaceAreas> areas_for(float radius, const Scene& scene) const;
 

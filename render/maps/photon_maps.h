@@ -17,6 +17,7 @@ struct GatherMap {
   // Keep alive what the estimate points to.
   std::shared_ptr<const photon::SurfaceAreas> areas;
   std::shared_ptr<const photon::PhotonDiscs> discs;
+  std::shared_ptr<const photon::ClearRadius> clear;
 };
 
 // Maps of kinds that the plan does not need are empty.

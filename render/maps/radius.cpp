@@ -39,6 +39,8 @@ constexpr double kDirectDensity = 2;
 // Factors for the median distance of caustics, for where they are sparse: where they are dense the photons'
 // own discs are narrower, or the k-th nearest photon sets the radius.
 constexpr float kCausticReach = 4, kMediumCausticReach = 2, kLeafReach = 2;
+// Factor for the median distance of indirect photons, where surfaces are clear of others.
+constexpr float kIndirectReach = 2;
 
 // Photons that divide the map's flux evenly, in the order of the map. (Guided photons are dense where they
 // are dim.)
@@ -113,13 +115,17 @@ float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>&
   return reach / 64;
 }
 
+uint32_t photons_in_indirect_disc(const PhotonMaps& maps, const PassShare& pass) {
+  const double left = maps.split ? maps.split->stored : 1;
+  const double photons = photons_to_reach(kIndirectRule, maps.indirect.map, pass) * std::cbrt(left);
+  return std::max(uint32_t(std::lround(photons)), kFewestInReach);
+}
+
 // The radius of the indirect map. Where paths find some of the light, that of a map of all photons.
 float indirect_radius(const PhotonMaps& maps, const std::vector<VisiblePoint>& points, float reach,
                       const PassShare& pass) {
   const photon::PhotonMap& map = maps.indirect.map;
-  const double left = maps.split ? maps.split->stored : 1;
-  const double photons = photons_to_reach(kIndirectRule, map, pass) * std::cbrt(left);
-  return auto_radius(map, points, reach, std::max(uint32_t(std::lround(photons)), kFewestInReach), pass);
+  return auto_radius(map, points, reach, photons_in_indirect_disc(maps, pass), pass);
 }
 
 // Which ray the radius of photons in media is chosen for, of those that pass any.
@@ -167,7 +173,7 @@ double photons_in_reach_of_indirect(double photons) {
 
 GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {
   const RenderSettings& settings = input.settings;
-  if (const auto r = settings.radius) return {*r, *r, *r, 0, 0, *r, *r, 0, 0};
+  if (const auto r = settings.radius) return {*r, *r, *r, 0, 0, *r, *r, 0, 0, 0};
   const float reach = 2 * input.scene.bounds.radius(), f = settings.radius_factor;
   const auto visible = visible_points(input, kPilotPoints);
   const auto choose = [&](const photon::PhotonMap& map, const auto& points, uint32_t k) {
@@ -191,16 +197,18 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   };
   const uint32_t medium_caustic = photons_to_reach(kMediumCausticRule, maps.medium_caustic.map, pass);
   const uint32_t medium_indirect = photons_to_reach(kMediumIndirectRule, maps.medium_indirect.map, pass);
+  const float widen = settings.lookup == Lookup::kLeaf || settings.nearest > 0 ? 1 : kIndirectReach;
   const bool by_photons = input.plan.direct == DirectEstimator::kPhotons;
   return {choose(direct, signed_light ? photon_points(direct) : visible, of_direct),
           caustic_reach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
-          f * indirect_radius(maps, visible, reach, pass),
+          widen * f * indirect_radius(maps, visible, reach, pass),
           scaled(caustic),
           by_photons ? scaled(kDirectDensity * of_direct) : 0,
           kMediumCausticReach * along(maps.medium_caustic.map, medium_caustic, RayChoice::kMedianPhoton),
           along(maps.medium_indirect.map, medium_indirect, RayChoice::kMedian),
           scaled(medium_caustic),
-          scaled(2.0 * medium_indirect)};
+          scaled(2.0 * medium_indirect),
+          widen > 1 ? scaled(double(widen) * double(widen) * photons_in_indirect_disc(maps, pass)) : 0};
 }
 
 }  // namespace kaustik::render

@@ -94,7 +94,8 @@ Json radii_json(const std::optional<GatherRadii>& radii) {
           {"medium_caustic", hex_text(radii->medium_caustic)},
           {"medium_indirect", hex_text(radii->medium_indirect)},
           {"medium_caustic_nearest", radii->medium_caustic_nearest},
-          {"medium_indirect_nearest", radii->medium_indirect_nearest}};
+          {"medium_indirect_nearest", radii->medium_indirect_nearest},
+          {"indirect_widest", radii->indirect_widest}};
 }
 
 std::optional<GatherRadii> radii_from(const Json& json) {
@@ -107,6 +108,7 @@ std::optional<GatherRadii> radii_from(const Json& json) {
   GatherRadii radii{radius("direct"), radius("caustic"), radius("indirect")};
   take_whole(json, "caustic_nearest", &radii.caustic_nearest);
   take_whole(json, "direct_nearest", &radii.direct_nearest);
+  if (json.contains("indirect_widest")) take_whole(json, "indirect_widest", &radii.indirect_widest);
   if (!json.contains("medium_caustic")) return radii;  // from before there were photons in media
   take_whole(json, "medium_caustic_nearest", &radii.medium_caustic_nearest);
   take_whole(json, "medium_indirect_nearest", &radii.medium_indirect_nearest);
