@@ -182,8 +182,10 @@ void apply_sppm(const Directive& integrator, SceneSettings& out, DiagnosticList&
   forward(integrator, "radius", "radius", out.settings, diagnostics);
   forward(integrator, "seed", "seed", out.settings, diagnostics);
   const std::optional<double> photons = number_of(integrator, "photonsperiteration", diagnostics);
-  if (photons && *photons > 0)
+  if (photons && *photons > 0) {
+    settings.balance = render::Balance::kOff;
     forward(integrator, "photonsperiteration", "photons", out.settings, diagnostics);
+  }
   out.notes.push_back(
       "Integrator \"sppm\": direct light by shadow rays, caustics and indirect light from photons");
 }
@@ -209,18 +211,19 @@ void warn_of_unknown(const Directive& integrator, DiagnosticList& diagnostics) {
                                   integrator.type, name_hint(integrator.type, names)));
 }
 
-// Applies presets before the other parameters, so that explicit values win wherever they stand in the file.
-void apply_presets(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
+// Applies "quality" before the other parameters, so that explicit numbers win wherever they stand in the
+// file.
+void apply_quality(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
   if (integrator.type != "photonmap") return;
-  for (const std::string_view preset : kPresets)
-    if (const Parameter* parameter = integrator.find(preset))
-      assign_parameter(*parameter, out.settings, diagnostics);
+  if (const Parameter* quality = integrator.find("quality"))
+    assign_parameter(*quality, out.settings, diagnostics);
 }
 
 void apply_integrator(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
   if (integrator.type == "photonmap") {
+    if (integrator.find("photons")) out.settings.render.balance = render::Balance::kOff;
     for (const Parameter& parameter : integrator.parameters) {
-      if (!is_preset(parameter.name)) assign_parameter(parameter, out.settings, diagnostics);
+      if (parameter.name != "quality") assign_parameter(parameter, out.settings, diagnostics);
     }
   } else if (integrator.type == "sppm") {
     apply_sppm(integrator, out, diagnostics);
@@ -293,7 +296,7 @@ void apply_film(const Directive& film, SceneSettings& out, DiagnosticList& diagn
 
 SceneSettings settings_from_scene(const SceneDescription& description, DiagnosticList& diagnostics) {
   SceneSettings out;
-  if (description.integrator) apply_presets(*description.integrator, out, diagnostics);
+  if (description.integrator) apply_quality(*description.integrator, out, diagnostics);
   if (description.film) apply_film(*description.film, out, diagnostics);
   if (description.sampler) apply_sampler(*description.sampler, out.settings, diagnostics);
   if (description.integrator) apply_integrator(*description.integrator, out, diagnostics);

@@ -51,11 +51,13 @@ void SettingOverrides::apply(Settings& settings) const {
     settings.render.caustics.reset();
     settings.render.indirect.reset();
   }
-  for (const std::string_view preset : kPresets)
+  const auto assign = [&](bool presets) {
     for (const auto& [setting, texts] : given_)
-      if (setting->name == preset) setting->assign(settings, texts);
-  for (const auto& [setting, texts] : given_)
-    if (!is_preset(setting->name)) setting->assign(settings, texts);
+      if ((setting->name == "quality") == presets) setting->assign(settings, texts);
+  };
+  assign(true);
+  if (sets("photons")) settings.render.balance = render::Balance::kOff;
+  assign(false);
   if (!root_.empty()) settings.import_options.root = root_;
 }
 

@@ -7,6 +7,10 @@
 
 namespace kaustik::render {
 
+// The widest discs of indirect photons, where surfaces are clear of others (photon/estimate/clear_radius.h),
+// as a multiple of the radius that all discs have where they do not follow the clearance.
+inline constexpr float kIndirectReach = 2;
+
 // Gather radii r0 of the first pass, in metres; 0 for maps that are not used.
 struct GatherRadii {
   float direct = 0, caustic = 0, indirect = 0;

@@ -48,6 +48,11 @@ photon::EstimateSettings estimate_settings(const RenderSettings& settings, const
   return estimate;
 }
 
+// Whether discs of indirect photons may be narrower where other surfaces are near.
+bool follows_clearance(const RenderSettings& settings) {
+  return settings.nearest == 0 && settings.lookup != Lookup::kLeaf;
+}
+
 // r0 for the maps that the plan needs, from those of the first pass.
 GatherRadii settle_radii(const RenderInput& input, const PassShare& pass, const PhotonMaps& maps) {
   const photon::KindMask kinds = kinds_needed(input.plan);
@@ -194,7 +199,8 @@ void PassPhotons::set_estimates(const RenderInput& input, const PassShare& pass)
   }
   maps_.direct.estimate.radius = shrunk(radii_->direct);
   maps_.caustic.estimate.radius = shrunk(radii_->caustic);
-  maps_.indirect.estimate.radius = shrunk(radii_->indirect);
+  const bool all_alike = radii_->indirect_widest > 0 && !follows_clearance(settings);
+  maps_.indirect.estimate.radius = shrunk(all_alike ? radii_->indirect / kIndirectReach : radii_->indirect);
   maps_.medium_caustic.estimate.radius = shrunk(radii_->medium_caustic);
   maps_.medium_indirect.estimate.radius = shrunk(radii_->medium_indirect);
   // M0 is a limit, so it is rounded down.
@@ -240,7 +246,7 @@ void PassPhotons::set_discs(const RenderSettings& settings, const PassShare& pas
 void PassPhotons::set_clearance(const RenderInput& input, const PassShare& pass) {
   GatherMap& indirect = maps_.indirect;
   indirect.clear = nullptr;
-  if (radii_->indirect_widest > 0) {
+  if (radii_->indirect_widest > 0 && follows_clearance(input.settings)) {
     const double squared = shrink_.squared(pass.pass, input.settings.alpha.value_or(1));
     indirect.clear = std::make_shared<const photon::ClearRadius>(input.bvh, indirect.estimate.radius,
                                                                  double(radii_->indirect_widest) * squared);

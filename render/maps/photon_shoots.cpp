@@ -63,6 +63,7 @@ std::unique_ptr<const photon::LearnedGuide> learn_guide(const RenderInput& input
 struct Shoot {
   photon::TraceSettings trace;
   bool guided = false;
+  bool again = false;  // its photons start as those of the shoot before, so that their energy is not counted
 };
 
 // Moves a kind from one shoot to another.
@@ -90,6 +91,7 @@ void set_counts(const PhotonCounts& counts, std::vector<Shoot>* shoots, Shoot* o
   if (kinds.caustic && kinds.indirect && counts.indirect > kFarMore * counts.caustic) {
     Shoot caustics = *others;
     caustics.trace.kinds = {};
+    caustics.again = true;
     take(PhotonKind::kCaustic, others, &caustics);
     caustics.trace.photons = multiple(counts.caustic, photons);
     shoots->insert(shoots->begin(), caustics);
@@ -129,7 +131,8 @@ std::vector<Shoot> plan_shoots(const RenderInput& input, const PassShare& pass, 
 
 void add(const Shoot& shoot, photon::ShootResult&& result, photon::ShootResult* all,
          RenderStatistics* statistics) {
-  const photon::TraceCounters& c = result.counters;
+  photon::TraceCounters& c = result.counters;
+  if (shoot.again) c.energy = {};
   if (shoot.guided)
     statistics->guided += {c.emitted, c.rays, c.dropped_invalid, c.stored};
   else

@@ -39,8 +39,6 @@ constexpr double kDirectDensity = 2;
 // Factors for the median distance of caustics, for where they are sparse: where they are dense the photons'
 // own discs are narrower, or the k-th nearest photon sets the radius.
 constexpr float kCausticReach = 4, kMediumCausticReach = 2, kLeafReach = 2;
-// Factor for the median distance of indirect photons, where surfaces are clear of others.
-constexpr float kIndirectReach = 2;
 
 // Photons that divide the map's flux evenly, in the order of the map. (Guided photons are dense where they
 // are dim.)
@@ -197,18 +195,17 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   };
   const uint32_t medium_caustic = photons_to_reach(kMediumCausticRule, maps.medium_caustic.map, pass);
   const uint32_t medium_indirect = photons_to_reach(kMediumIndirectRule, maps.medium_indirect.map, pass);
-  const float widen = settings.lookup == Lookup::kLeaf || settings.nearest > 0 ? 1 : kIndirectReach;
   const bool by_photons = input.plan.direct == DirectEstimator::kPhotons;
   return {choose(direct, signed_light ? photon_points(direct) : visible, of_direct),
           caustic_reach * choose(maps.caustic.map, photon_points(maps.caustic.map), caustic),
-          widen * f * indirect_radius(maps, visible, reach, pass),
+          kIndirectReach * f * indirect_radius(maps, visible, reach, pass),
           scaled(caustic),
           by_photons ? scaled(kDirectDensity * of_direct) : 0,
           kMediumCausticReach * along(maps.medium_caustic.map, medium_caustic, RayChoice::kMedianPhoton),
           along(maps.medium_indirect.map, medium_indirect, RayChoice::kMedian),
           scaled(medium_caustic),
           scaled(2.0 * medium_indirect),
-          widen > 1 ? scaled(double(widen) * double(widen) * photons_in_indirect_disc(maps, pass)) : 0};
+          scaled(double(kIndirectReach) * double(kIndirectReach) * photons_in_indirect_disc(maps, pass))};
 }
 
 }  // namespace kaustik::render

@@ -27,7 +27,8 @@ double photons_in_reach_of_indirect(double photons);
 // Returns settings.radius for every map, if it is set; otherwise settings.radius_factor times a choice from
 // the photons: the median distance to the k-th nearest photon, where k ~ M^(2/3) for M photons of all passes
 // balances noise and bias. Direct map (k = 160 for a million photons, at least 64) and indirect map (500,
-// 200; of all photons, where paths find some of the light): around 1024 points that the camera sees. Caustic
+// 200; of all photons, where paths find some of the light; kIndirectReach times the distance): around 1024
+// points that the camera sees. Caustic
 // map (232, 24), and the shadow map if it replaces the direct one: around 1024 of its photons that divide its
 // flux evenly, since caustics and shadows are small. Caustics are sharp where they focus and sparse
 // elsewhere, so no single radius suits both: for them r0 is four times as large, the radius that no photon's

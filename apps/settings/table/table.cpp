@@ -205,22 +205,11 @@ void add_methods(std::vector<Setting>& table) {
       "paths find that of others. off: none."));
 }
 
-// The number of photons. Who gives one means just as many.
-Setting photons_setting() {
-  Setting s = count("photons", kRenderAndPhotons, "photons", &RenderSettings::photons, 1, kMaxUint64, {},
-                    "Number of photons to emit; half as many again if caustics are guided. With "
-                    "--balance-photons on, which is the default where no number is given: their scale.");
-  s.reader = SettingReader::kEmission;
-  s.assign = [assign = std::move(s.assign)](Settings& settings, ValueTexts texts) -> Complaint {
-    Complaint complaint = assign(settings, texts);
-    if (!complaint) settings.render.balance = render::Balance::kOff;
-    return complaint;
-  };
-  return s;
-}
-
 void add_photons(std::vector<Setting>& table) {
-  table.push_back(photons_setting());
+  table.push_back(count("photons", kRenderAndPhotons, "photons", &RenderSettings::photons, 1, kMaxUint64, {},
+                        "Number of photons to emit; half as many again if caustics are guided. With "
+                        "--balance-photons on, which is the default where no number is given: their scale."));
+  table.back().reader = SettingReader::kEmission;
   table.push_back(choice<render::Balance>(
       "balance-photons", kRenderAndPhotons, &RenderSettings::balance, render::kBalanceNames,
       "on; off with --photons",

@@ -4,8 +4,6 @@
 // results, and the tables of docs/reference/command_line.md. A new setting is a field of RenderSettings, a
 // row here and the code that uses the field.
 
-#include <algorithm>
-#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -92,13 +90,6 @@ struct Setting {
   SettingReader reader = SettingReader::kEveryRender;
   bool for_everyday = false;  // the help shows it before the settings for experts
 };
-
-// Settings that change others, too, in the order in which callers assign them, before all others from the
-// same source, so that what is given explicitly wins.
-inline constexpr std::array<std::string_view, 2> kPresets = {"quality", "photons"};
-constexpr bool is_preset(std::string_view name) {
-  return std::ranges::find(kPresets, name) != kPresets.end();
-}
 
 // All settings in the order of the help. Built once, immutable.
 const std::vector<Setting>& settings_table();

@@ -55,7 +55,7 @@ TEST_F(DenoiseCommand, AnyNumberOfThreadsGivesTheSameBytes) {
 TEST_F(DenoiseCommand, IsOnForFewSamplesAlone) {
   render("few.exr", {"--spp", "4"});
   EXPECT_TRUE(is_denoised("few.exr"));
-  const std::vector<std::vector<std::string>> not_denoised = {{"--spp", "17"},
+  const std::vector<std::vector<std::string>> not_denoised = {{"--spp", "257", "--width", "8"},
                                                               {"--spp", "4", "--passes", "2"},
                                                               {"--spp", "4", "--crop", "0", "20", "0", "20"},
                                                               {"--spp", "4", "--method", "mc"},

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command_line/values.h"
+#include "apps/settings/table/settings.h"
 #include "render/passes/partial_result.h"
 #include "tests/apps/support/program.h"
 #include "tests/support/sanitized.h"
@@ -201,20 +202,21 @@ TEST_F(FilledTime, InvalidTimesAreRefused) {
 }
 
 TEST_F(FilledTime, KeepsExplicitSettings) {
+  const int spp = Settings{}.render.spp;
   render("1ms", "spp", {"--spp", "8"});
   EXPECT_EQ(stats("spp")["passes_of_settings"], 8);
   EXPECT_EQ(stats("spp")["settings"]["spp"], 8);
   render("1ms", "photons", {"--photons", "16k"});
   EXPECT_EQ(stats("photons")["settings"]["photons"], 16000);
   render("1ms", "error", {"--aov", "error"});
-  EXPECT_EQ(stats("error")["settings"]["spp"], 16);
+  EXPECT_EQ(stats("error")["settings"]["spp"], spp);
   render("1ms", "bias", {"--estimate-bias", "on"});
-  EXPECT_EQ(stats("bias")["settings"]["spp"], 16);
+  EXPECT_EQ(stats("bias")["settings"]["spp"], spp);
   render("1ms", "part", {"-o", path("part.kpart")});
   EXPECT_EQ(stats("part")["passes_of_settings"], 8);
   render("1ms", "mc", {"--method", "mc"});
-  EXPECT_EQ(stats("mc")["settings"]["spp"], 16);
-  EXPECT_EQ(stats("mc")["passes_of_settings"], 16);                      // no photons: passes of one sample
+  EXPECT_EQ(stats("mc")["settings"]["spp"], spp);
+  EXPECT_EQ(stats("mc")["passes_of_settings"], spp);                     // no photons: passes of one sample
   render("1ms", "off", {"--adaptive", "off", "--indirect", "photons"});  // or else paths would be taken
   EXPECT_EQ(stats("off")["settings"]["adaptive"], 0);
   EXPECT_EQ(stats("off")["passes_of_settings"], 1);

@@ -60,7 +60,7 @@ TEST(SceneSettings, EmptySceneHasTheDefaults) {
   const Interpreted result = interpret({});
   EXPECT_THAT(result.diagnostics.entries(), IsEmpty());
   EXPECT_EQ(result.scene.settings.render.method, render::Method::kAuto);
-  EXPECT_EQ(result.scene.settings.render.spp, render::RenderSettings{}.spp);
+  EXPECT_EQ(result.scene.settings.render.spp, Settings{}.render.spp);
   EXPECT_EQ(result.scene.output, "");
 }
 
@@ -120,7 +120,7 @@ TEST(SceneSettings, SppmWithoutParametersUsesPbrtsDepthAndOurOtherDefaults) {
   const Interpreted result = with_integrator("sppm", {integer("photonsperiteration", -1)});
   EXPECT_THAT(result.diagnostics.entries(), IsEmpty());
   EXPECT_EQ(result.scene.settings.render.max_bounces, 5);
-  EXPECT_EQ(result.scene.settings.render.photons, render::RenderSettings{}.photons);
+  EXPECT_EQ(result.scene.settings.render.photons, Settings{}.render.photons);
   EXPECT_EQ(result.scene.settings.render.radius, std::nullopt);
 }
 
