@@ -9,8 +9,8 @@ namespace kaustik::photon {
 
 namespace {
 
-// Discs are no narrower than this fraction of the widest: few photons would be in reach.
-constexpr float kNarrowest = 1.0f / 4;
+// Discs are no narrower than this fraction of the widest: noise would show along the corners of rooms.
+constexpr float kNarrowest = 0.375f;
 // The bias of a disc, as a multiple of (r / c)^2. Measured on rooms, bare and with boxes: near corners, which
 // cut discs, it is larger than Ward's 1 / 32 (docs/decisions/068-discs-follow-the-clearance.md).
 constexpr double kBias = 0.7;

@@ -41,14 +41,14 @@ float radius_on_floor(float height, float widest, double photons) {
 TEST(ClearRadius, BelowACeilingIsThatOfTheClosedForm) {
   constexpr double kPhotons = 4000, kWidest = 1, kHeight = 3;
   const double r = std::pow(std::pow(1.5 * kHeight, 4) / (2 * 0.49 * kPhotons), 1.0 / 6);
-  ASSERT_GT(r, 0.25);
+  ASSERT_GT(r, 0.5);
   ASSERT_LT(r, 1);
   EXPECT_NEAR(double(radius_on_floor(float(kHeight), float(kWidest), kPhotons)), r, 0.02 * r);
 }
 
-TEST(ClearRadius, IsTheWidestFarFromAllAndAQuarterOfItInACrack) {
+TEST(ClearRadius, IsTheWidestFarFromAllAndTheNarrowestInACrack) {
   EXPECT_EQ(radius_on_floor(1e4f, 1, 4000), 1);
-  EXPECT_EQ(radius_on_floor(1e-3f, 1, 4000), 0.25f);
+  EXPECT_EQ(radius_on_floor(1e-3f, 1, 4000), 0.375f);
 }
 
 TEST(ClearRadius, ScalesWithTheScene) {
