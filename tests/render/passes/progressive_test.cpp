@@ -227,8 +227,8 @@ TEST(Progressive, RadiiAndTheNearestPhotonsShrinkTogether) {
           << pass;
       EXPECT_EQ(maps.direct.estimate.nearest, k(nearest > 0 ? nearest : photons.radii()->direct_nearest))
           << pass;
-      EXPECT_EQ(maps.indirect.estimate.radius, float(double(photons.radii()->indirect) * std::sqrt(squared)))
-          << pass;
+      const float indirect = photons.radii()->indirect / (nearest > 0 ? kIndirectReach : 1);
+      EXPECT_EQ(maps.indirect.estimate.radius, float(double(indirect) * std::sqrt(squared))) << pass;
       EXPECT_EQ(maps.lecture.radius, maps.direct.estimate.radius);
     }
   }
