@@ -79,7 +79,8 @@ class SeenLight {
 
 }  // namespace
 
-PhotonNeed photons_needed(const RenderInput& input, photon::TraceSettings trace, PhotonKind kind) {
+PhotonNeed photons_needed(const RenderInput& input, const std::vector<VisiblePoint>& points,
+                          photon::TraceSettings trace, PhotonKind kind) {
   trace.pass = kCountPass + uint64_t(kind);
   trace.photons = kCountPhotons;
   const auto each = [](double of_pilot) { return of_pilot / double(kCountPhotons); };
@@ -87,7 +88,6 @@ PhotonNeed photons_needed(const RenderInput& input, photon::TraceSettings trace,
   const double rays = std::max(each(double(shot.rays)), 1e-3);
   const double stored = each(double(shot.stored[size_t(kind)]));
   trace.kinds = {.direct = true, .caustic = true, .indirect = true};
-  const std::vector<VisiblePoint> points = visible_points(input, kCountPhotons);
   const SeenLight seen(points, shoot_pilot(input, trace), kind);
   const double trust = std::clamp((seen.photons() - 1) / kTrusted, 0.0, 1.0);
   const double error = trust * seen.squared_share() * (kind == PhotonKind::kCaustic ? kErrorOfCaustics : 1);

@@ -1,8 +1,8 @@
 #pragma once
-// How many photons each shoot emits, so that as many as asked for are seen.
+// How many photons of each kind are worth their time.
 
 #include "photon/trace/trace_settings.h"
-#include "render/plan/render_input.h"
+#include "render/explore/visible_points.h"
 
 namespace kaustik::render {
 
@@ -25,8 +25,10 @@ struct PhotonNeed {
   double rays = 0;     // of a photon
 };
 
-// trace: the shoot, of which the number of photons is ignored. A function of scene and settings.
-PhotonNeed photons_needed(const RenderInput& input, photon::TraceSettings trace, photon::PhotonKind kind);
+// points: where light is seen. trace: the shoot, of which the number of photons is ignored. A function of
+// scene and settings.
+PhotonNeed photons_needed(const RenderInput& input, const std::vector<VisiblePoint>& points,
+                          photon::TraceSettings trace, photon::PhotonKind kind);
 
 // What is needed, as far as it does not take too many rays. A kind that is not shot needs none. together:
 // whether the two kinds share a shoot.

@@ -87,7 +87,6 @@ void set_counts(const PhotonCounts& counts, std::vector<Shoot>* shoots, Shoot* o
   for (Shoot& shoot : *shoots)
     shoot.trace.photons = multiple(shoot.trace.kinds.caustic ? counts.caustic : counts.indirect, photons);
   photon::KindMask& kinds = others->trace.kinds;
-  if (kinds.direct || kinds.shadow) return;
   if (kinds.caustic && kinds.indirect && counts.indirect > kFarMore * counts.caustic) {
     Shoot caustics = *others;
     caustics.trace.kinds = {};
@@ -176,21 +175,33 @@ void learn_sources(const RenderInput& input, PhotonGuides* guides) {
     guides->split = learn_split(input, guides->indirect ? &guides->indirect->guide : &none);
 }
 
-// Media: their photons share the shoots of those on surfaces.
+namespace {
+
+// Beside direct and shadow photons, and where photons lie in media, all kinds keep the number of the
+// settings.
+bool balances(const RenderInput& input) {
+  const photon::KindMask kinds = kinds_needed(input.plan);
+  return input.settings.balance == Balance::kOn && !kinds.direct && !kinds.shadow && !kinds.medium_caustic &&
+         !kinds.medium_indirect;
+}
+
 void learn_counts(const RenderInput& input, PhotonGuides* guides) {
-  if (guides->counts || input.settings.balance == Balance::kOff) return;
+  if (guides->counts || !balances(input)) return;
+  constexpr uint32_t kSeen = 1u << 14;
+  const std::vector<VisiblePoint> seen = visible_points(input, kSeen);
   PhotonNeed caustic, indirect;
   bool together = false;
   const PassShare any = pass_share(0, 1, input.settings.photons, input.settings.spp);
   for (const Shoot& shoot : plan_shoots(input, any, *guides)) {
     const photon::KindMask& kinds = shoot.trace.kinds;
-    if (kinds.direct || kinds.shadow || kinds.medium_caustic || kinds.medium_indirect) return;
     together |= kinds.caustic && kinds.indirect;
-    if (kinds.caustic) caustic = photons_needed(input, shoot.trace, PhotonKind::kCaustic);
-    if (kinds.indirect) indirect = photons_needed(input, shoot.trace, PhotonKind::kIndirect);
+    if (kinds.caustic) caustic = photons_needed(input, seen, shoot.trace, PhotonKind::kCaustic);
+    if (kinds.indirect) indirect = photons_needed(input, seen, shoot.trace, PhotonKind::kIndirect);
   }
   guides->counts = within_limits(caustic, indirect, together);
 }
+
+}  // namespace
 
 void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatistics* statistics) {
   const PhaseWatch watch;

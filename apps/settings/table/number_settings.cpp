@@ -53,8 +53,7 @@ Setting radius_setting() {
           "Gather radius r0 of the photon maps. auto: chosen for each map to balance noise and bias. A "
           "gather in a map of M photons then finds k ~ M^(2/3) of them: with a million photons 160 (direct), "
           "232 (caustic; each photon has its own radius) or 500 (indirect; four times as many where other "
-          "surfaces "
-          "are far). 0.5x: half of auto."};
+          "surfaces are far). 0.5x: half of auto."};
   s.assign = [](Settings& settings, ValueTexts texts) -> Complaint {
     const std::optional<RadiusChoice> choice = parse_radius(texts[0]);
     if (!choice)

@@ -249,6 +249,10 @@ void add_photons(std::vector<Setting>& table) {
       "Which photons a gather uses. exact: all within the radius. leaf: those of one octree node, as in the "
       "lecture."));
   table.back().reader = SettingReader::kGather;
+}
+
+// How photons are emitted and how far they and paths go.
+void add_emission(std::vector<Setting>& table) {
   table.push_back(choice("emission", kAllThatTrace, &RenderSettings::emission, render::kEmissionNames,
                          "Distribution of photon directions at area lights. cosine: photons of equal flux. "
                          "uniform-angle: uniform in "
@@ -337,6 +341,7 @@ std::vector<Setting> make_table() {
   std::vector<Setting> table = {quality_setting()};
   add_methods(table);
   add_photons(table);
+  add_emission(table);
   std::vector<Setting> stop = stop_rows();
   std::move(stop.begin(), stop.end(), std::back_inserter(table));
   add_image(table);
