@@ -388,9 +388,12 @@ SCENE = pathlib.Path(__file__).resolve().parents[3] / "scenes/cornell-spheres/sq
 
 
 class Viewed:
-    """`kaustik view`, by default with a render that takes long enough."""
+    """`kaustik view`, by default with a render of photons that takes long enough."""
 
-    def __init__(self, program, options=("--photons", "3M", "--spp", "400", "--passes", "40", "--width", "300", "--threads", "1")):
+    LONG = ("--caustics", "photons", "--indirect", "photons",
+            "--photons", "3M", "--spp", "400", "--passes", "40", "--width", "300", "--threads", "1")
+
+    def __init__(self, program, options=LONG):
         self.process = subprocess.Popen([program, "view", SCENE, *options, "-q"], stdout=subprocess.PIPE, text=True)
         self.address = self.process.stdout.readline().strip()
 
