@@ -43,6 +43,15 @@ std::shared_ptr<LiveRender> live_of(const Job& job, const RenderSession& session
   return make_live(job);
 }
 
+// How many passes the denoiser needs to have both halves of the samples.
+uint64_t passes_to_denoise(const render::RenderSettings& settings) {
+  if (!settings.denoise.value_or(false) || settings.passes < 2) return 1;
+  const render::PassShare each = render::pass_share(0, settings.passes, settings.photons, settings.spp);
+  uint64_t first_of_other = 0;
+  while (!render::pass_in_half(first_of_other, settings.passes, each.end_sample)) ++first_of_other;
+  return first_of_other + 1;
+}
+
 // Shows the mean of the passes so far, and its error.
 void show_passes(const render::PassSums& sums, LiveRender& live) {
   const render::ErrorMap errors = render::estimate_errors(sums.totals);
@@ -317,7 +326,8 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
         watch.seconds() - times.bvh - (filled.photons ? seconds_of(filled.photons->statistics) : 0);
     if (filled.single_pass) job.settings.stop.seconds.reset();  // the settings already fit the time
     Checkpoint checkpoint(session.checkpoint, job, session.outputs.files, session.goal, console);
-    StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total, seconds_after);
+    StopRule rule(job.settings.stop, seconds_of(session.done.statistics), total, seconds_after,
+                  passes_to_denoise(job.settings.render));
     if (session.settled) session.settled(job.settings);
     for (const std::string& note : render::make_plan(job.settings.render, job.scene.needs).notes)
       console.note(note);

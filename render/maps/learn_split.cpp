@@ -162,6 +162,16 @@ Errors predicted_errors(const std::vector<SourceOfLight>& sources, double sample
   return errors;
 }
 
+// Gives all light to photons or to paths where dividing it is not worth the time of both. starved: photons
+// tell too little. Returns the squared error of the choice.
+double choose_balance(const Errors& errors, bool starved, photon::SourceSplit* split) {
+  const double of_better = std::min(errors.of_paths, errors.of_photons);
+  if (!starved && errors.of_both <= kWorthBoth * of_better) return errors.of_both;
+  const bool paths = starved || errors.of_paths < errors.of_photons;
+  split->set_balance(paths ? kInfinity : 0);
+  return paths ? errors.of_paths : errors.of_photons;
+}
+
 LearnedSplit learned_from(const std::vector<SourceOfLight>& sources, photon::SourceSplit&& split) {
   LearnedSplit learned{.sources = std::move(split), .photons = false};
   double stored = 0, all = 0, light = 0, by_photons = 0;
@@ -204,11 +214,9 @@ std::unique_ptr<const LearnedSplit> learn_split(const RenderInput& input,
   const Errors errors = predicted_errors(sources, samples, b);
   double of_indirect = 0;
   for (const SourceOfLight& s : sources) of_indirect += s.indirect ? s.share : 0;
-  if (seen < kStarved && of_indirect > kMuchLight)
-    split.set_balance(kInfinity);
-  else if (errors.of_both > kWorthBoth * std::min(errors.of_paths, errors.of_photons))
-    split.set_balance(errors.of_paths < errors.of_photons ? kInfinity : 0);
+  const double error = choose_balance(errors, seen < kStarved && of_indirect > kMuchLight, &split);
   LearnedSplit learned = learned_from(sources, std::move(split));
+  if (errors.of_paths > 0) learned.error = error / errors.of_paths;
   // Photons may meet small mirrors and glass later.
   learned.photons |= input.scene.needs.specular && std::ranges::any_of(input.scene.lights, is_delta);
   return std::make_unique<const LearnedSplit>(std::move(learned));

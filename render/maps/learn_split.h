@@ -17,6 +17,8 @@ struct LearnedSplit {
   double stored = 1;
   // Share of the divided light that photons bring to visible places.
   double light = 1;
+  // Predicted squared error, as a multiple of that of paths alone with as many samples.
+  double error = 1;
 };
 
 // Learns the shares from few photons, which are not counted. guide: that of indirect photons; null: they are

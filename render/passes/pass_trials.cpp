@@ -20,12 +20,13 @@ namespace kaustik::render {
 
 namespace {
 
-// The first trial shoot learns the guides, too, and the second one tells what a photon takes without that.
+// The first trial shoot learns the guides, too. The second one tells what a photon takes without that, or,
+// where the first one has found few useful photons, what learning from more of them takes.
 constexpr uint64_t kFewPhotons = 1u << 14, kMorePhotons = 1u << 16;
+// Guides that have learned from so many useful photons hardly take longer with more of them.
+constexpr uint64_t kManyHits = 1u << 11;
 // Side of a trial window in pixels: a few blocks of rays, which share gathers.
 constexpr int kWindow = 3 * kRayBlock;
-// Samples of each pixel in a trial that measures errors.
-constexpr int kTrialSamples = 4;
 // This many windows sample the parts of a picture well enough.
 constexpr double kFewWindows = 36, kManyWindows = 120;
 constexpr double kShare = 1.0 / 16;  // of the picture's pixels, within these limits
@@ -84,14 +85,13 @@ class WindowTrials {
     return seconds(tried, pass_samples(pass, tried, input_.plan), most);
   }
 
-  // Seconds for kInHalf samples of all pixels, from number `first` on, whose sums take_films() then gives.
-  static constexpr uint64_t kInHalf = kTrialSamples / 2;
-  double seconds_of_half(uint64_t first, double most = kInfinity) {
+  // Seconds for kSome samples of all pixels, which share gathers as those of a render do.
+  static constexpr uint64_t kSome = 8;
+  double seconds_of_some(double most) {
     RenderSettings tried = input_.settings;
-    tried.spp = 2 * kInHalf;
-    return seconds(tried, {first, first + kInHalf, 0}, most);
+    tried.spp = kSome;
+    return seconds(tried, {0, kSome, 0}, most);
   }
-  std::vector<FilmSums> take_films() { return std::move(films_); }
 
  private:
   static constexpr uint64_t kWindowOrder = 0x717A15;
@@ -100,7 +100,6 @@ class WindowTrials {
     const RenderInput input{input_.scene, input_.bvh, tried, input_.plan};
     const auto threads = size_t(tbb::this_task_arena::max_concurrency());
     const size_t together = 2 * threads;
-    films_.assign(windows_.size(), {});
     std::vector<double> took(windows_.size());
     const Stopwatch watch;
     size_t done = 0;
@@ -109,7 +108,7 @@ class WindowTrials {
       parallel::for_index(done, end, [&](size_t i) {
         const Stopwatch of_window;
         // Isolated, since a thread that waits within a window could render another one meanwhile.
-        tbb::this_task_arena::isolate([&] { films_[i] = render(input, samples, windows_[i]); });
+        tbb::this_task_arena::isolate([&] { render(input, samples, windows_[i]); });
         took[i] = of_window.seconds();
       });
       done = end;
@@ -118,13 +117,12 @@ class WindowTrials {
     const double seconds =
         std::reduce(took.begin(), took.end()) / double(std::min(threads, tiles_of(whole_)));
     windows_.resize(done);
-    films_.resize(done);
     uint64_t pixels = 0;
     for (const PixelRange& w : windows_) pixels += w.pixels();
     return seconds * double(whole_.pixels()) / double(pixels);
   }
 
-  FilmSums render(const RenderInput& input, const PassSamples& samples, const PixelRange& w) const {
+  void render(const RenderInput& input, const PassSamples& samples, const PixelRange& w) const {
     const Camera& camera = input.scene.camera;
     const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
     const RenderContext ctx{input,
@@ -137,70 +135,13 @@ class WindowTrials {
     RenderStatistics ignored;
     PassFilm film{FilmSums(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height), {}, {}};
     render_tiles(ctx, {}, &film, &ignored);
-    return std::move(film.sums);
   }
 
   const RenderInput& input_;
   const PassPhotons& photons_;
   PixelRange whole_;
   std::vector<PixelRange> windows_;
-  std::vector<FilmSums> films_;  // of the last trial
 };
-
-double luminance_of(const glm::dvec3& c) {
-  return double(luminance(Rgb(c)));
-}
-
-PixelHalves halves_of(const PixelSum& a, const PixelSum& b) {
-  const auto pair = [](const glm::dvec3& first, const glm::dvec3& second) {
-    constexpr double kHalf = WindowTrials::kInHalf;
-    return PixelHalves::Pair{luminance_of(first) / kHalf, luminance_of(second) / kHalf};
-  };
-  const auto all = [](const PixelSum& p) { return p.emitted + p.direct + p.caustic + p.indirect; };
-  return {pair(all(a), all(b)), pair(a.caustic, b.caustic), pair(a.indirect, b.indirect)};
-}
-
-// The blocks of rays of a window.
-void add_blocks(const FilmSums& first, const FilmSums& second,
-                std::vector<std::vector<PixelHalves>>* blocks) {
-  // Blocks are counted from the corner of the full image.
-  const int x0 = first.x0(), y0 = first.y0();
-  const PixelRange window{x0, x0 + first.width(), y0, y0 + first.height()};
-  window.for_each_square(kRayBlock, [&](const PixelRange& square) {
-    std::vector<PixelHalves>& block = blocks->emplace_back();
-    for (int y = square.y0; y < square.y1; ++y)
-      for (int x = square.x0; x < square.x1; ++x)
-        block.push_back(halves_of(first.at(x - x0, y - y0), second.at(x - x0, y - y0)));
-  });
-}
-
-// The unit of relative squares, for light of this luminance in a picture of this mean.
-double relative_unit(double light, double mean) {
-  return light * light + 0.01 * mean * mean;
-}
-
-// What two halves of the samples say: the difference of independent estimates is their noise.
-ErrorSources error_sources(const EstimatorPlan& plan, const std::vector<std::vector<PixelHalves>>& blocks) {
-  double mean = 0, count = 0;
-  for (const auto& block : blocks)
-    for (const PixelHalves& p : block) mean += p.all.mean(), ++count;
-  mean /= std::max(count, 1.0);
-  ErrorSources sum;
-  for (const auto& block : blocks)
-    for (const PixelHalves& p : block) {
-      constexpr double kMostOfPixel = 16;  // so that a bright pixel does not decide alone
-      const double unit = relative_unit(p.all.mean(), mean);
-      if (!(unit > 0)) continue;
-      // The mean of n samples has an nth of the variance of one.
-      const double variance = p.all.error() * p.all.error() * kTrialSamples;
-      const double caustic = reads_caustic_photons(plan) ? p.caustic.mean() : 0;
-      const double indirect = reads_indirect_photons(plan) ? p.indirect.mean() : 0;
-      sum.samples += std::min(variance / unit, kMostOfPixel) / count;
-      sum.caustic += caustic * caustic / unit / count;
-      sum.indirect += indirect * indirect / unit / count;
-    }
-  return sum;
-}
 
 }  // namespace
 
@@ -212,13 +153,27 @@ FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progr
   return first;
 }
 
+namespace {
+
+// From the seconds of both shoots. learned: the second one has learned anew what guides its photons.
+PhotonCost cost_of_trials(double first, double second, bool learned) {
+  constexpr auto kFew = double(kFewPhotons), kMore = double(kMorePhotons);
+  const double each =
+      learned ? std::max((second - first) / (kMore - kFew), second / (2 * kMore)) : second / kMore;
+  return {.fixed = std::max(first - each * kFew, 0.0), .each = each, .photons = kMore};
+}
+
+}  // namespace
+
 PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress,
                         std::shared_ptr<ExploredScene> explored) {
   PhotonTrial trial;
-  trial.first.photons = PassPhotons(std::move(explored));
   PassPhotons& photons = trial.first.photons;
-  photons.mark_as_trial();
-  photons.explore(input, progress);
+  const auto begin = [&] {
+    photons = PassPhotons(explored);
+    photons.mark_as_trial();
+    photons.explore(input, progress);
+  };
   const auto shoot = [&](uint64_t count) {
     const Stopwatch watch;
     RenderSettings few = input.settings;
@@ -227,14 +182,16 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
                  &trial.first.statistics);
     return watch.seconds();
   };
+  begin();
   const double first = shoot(kFewPhotons);
-  const uint64_t more = first < most ? kMorePhotons : kFewPhotons;
-  const double each = shoot(more) / double(more);
+  trial.cost = {.each = first / double(kFewPhotons), .photons = double(kFewPhotons)};
+  if (!(first < most)) return trial;
+  const bool learn_again = trial.first.statistics.guide_hits < kManyHits;
+  if (learn_again) begin();
+  const double second = shoot(kMorePhotons);
+  trial.cost = cost_of_trials(first, second, learn_again);
   // Not timed: the fixed cost, from the first shoot, already includes the choice of radii.
-  if (more > kFewPhotons) photons.choose_radii_anew(input, pass_share(0, 1, more, 1));
-  const auto stored = [&](const GatherMap& of) { return double(of.map.size() + 1) / double(more); };
-  trial.cost = {std::max(first - each * double(kFewPhotons), 0.0), each, double(more),
-                stored(photons.maps().caustic), stored(photons.maps().indirect)};
+  if (!learn_again) photons.choose_radii_anew(input, pass_share(0, 1, kMorePhotons, 1));
   return trial;
 }
 
@@ -257,23 +214,9 @@ void learn_for_samples(const RenderInput& input, PassPhotons* photons) {
 
 }  // namespace
 
-SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* photons) {
-  constexpr double kHalf = WindowTrials::kInHalf;
+double try_one_sample(const RenderInput& input, double most, PassPhotons* photons) {
   learn_for_samples(input, photons);
-  WindowTrials trials(input, *photons);
-  const double first_seconds = trials.seconds_of_half(0, most / 2);
-  std::vector<FilmSums> first = trials.take_films();
-  SampleTrial trial;
-  trial.seconds = (first_seconds + trials.seconds_of_half(WindowTrials::kInHalf)) / (2 * kHalf);
-  const std::vector<FilmSums> second = trials.take_films();
-  for (size_t i = 0; i < first.size(); ++i) add_blocks(first[i], second[i], &trial.blocks);
-  trial.errors = error_sources(input.plan, trial.blocks);
-  if (const LearnedSplit* split = photons->maps().split) {
-    // Only what photons bring has their error.
-    const double squared = split->light * split->light;
-    trial.errors.caustic *= squared, trial.errors.indirect *= squared;
-  }
-  return trial;
+  return WindowTrials(input, *photons).seconds_of_some(most) / WindowTrials::kSome;
 }
 
 SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons) {

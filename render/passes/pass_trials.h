@@ -8,12 +8,10 @@
 
 namespace kaustik::render {
 
-// Wall-clock seconds of the photons of a pass.
+// Wall-clock seconds of the photons of a pass, with what they learn before, such as guides.
 struct PhotonCost {
   double fixed = 0, each = 0;  // each > 0
   double photons = 0;          // of the larger trial, whose maps are left
-  // Stored for each emitted photon, but never 0; guided emission may store several.
-  double stored_caustic = 0, stored_indirect = 0;
 };
 
 // Wall-clock seconds of the samples of every pixel: of(spp, adaptive) for spp samples and adaptive ones that
@@ -42,31 +40,10 @@ PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCal
 FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
                          const std::shared_ptr<ExploredScene>& explored = std::make_shared<ExploredScene>());
 
-// Where the error of a picture comes from, as means over its pixels relative to the square of their luminance
-// (to which the square of a tenth of the picture's mean is added).
-struct ErrorSources {
-  double samples = 0;                // variance of one sample, given the photons
-  double caustic = 0, indirect = 0;  // square of the light that these photon maps give
-};
-
-// Mean luminances of a pixel by either half of the samples of a trial; their difference is noise.
-struct PixelHalves {
-  struct Pair {
-    double first = 0, second = 0;
-    double mean() const { return (first + second) / 2; }
-    double error() const { return (first - second) / 2; }  // one observation of the error of mean()
-  };
-  Pair all, caustic, indirect;
-};
-
-struct SampleTrial {
-  double seconds = 0;  // for one sample of every pixel, where there are few
-  ErrorSources errors;
-  std::vector<std::vector<PixelHalves>> blocks;  // pixels of the same blocks in each trial, perhaps of fewer
-};
 // Renders a few samples in windows with these photons, no further windows once `most` seconds have passed.
-// The tree of predicted visibility, which depends on settings.spp, stays with the photons.
-SampleTrial try_one_sample(const RenderInput& input, double most, PassPhotons* photons);
+// Returns the seconds for one sample of every pixel, of some. The tree of predicted visibility,
+// which depends on settings.spp, stays with the photons.
+double try_one_sample(const RenderInput& input, double most, PassPhotons* photons);
 
 // Renders one sample and four, without and with adaptive ones, with these photons in as many windows as take
 // about `most` seconds, at least a few. Without photons (cancelled) the result is meaningless.

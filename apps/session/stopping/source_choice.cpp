@@ -39,11 +39,12 @@ std::string options_of(const render::RenderSettings& settings, const render::Ren
 }
 
 std::string settle_sources(const Scene& scene, const accel::Bvh& bvh, render::RenderSettings* settings,
-                           render::PhotonGuides* guides) {
+                           render::PhotonGuides* guides, double* error) {
   const render::EstimatorPlan plan = render::make_plan(*settings, scene.needs);
   if (!splits_sources(plan)) return {};
   render::PhotonGuides learned;
   render::learn_sources({scene, bvh, *settings, plan}, &learned);
+  if (error) *error = learned.split->error;
   const bool photons = learned.split->photons, paths = learned.split->sources.leaves_to_paths();
   const render::RenderSettings given = *settings;
   if (!paths || !photons) {

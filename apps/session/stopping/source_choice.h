@@ -23,8 +23,9 @@ std::string options_of(const render::RenderSettings& settings, const render::Ren
 // (render/maps/learn_split.h), and names one of them in the settings if it does as well alone. Returns the
 // options that say so, each after a space; empty where nothing is named. The result depends on scene and
 // settings alone, so that the parts of a render choose alike. guides: receives what was learned that a render
-// with these settings needs; may be null. Call it within the render's task arena.
+// with these settings needs; may be null. error: receives LearnedSplit::error where the plan divides light;
+// may be null. Call it within the render's task arena.
 std::string settle_sources(const Scene& scene, const accel::Bvh& bvh, render::RenderSettings* settings,
-                           render::PhotonGuides* guides = nullptr);
+                           render::PhotonGuides* guides = nullptr, double* error = nullptr);
 
 }  // namespace kaustik::app

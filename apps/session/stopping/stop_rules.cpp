@@ -75,7 +75,7 @@ bool StopRule::enough(const render::PassSums& sums) {
   const double now = seconds(), pass = now - last_;
   last_ = now;
   if (reaches_target(sums)) return true;
-  if (has_time_for(pass)) return false;
+  if (has_time_for(pass) || sums.passes.count() < fewest_) return false;
   stop_for_time();
   return true;
 }

@@ -35,12 +35,14 @@ void settle_error_settings(const Console& console, const SceneNeeds& needs, Sett
 class StopRule {
  public:
   // `seconds_before`: time spent by earlier commands on the same render. `total`: started with this command.
-  // `seconds_after`: what follows the last pass, for which time is left.
+  // `seconds_after`: what follows the last pass, for which time is left. `fewest`: passes that there must be,
+  // whatever time they take.
   StopRule(const StopSettings& settings, double seconds_before, const Stopwatch& total,
-           double seconds_after = 0)
+           double seconds_after = 0, uint64_t fewest = 1)
       : settings_(settings),
         seconds_before_(seconds_before),
         seconds_after_(seconds_after),
+        fewest_(fewest),
         total_(total),
         last_(seconds()) {}
 
@@ -67,6 +69,7 @@ class StopRule {
 
   StopSettings settings_;
   double seconds_before_, seconds_after_;
+  uint64_t fewest_;
   const Stopwatch& total_;
   double last_;                  // seconds() at the last check
   std::optional<double> error_;  // relative

@@ -17,26 +17,21 @@ namespace {
 
 // Shares of the time: the least and the most that photons get, and a reserve.
 constexpr double kLeastPhotons = 0.03, kMostPhotons = 0.5, kMargin = 0.03;
-// Relative squared error of an estimate from a map of a million stored photons
-// (docs/decisions/005-time-is-filled-by-one-pass.md).
-constexpr double kErrorOfMillion = 0.006;
-double error_of_map(double stored) {
-  return kErrorOfMillion / std::pow(stored / 1e6, 2.0 / 3);
-}
-// Of the noise of samples, what the denoiser leaves; it needs some samples a pixel. The error of maps stays,
-// so photons get more of the time.
-constexpr double kNoiseLeft = 0.5;
+// The denoiser compares two halves of the samples of a pixel, so there must be two of them, and rather more.
 constexpr int kFewestFiltered = 2;
+constexpr double kEnoughFiltered = 4;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
-constexpr double kPhotonTrial = 0.005, kSampleTrial = 0.015;
+constexpr double kPhotonTrial = 0.1, kSampleTrial = 0.03;
 // Where exploring the scene took more than this share of the time that was left, no trials follow.
 constexpr double kHurry = 0.2;
 // The least time for photons, as a multiple of that of exploring.
 constexpr double kShootPerExplored = 3;
 // Share of the time that is left which the base samples may take by the trial. The rest is for adaptive
 // samples: a picture without any has more noise than one of half the samples and some.
-constexpr double kSure = 0.8;
+constexpr double kSure = 0.6;
+// Without adaptive samples, which nothing replaces where trials were wrong.
+constexpr double kSureWithout = 0.8;
 // For films, their mean and writing the files.
 constexpr double kSecondsPerPixel = 3e-7;
 // Most adaptive samples per base sample. Measured: up to 3 they are worth about as much as base samples.
@@ -51,8 +46,6 @@ constexpr double kLongPass = 4;
 constexpr int kManySamples = 64;
 constexpr int kPasses = 10, kMostSamples = 32;  // planned passes, and samples of each
 constexpr int kMostOfOne = 4096;                // samples of a single pass
-// The samples a pixel for which light is divided between photons and paths, before it is known how many fit.
-constexpr int kSamplesPlanned = 64;
 // Fewest photons for any time: this share of the scene's number, but not more than kEnoughPhotons.
 constexpr double kFewestPhotons = 1.0 / 16, kEnoughPhotons = 62'500;
 
@@ -72,22 +65,22 @@ int samples_within(const render::SampleCost& cost, double adaptive, double secon
   return spp;
 }
 
-// The photons that fit, rounded down to two digits, so that the log can state them exactly. The fixed cost of
-// a shoot, of guides and radii, is subtracted from the seconds, but at most half of them: it does not fall
-// with fewer photons.
+// The photons that fit beside what their shoot learns, rounded down to two digits, so that the log can state
+// them exactly.
 uint64_t photons_within(const render::PhotonCost& cost, double seconds, double fewest) {
-  const double of_photons = std::max(seconds - cost.fixed, seconds / 2);
-  const double photons = std::clamp(of_photons / cost.each, std::max(fewest, 10.0), 1e12);
+  const double photons = std::clamp(seconds / cost.each, std::max(fewest, 10.0), 1e12);
   const double unit = std::pow(10.0, std::floor(std::log10(photons)) - 1);
   return uint64_t(std::floor(photons / unit) * unit);
 }
 
 // The cost of samples where only the time of one is known.
-render::SampleCost cost_of(const render::SampleTrial& sample) {
-  return {.each = sample.seconds, .each_adaptive = sample.seconds};
+render::SampleCost cost_of(double one_sample) {
+  return {.each = one_sample, .each_adaptive = one_sample};
 }
 
 constexpr const char* kNoTimeForMaps = "there is no time to make photon maps: paths take their place";
+constexpr const char* kPathsDoBetter =
+    "photons take more of the time than they are worth: paths take their place";
 
 // Runs the trials and makes the choice.
 class TimePlan {
@@ -129,24 +122,24 @@ class TimePlan {
     if (gathers_) trial = render::try_photons(input(), kPhotonTrial * seconds_, progress_, explored_);
     auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
     if (cancelled(*first)) return {.single_pass = true, .photons = std::move(first)};
-    render::SampleTrial sample =
-        render::try_one_sample(input(), kSampleTrial / 2 * seconds_, &first->photons);
+    const double sample = render::try_one_sample(input(), kSampleTrial / 3 * seconds_, &first->photons);
     if (has_no_time_for(sample, trial.cost.fixed + trial.cost.each * fewest_)) return take_paths();
+    if (paths_do_better(trial.cost, sample, &first->photons)) return take_paths(kPathsDoBetter);
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
       fill_passes(trial.cost, cost_of(sample), share);
       return {.explored = explored_, .sources = sources_};
     }
-    if (gathers_) *first = shoot(photons_within(trial.cost, share * left(), fewest_));
+    if (gathers_) *first = shoot(photons_of_share(trial.cost, share));
     const render::SampleCost cost = render::try_samples(input(), kSampleTrial * seconds_, &first->photons);
     return one_pass(cost, gathers_ ? std::move(first) : nullptr);
   }
 
   // A single pass of as many samples as fit.
   FilledTime one_pass(const render::SampleCost& cost, std::shared_ptr<render::FirstPhotons> photons) {
-    const double sure = render_.adaptive > 0 ? kSure : 1;
-    render_.spp = samples_within(cost, render_.adaptive, sure * left(), kMostOfOne);
-    if (render_.spp < kFewestFiltered) render_.denoise = false;  // most pixels would have no second half
+    const float adaptive = adaptive_samples() ? render_.adaptive : 0;
+    render_.spp = samples_within(cost, adaptive, (adaptive > 0 ? kSure : kSureWithout) * left(), kMostOfOne);
+    if (render_.denoise.value_or(false)) render_.spp = std::max(render_.spp, kFewestFiltered);
     return {.single_pass = true,
             .photons = std::move(photons),
             .explored = explored_,
@@ -155,8 +148,8 @@ class TimePlan {
   }
 
   // Whether paths should take the place of maps because half a sample no longer fits beside the photons.
-  bool has_no_time_for(const render::SampleTrial& sample, double seconds_of_photons) const {
-    return may_take_paths() && left() - seconds_of_photons < sample.seconds / 2;
+  bool has_no_time_for(double one_sample, double seconds_of_photons) const {
+    return may_take_paths() && left() - seconds_of_photons < one_sample / 2;
   }
 
   // Where there is no time for trials: the fewest photons, or paths where there is no time for those either.
@@ -164,8 +157,7 @@ class TimePlan {
     if (may_take_paths() && left() < kShootPerExplored * explored_->seconds) return take_paths();
     const auto first = std::make_shared<render::FirstPhotons>(shoot(fewest_photons()));
     if (cancelled(*first)) return {.single_pass = true, .photons = first};
-    const render::SampleTrial sample =
-        render::try_one_sample(input(), kSampleTrial * seconds_, &first->photons);
+    const double sample = render::try_one_sample(input(), kSampleTrial * seconds_, &first->photons);
     if (has_no_time_for(sample, 0)) return take_paths();
     first->photons.forget_visibility();  // it depends on the number of samples
     return one_pass(cost_of(sample), first);
@@ -175,23 +167,39 @@ class TimePlan {
     return given_.method == render::Method::kAuto && !given_.indirect && reads_indirect_photons(divided_);
   }
 
-  // Passes of one sample by paths, untried.
-  FilledTime take_paths() {
+  // Whether paths have less error in the time of photons and samples: the prediction of errors is for as many
+  // samples.
+  bool paths_do_better(const render::PhotonCost& photons, double sample, render::PassPhotons* maps) const {
+    if (!gathers_ || !may_take_paths()) return false;
+    const render::RenderSettings by_paths = settings_of_paths();
+    const render::EstimatorPlan plan = render::make_plan(by_paths, scene_.needs);
+    if (render::kinds_needed(plan).any()) return false;
+    const render::RenderInput input{scene_, bvh_, by_paths, plan};
+    const double of_path = render::try_one_sample(input, kSampleTrial / 3 * seconds_, maps);
+    maps->forget_visibility();
+    const double all = photons.each * double(given_.photons) + sample * given_.spp;
+    return error_ * all > of_path * given_.spp;
+  }
+
+  render::RenderSettings settings_of_paths() const {
     render::RenderSettings open = render_;
     open.caustics = given_.caustics, open.indirect = given_.indirect;
-    adopt(with_paths(open, divided_, scene_));
+    return with_paths(open, divided_, scene_);
+  }
+
+  // Passes of one sample by paths.
+  FilledTime take_paths(const char* because = kNoTimeForMaps) {
+    adopt(settings_of_paths());
     sources_ = options_of(render_, given_);
     render_.photons = kErrorPasses * fewest_photons();
     set_passes(1);
-    return {.explored = explored_, .sources = sources_, .sources_because = kNoTimeForMaps};
+    return {.explored = explored_, .sources = sources_, .sources_because = because};
   }
 
   // Names photons or paths where one of them does as well alone.
   void settle_sources() {
     render::RenderSettings settled = render_;
-    settled.spp = kSamplesPlanned;
-    sources_ = app::settle_sources(scene_, bvh_, &settled);
-    settled.spp = render_.spp;
+    sources_ = app::settle_sources(scene_, bvh_, &settled, nullptr, &error_);
     adopt(settled);
   }
 
@@ -211,18 +219,19 @@ class TimePlan {
     return render::shoot_first(input(), progress_, explored_);
   }
 
-  // Whether the time is filled by passes. Paths have no adaptive samples, which fill the time of a single
-  // one.
-  bool takes_passes(const render::SampleTrial& sample, double share) const {
-    if (render::traces_paths(plan_)) return true;
-    return seconds_ > kLongPass &&
-           sample.seconds * kManySamples * (1 + double(render_.adaptive)) < (1 - share) * left();
+  bool adaptive_samples() const { return render_.adaptive > 0 && !render::traces_paths(plan_); }
+
+  // Whether the time is filled by passes. Paths alone share nothing that a single pass would make once.
+  bool takes_passes(double one_sample, double share) const {
+    if (!gathers_) return true;
+    const double each = one_sample * (adaptive_samples() ? 1 + double(render_.adaptive) : 1);
+    return seconds_ > kLongPass && each * kManySamples < (1 - share) * left();
   }
 
   // The adaptive samples that fit by the time that samples took so far. Rounded down to hundredths, so that
   // the log can state them exactly. Until there are some, they are taken to cost as in the trial.
   std::function<double(double, double)> adaptive_work(const render::SampleCost& cost) const {
-    if (!(render_.adaptive > 0)) return {};
+    if (!adaptive_samples()) return {};
     const double spp = render_.spp;
     const double trial = std::max(spp * cost.each_adaptive / cost.of(spp, 0), 0.1);
     return [plan = *this, trial, before = 0.0](double done, double seconds) mutable {
@@ -234,27 +243,21 @@ class TimePlan {
     };
   }
 
-  // The noise of the picture, after denoising, from the variance of one sample and the samples a pixel.
-  double noise_of(double variance, double samples) const {
-    const bool filtered = render_.denoise.value_or(false) && samples >= kFewestFiltered;
-    return (filtered ? kNoiseLeft : 1) * variance / std::max(samples, 1e-9);
+  // What a shoot takes whatever its number of photons is taken as at most half of the time.
+  double fixed(const render::PhotonCost& photons) const { return std::min(photons.fixed, left() / 2); }
+
+  // The share that photons get of the time that is left without that. Photons and samples have the ratio of
+  // the settings, as if their quality were higher or lower; but there are enough samples to denoise them, if
+  // half of the time will do.
+  double photon_share(const render::PhotonCost& photons, double sample) const {
+    const double of_photons = photons.each * double(given_.photons), of_samples = sample * given_.spp;
+    const double enough = std::max(1 - kEnoughFiltered * sample / (left() - fixed(photons)), 0.5);
+    const double most = std::min(kMostPhotons, enough);
+    return std::max(std::min(of_photons / (of_photons + of_samples), most), kLeastPhotons);
   }
 
-  // The share of the time that photons get: where the sum of the noise of samples and of the photons' error
-  // is least. The photons' error is taken to fall as the number in reach of an estimate grows. How many of
-  // those that were emitted are stored differs by a factor of thirty from scene to scene.
-  double photon_share(const render::PhotonCost& cost, const render::SampleTrial& sample) const {
-    const double each = std::max(cost.each, 1e-12), time = left();
-    double best = kLeastPhotons, least = HUGE_VAL;
-    for (double share = kLeastPhotons; share <= kMostPhotons; share += 0.01) {
-      const double samples = (1 - share) * time / sample.seconds;
-      const double photons = std::max(share * time / each, 1.0);
-      const double error = noise_of(sample.errors.samples, samples) +
-                           sample.errors.caustic * error_of_map(photons * cost.stored_caustic) +
-                           sample.errors.indirect * error_of_map(photons * cost.stored_indirect);
-      if (error < least) least = error, best = share;
-    }
-    return best;
+  uint64_t photons_of_share(const render::PhotonCost& photons, double share) const {
+    return photons_within(photons, share * (left() - fixed(photons)), fewest_);
   }
 
   // Plans equal passes without adaptive samples. Photons and samples are set to the sum over kErrorPasses of
@@ -289,6 +292,7 @@ class TimePlan {
   render::RenderSettings given_ = render_;
   render::EstimatorPlan divided_ = plan_;
   std::string sources_;  // the options that name photons or paths
+  double error_ = 0;     // of what was chosen, as a multiple of that of paths with as many samples
   std::shared_ptr<render::ExploredScene> explored_ = std::make_shared<render::ExploredScene>();
 };
 
@@ -312,7 +316,7 @@ FilledTime settle_time(const Scene& scene, const accel::Bvh& bvh, const Stopwatc
   if (!filled.single_pass) settle_error_settings(console, scene.needs, settings);
   const render::RenderSettings& render = settings->render;
   const std::string choice =
-      filled.single_pass ? ", and adaptive samples until the time is up"
+      filled.single_pass ? (filled.adaptive_work ? ", and adaptive samples until the time is up" : "")
                          : fmt::format(" --passes {} --alpha {}, and more passes until the time is up",
                                        render.passes, *render.alpha);
   if (filled.sources_because) console.note(filled.sources_because);

@@ -130,11 +130,17 @@ TEST_F(StopRules, QuantileNeedsMorePasses) {
 }
 
 TEST_F(StopRules, ExpiredTimeStillRendersOnePass) {
-  const Outcome outcome =
-      expect_done(render({"--time", "1ms", "-o", path("a.exr"), "--stats", path("a.json")}));
+  const Outcome outcome = expect_done(
+      render({"--time", "1ms", "--denoise", "off", "-o", path("a.exr"), "--stats", path("a.json")}));
   EXPECT_THAT(outcome.err, HasSubstr("stopped by --time 0.001s after 1 pass"));
   EXPECT_EQ(stats("a.json")["photons"]["passes"], 1);
   EXPECT_TRUE(stats("a.json")["error"].is_null());
+}
+
+TEST_F(StopRules, ExpiredTimeStillRendersWhatTheDenoiserNeeds) {
+  const Outcome outcome = expect_done(render({"--time", "1ms", "--denoise", "on", "-o", path("a.exr")}));
+  EXPECT_THAT(outcome.err, HasSubstr("stopped by --time 0.001s after 5 passes"));  // four are one half
+  EXPECT_THAT(outcome.err, Not(HasSubstr("not denoised")));
 }
 
 // The scene sets photons and samples; then --time decides how many are used.
@@ -224,10 +230,20 @@ TEST_F(FilledTime, KeepsExplicitSettings) {
 
 // Loading alone takes a millisecond.
 TEST_F(FilledTime, TakesPathsAtOnceWhereThereIsNoTimeForMaps) {
-  const std::string log = render("1ms", "a").err;
+  const std::string log = render("1ms", "a", {"--denoise", "off"}).err;
   EXPECT_THAT(log, HasSubstr("there is no time to make photon maps"));
   EXPECT_THAT(log, HasSubstr("after 1 pass"));
   EXPECT_EQ(stats("a")["settings"]["indirect"], "paths");
+}
+
+// One sample of each pixel could not be denoised.
+TEST_F(FilledTime, TakesSamplesForTheDenoiserWhereThereIsNoTimeForOne) {
+  const std::string paths = render("1ms", "a", {"--denoise", "on"}).err;
+  EXPECT_THAT(paths, HasSubstr("after 5 passes"));
+  EXPECT_THAT(paths, Not(HasSubstr("not denoised")));
+  const std::string photons = render("1ms", "b", {"--denoise", "on", "--indirect", "photons"}).err;
+  EXPECT_THAT(photons, Not(HasSubstr("not denoised")));
+  EXPECT_GE(stats("b")["settings"]["spp"], 2);
 }
 
 TEST_F(FilledTime, KeepsAnEstimatorThatIsNamed) {
