@@ -174,15 +174,13 @@ double choose_balance(const Errors& errors, bool starved, photon::SourceSplit* s
 
 LearnedSplit learned_from(const std::vector<SourceOfLight>& sources, photon::SourceSplit&& split) {
   LearnedSplit learned{.sources = std::move(split), .photons = false};
-  double stored = 0, all = 0, light = 0, by_photons = 0;
+  double stored = 0, all = 0;
   for (const SourceOfLight& s : sources) {
     const float w = learned.sources.share_of(float(s.radiance));
     learned.photons |= w > 0;
-    light += s.share, by_photons += s.share * double(w);
     if (s.indirect) ++all, stored += double(w);
   }
   if (all > 0) learned.stored = stored / all;
-  if (light > 0) learned.light = by_photons / light;
   return learned;
 }
 

@@ -15,8 +15,6 @@ struct LearnedSplit {
   bool photons = true;  // whether photons have anything to do
   // Share of the indirect photons that are left, of those that sources would send if photons carried all.
   double stored = 1;
-  // Share of the divided light that photons bring to visible places.
-  double light = 1;
   // Predicted squared error, as a multiple of that of paths alone with as many samples.
   double error = 1;
 };

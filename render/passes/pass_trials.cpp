@@ -27,6 +27,8 @@ constexpr uint64_t kFewPhotons = 1u << 14, kMorePhotons = 1u << 16;
 constexpr uint64_t kManyHits = 1u << 11;
 // Side of a trial window in pixels: a few blocks of rays, which share gathers.
 constexpr int kWindow = 3 * kRayBlock;
+// Samples of each pixel that share gathers in a trial, as those of a render do.
+constexpr int kSamplesTogether = 8;
 // This many windows sample the parts of a picture well enough.
 constexpr double kFewWindows = 36, kManyWindows = 120;
 constexpr double kShare = 1.0 / 16;  // of the picture's pixels, within these limits
@@ -81,22 +83,6 @@ class WindowTrials {
   double seconds(int spp, float adaptive, double most = kInfinity) {
     RenderSettings tried = input_.settings;
     tried.spp = spp, tried.adaptive = adaptive;
-    const PassShare pass = pass_share(0, 1, tried.photons, spp);
-    return seconds(tried, pass_samples(pass, tried, input_.plan), most);
-  }
-
-  // Seconds for kSome samples of all pixels, which share gathers as those of a render do.
-  static constexpr uint64_t kSome = 8;
-  double seconds_of_some(double most) {
-    RenderSettings tried = input_.settings;
-    tried.spp = kSome;
-    return seconds(tried, {0, kSome, 0}, most);
-  }
-
- private:
-  static constexpr uint64_t kWindowOrder = 0x717A15;
-
-  double seconds(const RenderSettings& tried, const PassSamples& samples, double most) {
     const RenderInput input{input_.scene, input_.bvh, tried, input_.plan};
     const auto threads = size_t(tbb::this_task_arena::max_concurrency());
     const size_t together = 2 * threads;
@@ -108,7 +94,7 @@ class WindowTrials {
       parallel::for_index(done, end, [&](size_t i) {
         const Stopwatch of_window;
         // Isolated, since a thread that waits within a window could render another one meanwhile.
-        tbb::this_task_arena::isolate([&] { render(input, samples, windows_[i]); });
+        tbb::this_task_arena::isolate([&] { render(input, windows_[i]); });
         took[i] = of_window.seconds();
       });
       done = end;
@@ -122,7 +108,10 @@ class WindowTrials {
     return seconds * double(whole_.pixels()) / double(pixels);
   }
 
-  void render(const RenderInput& input, const PassSamples& samples, const PixelRange& w) const {
+ private:
+  static constexpr uint64_t kWindowOrder = 0x717A15;
+
+  void render(const RenderInput& input, const PixelRange& w) const {
     const Camera& camera = input.scene.camera;
     const PassShare pass = pass_share(0, 1, input.settings.photons, input.settings.spp);
     const RenderContext ctx{input,
@@ -130,7 +119,7 @@ class WindowTrials {
                             photons_.visibility(),
                             photons_.sky(),
                             pass,
-                            samples,
+                            pass_samples(pass, input.settings, input.plan),
                             camera_cone(camera, pass.end_sample)};
     RenderStatistics ignored;
     PassFilm film{FilmSums(w.width(), w.height(), w.x0, w.y0, camera.width, camera.height), {}, {}};
@@ -143,18 +132,6 @@ class WindowTrials {
   std::vector<PixelRange> windows_;
 };
 
-}  // namespace
-
-FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
-                         const std::shared_ptr<ExploredScene>& explored) {
-  FirstPhotons first{PassPhotons(explored), {}};
-  first.statistics.photon_build_s = explored->seconds;
-  first.photons.make(input, pass_share(0, 1, input.settings.photons, 1), progress, &first.statistics);
-  return first;
-}
-
-namespace {
-
 // From the seconds of both shoots. learned: the second one has learned anew what guides its photons.
 PhotonCost cost_of_trials(double first, double second, bool learned) {
   constexpr auto kFew = double(kFewPhotons), kMore = double(kMorePhotons);
@@ -165,8 +142,16 @@ PhotonCost cost_of_trials(double first, double second, bool learned) {
 
 }  // namespace
 
+FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progress,
+                         const std::shared_ptr<ExploredScene>& explored) {
+  FirstPhotons first{PassPhotons(explored), {}};
+  first.statistics.photon_build_s = explored->seconds;
+  first.photons.make(input, pass_share(0, 1, input.settings.photons, 1), progress, &first.statistics);
+  return first;
+}
+
 PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress,
-                        std::shared_ptr<ExploredScene> explored) {
+                        const std::shared_ptr<ExploredScene>& explored) {
   PhotonTrial trial;
   PassPhotons& photons = trial.first.photons;
   const auto begin = [&] {
@@ -216,7 +201,7 @@ void learn_for_samples(const RenderInput& input, PassPhotons* photons) {
 
 double try_one_sample(const RenderInput& input, double most, PassPhotons* photons) {
   learn_for_samples(input, photons);
-  return WindowTrials(input, *photons).seconds_of_some(most) / WindowTrials::kSome;
+  return WindowTrials(input, *photons).seconds(kSamplesTogether, 0, most) / kSamplesTogether;
 }
 
 SampleCost try_samples(const RenderInput& input, double most, PassPhotons* photons) {

@@ -33,7 +33,7 @@ struct PhotonTrial {
 // Explores the scene, shoots a few photons, and more of them if that took less than `most` seconds. explored:
 // what earlier photons of the same scene found out about it.
 PhotonTrial try_photons(const RenderInput& input, double most, const ProgressCallback& progress,
-                        std::shared_ptr<ExploredScene> explored = std::make_shared<ExploredScene>());
+                        const std::shared_ptr<ExploredScene>& explored = std::make_shared<ExploredScene>());
 
 // Shoots the photons of a render that has a single pass. They have no radii if the progress callback
 // cancelled. What exploring the scene took before counts in their seconds.
@@ -41,8 +41,8 @@ FirstPhotons shoot_first(const RenderInput& input, const ProgressCallback& progr
                          const std::shared_ptr<ExploredScene>& explored = std::make_shared<ExploredScene>());
 
 // Renders a few samples in windows with these photons, no further windows once `most` seconds have passed.
-// Returns the seconds for one sample of every pixel, of some. The tree of predicted visibility,
-// which depends on settings.spp, stays with the photons.
+// Returns the seconds for one sample of every pixel, where there are several. The tree of predicted
+// visibility, which depends on settings.spp, stays with the photons.
 double try_one_sample(const RenderInput& input, double most, PassPhotons* photons);
 
 // Renders one sample and four, without and with adaptive ones, with these photons in as many windows as take

@@ -17,9 +17,8 @@ namespace {
 
 // Shares of the time: the least and the most that photons get, and a reserve.
 constexpr double kLeastPhotons = 0.03, kMostPhotons = 0.5, kMargin = 0.03;
-// The denoiser compares two halves of the samples of a pixel, so there must be two of them, and rather more.
+// The denoiser compares two halves of the samples of a pixel.
 constexpr int kFewestFiltered = 2;
-constexpr double kEnoughFiltered = 4;
 // Shares of the time for trials: of few photons, after which no larger trial follows if they took longer; and
 // of samples.
 constexpr double kPhotonTrial = 0.1, kSampleTrial = 0.03;
@@ -176,7 +175,6 @@ class TimePlan {
     if (render::kinds_needed(plan).any()) return false;
     const render::RenderInput input{scene_, bvh_, by_paths, plan};
     const double of_path = render::try_one_sample(input, kSampleTrial / 3 * seconds_, maps);
-    maps->forget_visibility();
     const double all = photons.each * double(given_.photons) + sample * given_.spp;
     return error_ * all > of_path * given_.spp;
   }
@@ -247,13 +245,10 @@ class TimePlan {
   double fixed(const render::PhotonCost& photons) const { return std::min(photons.fixed, left() / 2); }
 
   // The share that photons get of the time that is left without that. Photons and samples have the ratio of
-  // the settings, as if their quality were higher or lower; but there are enough samples to denoise them, if
-  // half of the time will do.
+  // the settings, as if their quality were higher or lower.
   double photon_share(const render::PhotonCost& photons, double sample) const {
     const double of_photons = photons.each * double(given_.photons), of_samples = sample * given_.spp;
-    const double enough = std::max(1 - kEnoughFiltered * sample / (left() - fixed(photons)), 0.5);
-    const double most = std::min(kMostPhotons, enough);
-    return std::max(std::min(of_photons / (of_photons + of_samples), most), kLeastPhotons);
+    return std::clamp(of_photons / (of_photons + of_samples), kLeastPhotons, kMostPhotons);
   }
 
   uint64_t photons_of_share(const render::PhotonCost& photons, double share) const {
