@@ -97,7 +97,7 @@ class PassRenderer {
                             photons_.sky(),
                             part,
                             pass_samples(part, input_.settings, input_.plan),
-                            camera_cone(input_.scene.camera, part.end_sample - part.first_sample)};
+                            camera_cone(input_.scene.camera, part.end_sample)};
     const PhaseWatch watch;
     const bool finished = render_tiles(ctx, progress_, film, statistics, adaptive_work_, on_pixels_);
     on_pixels_ = {};  // later passes are added to a picture that is there

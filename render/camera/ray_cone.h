@@ -30,11 +30,15 @@ struct RayCone {
 };
 
 // Cone of one sample of a pixel at the image's centre: as wide as the pixel divided by the root of the
-// samples, but at least an eighth of the pixel (Pharr et al. 2023, section 10.1.3).
+// samples, but at least an eighth of the pixel (Pharr et al. 2023, section 10.1.3). samples: those of the
+// pixel once the pass is done. Of fewer than kFewest, which more passes may follow, the cone is that of
+// kFewest: what is not linear in a texture, such as the light of a bump map, is wrong where wide footprints
+// have made it even.
 inline RayCone camera_cone(const Camera& camera, uint64_t samples) {
+  constexpr uint64_t kFewest = 16;
   const Point2 centre(0.5f * float(camera.width), 0.5f * float(camera.height));
   const Ray a = camera.generate_ray(centre), b = camera.generate_ray(centre + Vector2(1, 0));
-  const float scale = std::max(0.125f, 1 / std::sqrt(float(std::max<uint64_t>(samples, 1))));
+  const float scale = std::max(0.125f, 1 / std::sqrt(float(std::max(samples, kFewest))));
   return {scale * glm::distance(a.o, b.o), scale * glm::distance(a.d, b.d)};
 }
 
