@@ -213,4 +213,10 @@ float EmissionGuide::density(const EmissionPoint& u) const {
   return 1 / boxes_[node->child].weight;
 }
 
+GuidedStart start_of(const Scene& scene, Sampler sampler, const EmissionGuide* guide) {
+  GuidedStart start{point_of(emission_numbers(scene, sampler))};
+  if (guide) start.weight = guide->warp(start.u);
+  return start;
+}
+
 }  // namespace kaustik::photon

@@ -82,4 +82,12 @@ class EmissionGuide {
   int middle_exponent_ = 0;
 };
 
+// Where a photon starts, and 1 / p for the density p of its guide; 1 without a guide.
+struct GuidedStart {
+  EmissionPoint u{};
+  float weight = 1;
+};
+// The start of the photon with the random numbers of the sampler. guide: null, or not empty.
+GuidedStart start_of(const Scene& scene, Sampler sampler, const EmissionGuide* guide);
+
 }  // namespace kaustik::photon

@@ -79,6 +79,8 @@ class GuideLearner {
     trace.max_bounces = settings_.max_bounces;
     trace.emission = settings_.emission;
     trace.under_glossy = settings_.under_glossy;
+    trace.split = settings_.split;
+    trace.split_caustics = settings_.split_caustics;
     trace.kinds = only(settings_.kind);
     trace.guide = guide.empty() ? nullptr : &guide;
     return trace;
@@ -110,7 +112,7 @@ class GuideLearner {
   }
 
   Start useful_start(const TraceSettings& trace, uint64_t index, double square) const {
-    const GuidedStart start = start_of(scene_, trace, index);
+    const GuidedStart start = start_of(scene_, Sampler(photon_stream(trace), index), trace.guide);
     const double to_one = double(trace.photons) / double(start.weight);
     return {start.u, square * to_one * to_one};
   }
@@ -138,13 +140,6 @@ class GuideLearner {
 };
 
 }  // namespace
-
-GuidedStart start_of(const Scene& scene, const TraceSettings& trace, uint64_t index) {
-  Sampler sampler(photon_stream(trace), index);
-  GuidedStart start{point_of(emission_numbers(scene, sampler))};
-  if (trace.guide) start.weight = trace.guide->warp(start.u);
-  return start;
-}
 
 LearnedGuide learn_guide(const Scene& scene, const accel::Bvh& bvh, const GuideSettings& settings) {
   if (scene.light_power.empty() || !(scene.light_power.total() > 0)) return {};

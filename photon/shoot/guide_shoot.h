@@ -23,20 +23,15 @@ struct GuideSettings {
   std::function<float(PhotonKind, const Photon&)> importance{};
   // If more than this fraction of the uniform photons is useful, nothing is guided.
   double enough = 2;
-  bool under_glossy = false;  // as in TraceSettings
+  bool under_glossy = false;  // as in TraceSettings, as are these
+  const SourceSplit* split = nullptr;
+  bool split_caustics = false;
 };
 
 struct LearnedGuide {
   EmissionGuide guide;             // empty where guiding would not help much
   uint64_t emitted = 0, hits = 0;  // photons emitted for learning, and useful starts among them
 };
-
-// Where the photon `index` of a shoot starts, and 1 / p for the density p of its guide; 1 without a guide.
-struct GuidedStart {
-  EmissionPoint u{};
-  float weight = 1;
-};
-GuidedStart start_of(const Scene& scene, const TraceSettings& trace, uint64_t index);
 
 // Emits photons in rounds, each but the first guided by what all earlier rounds found, and learns which
 // starts leave photons of settings.kind where they matter. A function of scene and settings alone, whatever

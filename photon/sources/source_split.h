@@ -29,6 +29,7 @@ class SourceSplit {
   // Share of photons in what a surface at p scatters on of the light that comes straight from the lights. n:
   // normal on the side of the light; both_sides: the surface scatters through, so either side counts.
   float of_surface(const Point3& p, const Normal3& n, bool both_sides) const {
+    if (std::isinf(balance_)) return 0;  // whatever the radiance is: it is finite
     return share_of(radiance_of_surface(p, n, both_sides));
   }
 

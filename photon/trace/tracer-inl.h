@@ -14,6 +14,7 @@
 
 #include "accel/media_walk.h"
 #include "core/scene/bsdf_at.h"
+#include "photon/trace/glossy_source.h"
 #include "photon/trace/lanes/intersect_lanes.h"
 #include "photon/trace/lanes/walker_queue.h"
 #include "photon/trace/shading_correction.h"
@@ -122,12 +123,33 @@ class Tracer {
       if (!starts_.emitted[k]) continue;
       const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light).light;
       const Ray start = starts_.ray.get(k);
-      if (number_of(k, kLightShareDimension) < settings_.split->of_light(light, {start.o, -start.d}))
-        walkers_.state[k] = walkers_.state[k].carrier();
+      const float share = settings_.split->of_light(light, {start.o, -start.d});
+      walkers_.state[k] = walkers_.state[k].carrier(number_of(k, kLightShareDimension) < share);
     }
+  }
+  // The same for light that meets a glossy surface first, of which paths find some although no ray can hit
+  // the light.
+  template <class B>
+  void choose_carrier(size_t k, const B& bsdf, const GlossyVertex& v) {
+    if constexpr (requires { bsdf.disperses; })
+      if (bsdf.disperses) return;
+    const auto start = start_of(scene_, Sampler(stream_, index_of(k)), settings_.guide);
+    const uint32_t light = light_of_photon(scene_, numbers_of(start.u).light, settings_.light).light;
+    const float L = radiance_of_glossy(scene_, light, bsdf, v);
+    if (std::isinf(L)) return;
+    if constexpr (requires { sink_.meet_source(uint64_t{0}, L); }) sink_.meet_source(index_of(k), L);
+    if (!settings_.split) return;
+    const bool carries = number_of(k, kLightShareDimension) < settings_.split->share_of(L);
+    walkers_.state[k] = walkers_.state[k].carrier(carries);
   }
   float number_of(size_t k, uint32_t dimension) const {
     return Sampler(stream_, index_of(k), dimension).next_1d();
+  }
+
+  // Whether the sources of light matter.
+  bool knows_sources() const {
+    if constexpr (requires { sink_.meet_source(uint64_t{0}, 0.0f); }) return true;
+    return settings_.split != nullptr;
   }
 
   // Whether the photon carries on what diffuse lobes at p scatter of it. n: normal on the side of the photon.
@@ -427,6 +449,8 @@ class Tracer {
     const Normal3 facing = glm::dot(wo, si.n) < 0 ? -si.n : si.n;
     scatters_[k] = sample->specular || (follows_indirect_ && carries_on(k, si.p, facing, B::kTransmits));
     if (!scatters_[k]) return false;
+    if (sample->glossy && walkers_.state[k].kind() == PhotonKind::kDirect && knows_sources())
+      choose_carrier(k, bsdf, {si, wo, wo_local, sample->wi});
     WalkState& state = walkers_.state[k];
     state = sample->specular ? state.behind_specular() : state.behind_diffuse();
     if constexpr (requires { bsdf.selects_wavelength(wo_local, *sample); })

@@ -48,9 +48,10 @@ inline constexpr uint64_t kGroupSize = kPhotonLanes;
 
 // Traces photons first ... end - 1 of settings.photons and calls sink(PhotonKind, const Photon&) for each
 // photon of a kind in settings.kinds. A sink may also take the photon's index as a third argument, or be
-// called with whole lanes: see RecordSink. The order of the calls is a pure function of (scene, settings,
-// first, end). The photons that one index leaves are a pure function of (scene, settings, index), with two
-// exceptions:
+// called with whole lanes: see RecordSink. If it has a function meet_source(index, L), that receives the
+// radiance of the glossy surface that light from a point, spot or distant light meets first. The order of the
+// calls is a pure function of (scene, settings, first, end). The photons that one index leaves are a pure
+// function of (scene, settings, index), with two exceptions:
 //   - leaving out a kind may shorten the path, which does not change the photons of the other kinds, unless
 //     media scatter: without indirect kinds their share is taken from every photon instead of some photons;
 //   - where a ray meets two surfaces at exactly the same distance, as at an edge, the other photons of

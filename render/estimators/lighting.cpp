@@ -92,6 +92,13 @@ Rgb left_of_light(const accel::Bvh& bvh, const Point& x, const LightSample& s) {
   return accel::transmittance(bvh.scene(), bvh.interfaces(), spawn(x, s.wi), distance, &medium);
 }
 
+bool disperses(const ShadingPoint& x) {
+  return scatters_one_wavelength(*x.bsdf);
+}
+bool disperses(const MediumPoint& /*x*/) {
+  return false;
+}
+
 // Samples one light; nothing if it contributes nothing. expected: the expected number of samples of this
 // light.
 template <class Point>
@@ -108,7 +115,9 @@ std::optional<WeightedLightSample> sample_light(const RenderContext& ctx, uint32
   const float pdf = s->pdf * expected;
   const bool shared = weight == LightWeight::kMis && !is_delta(from);
   const float w = shared ? power_heuristic(pdf, scatter_pdf(x, s->wi, part)) : 1;
-  WeightedLightSample weighted{*s, f * s->Li * (w / pdf * shares.of(light, {position(x), s->wi}))};
+  const bool glossy_source = part == LobePart::kGlossy && is_delta(from) && !disperses(x);
+  const float share = glossy_source ? shares.of_glossy(f * s->Li) : shares.of(light, {position(x), s->wi});
+  WeightedLightSample weighted{*s, f * s->Li * (w / pdf * share)};
   if (ctx.scene.needs.media) weighted.contribution *= left_of_light(ctx.bvh, x, *s);
   return weighted;
 }

@@ -28,6 +28,10 @@ struct LightShares {
   float of(uint32_t light, const Ray& to_light) const {
     return split && all > 0 ? all * (1 - split->of_light(light, to_light)) : all;
   }
+  // The same for a light that no ray can hit, of which a glossy lobe sends on the radiance L.
+  float of_glossy(const Rgb& L) const {
+    return split && all > 0 ? all * (1 - split->share_of(luminance(L))) : all;
+  }
 };
 
 // Shares of paths in what lights send through specular surfaces, times `all`.

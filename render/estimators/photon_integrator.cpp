@@ -259,7 +259,7 @@ class CameraPath {
       if (const float weight = roulette_weight(gather_probability(branch.share), sampler_); weight > 0)
         add_reflected(ctx_, x, weight * branch.beta, sampler_, maps_of(branch));
     if (!parts.specular || branch.events == ctx_.settings.max_bounces) return;
-    if (parts.glossy && branch.tail == Tail::kNone) add_glossy(branch, x);
+    if (parts.glossy) branch.tail == Tail::kNone ? add_glossy(branch, x) : add_glossy_behind_tail(branch, x);
     const SceneNeeds& needs = ctx_.scene.needs;
     const bool sees_more = needs.diffuse || needs.scattering || needs.emissive_media;
     if (branch.tail != Tail::kNone && !sees_more) return;
@@ -270,7 +270,9 @@ class CameraPath {
 
   // The shares of lights that the branch's ray meets which it brings: behind a tail photons bring theirs.
   LightShares shares_seen(const Branch& branch) const {
-    if (branch.tail != Tail::kBehind) return {};
+    return branch.tail == Tail::kBehind ? shares_behind_tail() : LightShares{};
+  }
+  LightShares shares_behind_tail() const {
     if (ctx_.plan.caustics != CausticEstimator::kSplit) return {0};
     return path_shares_of_lights(ctx_, 1);
   }
@@ -320,6 +322,17 @@ class CameraPath {
             weight * photon::estimate_glossy_tail(ctx_.maps.caustic.map, x.si, x.wo, *x.bsdf,
                                                   ctx_.maps.caustic.estimate, kTailPdf, counters_.gather);
     }
+    add_glossy(branch, light);
+  }
+  // The share of paths in the light that the glossy lobes of x scatter straight from lights, where a tail
+  // comes before them.
+  void add_glossy_behind_tail(const Branch& branch, const ShadingPoint& x) {
+    const LightShares shares = shares_behind_tail();
+    if (!(shares.all > 0)) return;
+    add_glossy(branch,
+               sample_direct(ctx_, x, LightWeight::kMis, sampler_, counters_, LobePart::kGlossy, shares));
+  }
+  void add_glossy(const Branch& branch, const Rgb& light) {
     PixelResult* const result = maps_of(branch).result;
     result->emitted += branch.beta * light;
     result->denoising_emitted += branch.beta * light;

@@ -11,12 +11,10 @@
 #include <cfloat>
 #include <cmath>
 
-#include "core/parallel/parallel.h"
-#include "core/sampling/warp.h"
 #include "photon/shoot/guide_shoot.h"
 #include "render/explore/visible_density.h"
+#include "render/maps/disc_error.h"
 #include "render/maps/pilot_photons.h"
-#include "render/maps/radius.h"
 
 namespace kaustik::render {
 
@@ -25,21 +23,20 @@ namespace {
 using photon::Photon;
 using photon::PhotonKind;
 
-// Separates the random numbers of these photons and rays from all others.
-constexpr uint64_t kPilotPass = 0x73706c6974000000, kClearanceStream = 0xC1EA;
+// Separates the random numbers of these photons from all others.
+constexpr uint64_t kPilotPass = 0x73706c6974000000;
 constexpr uint64_t kPilotPhotons = 1u << 16;
 // Fewer indirect photons at visible points say little: guided ones are shot then.
 constexpr int64_t kFewestSeen = 1 << 12;
 // A map of as many photons for each that is shot is starved where they bring so much of the light.
 constexpr int64_t kStarved = 1 << 8;
 constexpr double kMuchLight = 0.02;
-constexpr int kRaysEach = 16;
 // The error of a disc is common to the pixels that it covers, while the noise of samples averages out over as
 // many pixels where the picture is filtered or looked at from afar.
 constexpr double kPixels = 64;
-// Photons and paths are divided only where that leaves so much less of the squared error than the better of
-// them alone: both take their time.
-constexpr double kWorthBoth = 0.25;
+// Light is divided only where error times time are at most this multiple of those of the better of photons
+// and paths alone.
+constexpr double kWorthBoth = 0.5;
 
 photon::TraceSettings pilot_settings(const RenderInput& input, const photon::EmissionGuide* guide) {
   photon::TraceSettings trace;
@@ -53,55 +50,17 @@ photon::TraceSettings pilot_settings(const RenderInput& input, const photon::Emi
   return trace;
 }
 
-// Radiance of the light where it emits the photon.
-float radiance_of_start(const RenderInput& input, const photon::TraceSettings& trace,
-                        const photon::SourceSplit& sources, uint32_t index) {
-  const photon::EmissionNumbers n = photon::numbers_of(photon::start_of(input.scene, trace, index).u);
+// Radiance of the source of a photon that meets specular surfaces first: the light where it emits the photon,
+// or a glossy surface.
+float radiance_of_source(const RenderInput& input, const photon::TraceSettings& trace,
+                         const PilotPhotons& pilot, const photon::SourceSplit& sources, uint32_t index) {
+  if (!std::isnan(pilot.glossy_radiance[index])) return pilot.glossy_radiance[index];
+  const Sampler numbers(photon::photon_stream(trace), index);
+  const photon::EmissionNumbers n = photon::numbers_of(photon::start_of(input.scene, numbers, trace.guide).u);
   const auto start = photon::emit_photon(input.scene, n, trace.photons, trace.emission);
   if (!start) return 0;
   const uint32_t light = photon::light_of_photon(input.scene, n.light).light;
   return sources.radiance_of_light(light, {start->ray.o, -start->ray.d});
-}
-
-// Harmonic mean of the distances to other surfaces, weighted by the cosine at x: the irradiance varies over
-// distances of about that (Ward, Rubinstein and Clear 1988).
-double clearance_at(const RenderInput& input, const VisiblePoint& x, Sampler& sampler) {
-  const Frame frame = Frame::from_z(x.query.n);
-  double inverse = 0;
-  for (int i = 0; i < kRaysEach; ++i) {
-    const Vector3 wi = frame.to_world(sample_cosine_hemisphere(sampler.next_2d()));
-    if (!(glm::dot(wi, x.query.n) > 0)) continue;
-    const Hit hit = input.bvh.intersect(x.si.spawn(wi));
-    if (hit.valid() && hit.t > 0) inverse += 1 / double(hit.t);
-  }
-  return inverse > 0 ? kRaysEach / inverse : HUGE_VAL;
-}
-
-// Relative error of a disc of radius r at a place of clearance c. The second derivative of the irradiance is
-// about 1 / (2 c)^2 of it, and the second-order term of its mean over the disc is r^2 / 8 times that:
-// r^2 / (32 c^2). Where surfaces are so near that this says little, half of the light may be wrong.
-double error_of_disc(double radius, double clearance) {
-  constexpr double kMost = 0.5;
-  const double ratio = radius / clearance;
-  return std::min(ratio * ratio / 32, kMost);
-}
-
-// Mean squared error of discs with `reach` of `photons` photons, beside their noise.
-double bias_of_discs(const RenderInput& input, const std::vector<VisiblePoint>& points,
-                     const photon::IrradianceTree& pilot, double photons, double reach) {
-  constexpr size_t kEach = 4;
-  std::vector<double> squared((points.size() + kEach - 1) / kEach);
-  parallel::for_index(size_t{0}, squared.size(), [&](size_t i) {
-    Sampler sampler(hash_combine(input.settings.seed, kClearanceStream), i);
-    const VisiblePoint& x = points[kEach * i];
-    const double density = photons / double(kPilotPhotons) * pilot.at(x.query.p, x.query.n).density();
-    const double radius = density > 0 ? std::sqrt(reach / (double(kPi) * density)) : HUGE_VAL;
-    const double error = error_of_disc(radius, clearance_at(input, x, sampler));
-    squared[i] = std::isnan(error) ? 0 : error * error;
-  });
-  double sum = 0;
-  for (const double s : squared) sum += s / double(squared.size());
-  return sum;
 }
 
 // Median radiance of the points, were they white.
@@ -132,7 +91,7 @@ std::vector<SourceOfLight> sources_of(const RenderInput& input, const photon::Tr
   uint32_t index = ~0u;
   for (const PilotPhotons::Left& l : pilot.left) {
     if (l.kind == PhotonKind::kCaustic)
-      radiance = double(radiance_of_start(input, trace, split, l.index)), index = l.index;
+      radiance = double(radiance_of_source(input, trace, pilot, split, l.index)), index = l.index;
     const double E = std::max(double(light.at(l.photon.p, l.photon.n).irradiance()), least);
     const double share = E > 0 ? double(visible.at(l.photon)) * double(luminance(l.photon.flux)) / E : 0;
     all += share;
@@ -145,42 +104,107 @@ std::vector<SourceOfLight> sources_of(const RenderInput& input, const photon::Tr
   return sources;
 }
 
+// Share of the indirect photons that are left, of those that the sources would send if photons carried all.
+double stored_share(const std::vector<SourceOfLight>& sources, const photon::SourceSplit& split) {
+  double stored = 0, all = 0;
+  for (const SourceOfLight& s : sources)
+    if (s.indirect) ++all, stored += double(split.share_of(float(s.radiance)));
+  return all > 0 ? stored / all : 1;
+}
+
 // Predicted squared errors of the light that photons and paths may divide.
 struct Errors {
   double of_paths = 0, of_photons = 0, of_both = 0;
 };
 
-Errors predicted_errors(const std::vector<SourceOfLight>& sources, double samples, double b) {
+// all: squared error of discs if photons carried all light, b: with the shares that they have.
+Errors predicted_errors(const std::vector<SourceOfLight>& sources, double samples, double all, double b) {
   Errors errors;
   for (const SourceOfLight& s : sources) {
     const double a = s.contrast / samples;
     const bool only_photons = std::isinf(a);
-    errors.of_photons += s.share * b;
+    errors.of_photons += s.share * all;
     errors.of_paths += s.share * (only_photons ? b : a);
     errors.of_both += s.share * (only_photons ? b : a * b / (a + b));
   }
   return errors;
 }
 
-// Gives all light to photons or to paths where dividing it is not worth the time of both. starved: photons
-// tell too little. Returns the squared error of the choice.
-double choose_balance(const Errors& errors, bool starved, photon::SourceSplit* split) {
-  const double of_better = std::min(errors.of_paths, errors.of_photons);
-  if (!starved && errors.of_both <= kWorthBoth * of_better) return errors.of_both;
-  const bool paths = starved || errors.of_paths < errors.of_photons;
+// Divides the light so that the error is least. Where fewer photons are left, discs are wider and photons are
+// worth less, so a few steps are taken towards the balance.
+Errors balance(const std::vector<SourceOfLight>& sources, const DiscError& discs, double samples,
+               double typical, photon::SourceSplit* split) {
+  constexpr int kSteps = 4;
+  const double all = discs.of(1);
+  double b = all;
+  for (int i = 0; i < kSteps; ++i) {
+    split->set_balance(float(b * samples * typical));
+    b = discs.of(stored_share(sources, *split));
+  }
+  return predicted_errors(sources, samples, all, b);
+}
+
+// The time that samples and photons take, as multiples of that of the samples' paths.
+struct Costs {
+  double gathers = 0, photons = 0;
+};
+
+// rays: of a photon.
+Costs costs_of(const RenderInput& input, double rays) {
+  // Measured in furnished rooms: a sample's gathers take one and a half to four times as long as its path of
+  // some eight rays; photons travel in packets.
+  constexpr double kGathers = 2, kRaysOfPath = 8, kPhotonRay = 1.0 / 3;
+  const Camera& camera = input.scene.camera;
+  const double samples = double(camera.width) * double(camera.height) * double(input.settings.spp);
+  return {kGathers, kPhotonRay * rays * double(input.settings.photons) / (kRaysOfPath * samples)};
+}
+
+// Gives all light to photons or to paths where dividing it is not worth the time of both. needed: photons
+// carry light that paths do not find. starved: photons tell too little. Returns the squared error of the
+// choice.
+double choose_balance(const Errors& errors, const Costs& costs, bool needed, bool starved,
+                      photon::SourceSplit* split) {
+  const double by_photons = costs.gathers + costs.photons;
+  const double of_paths = errors.of_paths * (needed ? 1 + by_photons : 1);
+  const double of_photons = errors.of_photons * by_photons, of_both = errors.of_both * (1 + by_photons);
+  if (!starved && of_both <= kWorthBoth * std::min(of_paths, of_photons)) return errors.of_both;
+  const bool paths = starved || of_paths < of_photons;
   split->set_balance(paths ? kInfinity : 0);
   return paths ? errors.of_paths : errors.of_photons;
 }
 
-LearnedSplit learned_from(const std::vector<SourceOfLight>& sources, photon::SourceSplit&& split) {
-  LearnedSplit learned{.sources = std::move(split), .photons = false};
-  double stored = 0, all = 0;
+double indirect_share(const std::vector<SourceOfLight>& sources) {
+  double share = 0;
+  for (const SourceOfLight& s : sources) share += s.indirect ? s.share : 0;
+  return share;
+}
+
+// Whether photons carry light that paths do not find.
+bool needs_photons(const std::vector<SourceOfLight>& sources) {
+  return std::ranges::any_of(sources, [](const SourceOfLight& s) { return std::isinf(s.contrast); });
+}
+
+// Squared noise of what paths bring.
+double noise_of_paths(const std::vector<SourceOfLight>& sources, const photon::SourceSplit& split,
+                      double samples) {
+  double noise = 0;
   for (const SourceOfLight& s : sources) {
-    const float w = learned.sources.share_of(float(s.radiance));
-    learned.photons |= w > 0;
-    if (s.indirect) ++all, stored += double(w);
+    const double w = double(split.share_of(float(s.radiance)));
+    if (w < 1) noise += s.share * (1 - w) * (1 - w) * s.contrast / samples;
   }
-  if (all > 0) learned.stored = stored / all;
+  return noise;
+}
+
+LearnedSplit learned_from(const RenderInput& input, const std::vector<SourceOfLight>& sources, double samples,
+                          double error, photon::SourceSplit&& split) {
+  LearnedSplit learned{.sources = std::move(split), .error = error};
+  learned.stored = stored_share(sources, learned.sources);
+  learned.noise = noise_of_paths(sources, learned.sources, samples);
+  learned.light = std::ranges::any_of(
+      sources, [&](const SourceOfLight& s) { return learned.sources.share_of(float(s.radiance)) > 0; });
+  // Photons may meet small mirrors and glass later.
+  const bool may_meet = input.scene.needs.specular && std::ranges::any_of(input.scene.lights, is_delta);
+  learned.photons = learned.light || may_meet;
   return learned;
 }
 
@@ -201,23 +225,19 @@ std::unique_ptr<const LearnedSplit> learn_split(const RenderInput& input,
   const Bounds3& bounds = input.scene.bounds;
   const photon::IrradianceTree light(pilot.of([](PhotonKind) { return true; }), bounds);
   const double typical = typical_radiance(points, light);
-  const double photons = double(input.settings.photons);
-  const double reach =
-      photons_in_reach_of_indirect(photons / double(kPilotPhotons) * double(indirect.size()));
-  const double bias = bias_of_discs(input, points, photon::IrradianceTree(indirect, bounds), photons, reach);
-  const double b = 1 / reach + bias, samples = kPixels * double(input.settings.spp);
-  photon::SourceSplit split(input.scene, firsts, float(b * samples * typical));
+  const double each = double(input.settings.photons) / double(kPilotPhotons);
+  const DiscError discs(input, points, photon::IrradianceTree(indirect, bounds),
+                        each * double(indirect.size()), each);
+  photon::SourceSplit split(input.scene, firsts, 0);
   const std::vector<SourceOfLight> sources =
       sources_of(input, trace, pilot, visible, light, double(kPi) * typical / 2, split);
-  const Errors errors = predicted_errors(sources, samples, b);
-  double of_indirect = 0;
-  for (const SourceOfLight& s : sources) of_indirect += s.indirect ? s.share : 0;
-  const double error = choose_balance(errors, seen < kStarved && of_indirect > kMuchLight, &split);
-  LearnedSplit learned = learned_from(sources, std::move(split));
-  if (errors.of_paths > 0) learned.error = error / errors.of_paths;
-  // Photons may meet small mirrors and glass later.
-  learned.photons |= input.scene.needs.specular && std::ranges::any_of(input.scene.lights, is_delta);
-  return std::make_unique<const LearnedSplit>(std::move(learned));
+  const double samples = kPixels * double(input.settings.spp);
+  const Errors errors = balance(sources, discs, samples, typical, &split);
+  const Costs costs = costs_of(input, double(pilot.counters.rays) / double(kPilotPhotons));
+  const bool starved = seen < kStarved && indirect_share(sources) > kMuchLight;
+  const double error = choose_balance(errors, costs, needs_photons(sources), starved, &split);
+  return std::make_unique<const LearnedSplit>(learned_from(
+      input, sources, samples, errors.of_paths > 0 ? error / errors.of_paths : 1, std::move(split)));
 }
 
 }  // namespace kaustik::render

@@ -12,9 +12,12 @@ namespace kaustik::render {
 // The shares of photons in all sources, and what they lead to.
 struct LearnedSplit {
   photon::SourceSplit sources;
-  bool photons = true;  // whether photons have anything to do
+  bool photons = true;  // whether photons may have anything to do
+  bool light = true;    // whether they bring some of the light that the few photons show
   // Share of the indirect photons that are left, of those that sources would send if photons carried all.
   double stored = 1;
+  // Predicted squared noise of the paths' share of the light, over 64 pixels.
+  double noise = 0;
   // Predicted squared error, as a multiple of that of paths alone with as many samples.
   double error = 1;
 };

@@ -42,11 +42,14 @@ std::vector<VisiblePoint> points_in_media(const RenderInput& input) {
 // Learns a guide for one kind, which depends on scene and settings alone. Indirect photons lie wherever there
 // is light, even outside a room, so those near visible points count most.
 std::unique_ptr<const photon::LearnedGuide> learn_guide(const RenderInput& input, PhotonKind kind,
+                                                        const photon::SourceSplit* split,
                                                         bool beside_others) {
   constexpr uint32_t kPoints = 1u << 14;
   const RenderSettings& s = input.settings;
   photon::GuideSettings guide{s.seed, s.photons, s.max_bounces, s.emission, kind};
   guide.under_glossy = input.plan.glossy_tails;
+  guide.split = split;
+  guide.split_caustics = input.plan.caustics == CausticEstimator::kSplit;
   if (beside_others) guide.enough = kEnoughCaustics;
   std::optional<VisibleDensity> visible, in_media;
   if (kind == PhotonKind::kIndirect) {
@@ -169,7 +172,8 @@ void learn_sources(const RenderInput& input, PhotonGuides* guides) {
   if (splits && !guides->split) guides->split = learn_split(input, nullptr);
   if (guides->split && !guides->split->photons) return;
   const bool guided = input.settings.guide == Guide::kOn && kinds.indirect;
-  if (guided && !guides->indirect) guides->indirect = learn_guide(input, PhotonKind::kIndirect, false);
+  if (guided && !guides->indirect)
+    guides->indirect = learn_guide(input, PhotonKind::kIndirect, nullptr, false);
   const photon::EmissionGuide none;
   if (splits && !guides->split)
     guides->split = learn_split(input, guides->indirect ? &guides->indirect->guide : &none);
@@ -212,7 +216,8 @@ void learn_guides(const RenderInput& input, PhotonGuides* guides, RenderStatisti
   if (input.settings.guide == Guide::kOn && kinds.caustic && !only_paths && !guides->caustic) {
     const bool uniform_indirect = kinds.indirect && (!guides->indirect || guides->indirect->guide.empty());
     const bool beside_others = uniform_indirect || kinds.direct || kinds.shadow;
-    guides->caustic = learn_guide(input, PhotonKind::kCaustic, beside_others);
+    const photon::SourceSplit* split = guides->split ? &guides->split->sources : nullptr;
+    guides->caustic = learn_guide(input, PhotonKind::kCaustic, split, beside_others);
   }
   learn_counts(input, guides);
   statistics->guide_photons = statistics->guide_hits = statistics->guide_boxes = 0;

@@ -15,6 +15,8 @@ struct PilotPhotons {
     uint32_t index;
   };
   std::vector<Left> left;  // in the order of the photons' indices, those of one index in that of its path
+  // By index, what meet_source() of the tracer's sink receives; NaN where it receives nothing.
+  std::vector<float> glossy_radiance;
   photon::TraceCounters counters;
 
   std::vector<photon::Photon> of(auto&& wanted) const {

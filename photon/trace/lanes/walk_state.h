@@ -36,9 +36,8 @@ class WalkState {
   }
   uint32_t part() const { return bits_ / kPart % kParts; }
   bool is_divided() const { return bits_ & kDivided; }
-  // The state of a photon that carries what its light sends through specular surfaces
-  // (SourceSplit::of_light).
-  WalkState carrier() const { return WalkState(bits_ | kCarrier); }
+  // Whether the photon carries what its light sends through specular surfaces (SourceSplit::of_light).
+  WalkState carrier(bool carries) const { return WalkState(carries ? bits_ | kCarrier : bits_ & ~kCarrier); }
   bool is_carrier() const { return bits_ & kCarrier; }
   // The state of what dispersive glass refracts.
   WalkState dispersed() const { return WalkState(bits_ | kDispersed); }

@@ -122,6 +122,28 @@ TEST(SourceSplit, LeavesWhatNoRayHitsToPhotons) {
   EXPECT_EQ(all.caustic, divided.caustic);
 }
 
+// Paths find what a glossy surface makes of a point lamp, by their light samples there, although no ray hits
+// the lamp. About half of it has a radiance of more than 0.3.
+TEST(SourceSplit, DividesLightOfGlossySurfaces) {
+  Scene scene = cornell(16);
+  scene.lights = {PointLight{{0.1f, 1.5f, 0}, Rgb(1)}};
+  const uint32_t metal = add_material(scene, Conductor{Rgb(0.2f), Rgb(4), {0.2f, 0.2f}});
+  const uint32_t coated =
+      add_material(scene, CoatedDiffuse::from_reflectance(Rgb(0.3f), 1.5f, {0.25f, 0.25f}));
+  for (Shape& shape : scene.shapes) {
+    shape.light = kNoIndex;
+    if (std::holds_alternative<Sphere>(shape.geometry)) shape.material = shape.material % 2 ? metal : coated;
+  }
+  finalize_scene(scene);
+  const accel::Bvh bvh(scene);
+  const FluxOnFloor all = shoot(scene, bvh, nullptr);
+  const LearnedSplit split{.sources = {scene, firsts_of(scene, bvh), 0.3f}};
+  const FluxOnFloor photons = shoot(scene, bvh, &split.sources),
+                    paths = trace_paths_to_floor(scene, bvh, split);
+  expect_equal(all.caustic, photons.caustic, paths.caustic);
+  expect_equal(all.indirect, photons.indirect, paths.indirect);
+}
+
 // A photon of 1 W in each of 64 x 64 places of a floor of 1 m^2 is an irradiance of 4096 W/m^2 from above.
 TEST(IrradianceTree, TellsTheTwoSidesOfAWallApart) {
   std::vector<Photon> photons;

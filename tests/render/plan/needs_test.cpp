@@ -65,7 +65,9 @@ TEST(Needs, IndirectOffTracesNoBounce) {
     RenderSettings settings;
     settings.method = method;
     settings.indirect = IndirectEstimator::kOff;
-    if (method == Method::kMc) settings.caustics = CausticEstimator::kOff;  // its caustic paths bounce, too
+    // Caustic paths bounce, too.
+    if (method == Method::kMc) settings.caustics = CausticEstimator::kOff;
+    if (method == Method::kAuto) settings.caustics = CausticEstimator::kPhotons;
     const RenderStatistics s = statistics_of(cornell(16), settings);
     EXPECT_EQ(s.rays.bounce, 0u) << name_of(method);
     EXPECT_EQ(stored(s, PhotonKind::kIndirect), 0u) << name_of(method);
