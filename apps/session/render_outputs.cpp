@@ -68,7 +68,8 @@ void warn_of_starved_map(const render::RenderResult& result, const Console& cons
   constexpr uint64_t kFew = 16 * 200;
   constexpr uint64_t kLost = 64;  // emitted photons for each that was stored
   const render::RenderStatistics& s = result.statistics;
-  if (!render::reads_indirect_photons(result.plan)) return;
+  // Where light is divided, paths bring what few photons tell little about.
+  if (result.plan.indirect != render::IndirectEstimator::kPhotons) return;
   const size_t kind = size_t(photon::PhotonKind::kIndirect);
   const uint64_t stored = s.photons.stored[kind] + s.guided.stored[kind];
   const uint64_t emitted = s.photons.emitted + s.guided.emitted;

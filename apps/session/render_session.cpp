@@ -85,9 +85,13 @@ FilledTime run_trials(Job& job, const RenderSession& session, const accel::Bvh& 
   if (!session.settle_sources) return {};
   const auto explored = std::make_shared<render::ExploredScene>();
   explored->guides = std::make_unique<render::PhotonGuides>();
+  const int asked = job.settings.render.spp;
   const std::string sources = settle_sources(job.scene, bvh, &job.settings.render, explored->guides.get());
   if (!sources.empty())
     console.note(fmt::format("light is not divided between photons and paths: rendered with{}", sources));
+  if (job.settings.render.spp > asked)
+    console.note(fmt::format("paths bring what photons would, with more noise: rendered with --spp {}",
+                             job.settings.render.spp));
   return {.explored = explored};
 }
 
@@ -258,6 +262,7 @@ void settle_session(const SettingOverrides& given, const Console& console, Job* 
   if (session->fill_time) return;
   settle_error_settings(console, job->scene.needs, &settings);
   session->settle_sources = !session->maps.any();
+  if (settings.stop.any()) settings.render.sample_balance = render::Balance::kOff;
   if (session->maps.any()) {  // photons that carry all light serve any number of samples
     const render::EstimatorPlan plan = render::make_plan(settings.render, job->scene.needs);
     settings.render = with_photons(settings.render, plan);

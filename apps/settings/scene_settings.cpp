@@ -222,6 +222,7 @@ void apply_quality(const Directive& integrator, SceneSettings& out, DiagnosticLi
 void apply_integrator(const Directive& integrator, SceneSettings& out, DiagnosticList& diagnostics) {
   if (integrator.type == "photonmap") {
     if (integrator.find("photons")) out.settings.render.balance = render::Balance::kOff;
+    if (integrator.find("spp")) out.settings.render.sample_balance = render::Balance::kOff;
     for (const Parameter& parameter : integrator.parameters) {
       if (parameter.name != "quality") assign_parameter(parameter, out.settings, diagnostics);
     }
@@ -234,7 +235,9 @@ void apply_integrator(const Directive& integrator, SceneSettings& out, Diagnosti
   }
 }
 
+// A file that asks for more samples than the preset gets exactly these.
 void apply_sampler(const Directive& sampler, Settings& settings, DiagnosticList& diagnostics) {
+  const int preset = settings.render.spp;
   forward(sampler, "pixelsamples", "spp", settings, diagnostics);
   const std::optional<double> x = number_of(sampler, "xsamples", diagnostics);
   const std::optional<double> y = number_of(sampler, "ysamples", diagnostics);
@@ -244,6 +247,7 @@ void apply_sampler(const Directive& sampler, Settings& settings, DiagnosticList&
       diagnostics.error(sampler.type_location, fmt::format("samples {}", *complaint));
     }
   }
+  if (settings.render.spp > preset) settings.render.sample_balance = render::Balance::kOff;
 }
 
 // Reads one side of the image in pixels.

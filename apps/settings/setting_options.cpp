@@ -57,6 +57,7 @@ void SettingOverrides::apply(Settings& settings) const {
   };
   assign(true);
   if (sets("photons")) settings.render.balance = render::Balance::kOff;
+  if (sets("spp")) settings.render.sample_balance = render::Balance::kOff;
   assign(false);
   if (!root_.empty()) settings.import_options.root = root_;
 }

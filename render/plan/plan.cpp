@@ -79,9 +79,11 @@ void leave_out(const RenderSettings& settings, const SceneNeeds& needs, Estimato
 // Media follow the estimators of surfaces.
 void choose_for_media(const SceneNeeds& needs, EstimatorPlan* plan) {
   if (!needs.scattering) return;
-  // Photons carry all light in media, so they do so everywhere.
+  // Light in media is not divided. Paths take less time to the same error, as gathers along rays are dear;
+  // but they lack caustics of lights that no ray can hit.
   if (plan->caustics == Caustic::kSplit) plan->caustics = Caustic::kPhotons;
-  if (plan->indirect == Indirect::kSplit) plan->indirect = Indirect::kPhotons;
+  if (plan->indirect == Indirect::kSplit)
+    plan->indirect = needs.specular ? Indirect::kPhotons : Indirect::kPaths;
   plan->medium_caustics = plan->caustics == Caustic::kPhotons;
   plan->medium_indirect = reads_indirect_photons(*plan);
   plan->notes.push_back(

@@ -18,7 +18,8 @@ enum class CausticEstimator { kPhotons, kPaths, kSplit, kOff };
 enum class IndirectEstimator { kPaths, kPhotons, kSplit, kOff };
 using Kernel = photon::KernelType;
 enum class Lookup { kExact, kLeaf };
-// Whether caustic and indirect photons are as many as few of them tell is worth their time.
+// Whether caustic and indirect photons are as many as few of them tell is worth their time, and samples as
+// many as the noise of paths asks for.
 enum class Balance { kOff, kOn };
 enum class Guide { kOff, kOn };  // whether caustic and indirect photons are guided
 // The cameras for which photons are guided and radii chosen: the one of the render, or any in the scene.
@@ -53,7 +54,8 @@ struct RenderSettings {
   Guide guide = Guide::kOn;
   ForCamera for_camera = ForCamera::kThis;
   int max_bounces = 16;
-  int spp = 16;  // samples per pixel, before adaptive ones
+  int spp = 16;                            // samples per pixel, before adaptive ones
+  Balance sample_balance = Balance::kOff;  // kOn: spp is multiplied where paths bring what photons would
   // Work that adaptive samples may add, as a fraction of that of the first spp; 0: none. The default was
   // measured (docs/decisions/009-adaptive-samples.md).
   float adaptive = 0.75f;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "render/settings/names.h"
 
@@ -21,9 +23,7 @@ render::RenderSettings with_paths(render::RenderSettings settings, const render:
                                   const Scene& scene) {
   if (settings.method != render::Method::kAuto) return settings;
   const bool hits_all = std::ranges::none_of(scene.lights, is_delta);
-  const bool split_caustics = plan.caustics == CausticEstimator::kSplit;
-  if (!settings.indirect && reads_indirect_photons(plan) && (hits_all || !split_caustics))
-    settings.indirect = IndirectEstimator::kPaths;
+  if (!settings.indirect && reads_indirect_photons(plan)) settings.indirect = IndirectEstimator::kPaths;
   if (!settings.caustics && reads_caustic_photons(plan) && hits_all)
     settings.caustics = CausticEstimator::kPaths;
   return settings;
@@ -38,19 +38,44 @@ std::string options_of(const render::RenderSettings& settings, const render::Ren
   return options;
 }
 
+namespace {
+
+// Multiplies the samples if they may be. noise: squared, of as many as are set, over 64 pixels.
+void balance_samples(double noise, render::RenderSettings* settings) {
+  // 8 samples are enough for light of which they leave this squared noise.
+  constexpr double kEven = 0.003, kSamples = 8, kMost = 16;
+  constexpr int kEnough = 1024;
+  if (std::exchange(settings->sample_balance, render::Balance::kOff) == render::Balance::kOff) return;
+  const double factor = std::clamp(noise * settings->spp / (kEven * kSamples), 1.0, kMost);
+  // Numbers of samples that are powers of two are distributed best, and presets have such.
+  for (long n = std::lround(std::log2(factor)); n > 0 && 2 * settings->spp <= kEnough; --n)
+    settings->spp *= 2;
+}
+
+}  // namespace
+
 std::string settle_sources(const Scene& scene, const accel::Bvh& bvh, render::RenderSettings* settings,
-                           render::PhotonGuides* guides, double* error) {
+                           render::PhotonGuides* guides, PhotonWorth* worth) {
   const render::EstimatorPlan plan = render::make_plan(*settings, scene.needs);
-  if (!splits_sources(plan)) return {};
+  if (!splits_sources(plan)) {
+    // In media nothing tells the noise of paths, which is large.
+    if (settings->method == render::Method::kAuto && plan.indirect == IndirectEstimator::kPaths &&
+        scene.needs.scattering)
+      balance_samples(HUGE_VAL, settings);
+    return {};
+  }
   render::PhotonGuides learned;
   render::learn_sources({scene, bvh, *settings, plan}, &learned);
-  if (error) *error = learned.split->error;
+  if (worth) *worth = {learned.split->error, learned.split->light};
   const bool photons = learned.split->photons, paths = learned.split->sources.leaves_to_paths();
   const render::RenderSettings given = *settings;
+  balance_samples(learned.split->noise, settings);
   if (!paths || !photons) {
-    *settings = paths ? with_paths(given, plan, scene) : with_photons(given, plan);
+    *settings = paths ? with_paths(*settings, plan, scene) : with_photons(*settings, plan);
     learned.split = nullptr;
   }
+  // Who learns the division later knows the new number alone.
+  if (settings->spp != given.spp) learned.split = nullptr;
   if (guides && photons) *guides = std::move(learned);
   return options_of(*settings, given);
 }

@@ -104,6 +104,7 @@ class TimePlan {
     if (before < total_.seconds() && may_take_paths()) return take_paths();
     settle_sources();
     if (!gathers_) return settle_by_trials();
+    if (!worth_.light) return few_photons();
     render::PassPhotons(explored_).explore(input(), progress_);
     return explored_->seconds > kHurry * before ? hurry() : settle_by_trials();
   }
@@ -176,7 +177,7 @@ class TimePlan {
     const render::RenderInput input{scene_, bvh_, by_paths, plan};
     const double of_path = render::try_one_sample(input, kSampleTrial / 3 * seconds_, maps);
     const double all = photons.each * double(given_.photons) + sample * given_.spp;
-    return error_ * all > of_path * given_.spp;
+    return worth_.error * all > of_path * given_.spp;
   }
 
   render::RenderSettings settings_of_paths() const {
@@ -189,15 +190,23 @@ class TimePlan {
   FilledTime take_paths(const char* because = kNoTimeForMaps) {
     adopt(settings_of_paths());
     sources_ = options_of(render_, given_);
+    FilledTime filled = few_photons();
+    filled.sources_because = because;
+    return filled;
+  }
+
+  // Passes of one sample, with photons that look for the little light that paths may miss.
+  FilledTime few_photons() {
     render_.photons = kErrorPasses * fewest_photons();
     set_passes(1);
-    return {.explored = explored_, .sources = sources_, .sources_because = because};
+    return {.explored = explored_, .sources = sources_};
   }
 
   // Names photons or paths where one of them does as well alone.
   void settle_sources() {
     render::RenderSettings settled = render_;
-    sources_ = app::settle_sources(scene_, bvh_, &settled, nullptr, &error_);
+    settled.sample_balance = render::Balance::kOff;
+    sources_ = app::settle_sources(scene_, bvh_, &settled, nullptr, &worth_);
     adopt(settled);
   }
 
@@ -219,11 +228,17 @@ class TimePlan {
 
   bool adaptive_samples() const { return render_.adaptive > 0 && !render::traces_paths(plan_); }
 
-  // Whether the time is filled by passes. Paths alone share nothing that a single pass would make once.
+  bool paths_bring_indirect() const {
+    return plan_.indirect == render::IndirectEstimator::kPaths || !worth_.light;
+  }
+
+  // Whether the time is filled by passes. Paths alone share nothing that a single pass would make once, and
+  // where they bring all indirect light, they have most of the time.
   bool takes_passes(double one_sample, double share) const {
     if (!gathers_) return true;
     const double each = one_sample * (adaptive_samples() ? 1 + double(render_.adaptive) : 1);
-    return seconds_ > kLongPass && each * kManySamples < (1 - share) * left();
+    const int samples = paths_bring_indirect() ? int(kErrorPasses) : kManySamples;
+    return seconds_ > kLongPass && each * samples < (1 - share) * left();
   }
 
   // The adaptive samples that fit by the time that samples took so far. Rounded down to hundredths, so that
@@ -287,7 +302,7 @@ class TimePlan {
   render::RenderSettings given_ = render_;
   render::EstimatorPlan divided_ = plan_;
   std::string sources_;  // the options that name photons or paths
-  double error_ = 0;     // of what was chosen, as a multiple of that of paths with as many samples
+  PhotonWorth worth_;    // of what was chosen
   std::shared_ptr<render::ExploredScene> explored_ = std::make_shared<render::ExploredScene>();
 };
 

@@ -22,8 +22,9 @@ std::string described(const QualityPreset& preset) {
 std::string explanation() {
   std::vector<std::string> presets;
   for (const QualityPreset& preset : kQualityPresets) presets.push_back(described(preset));
-  return fmt::format("Preset of --photons, --balance-photons (on), --spp and --passes. {}.",
-                     fmt::join(presets, "; "));
+  return fmt::format(
+      "Preset of --photons, --spp, --passes, --balance-photons (on) and --balance-samples (on). {}.",
+      fmt::join(presets, "; "));
 }
 
 }  // namespace
@@ -48,6 +49,7 @@ Setting quality_setting() {
     settings.render.photons = preset->photons;
     settings.render.balance = render::Balance::kOn;
     settings.render.spp = preset->spp;
+    settings.render.sample_balance = render::Balance::kOn;
     settings.render.passes = preset->passes;
     return std::nullopt;
   };

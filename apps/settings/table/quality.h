@@ -19,8 +19,9 @@ inline constexpr std::array<QualityPreset, 4> kQualityPresets = {{{"draft", 500'
                                                                   {"high", 16'000'000, 32, 0},
                                                                   {"reference", 64'000'000, 1024, 64}}};
 
-// Assigning it replaces photons, their balance, spp and passes. Callers assign the quality before other
-// settings from the same source, so that explicit values win (SettingOverrides::apply, settings_from_scene).
+// Assigning it replaces photons, spp, the balance of both, and passes. Callers assign the quality before
+// other settings from the same source, so that explicit values win (SettingOverrides::apply,
+// settings_from_scene).
 Setting quality_setting();
 
 }  // namespace kaustik::app

@@ -30,6 +30,7 @@ inline render::RenderSettings medium_quality() {
   settings.photons = 4'000'000;
   settings.balance = render::Balance::kOn;
   settings.spp = 8;
+  settings.sample_balance = render::Balance::kOn;
   return settings;
 }
 

@@ -288,7 +288,15 @@ Setting memory_setting() {
 
 void add_image(std::vector<Setting>& table) {
   table.push_back(count("spp", kRenderAndBench, "samples", &RenderSettings::spp, 1, kMaxInt, {},
-                        "Camera samples per pixel."));
+                        "Camera samples per pixel. With --balance-samples on, which is the default where no "
+                        "number is given: at least these."));
+  table.push_back(choice<render::Balance>(
+      "balance-samples", kRenderingCommands, &RenderSettings::sample_balance, render::kBalanceNames,
+      "on; off with --spp, or with a file that asks for more samples than --quality",
+      "on: up to 16 times --spp, but not beyond 1,024, where paths bring what photons would, as far as few "
+      "photons tell that the "
+      "paths "
+      "are noisy; not with --time or --target-error. off: --spp."));
   table.push_back(adaptive_setting());
   table.back().reader = SettingReader::kAdaptiveSamples;
   table.push_back(count("seed", kAllThatTrace, {}, &RenderSettings::seed, 0, kMaxUint64, {},

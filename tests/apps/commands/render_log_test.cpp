@@ -44,6 +44,37 @@ TEST_F(RenderLog, NamesTheRadiusOfEachMap) {
   EXPECT_THAT(log_of({"--method", "raytrace"}), Not(HasSubstr("gather radius")));
 }
 
+// In fog without glass or mirrors paths bring all light: 16 times the samples of the preset, but the exact
+// number where somebody gave one. A resumed render goes on with the same.
+TEST_F(RenderLog, TellsHowManySamplesPathsTake) {
+  const auto samples = [&](const std::string& lines, const std::vector<std::string>& more) {
+    const std::string scene =
+        write("fog.pbrt",
+              "LookAt 0 2 6  0 0.5 0  0 1 0\nCamera \"perspective\"\n" + film(8, 8) + "\n" + lines +
+                  "\nMakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [0.1 0.1 0.1]\n"
+                  "MediumInterface \"\" \"fog\"\nWorldBegin\nLightSource \"point\" \"rgb I\" [9 9 9]\n"
+                  "Material \"diffuse\"\nTranslate 0 -1 0\nRotate -90 1 0 0\n"
+                  "Shape \"disk\" \"float radius\" 3\n");
+    std::vector<std::string> words = {"render", scene, "--stats", path("fog.json"), "-o", path("fog.exr")};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run_kaustik(words);
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    const int spp = nlohmann::json::parse(read("fog.json"))["settings"]["spp"];
+    const std::string told = "with more noise: rendered with --spp " + std::to_string(spp);
+    EXPECT_EQ(outcome.err.find(told) != outcome.err.npos, spp == 128) << outcome.err;
+    return spp;
+  };
+  EXPECT_EQ(samples("", {}), 128);
+  EXPECT_EQ(samples("", {"--spp", "8"}), 8);
+  EXPECT_EQ(samples("", {"--balance-samples", "off"}), 8);
+  EXPECT_EQ(samples("Sampler \"sobol\" \"integer pixelsamples\" 10", {}), 10);
+  EXPECT_EQ(samples("", {"--checkpoint", path("fog.kpart"), "--passes", "2"}), 128);
+  const Outcome more = run_kaustik(
+      {"resume", path("fog.kpart"), "--passes", "3", "--stats", path("more.json"), "-o", path("more.exr")});
+  EXPECT_EQ(more.code, kDone) << more.err;
+  EXPECT_EQ(nlohmann::json::parse(read("more.json"))["settings"]["spp"], 128);
+}
+
 TEST_F(RenderLog, SecondsOfPhasesAddUpToTheTotal) {
   const std::string log = log_of({});
   const size_t line = log.find("seconds: ");

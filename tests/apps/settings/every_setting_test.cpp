@@ -93,6 +93,7 @@ TEST(EverySetting, IsAParameterOfTheSceneFileUnlessItDecidesHowThatIsRead) {
     Settings expected;
     if (setting.in_scene_files) setting.assign(expected, texts);
     if (setting.name == "photons") expected.render.balance = render::Balance::kOff;  // just as many
+    if (setting.name == "spp") expected.render.sample_balance = render::Balance::kOff;
     EXPECT_EQ(shown(scene.settings), shown(expected)) << setting.name;
   }
 }

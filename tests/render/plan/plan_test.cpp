@@ -94,6 +94,17 @@ TEST(Plan, PathsFindWhatMediaEmit) {
   EXPECT_EQ(make_plan(settings, needs).indirect, Indirect::kOff);
 }
 
+// Paths have all light of fog, unless glass or mirrors make caustics there.
+TEST(Plan, PathsBringTheLightOfMedia) {
+  SceneNeeds needs = needs_of(false);
+  needs.media = needs.scattering = true;
+  EXPECT_EQ(make_plan({}, needs).indirect, Indirect::kPaths);
+  EXPECT_FALSE(kinds_needed(make_plan({}, needs)).any());
+  needs.specular = true;
+  EXPECT_EQ(make_plan({}, needs).indirect, Indirect::kPhotons);
+  EXPECT_TRUE(make_plan({}, needs).medium_caustics);
+}
+
 TEST(Plan, NoPhotonsWithoutDiffuseSurfaces) {
   SceneNeeds needs = needs_of(true);
   needs.diffuse = false;
