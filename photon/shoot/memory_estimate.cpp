@@ -12,6 +12,8 @@
 #include <string>
 
 #include "core/memory/memory_room.h"
+#include "core/parallel/parallel.h"
+#include "photon/trace/tracer.h"
 
 namespace kaustik::photon {
 
@@ -32,20 +34,46 @@ double most_stored(const TraceSettings& settings) {
 constexpr double kSegmentsOfCaustic = 4;
 
 // All photons that guided emission may leave.
-double most_guided(const TraceSettings& settings, uint64_t guided) {
-  return static_cast<double>(guided) * (settings.kinds.medium_caustic ? 1 + kSegmentsOfCaustic : 1);
+double most_guided(const TraceSettings& settings, const GuidedPhotons& guided) {
+  return static_cast<double>(guided.caustic) * (settings.kinds.medium_caustic ? 1 + kSegmentsOfCaustic : 1);
+}
+
+// Indirect photons that a photon leaves, of those that leave any; 1 if none does so.
+double indirect_of_each(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings) {
+  constexpr uint64_t kBlock = 1u << 12;
+  TraceSettings few = settings;
+  few.photons = kEstimatePhotons;
+  const SurfaceTable surfaces(scene);
+  std::vector<uint64_t> leave(kEstimatePhotons / kBlock), left(leave.size());
+  parallel::for_index(size_t{0}, leave.size(), [&](size_t block) {
+    const uint64_t first = block * kBlock;
+    std::vector<uint32_t> each(kBlock);
+    TraceCounters ignored;
+    const auto sink = [&](PhotonKind kind, const Photon&, uint64_t index) {
+      each[index - first] += kind == PhotonKind::kIndirect;
+    };
+    trace_photons(scene, surfaces, bvh, few, first, first + kBlock, sink, ignored);
+    for (const uint32_t n : each) leave[block] += n > 0, left[block] += n;
+  });
+  const auto some = static_cast<double>(std::reduce(leave.begin(), leave.end()));
+  return some > 0 ? static_cast<double>(std::reduce(left.begin(), left.end())) / some : 1;
 }
 
 // Includes the photons of guided emission: about one caustic photon each, apart from the few that a coat
-// reflects.
+// reflects, and as many indirect ones as if each photon came to where it leaves some.
 std::array<double, kPhotonKinds> estimate_all(const Scene& scene, const accel::Bvh& bvh,
-                                              const TraceSettings& settings, uint64_t guided) {
+                                              const TraceSettings& settings, const GuidedPhotons& guided) {
   auto stored = estimate_stored(scene, bvh, settings);
   double& caustic = stored[static_cast<size_t>(PhotonKind::kCaustic)];
-  caustic = std::max(caustic, static_cast<double>(guided));
+  caustic = std::max(caustic, static_cast<double>(guided.caustic));
+  if (guided.indirect && settings.kinds.indirect) {
+    double& indirect = stored[static_cast<size_t>(PhotonKind::kIndirect)];
+    const auto photons = static_cast<double>(settings.photons);
+    indirect = std::max(indirect, photons * indirect_of_each(scene, bvh, settings));
+  }
   if (settings.kinds.medium_caustic) {
     double& in_media = stored[static_cast<size_t>(PhotonKind::kMediumCaustic)];
-    in_media = std::max(in_media, kSegmentsOfCaustic * static_cast<double>(guided));
+    in_media = std::max(in_media, kSegmentsOfCaustic * static_cast<double>(guided.caustic));
     // The limits of photons_on_segments(): its result, from other photons than these, may be one more or
     // less.
     const double segments = in_media, photons = static_cast<double>(settings.photons);
@@ -94,12 +122,12 @@ double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use)
 }
 
 uint64_t forecast_bytes(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
-                        PhotonUse use, uint64_t guided) {
+                        PhotonUse use, const GuidedPhotons& guided) {
   return whole_bytes(peak_bytes(estimate_all(scene, bvh, settings, guided), use));
 }
 
 void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,
-                  uint64_t limit, uint64_t guided) {
+                  uint64_t limit, const GuidedPhotons& guided) {
   const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
   const double most = photons * most_stored(settings) + most_guided(settings, guided);
   if (most <= kMostInMap && peak_bytes({most}, use) <= bytes_limit) return;
@@ -122,7 +150,7 @@ void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings
 }
 
 uint64_t shoots_that_fit(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
-                         uint64_t limit, uint64_t guided) {
+                         uint64_t limit, const GuidedPhotons& guided) {
   const double photons = static_cast<double>(settings.photons), bytes_limit = static_cast<double>(limit);
   const double most = photons * most_stored(settings) + most_guided(settings, guided);
   if (most <= kMostInMap && peak_bytes({most}, PhotonUse::kMaps) <= bytes_limit) return 1;

@@ -18,24 +18,29 @@ inline constexpr uint64_t kEstimatePhotons = 1u << 16;
 std::array<double, kPhotonKinds> estimate_stored(const Scene& scene, const accel::Bvh& bvh,
                                                  const TraceSettings& settings);
 
+// What guided emission may leave in place of a shoot's photons.
+struct GuidedPhotons {
+  uint64_t caustic = 0;
+  bool indirect = false;  // whether each photon may start where it leaves indirect ones
+};
+
 // Peak memory in bytes for this many stored photons of each kind.
 double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use);
 
-// Peak memory in bytes of a shoot, from a small one. guided: caustic photons that guided emission may leave
-// in place of this shoot's.
+// Peak memory in bytes of a shoot, from a small one.
 uint64_t forecast_bytes(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
-                        PhotonUse use, uint64_t guided = 0);
+                        PhotonUse use, const GuidedPhotons& guided = {});
 
 // Throws std::runtime_error when the photons will need more than `limit` bytes, or when a map would hold more
 // than it can index; the message says how much, and how many photons to emit at most. Traces the small shoot
-// only if the upper bound of stored photons does not fit. guided: see forecast_bytes().
+// only if the upper bound of stored photons does not fit.
 void check_memory(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings, PhotonUse use,
-                  uint64_t limit, uint64_t guided = 0);
+                  uint64_t limit, const GuidedPhotons& guided = {});
 
 // Returns the smallest number of shoots, of equal shares of settings.photons, such that the maps of each need
-// at most `limit` bytes. guided is that of check_memory(), divided among the shoots too. Throws
-// std::runtime_error when there is no such number, because a single photon needs more.
+// at most `limit` bytes. Guided photons are divided among the shoots, too. Throws std::runtime_error when
+// there is no such number, because a single photon needs more.
 uint64_t shoots_that_fit(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings,
-                         uint64_t limit, uint64_t guided = 0);
+                         uint64_t limit, const GuidedPhotons& guided = {});
 
 }  // namespace kaustik::photon

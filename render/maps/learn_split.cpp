@@ -149,11 +149,12 @@ struct Costs {
   double gathers = 0, photons = 0;
 };
 
-// rays: of a photon.
+// rays: of a photon. Who asks for a number of photons wants to pay for them.
 Costs costs_of(const RenderInput& input, double rays) {
   // Measured in furnished rooms: a sample's gathers take one and a half to four times as long as its path of
   // some eight rays; photons travel in packets.
   constexpr double kGathers = 2, kRaysOfPath = 8, kPhotonRay = 1.0 / 3;
+  if (input.settings.balance == Balance::kOff) return {kGathers, 0};
   const Camera& camera = input.scene.camera;
   const double samples = double(camera.width) * double(camera.height) * double(input.settings.spp);
   return {kGathers, kPhotonRay * rays * double(input.settings.photons) / (kRaysOfPath * samples)};

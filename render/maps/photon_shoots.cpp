@@ -166,6 +166,12 @@ uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& pla
   return kinds.any() ? (photons + 1) / 2 : photons;
 }
 
+photon::GuidedPhotons may_be_guided(const RenderSettings& settings, const EstimatorPlan& plan,
+                                    uint64_t photons) {
+  return {guided_photons(settings, plan, photons),
+          settings.guide == Guide::kOn && kinds_needed(plan).indirect};
+}
+
 void learn_sources(const RenderInput& input, PhotonGuides* guides) {
   const photon::KindMask kinds = kinds_needed(input.plan);
   const bool splits = splits_sources(input.plan);

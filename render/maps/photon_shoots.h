@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "photon/shoot/guide_shoot.h"
+#include "photon/shoot/memory_estimate.h"
 #include "photon/shoot/shoot.h"
 #include "render/maps/learn_split.h"
 #include "render/maps/photon_counts.h"
@@ -35,6 +36,9 @@ photon::TraceSettings trace_settings(const RenderSettings& settings, const Estim
 // kinds. Guided photons cost a few rays each, and reduce the picture's error about as much in the same time
 // as more samples would.
 uint64_t guided_photons(const RenderSettings& settings, const EstimatorPlan& plan, uint64_t photons);
+// What may be guided in such a pass, for the forecast of its memory.
+photon::GuidedPhotons may_be_guided(const RenderSettings& settings, const EstimatorPlan& plan,
+                                    uint64_t photons);
 
 // Learns the shares of photons and paths, if the plan divides sources, and the guide of indirect photons
 // where that needs it; nothing that is there already.

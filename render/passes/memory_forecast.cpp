@@ -61,7 +61,7 @@ uint64_t photons_bytes(const RenderInput& input, uint64_t passes) {
   if (!kinds_needed(input.plan).any()) return 0;
   const PassShare each = pass_share(0, passes, most_photons(settings), settings.spp);
   return photon::forecast_bytes(input.scene, input.bvh, trace_settings(settings, input.plan, each),
-                                photon::PhotonUse::kMaps, guided_photons(settings, input.plan, each.photons));
+                                photon::PhotonUse::kMaps, may_be_guided(settings, input.plan, each.photons));
 }
 
 }  // namespace kaustik::render

@@ -39,14 +39,14 @@ uint64_t choose_passes(const Scene& scene, const accel::Bvh& bvh, const RenderSe
     const PassShare each = pass_share(0, settings.passes, most_photons(settings), settings.spp);
     photon::check_memory(scene, bvh, trace_settings(settings, *plan, each), photon::PhotonUse::kMaps,
                          settings.passes > 1 ? memory_in_passes(settings) : settings.photon_memory,
-                         guided_photons(settings, *plan, each.photons));
+                         may_be_guided(settings, *plan, each.photons));
     return settings.passes;
   }
   if (!kinds_needed(*plan).any()) return 1;
   const PassShare whole = pass_share(0, 1, most_photons(settings), settings.spp);
   const auto passes_in = [&](uint64_t memory) {
     return photon::shoots_that_fit(scene, bvh, trace_settings(settings, *plan, whole), memory,
-                                   guided_photons(settings, *plan, whole.photons));
+                                   may_be_guided(settings, *plan, whole.photons));
   };
   uint64_t passes = passes_in(settings.photon_memory);
   if (passes > 1 && settings.sums_memory > 0) {
