@@ -200,6 +200,15 @@ void apply(Filtered& light, const Plane& level, Image* image) {
   });
 }
 
+// A plane that is fitted beside an edge may fall below zero. Light does so only where colours are outside the
+// gamut, and then the samples tell.
+void keep_sign(const Film& film, Image* image) {
+  for_each_pixel(image->width, image->height, [&](int x, int y) {
+    const Rgb least = glm::min(film.at(x, y).radiance(), Rgb(0));
+    image->at(x, y) = glm::max(image->at(x, y), least);
+  });
+}
+
 }  // namespace
 
 bool any_halves(const HalfFilm& halves) {
@@ -224,6 +233,7 @@ Image denoise(const Film& film, const HalfFilm& halves) {
   if (classes.empty()) return image;
   const Plane level = squared_level(film, classes);
   for (Filtered& filter : classes) apply(filter, level, &image);
+  keep_sign(film, &image);
   return image;
 }
 

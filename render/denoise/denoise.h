@@ -23,8 +23,9 @@ inline constexpr std::array kFilteredLight = {Layer::kDenoisingEmitted, Layer::k
 bool any_halves(const HalfFilm& halves);
 
 // The filtered radiance, of the film's size. halves: of the film's samples; their windows are equal. Pixels
-// without two halves are left as they are. The result has the same bits on any number of threads. Takes some
-// 180 bytes of memory for each pixel, and 16 for each class of light.
+// without two halves are left as they are. No channel is negative where the film's is not. The result has the
+// same bits on any number of threads. Takes some 180 bytes of memory for each pixel, and 16 for each class of
+// light.
 Image denoise(const Film& film, const HalfFilm& halves);
 
 }  // namespace kaustik::render

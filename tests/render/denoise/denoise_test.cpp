@@ -126,6 +126,25 @@ TEST(Regression, FitsAffineFunctions) {
   }
 }
 
+// Light that few samples bring, beside the dark, into which the planes that are fitted overshoot.
+TEST(Denoise, IsNowhereNegativeWhereNoSampleIs) {
+  Noisy picture = noisy([](int x, int) { return std::max(0.05f * float(x - kWidth / 2), 0.0f); }, 0.2f);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (int c = 0; c < 3; ++c) {
+        float sum = 0;
+        for (size_t h = 0; h < 2; ++h) {
+          float& mean = picture.halves.at(x, y).mean[h][half_of(Layer::kDirect) + size_t(c)];
+          mean = x < kWidth / 2 ? 0 : std::max(mean, 0.0f);
+          sum += mean;
+        }
+        picture.film.at(x, y).direct[c] = 0.5f * sum;
+      }
+  const Image image = denoise(picture.film, picture.halves);
+  EXPECT_FALSE(same(image, raw(picture)));
+  for (const Rgb& pixel : image.pixels) EXPECT_GE(std::min({pixel.x, pixel.y, pixel.z}), 0);
+}
+
 // Some hundred pixels are averaged, at the cost of ten coefficients each; at the borders a quarter of them.
 TEST(Denoise, TakesTheNoiseOfASmoothPicture) {
   const auto light = [](int x, int y) { return 1 + 0.01f * float(x) + 0.005f * float(y); };
