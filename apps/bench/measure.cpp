@@ -60,7 +60,7 @@ double cpu_seconds() {
 std::optional<Run> run_once(const Scene& scene, render::RenderSettings settings, const PointRuns& point,
                             const render::ProgressCallback& go_on) {
   settings.photons = point.photons;
-  settings.balance = settings.sample_balance = render::Balance::kOff;
+  settings.balance = render::Balance::kOff;
   settings.threads = point.threads;
   std::optional<Run> run;
   with_thread_limit(point.threads, [&] {

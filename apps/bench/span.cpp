@@ -79,7 +79,7 @@ std::optional<SpanPoint> measure_span(const std::string& scene, const SettingOve
     const WorkSpanRecorder recorder;
     Job job = load_job(scene, overrides, console);
     job.settings.render.photons = photons;
-    job.settings.render.balance = job.settings.render.sample_balance = render::Balance::kOff;
+    job.settings.render.balance = render::Balance::kOff;
     job.settings.render.threads = 1;
     const RenderOutcome outcome =
         render_job(job.scene, job.settings.render, [&](const render::Progress&) { return go_on(); },

@@ -259,10 +259,10 @@ void settle_session(const SettingOverrides& given, const Console& console, Job* 
   settle_denoising(in_passes, &settings);
   session->fill_time = session->goal.empty() && time_decides(settings, given, job->scene.needs, in_passes);
   check_stop_settings(settings.stop);
+  if (settings.stop.any()) settings.render.sample_balance = render::Balance::kOff;
   if (session->fill_time) return;
   settle_error_settings(console, job->scene.needs, &settings);
   session->settle_sources = !session->maps.any();
-  if (settings.stop.any()) settings.render.sample_balance = render::Balance::kOff;
   if (session->maps.any()) {  // photons that carry all light serve any number of samples
     const render::EstimatorPlan plan = render::make_plan(settings.render, job->scene.needs);
     settings.render = with_photons(settings.render, plan);

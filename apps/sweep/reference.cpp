@@ -43,7 +43,7 @@ Settings reference_settings(const Job& job, render::Method method) {
   s.method = method;
   const double pixels = double(width) * double(height);
   s.photons = kPassPhotons;
-  s.balance = s.sample_balance = render::Balance::kOff;
+  s.balance = render::Balance::kOff;
   s.passes = 1;
   s.spp = static_cast<int>(std::clamp(kPassSamples / pixels, 4.0, 64.0));
   s.alpha = 2.0f / 3;

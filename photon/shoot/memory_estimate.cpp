@@ -38,38 +38,52 @@ double most_guided(const TraceSettings& settings, const GuidedPhotons& guided) {
   return static_cast<double>(guided.caustic) * (settings.kinds.medium_caustic ? 1 + kSegmentsOfCaustic : 1);
 }
 
-// Indirect photons that a photon leaves, of those that leave any; 1 if none does so.
-double indirect_of_each(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings) {
-  constexpr uint64_t kBlock = 1u << 12;
+// What a small shoot leaves.
+struct FewPhotons {
+  TraceCounters counters;
+  uint64_t leave_indirect = 0;  // photons that leave any indirect ones
+};
+
+FewPhotons shoot_few(const Scene& scene, const accel::Bvh& bvh, const TraceSettings& settings) {
   TraceSettings few = settings;
-  few.photons = kEstimatePhotons;
+  few.photons = std::min(settings.photons, kEstimatePhotons);
   const SurfaceTable surfaces(scene);
-  std::vector<uint64_t> leave(kEstimatePhotons / kBlock), left(leave.size());
-  parallel::for_index(size_t{0}, leave.size(), [&](size_t block) {
-    const uint64_t first = block * kBlock;
-    std::vector<uint32_t> each(kBlock);
-    TraceCounters ignored;
+  std::vector<FewPhotons> of_block((few.photons + kLearnBlock - 1) / kLearnBlock);
+  parallel::for_index(size_t{0}, of_block.size(), [&](size_t block) {
+    const uint64_t first = block * kLearnBlock, end = std::min(few.photons, first + kLearnBlock);
+    std::array<bool, kLearnBlock> leaves{};
     const auto sink = [&](PhotonKind kind, const Photon&, uint64_t index) {
-      each[index - first] += kind == PhotonKind::kIndirect;
+      leaves[index - first] |= kind == PhotonKind::kIndirect;
     };
-    trace_photons(scene, surfaces, bvh, few, first, first + kBlock, sink, ignored);
-    for (const uint32_t n : each) leave[block] += n > 0, left[block] += n;
+    trace_photons(scene, surfaces, bvh, few, first, end, sink, of_block[block].counters);
+    of_block[block].leave_indirect = uint64_t(std::ranges::count(leaves, true));
   });
-  const auto some = static_cast<double>(std::reduce(leave.begin(), leave.end()));
-  return some > 0 ? static_cast<double>(std::reduce(left.begin(), left.end())) / some : 1;
+  FewPhotons all;
+  for (const FewPhotons& block : of_block)
+    all.counters += block.counters, all.leave_indirect += block.leave_indirect;
+  return all;
+}
+
+std::array<double, kPhotonKinds> scaled_to(uint64_t photons, const FewPhotons& few) {
+  std::array<double, kPhotonKinds> stored{};
+  for (size_t k = 0; k < kPhotonKinds; ++k)
+    stored[k] = static_cast<double>(few.counters.stored[k]) * static_cast<double>(photons) /
+                static_cast<double>(std::max<uint64_t>(1, few.counters.emitted));
+  return stored;
 }
 
 // Includes the photons of guided emission: about one caustic photon each, apart from the few that a coat
 // reflects, and as many indirect ones as if each photon came to where it leaves some.
 std::array<double, kPhotonKinds> estimate_all(const Scene& scene, const accel::Bvh& bvh,
                                               const TraceSettings& settings, const GuidedPhotons& guided) {
-  auto stored = estimate_stored(scene, bvh, settings);
+  const FewPhotons few = shoot_few(scene, bvh, settings);
+  auto stored = scaled_to(settings.photons, few);
   double& caustic = stored[static_cast<size_t>(PhotonKind::kCaustic)];
   caustic = std::max(caustic, static_cast<double>(guided.caustic));
   if (guided.indirect && settings.kinds.indirect) {
     double& indirect = stored[static_cast<size_t>(PhotonKind::kIndirect)];
-    const auto photons = static_cast<double>(settings.photons);
-    indirect = std::max(indirect, photons * indirect_of_each(scene, bvh, settings));
+    const double share = static_cast<double>(few.leave_indirect) / static_cast<double>(few.counters.emitted);
+    indirect = share > 0 ? indirect / share : static_cast<double>(settings.photons);
   }
   if (settings.kinds.medium_caustic) {
     double& in_media = stored[static_cast<size_t>(PhotonKind::kMediumCaustic)];
@@ -100,15 +114,7 @@ std::string rounded_count(double count) {
 
 std::array<double, kPhotonKinds> estimate_stored(const Scene& scene, const accel::Bvh& bvh,
                                                  const TraceSettings& settings) {
-  TraceSettings few = settings;
-  few.photons = std::min(settings.photons, kEstimatePhotons);
-  const TraceCounters counted = shoot(scene, bvh, few).counters;
-  std::array<double, kPhotonKinds> stored{};
-  for (size_t k = 0; k < stored.size(); ++k) {
-    stored[k] = static_cast<double>(counted.stored[k]) * static_cast<double>(settings.photons) /
-                static_cast<double>(std::max<uint64_t>(1, few.photons));
-  }
-  return stored;
+  return scaled_to(settings.photons, shoot_few(scene, bvh, settings));
 }
 
 double peak_bytes(const std::array<double, kPhotonKinds>& stored, PhotonUse use) {

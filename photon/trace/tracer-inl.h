@@ -117,47 +117,19 @@ class Tracer {
     push(starts_.ray, starts_.flux, count);
   }
 
+  // Sources of light that photons and paths divide: photon/trace/tracer_sources-inl.h.
   // Draws which photons carry what their lights send through specular surfaces.
-  void choose_carriers(size_t count) {
-    for (size_t k = 0; k < count; ++k) {
-      if (!starts_.emitted[k]) continue;
-      const uint32_t light = light_of_photon(scene_, starts_.u_light[k], settings_.light).light;
-      const Ray start = starts_.ray.get(k);
-      const float share = settings_.split->of_light(light, {start.o, -start.d});
-      walkers_.state[k] = walkers_.state[k].carrier(number_of(k, kLightShareDimension) < share);
-    }
-  }
+  void choose_carriers(size_t count);
   // The same for light that meets a glossy surface first, of which paths find some although no ray can hit
   // the light.
   template <class B>
-  void choose_carrier(size_t k, const B& bsdf, const GlossyVertex& v) {
-    if constexpr (requires { bsdf.disperses; })
-      if (bsdf.disperses) return;
-    const auto start = start_of(scene_, Sampler(stream_, index_of(k)), settings_.guide);
-    const uint32_t light = light_of_photon(scene_, numbers_of(start.u).light, settings_.light).light;
-    const float L = radiance_of_glossy(scene_, light, bsdf, v);
-    if (std::isinf(L)) return;
-    if constexpr (requires { sink_.meet_source(uint64_t{0}, L); }) sink_.meet_source(index_of(k), L);
-    if (!settings_.split) return;
-    const bool carries = number_of(k, kLightShareDimension) < settings_.split->share_of(L);
-    walkers_.state[k] = walkers_.state[k].carrier(carries);
-  }
+  void choose_carrier(size_t k, const B& bsdf, const GlossyVertex& v);
+  // Whether the sources of light matter.
+  bool knows_sources() const;
+  // Whether the photon carries on what diffuse lobes at p scatter of it. n: normal on the side of the photon.
+  bool carries_on(size_t k, const Point3& p, const Normal3& n, bool both_sides) const;
   float number_of(size_t k, uint32_t dimension) const {
     return Sampler(stream_, index_of(k), dimension).next_1d();
-  }
-
-  // Whether the sources of light matter.
-  bool knows_sources() const {
-    if constexpr (requires { sink_.meet_source(uint64_t{0}, 0.0f); }) return true;
-    return settings_.split != nullptr;
-  }
-
-  // Whether the photon carries on what diffuse lobes at p scatter of it. n: normal on the side of the photon.
-  bool carries_on(size_t k, const Point3& p, const Normal3& n, bool both_sides) const {
-    const PhotonKind kind = walkers_.state[k].kind();
-    if (!settings_.split || !settings_.split_indirect || kind == PhotonKind::kIndirect) return true;
-    if (kind == PhotonKind::kCaustic && walkers_.state[k].is_carrier()) return true;
-    return number_of(k, kSurfaceShareDimension) < settings_.split->of_surface(p, n, both_sides);
   }
   // Whether the photon leaves a record of this kind.
   bool leaves(size_t k, PhotonKind kind) const {
@@ -510,6 +482,7 @@ class Tracer {
 
 #include "photon/trace/tracer_dispersion-inl.h"
 #include "photon/trace/tracer_media-inl.h"
+#include "photon/trace/tracer_sources-inl.h"
 
 namespace kaustik::photon {
 

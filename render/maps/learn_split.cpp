@@ -181,7 +181,7 @@ double indirect_share(const std::vector<SourceOfLight>& sources) {
 }
 
 // Whether photons carry light that paths do not find.
-bool needs_photons(const std::vector<SourceOfLight>& sources) {
+bool beyond_paths(const std::vector<SourceOfLight>& sources) {
   return std::ranges::any_of(sources, [](const SourceOfLight& s) { return std::isinf(s.contrast); });
 }
 
@@ -236,7 +236,7 @@ std::unique_ptr<const LearnedSplit> learn_split(const RenderInput& input,
   const Errors errors = balance(sources, discs, samples, typical, &split);
   const Costs costs = costs_of(input, double(pilot.counters.rays) / double(kPilotPhotons));
   const bool starved = seen < kStarved && indirect_share(sources) > kMuchLight;
-  const double error = choose_balance(errors, costs, needs_photons(sources), starved, &split);
+  const double error = choose_balance(errors, costs, beyond_paths(sources), starved, &split);
   return std::make_unique<const LearnedSplit>(learned_from(
       input, sources, samples, errors.of_paths > 0 ? error / errors.of_paths : 1, std::move(split)));
 }

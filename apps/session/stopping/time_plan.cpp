@@ -205,7 +205,6 @@ class TimePlan {
   // Names photons or paths where one of them does as well alone.
   void settle_sources() {
     render::RenderSettings settled = render_;
-    settled.sample_balance = render::Balance::kOff;
     sources_ = app::settle_sources(scene_, bvh_, &settled, nullptr, &worth_);
     adopt(settled);
   }
@@ -228,16 +227,13 @@ class TimePlan {
 
   bool adaptive_samples() const { return render_.adaptive > 0 && !render::traces_paths(plan_); }
 
-  bool paths_bring_indirect() const {
-    return plan_.indirect == render::IndirectEstimator::kPaths || !worth_.light;
-  }
-
   // Whether the time is filled by passes. Paths alone share nothing that a single pass would make once, and
   // where they bring all indirect light, they have most of the time.
   bool takes_passes(double one_sample, double share) const {
     if (!gathers_) return true;
     const double each = one_sample * (adaptive_samples() ? 1 + double(render_.adaptive) : 1);
-    const int samples = paths_bring_indirect() ? int(kErrorPasses) : kManySamples;
+    const bool by_paths = plan_.indirect == render::IndirectEstimator::kPaths;
+    const int samples = by_paths ? int(kErrorPasses) : kManySamples;
     return seconds_ > kLongPass && each * samples < (1 - share) * left();
   }
 
