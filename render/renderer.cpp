@@ -118,7 +118,7 @@ class PassRenderer {
     }
     photons_.predict_visibility(input_, statistics);
     photons_.learn_sky(input_, statistics);
-    return true;
+    return photons_.end_paths(input_, progress_, statistics);
   }
 
   const RenderInput input_;

@@ -251,12 +251,22 @@ bool writes_sums(const RenderSession& session) {
   return !session.checkpoint.path.empty() || std::any_of(files.begin(), files.end(), render::is_partial_name);
 }
 
+// Where the settings leave it open: paths of method `auto` end early unless an error is asked for, which
+// would not tell what that blurs.
+void settle_final_gather(const StopSettings& stop, render::RenderSettings* settings) {
+  if (settings->final_gather) return;
+  const bool counts =
+      stop.target_error || names_error_layer(settings->aov) || settings->estimate_bias.value_or(false);
+  settings->final_gather = settings->method == render::Method::kAuto && !counts;
+}
+
 void settle_session(const SettingOverrides& given, const Console& console, Job* job, RenderSession* session) {
   Settings& settings = job->settings;
   check_stop_rules(session->maps, settings.stop);
   const bool in_passes = writes_sums(*session) || session->launched;
   if (session->launched) settle_rank_passes(console, &settings);
   settle_denoising(in_passes, &settings);
+  settle_final_gather(settings.stop, &settings.render);
   session->fill_time = session->goal.empty() && time_decides(settings, given, job->scene.needs, in_passes);
   check_stop_settings(settings.stop);
   if (settings.stop.any()) settings.render.sample_balance = render::Balance::kOff;
@@ -285,15 +295,32 @@ std::unique_ptr<FileLock> prepare_sums(const Job& job, const RenderSession& sess
   return lock_checkpoint(session.checkpoint);
 }
 
+// Paths go on where what they would end in takes more than half of the memory that is left without it.
+template <class Plan>
+void leave_out_final_gather(const Plan& plan, bool in_passes, const Console& console, Job* job) {
+  render::RenderSettings without = job->settings.render;
+  without.final_gather = false;
+  const MemoryPlan smaller = plan(without);
+  const uint64_t least = smaller.total(in_passes), more = job->memory.total(in_passes) - least;
+  if (least >= smaller.limit.bytes || 2 * more <= smaller.limit.bytes - least) return;
+  console.note("memory is short: rendered with --final-gather off");
+  job->settings.render.final_gather = false;
+  job->memory = smaller;
+}
+
 // Forecasts the memory anew, now that the settings are decided, and leaves the rest to photons. Throws
 // std::runtime_error if nothing is left.
-void settle_memory(const RenderSession& session, Job* job) {
+void settle_memory(const RenderSession& session, const Console& console, Job* job) {
   if (session.bvh) return;  // what made the BVH has forecast its renders
   render::RenderSettings& settings = job->settings.render;
   const bool open = job->settings.stop.any() && !session.fill_time;
   const bool in_passes = writes_sums(session) || session.ranks || settings.passes > 1 || open;
   // A render that fills a time decides later whether to denoise.
-  job->memory = plan_memory(job->scene, job->memory.sides, settings, job->settings.stop.seconds.has_value());
+  const auto plan = [&](const render::RenderSettings& with) {
+    return plan_memory(job->scene, job->memory.sides, with, job->settings.stop.seconds.has_value());
+  };
+  job->memory = plan(settings);
+  if (settings.final_gather.value_or(false)) leave_out_final_gather(plan, in_passes, console, job);
   check_memory(job->memory, in_passes);
   // Kept photons stay in their file.
   if (!session.maps.from) set_photon_memory(job->memory, in_passes, &settings);
@@ -312,7 +339,7 @@ int run_session(Job& job, RenderSession session, const InterruptGuard& interrupt
                 const Console& console) {
   int code = kDone;
   const std::unique_ptr<FileLock> lock = prepare_sums(job, session);
-  settle_memory(session, &job);  // when libraries for sums are loaded
+  settle_memory(session, console, &job);  // when libraries for sums are loaded
   with_thread_limit(job.settings.render.threads, console, [&] {
     render::OuterTimes times{.load = job.load_seconds};
     const Stopwatch watch;

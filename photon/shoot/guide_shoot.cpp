@@ -82,6 +82,8 @@ class GuideLearner {
     trace.split = settings_.split;
     trace.split_caustics = settings_.split_caustics;
     trace.kinds = only(settings_.kind);
+    trace.split_indirect = trace.of_paths = settings_.of_paths;
+    if (settings_.of_paths) trace.kinds.caustic = true;
     trace.guide = guide.empty() ? nullptr : &guide;
     return trace;
   }

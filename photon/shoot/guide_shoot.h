@@ -25,7 +25,7 @@ struct GuideSettings {
   double enough = 2;
   bool under_glossy = false;  // as in TraceSettings, as are these
   const SourceSplit* split = nullptr;
-  bool split_caustics = false;
+  bool split_caustics = false, of_paths = false;
 };
 
 struct LearnedGuide {

@@ -48,6 +48,9 @@ struct TraceSettings {
   const SourceSplit* split = nullptr;
   // What is divided: caustics, and what photons carry on from the surfaces where they are first scattered.
   bool split_caustics = false, split_indirect = false;
+  // Photons carry what they would leave to paths instead, and all that reaches a diffuse surface by way of
+  // others, specular ones included, is left as indirect photons. Needs `split`.
+  bool of_paths = false;
   // Only the requested kinds are traced: without `indirect`, for instance, a photon ends at its first diffuse
   // surface.
   KindMask kinds;

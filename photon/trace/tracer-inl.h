@@ -131,11 +131,15 @@ class Tracer {
   float number_of(size_t k, uint32_t dimension) const {
     return Sampler(stream_, index_of(k), dimension).next_1d();
   }
-  // Whether the photon leaves a record of this kind.
-  bool leaves(size_t k, PhotonKind kind) const {
-    const bool divided = settings_.split && settings_.split_caustics && kind == PhotonKind::kCaustic;
-    return settings_.kinds[kind] && (!divided || walkers_.state[k].is_carrier());
+  // Whether the photon leaves a record of this kind at p. n, both_sides: as for carries_on().
+  bool leaves(size_t k, PhotonKind kind, const Point3& p, const Normal3& n, bool both_sides) const {
+    if (!settings_.kinds[kind]) return false;
+    if (!settings_.split || kind != PhotonKind::kCaustic) return true;
+    if (settings_.of_paths) return carries_on(k, p, n, both_sides);
+    return !settings_.split_caustics || walkers_.state[k].is_carrier();
   }
+  // The kind of the records that photons of this kind leave.
+  PhotonKind left_as(PhotonKind kind) const { return settings_.of_paths ? PhotonKind::kIndirect : kind; }
 
   void weigh_starts(size_t count) {
     for (auto& channel : starts_.flux)
@@ -271,7 +275,7 @@ class Tracer {
           const bool glossy = settings_.under_glossy && !B::kTransmits && lobes.glossy &&
                               walkers_.state[k].kind() == PhotonKind::kCaustic;
           const bool gathers = lobes.diffuse || scene_.materials[si.material].lobes().diffuse || glossy;
-          leave_photon(k, si, photon, !gathers);
+          leave_photon(k, si, photon, !gathers, B::kTransmits);
           if (walkers_.state[k].is_straight()) return go_straight_on(k, si.spawn(photon.ray.d), photon.flux);
           const bool wanted = follows_indirect_ || (lobes.specular && follows_caustics_);
           if (wanted && !is_last(k)) scatter_alone(k, bsdf, si, photon);
@@ -284,13 +288,14 @@ class Tracer {
   void arrive_in_lane(size_t k) {
     const bool met = !(lanes_.traits[k] & kMissedTrait), specular = lanes_.traits[k] & kSpecularTrait;
     const PhotonKind kind = walkers_.state[k].kind();
-    const bool left = met & !specular & leaves(k, kind) & (lanes_.cos_in[k] != 0);
-    left_[k] = left ? static_cast<uint8_t>(kind) : kNothing;
-    counters_.stored[static_cast<size_t>(kind)] += left;
+    const Point3 p = get_lane(lanes_.p, k);
+    const Normal3 facing = get_lane(lanes_.facing, k);
+    const bool left = met & !specular & leaves(k, kind, p, facing, false) & (lanes_.cos_in[k] != 0);
+    left_[k] = left ? static_cast<uint8_t>(left_as(kind)) : kNothing;
+    counters_.stored[static_cast<size_t>(left_as(kind))] += left;
     const bool wanted = follows_indirect_ | (specular & follows_caustics_);
     bool asked = met & wanted & !walkers_.state[k].is_straight() & !is_last(k);
-    if (settings_.split && asked && !specular)
-      asked = carries_on(k, get_lane(lanes_.p, k), get_lane(lanes_.facing, k), false);
+    if (settings_.split && asked && !specular) asked = carries_on(k, p, facing, false);
     scatters_[k] = asked;
     counters_.dropped_invalid += asked & (lanes_.fate[k] == VertexLanes::kInvalid);
     goes_on_[k] = asked & (lanes_.fate[k] == VertexLanes::kAlive);
@@ -363,9 +368,11 @@ class Tracer {
     return false;
   }
 
-  void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon, bool specular) {
+  void leave_photon(size_t k, const SurfaceInteraction& si, const Arrival& photon, bool specular,
+                    bool both_sides) {
     const PhotonKind kind = walkers_.state[k].kind();
-    if (!specular && leaves(k, kind)) record(k, kind, si, photon);
+    const Normal3 facing = glm::dot(photon.ray.d, si.n) > 0 ? -si.n : si.n;
+    if (!specular && leaves(k, kind, si.p, facing, both_sides)) record(k, left_as(kind), si, photon);
     if (settings_.kinds.shadow && casts_shadow(kind, specular))
       start_straight(k, si.spawn(photon.ray.d), photon.flux);
   }

@@ -40,8 +40,10 @@ template <class Accel, class Sink>
 bool Tracer<Accel, Sink>::carries_on(size_t k, const Point3& p, const Normal3& n, bool both_sides) const {
   const PhotonKind kind = walkers_.state[k].kind();
   if (!settings_.split || !settings_.split_indirect || kind == PhotonKind::kIndirect) return true;
-  if (kind == PhotonKind::kCaustic && walkers_.state[k].is_carrier()) return true;
-  return number_of(k, kSurfaceShareDimension) < settings_.split->of_surface(p, n, both_sides);
+  const bool of_photons =
+      (kind == PhotonKind::kCaustic && walkers_.state[k].is_carrier()) ||
+      number_of(k, kSurfaceShareDimension) < settings_.split->of_surface(p, n, both_sides);
+  return of_photons != settings_.of_paths;
 }
 
 }  // namespace kaustik::photon::detail

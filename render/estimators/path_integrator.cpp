@@ -5,6 +5,7 @@
 #include "accel/media_walk.h"
 #include "core/medium/free_path.h"
 #include "render/estimators/emission_of_media.h"
+#include "render/estimators/path_ending.h"
 #include "render/estimators/scattered_light.h"
 
 namespace kaustik::render {
@@ -25,6 +26,8 @@ struct PathState {
   LightReceiver ref;                 // where that event was
   float pdf = 0;                     // density of the ray that left it
   Point3 from{0};                    // the point that the ray left
+  float spread = 0;                  // inverse of the density of the last diffuse event
+  float way = 0;                     // metres since then
   MediumIndex medium = kVacuum;      // of the ray
   float wavelength = kNoWavelength;  // for which dispersive glass refracts
   bool dispersed = false;            // the path has only this wavelength
@@ -124,10 +127,11 @@ void add_escape(const RenderContext& ctx, const PathState& path, const Ray& ray,
 }
 
 // Light that arrives at y, the end of a diffuse segment, from the lights and through specular surfaces, and
-// is scattered along the path by y's diffuse lobes.
-Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, Sampler& sampler, TileCounters& counters) {
-  Rgb sum = sample_direct(ctx, y, LightWeight::kMis, sampler, counters);
-  if (caustics_by_map(ctx))
+// is scattered along the path by y's diffuse lobes. Where paths end, the latter is part of what they end in.
+Rgb arriving(const RenderContext& ctx, const ShadingPoint& y, const Ending& ending, Sampler& sampler,
+             TileCounters& counters) {
+  Rgb sum = sample_direct(ctx, y, ending.weight, sampler, counters);
+  if (caustics_by_map(ctx) && !ending.radiance)
     sum += photon::estimate_radiance(ctx.maps.caustic.map, y.si, y.wo, *y.bsdf, ctx.maps.caustic.estimate,
                                      counters.gather);
   return sum;
@@ -201,7 +205,10 @@ bool continue_path(const Scene& scene, const ShadingPoint& v, Scatter part, floa
   if (!s->transmission) path->roulette *= max_component(s->weight);
   path->specular = s->specular;
   path->diffuse += !s->specular;
-  if (!s->specular) path->from_medium = false, path->share = share;
+  if (!s->specular) {
+    path->from_medium = false, path->share = share;
+    path->spread = 1 / s->pdf, path->way = 0;
+  }
   path->has_pdf = !s->specular || s->glossy;
   path->ref = v.receiver();
   path->pdf = s->pdf;
@@ -223,13 +230,25 @@ bool survives(PathState* path, Sampler& sampler) {
   return true;
 }
 
+// Whether the path may end in light that photons brought.
+bool may_end(const PathState& path, PathReach reach) {
+  return follows_indirect(reach) && collects_lights(path) && !path.dispersed && !path.from_medium;
+}
+
+// The part of the surfaces at y for which the path stands, m^2.
+float area_at(const ShadingPoint& y, const PathState& path) {
+  return path.way * path.way * path.spread / abs_dot(y.wo, y.si.n);
+}
+
 // Adds the light that the path collects at y and chooses the lobes by which it goes on; nothing where it
 // ends.
 std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, PathReach reach, float share,
-                             PathState* path, PathLight* light, Sampler& sampler, TileCounters& counters) {
+                             const Ending& ending, PathState* path, PathLight* light, Sampler& sampler,
+                             TileCounters& counters) {
   const Lobes parts = lobes(*y.bsdf);
   if (parts.diffuse && follows_indirect(reach)) {
-    if (collects_lights(*path)) light->indirect += share * path->beta * arriving(ctx, y, sampler, counters);
+    if (collects_lights(*path))
+      light->indirect += share * path->beta * arriving(ctx, y, ending, sampler, counters);
     if (collects_media(*path))
       light->indirect += path->beta * sample_emission_of_media(ctx, y, sampler, counters);
   }
@@ -240,7 +259,11 @@ std::optional<Scatter> visit(const RenderContext& ctx, const ShadingPoint& y, Pa
   }
   const bool specular_only = !follows_indirect(reach);
   if (specular_only && !parts.specular) return {};
-  if (parts.diffuse && !survives(path, sampler)) return {};
+  // Paths that end have no more to do.
+  if (parts.diffuse && ending.radiance)
+    sampler.next_1d();
+  else if (parts.diffuse && !survives(path, sampler))
+    return {};
   return specular_only ? Scatter::kSpecular : Scatter::kEither;
 }
 
@@ -314,9 +337,15 @@ void follow(const RenderContext& ctx, PathState& path, Ray ray, PathReach reach,
     ShadingPoint y(ctx.scene, si, -ray.d, {}, path.wavelength);
     if (scatters_one_wavelength(*y.bsdf)) disperse(&path);
     y.medium = path.medium, y.wavelength = wavelength_of(path);
+    path.way += distance;
     const float share = lobes(*y.bsdf).diffuse ? path_share_of_surface(ctx, y) : 1;
-    const std::optional<Scatter> part = visit(ctx, y, reach, share, &path, light.of(path), sampler, counters);
+    const Ending ending = may_end(path, reach) ? end_of_path(ctx, y, area_at(y, path)) : Ending{};
+    const auto part = visit(ctx, y, reach, share, ending, &path, light.of(path), sampler, counters);
     if (!part || !continue_path(ctx.scene, y, *part, share, &path, &ray, sampler)) return;
+    if (!ending.radiance || path.specular) continue;
+    light.of(path)->indirect += path.beta * *ending.radiance;
+    if (ending.weight == LightWeight::kAlone) return;
+    reach = PathReach::kLights;
   }
 }
 

@@ -47,6 +47,13 @@ std::optional<VisiblePoint> seen_by(const Camera& camera, const RenderInput& inp
   return first_diffuse(input, ray, input.scene.camera_medium, sampler);
 }
 
+// The point that a diffuse reflection from `point` leads to.
+std::optional<VisiblePoint> reflected(const RenderInput& input, const VisiblePoint& point, Sampler& sampler) {
+  const Frame frame = Frame::from_z(point.query.n);
+  const Vector3 wi = frame.to_world(sample_cosine_hemisphere(sampler.next_2d()));
+  return first_diffuse(input, point.si.spawn(wi), point.medium, sampler);
+}
+
 // What some camera may see: where light arrives from the lights, and where it does after up to `reflections`
 // diffuse ones.
 std::optional<VisiblePoint> lit_point(const RenderInput& input, uint32_t reflections, Sampler& sampler) {
@@ -57,9 +64,7 @@ std::optional<VisiblePoint> lit_point(const RenderInput& input, uint32_t reflect
   const MediumIndex medium = accel::medium_at_start(input.scene, input.bvh, light, start->ray);
   std::optional<VisiblePoint> point = first_diffuse(input, start->ray, medium, sampler);
   for (uint32_t i = 0; point && i < reflections; ++i) {
-    const Frame frame = Frame::from_z(point->query.n);
-    const Vector3 wi = frame.to_world(sample_cosine_hemisphere(sampler.next_2d()));
-    const auto next = first_diffuse(input, point->si.spawn(wi), point->medium, sampler);
+    const auto next = reflected(input, *point, sampler);
     if (!next) break;
     point = next;
   }
@@ -67,24 +72,40 @@ std::optional<VisiblePoint> lit_point(const RenderInput& input, uint32_t reflect
 }
 
 // Point `index` of `count`, which are divided evenly among the views.
-std::optional<VisiblePoint> visible_point(const RenderInput& input, uint64_t index, uint64_t count) {
+std::optional<VisiblePoint> visible_point(const RenderInput& input, uint64_t index, uint64_t count,
+                                          Sampler& sampler) {
   constexpr uint32_t kReflections = 4;
-  Sampler sampler(hash_combine(input.settings.seed, kPilotStream), index);
   if (input.settings.for_camera == ForCamera::kAll)
     return lit_point(input, uint32_t(index % kReflections), sampler);
   if (input.views.empty()) return seen_by(input.scene.camera, input, sampler);
   return seen_by(input.views[index * input.views.size() / count], input, sampler);
 }
 
-}  // namespace
-
-std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count) {
+// The points that find(index, sampler) finds, in the order of their indices.
+template <class Find>
+std::vector<VisiblePoint> find_points(const RenderInput& input, uint32_t count, const Find& find) {
   std::vector<std::optional<VisiblePoint>> found(count);
-  parallel::for_index(uint32_t{0}, count, [&](uint32_t i) { found[i] = visible_point(input, i, count); });
+  parallel::for_index(uint32_t{0}, count, [&](uint32_t i) {
+    Sampler sampler(hash_combine(input.settings.seed, kPilotStream), i);
+    found[i] = find(i, sampler);
+  });
   std::vector<VisiblePoint> points;
   for (const auto& point : found)
     if (point) points.push_back(*point);
   return points;
+}
+
+}  // namespace
+
+std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count) {
+  return find_points(input, count, [&](uint32_t i, Sampler& s) { return visible_point(input, i, count, s); });
+}
+
+std::vector<VisiblePoint> points_behind_visible(const RenderInput& input, uint32_t count) {
+  return find_points(input, count, [&](uint32_t i, Sampler& s) {
+    const auto point = visible_point(input, i, count, s);
+    return point ? reflected(input, *point, s) : point;
+  });
 }
 
 uint32_t pilot_count(const RenderInput& input) {

@@ -20,6 +20,10 @@ struct VisiblePoint {
 // kAll, the points do not depend on the camera: they lie where light falls. A function of scene and settings.
 std::vector<VisiblePoint> visible_points(const RenderInput& input, uint32_t count);
 
+// The same for the points where light is gathered that goes on to visible points: a diffuse reflection from
+// each of them leads there.
+std::vector<VisiblePoint> points_behind_visible(const RenderInput& input, uint32_t count);
+
 // Number of visible points from which a scene is explored: one for every second pixel, within the
 // range that is useful; the most for any camera. Independent of the number of samples, which may be settled
 // later.

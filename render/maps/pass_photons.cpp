@@ -3,6 +3,7 @@
 #include "render/maps/pass_photons.h"
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -17,13 +18,6 @@
 namespace kaustik::render {
 
 namespace {
-
-// The highest gap below a wall that does not join the discs on both sides: a quarter of their radius, rounded
-// down to a power of two, so that maps of a few more photons find the same feet.
-float gap_below_walls(float radius) {
-  constexpr float kShareOfRadius = 0.25f;
-  return std::ldexp(1.0f, std::ilogb(kShareOfRadius * radius));
-}
 
 // The radius of a render as a share of that of a trial, whose photons are a quarter or less of the render's.
 constexpr float kTrialShrink = 0.5f;
@@ -134,7 +128,7 @@ void PassPhotons::free_maps() {
 }
 
 bool PassPhotons::explore(const RenderInput& input, const ProgressCallback& progress) {
-  if (!kinds_needed(input.plan).any()) return true;
+  if (!kinds_needed(input.plan).any() && !input.plan.ends_paths) return true;
   ExploredScene& known = *explored_;
   const Stopwatch watch;
   bool cancelled = false;
@@ -329,6 +323,27 @@ void PassPhotons::predict_visibility(const RenderInput& input, RenderStatistics*
       input.scene, input.bvh,
       {settings.seed, visibility_photons(input.scene.camera, settings), settings.emission}));
   statistics->photon_trace_s += watch.end("photon_trace");
+}
+
+bool PassPhotons::end_paths(const RenderInput& input, const ProgressCallback& progress,
+                            RenderStatistics* statistics) {
+  if (ends_ || !input.plan.ends_paths) return true;
+  const bool divided = input.plan.indirect == IndirectEstimator::kSplit;
+  const photon::SourceSplit* const split = divided && guides_.split ? &guides_.split->sources : nullptr;
+  if (divided && !(split && split->leaves_to_paths())) return true;
+  const PhaseWatch watch;
+  if (!explore(input, progress)) return false;
+  std::atomic<bool> cancelled{false};
+  const auto told = [&](uint64_t done, uint64_t total) {
+    if (progress && !progress({"photons", done, total})) cancelled = true;
+    return !cancelled;
+  };
+  auto ends = std::make_unique<const PathEnds>(input, split, *explored_->edges, explored_->bends, told);
+  statistics->photon_trace_s += watch.end("photon_trace");
+  if (cancelled) return false;
+  ends_ = std::move(ends);
+  maps_.ends = ends_->empty() ? nullptr : ends_.get();
+  return true;
 }
 
 void PassPhotons::learn_sky(const RenderInput& input, RenderStatistics* statistics) {

@@ -59,6 +59,10 @@ class PassPhotons {
   // Makes the visibility tree for `predicted`, unless it exists. It depends on scene and settings but not on
   // the pass; whatever it predicts, the image is unbiased. Its time is added to that of the photons.
   void predict_visibility(const RenderInput& input, RenderStatistics* statistics);
+  // Learns where paths end, if the plan lets them, unless that is known already. It depends on scene and
+  // settings but not on the pass. Call it after make() or adopt(). Its time is added to that of the photons.
+  // False when the progress callback cancelled.
+  bool end_paths(const RenderInput& input, const ProgressCallback& progress, RenderStatistics* statistics);
   // Learns where the sky is visible for method `auto`, unless that is known already. A function of scene and
   // settings; whatever it learns, the image is unbiased.
   void learn_sky(const RenderInput& input, RenderStatistics* statistics);
@@ -107,6 +111,7 @@ class PassPhotons {
   RadiusShrink shrink_;
   std::shared_ptr<ExploredScene> explored_ = std::make_shared<ExploredScene>();
   std::unique_ptr<const photon::Walls> walls_;  // null: none, or not looked for yet
+  std::unique_ptr<const PathEnds> ends_;
   bool walls_are_known_ = false;
   bool is_trial_ = false;
   PhotonGuides guides_;

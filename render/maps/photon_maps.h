@@ -7,6 +7,7 @@
 #include "photon/estimate/shadow_classifier.h"
 #include "photon/map/photon_map.h"
 #include "render/maps/learn_split.h"
+#include "render/maps/path_ends.h"
 
 namespace kaustik::render {
 
@@ -26,6 +27,7 @@ struct PhotonMaps {
   GatherMap medium_caustic, medium_indirect;  // gathered along rays: only the radius of the estimate is used
   photon::PhotonMap shadow;  // for `lecture`, and for `signed`, which gathers from it with direct.estimate
   photon::LectureSettings lecture;
+  const PathEnds* ends = nullptr;       // null: paths go on
   const LearnedSplit* split = nullptr;  // null: photons carry all light of their classes
 
   photon::PhotonMap& of(photon::PhotonKind kind) {

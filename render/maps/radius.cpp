@@ -104,14 +104,18 @@ uint32_t photons_to_reach(const RadiusRule& rule, const photon::PhotonMap& map, 
   return uint32_t(std::lround(photons_to_reach(rule, double(map.size()) * double(pass.shares))));
 }
 
+}  // namespace
+
 // If every point fails with k photons, fewer are tried; the last resort is a fixed fraction of the scene.
-float auto_radius(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
-                  uint32_t photons, const PassShare& pass) {
+float radius_with_photons(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
+                          uint32_t photons, const PassShare& pass) {
   if (map.empty()) return reach / 64;  // maps of other passes need not be empty
   for (uint32_t k = photons_in_reach(photons, pass.shares); k > 0; k /= 2)
     if (const float r = median_radius(map, points, reach, k); r > 0) return r;
   return reach / 64;
 }
+
+namespace {
 
 uint32_t photons_in_indirect_disc(const PhotonMaps& maps, const PassShare& pass) {
   const double left = maps.split ? maps.split->stored : 1;
@@ -123,7 +127,7 @@ uint32_t photons_in_indirect_disc(const PhotonMaps& maps, const PassShare& pass)
 float indirect_radius(const PhotonMaps& maps, const std::vector<VisiblePoint>& points, float reach,
                       const PassShare& pass) {
   const photon::PhotonMap& map = maps.indirect.map;
-  return auto_radius(map, points, reach, photons_in_indirect_disc(maps, pass), pass);
+  return radius_with_photons(map, points, reach, photons_in_indirect_disc(maps, pass), pass);
 }
 
 // Which ray the radius of photons in media is chosen for, of those that pass any.
@@ -165,6 +169,11 @@ float beam_radius(const photon::PhotonMap& map, const std::vector<Beam>& beams, 
 
 }  // namespace
 
+float gap_below_walls(float radius) {
+  constexpr float kShareOfRadius = 0.25f;
+  return std::ldexp(1.0f, std::ilogb(kShareOfRadius * radius));
+}
+
 double photons_in_reach_of_indirect(double photons) {
   return photons_to_reach(kIndirectRule, photons);
 }
@@ -175,7 +184,7 @@ GatherRadii choose_radii(const RenderInput& input, const PassShare& pass, const 
   const float reach = 2 * input.scene.bounds.radius(), f = settings.radius_factor;
   const auto visible = visible_points(input, kPilotPoints);
   const auto choose = [&](const photon::PhotonMap& map, const auto& points, uint32_t k) {
-    return f * auto_radius(map, points, reach, k, pass);
+    return f * radius_with_photons(map, points, reach, k, pass);
   };
   // Shadow photons are as dense as direct photons would be without what casts the shadows, and like caustics
   // they fill little of the picture.

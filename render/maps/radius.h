@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "render/explore/visible_points.h"
 #include "render/maps/gather_radii.h"
 #include "render/maps/photon_maps.h"
 #include "render/plan/pass_share.h"
@@ -21,8 +22,17 @@ inline uint32_t photons_in_reach(uint32_t of_all, uint64_t passes) {
       std::clamp<uint64_t>(rounded, std::min<uint64_t>(kFewestInReach, of_all), of_all));
 }
 
+// Median, over the points, of the distance to the k-th nearest photon, where k is `photons` of all passes; a
+// fixed fraction of `reach`, in which photons are looked for, if there are too few.
+float radius_with_photons(const photon::PhotonMap& map, const std::vector<VisiblePoint>& points, float reach,
+                          uint32_t photons, const PassShare& pass);
+
 // How many of this many indirect photons should be in reach of an estimate.
 double photons_in_reach_of_indirect(double photons);
+
+// The highest gap below a wall that does not join the discs on both sides: a quarter of their radius, rounded
+// down to a power of two, so that maps of a few more photons find the same feet.
+float gap_below_walls(float radius);
 
 // Returns settings.radius for every map, if it is set; otherwise settings.radius_factor times a choice from
 // the photons: the median distance to the k-th nearest photon, where k ~ M^(2/3) for M photons of all passes

@@ -10,6 +10,7 @@
 #include "render/film/error_estimate.h"
 #include "render/film/film_totals.h"
 #include "render/film/halves.h"
+#include "render/maps/path_ends.h"
 #include "render/maps/photon_shoots.h"
 
 namespace kaustik::render {
@@ -41,7 +42,8 @@ uint64_t sums_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& 
 }
 
 uint64_t surfaces_bytes(const Scene& scene, const SideEstimate& sides, const RenderSettings& settings) {
-  if (!needs_photons(settings, scene.needs)) return 0;
+  const EstimatorPlan plan = make_plan(settings, scene.needs);
+  if (!kinds_needed(plan).any() && !plan.ends_paths) return 0;
   std::set<const TriangleMesh*> meshes;
   for (const Shape& shape : scene.shapes)
     if (const TriangleMesh* mesh = shape.mesh()) meshes.insert(mesh);
@@ -53,7 +55,8 @@ uint64_t surfaces_bytes(const Scene& scene, const SideEstimate& sides, const Ren
     if (walls + count <= accel::kMostWallTriangles) walls += count;
   const auto edges = static_cast<uint64_t>(double(kOpenSide) * sides.open);
   const uint64_t finding = kWall * walls + kSides * (counts.empty() ? 0 : counts.back());
-  return std::max(finding, kPiece * photon::SurfaceAreas::most_pieces(scene)) + edges;
+  const uint64_t ends = plan.ends_paths ? PathEnds::most_bytes(scene.camera) : 0;
+  return std::max(finding, kPiece * photon::SurfaceAreas::most_pieces(scene)) + edges + ends;
 }
 
 uint64_t photons_bytes(const RenderInput& input, uint64_t passes) {

@@ -18,7 +18,8 @@ uint64_t film_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& 
 uint64_t sums_bytes_per_pixel(const RenderSettings& settings, const SceneNeeds& needs);
 
 // Bytes of what estimates from photons know about surfaces: their edges, the walls that stand on them, and
-// the areas of curved ones (PassPhotons). 0 if the settings need no photons.
+// the areas of curved ones (PassPhotons); and of what tells paths where to end (PathEnds). 0 if the settings
+// need neither.
 uint64_t surfaces_bytes(const Scene& scene, const SideEstimate& sides, const RenderSettings& settings);
 
 // Bytes that the photons of one of `passes` passes will take at their peak, from a small shoot.

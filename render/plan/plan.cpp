@@ -93,6 +93,12 @@ void choose_for_media(const SceneNeeds& needs, EstimatorPlan* plan) {
           : "media scatter light: paths are scattered in them");
 }
 
+// Whether photons can tell what light the paths that look for indirect light would find. They pass no media,
+// and what media emit leaves no photons.
+bool may_end_paths(const SceneNeeds& needs, Indirect indirect) {
+  return (indirect == Indirect::kPaths || indirect == Indirect::kSplit) && !needs.media && needs.any_light;
+}
+
 void note_photon_kinds(const EstimatorPlan& plan, std::vector<std::string>* notes) {
   const photon::KindMask kinds = kinds_needed(plan);
   if (plan.direct == Direct::kPredicted)
@@ -150,9 +156,14 @@ EstimatorPlan make_plan(const RenderSettings& settings, const SceneNeeds& needs)
   leave_emission_to_paths(settings, needs, &plan);
   leave_out(settings, needs, &plan);
   choose_for_media(needs, &plan);
+  plan.ends_paths = settings.final_gather.value_or(false) && may_end_paths(needs, plan.indirect);
   plan.notes.insert(plan.notes.begin(),
                     fmt::format("method {}: direct {}, caustics {}, indirect {}", name_of(settings.method),
                                 name_of(plan.direct), name_of(plan.caustics), name_of(plan.indirect)));
+  if (plan.ends_paths)
+    plan.notes.push_back(
+        "paths end where few photons tell what light arrives: saves most of their length and noise "
+        "(--final-gather off: they go on)");
   note_photon_kinds(plan, &plan.notes);
   note_limits(needs, &plan);
   return plan;

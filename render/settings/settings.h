@@ -54,6 +54,9 @@ struct RenderSettings {
   Guide guide = Guide::kOn;
   ForCamera for_camera = ForCamera::kThis;
   int max_bounces = 16;
+  // Whether paths may end in what few photons tell of the light of surfaces (render/maps/path_ends.h); unset:
+  // no.
+  std::optional<bool> final_gather;
   int spp = 16;                            // samples per pixel, before adaptive ones
   Balance sample_balance = Balance::kOff;  // kOn: spp is multiplied where paths bring what photons would
   // Work that adaptive samples may add, as a fraction of that of the first spp; 0: none. The default was

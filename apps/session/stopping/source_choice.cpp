@@ -35,6 +35,8 @@ std::string options_of(const render::RenderSettings& settings, const render::Ren
     options += fmt::format(" --caustics {}", render::name_of(*settings.caustics));
   if (settings.indirect && !given.indirect)
     options += fmt::format(" --indirect {}", render::name_of(*settings.indirect));
+  if (settings.final_gather != given.final_gather)
+    options += fmt::format(" --final-gather {}", settings.final_gather.value_or(false) ? "on" : "off");
   return options;
 }
 

@@ -101,7 +101,7 @@ class TimePlan {
     if (!gathers_) return settle_by_trials();
     const double before = left();
     // Exploring takes at most about as long as loading did.
-    if (before < total_.seconds() && may_take_paths()) return take_paths();
+    if (before < total_.seconds() && may_take_paths()) return take_paths_at_once();
     settle_sources();
     if (!gathers_) return settle_by_trials();
     if (!worth_.light) return few_photons();
@@ -123,7 +123,7 @@ class TimePlan {
     auto first = std::make_shared<render::FirstPhotons>(std::move(trial.first));
     if (cancelled(*first)) return {.single_pass = true, .photons = std::move(first)};
     const double sample = render::try_one_sample(input(), kSampleTrial / 3 * seconds_, &first->photons);
-    if (has_no_time_for(sample, trial.cost.fixed + trial.cost.each * fewest_)) return take_paths();
+    if (has_no_time_for(sample, trial.cost.fixed + trial.cost.each * fewest_)) return take_paths_at_once();
     if (paths_do_better(trial.cost, sample, &first->photons)) return take_paths(kPathsDoBetter);
     const double share = gathers_ ? photon_share(trial.cost, sample) : 0;
     if (takes_passes(sample, share)) {
@@ -154,11 +154,11 @@ class TimePlan {
 
   // Where there is no time for trials: the fewest photons, or paths where there is no time for those either.
   FilledTime hurry() {
-    if (may_take_paths() && left() < kShootPerExplored * explored_->seconds) return take_paths();
+    if (may_take_paths() && left() < kShootPerExplored * explored_->seconds) return take_paths_at_once();
     const auto first = std::make_shared<render::FirstPhotons>(shoot(fewest_photons()));
     if (cancelled(*first)) return {.single_pass = true, .photons = first};
     const double sample = render::try_one_sample(input(), kSampleTrial * seconds_, &first->photons);
-    if (has_no_time_for(sample, 0)) return take_paths();
+    if (has_no_time_for(sample, 0)) return take_paths_at_once();
     first->photons.forget_visibility();  // it depends on the number of samples
     return one_pass(cost_of(sample), first);
   }
@@ -187,12 +187,18 @@ class TimePlan {
   }
 
   // Passes of one sample by paths.
-  FilledTime take_paths(const char* because = kNoTimeForMaps) {
+  FilledTime take_paths(const char* because) {
     adopt(settings_of_paths());
     sources_ = options_of(render_, given_);
     FilledTime filled = few_photons();
     filled.sources_because = because;
     return filled;
+  }
+
+  // The same where there is no time to explore the scene.
+  FilledTime take_paths_at_once() {
+    render_.final_gather = false;
+    return take_paths(kNoTimeForMaps);
   }
 
   // Passes of one sample, with photons that look for the little light that paths may miss.

@@ -51,6 +51,7 @@ Setting quality_setting() {
     settings.render.spp = preset->spp;
     settings.render.sample_balance = render::Balance::kOn;
     settings.render.passes = preset->passes;
+    settings.render.final_gather = preset->unbiased ? std::optional(false) : std::nullopt;
     return std::nullopt;
   };
   // The settings that it changed are shown under their own names.

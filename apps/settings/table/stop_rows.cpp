@@ -139,10 +139,21 @@ Setting denoise_row() {
       "layers and the stated error are never filtered.");
 }
 
+Setting final_gather_row() {
+  return switch_row(
+      "final-gather", SettingsCommand::kRender, &render::RenderSettings::final_gather,
+      "on with --method auto; off with --quality reference, --target-error, --estimate-bias and the layer "
+      "error",
+      "Let paths that look for indirect light end at the second diffuse surface, in the light that few "
+      "photons have brought there. Takes most of their noise; blurs the light of light less than the paths "
+      "do, but no number of samples takes that away. off: paths go on.");
+}
+
 }  // namespace
 
 std::vector<Setting> stop_rows() {
-  return {target_error_row(), target_quantile_row(), time_row(), estimate_bias_row(), denoise_row()};
+  return {target_error_row(),  target_quantile_row(), time_row(),
+          estimate_bias_row(), denoise_row(),         final_gather_row()};
 }
 
 }  // namespace kaustik::app
