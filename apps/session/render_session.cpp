@@ -296,16 +296,16 @@ std::unique_ptr<FileLock> prepare_sums(const Job& job, const RenderSession& sess
 }
 
 // Paths go on where what they would end in takes more than half of the memory that is left without it.
-template <class Plan>
-void leave_out_final_gather(const Plan& plan, bool in_passes, const Console& console, Job* job) {
+void leave_out_final_gather(bool in_passes, const Console& console, Job* job) {
   render::RenderSettings without = job->settings.render;
   without.final_gather = false;
-  const MemoryPlan smaller = plan(without);
-  const uint64_t least = smaller.total(in_passes), more = job->memory.total(in_passes) - least;
-  if (least >= smaller.limit.bytes || 2 * more <= smaller.limit.bytes - least) return;
+  MemoryPlan& memory = job->memory;
+  const uint64_t more = memory.surfaces - render::surfaces_bytes(job->scene, memory.sides, without);
+  const uint64_t least = memory.total(in_passes) - more;
+  if (least >= memory.limit.bytes || 2 * more <= memory.limit.bytes - least) return;
   console.note("memory is short: rendered with --final-gather off");
   job->settings.render.final_gather = false;
-  job->memory = smaller;
+  memory.surfaces -= more;
 }
 
 // Forecasts the memory anew, now that the settings are decided, and leaves the rest to photons. Throws
@@ -316,11 +316,8 @@ void settle_memory(const RenderSession& session, const Console& console, Job* jo
   const bool open = job->settings.stop.any() && !session.fill_time;
   const bool in_passes = writes_sums(session) || session.ranks || settings.passes > 1 || open;
   // A render that fills a time decides later whether to denoise.
-  const auto plan = [&](const render::RenderSettings& with) {
-    return plan_memory(job->scene, job->memory.sides, with, job->settings.stop.seconds.has_value());
-  };
-  job->memory = plan(settings);
-  if (settings.final_gather.value_or(false)) leave_out_final_gather(plan, in_passes, console, job);
+  job->memory = plan_memory(job->scene, job->memory.sides, settings, job->settings.stop.seconds.has_value());
+  if (settings.final_gather.value_or(false)) leave_out_final_gather(in_passes, console, job);
   check_memory(job->memory, in_passes);
   // Kept photons stay in their file.
   if (!session.maps.from) set_photon_memory(job->memory, in_passes, &settings);
