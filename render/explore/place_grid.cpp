@@ -4,12 +4,24 @@
 
 namespace kaustik::render {
 
-PlaceGrid::PlaceGrid(const std::vector<VisiblePoint>& points, float cells) : cells_(cells) {
+namespace {
+
+Bounds3 box_of(const std::vector<VisiblePoint>& points) {
   Bounds3 bounds;
   for (const VisiblePoint& point : points) bounds.add(point.query.p);
-  const Vector3 size = bounds.diagonal();
-  const float widest = std::max({size.x, size.y, size.z});
-  low_ = bounds.min;
+  return bounds;
+}
+
+}  // namespace
+
+float longest_side(const std::vector<VisiblePoint>& points) {
+  const Vector3 size = box_of(points).diagonal();
+  return points.empty() ? 0 : std::max({size.x, size.y, size.z});
+}
+
+PlaceGrid::PlaceGrid(const std::vector<VisiblePoint>& points, float cells)
+    : low_(box_of(points).min), cells_(cells) {
+  const float widest = longest_side(points);
   per_cell_ = widest > 0 ? cells / widest : 0;
 }
 

@@ -5,6 +5,9 @@
 
 namespace kaustik::render {
 
+// The longest side of the box of the points, metres; 0 if there are none.
+float longest_side(const std::vector<VisiblePoint>& points);
+
 // A cubic grid over the box of a set of visible points. Places outside the box belong to a layer of cells
 // around it.
 class PlaceGrid {

@@ -3,7 +3,6 @@
 #include "render/maps/path_ends.h"
 
 #include <algorithm>
-#include <span>
 
 #include "accel/wall_feet.h"
 #include "core/parallel/parallel.h"
@@ -84,13 +83,6 @@ photon::PhotonMap shoot_map(const RenderInput& input, photon::TraceSettings trac
   photon::ShootResult shot = photon::shoot(input.scene, input.bvh, trace, progress);
   return photon::PhotonMap::build(std::move(shot.buffers[size_t(PhotonKind::kIndirect)]),
                                   photon::MapSettings{input.scene.bounds});
-}
-
-float longest_side(const std::vector<VisiblePoint>& places) {
-  Bounds3 bounds;
-  for (const VisiblePoint& place : places) bounds.add(place.query.p);
-  const Vector3 size = bounds.diagonal();
-  return std::max({size.x, size.y, size.z});
 }
 
 std::vector<VisiblePoint> first_of(const std::vector<VisiblePoint>& places, size_t count) {

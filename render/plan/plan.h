@@ -21,7 +21,8 @@ struct EstimatorPlan {
   // Whether light that media scatter comes from photons gathered along rays: caustics, and indirect light.
   // Otherwise paths find it.
   bool medium_caustics = false, medium_indirect = false;
-  // Paths that look for indirect light end in a photon map where it is as good (render/maps/path_ends.h).
+  // Paths that look for indirect light end where few photons tell what light arrives
+  // (render/maps/path_ends.h).
   bool ends_paths = false;
   std::vector<std::string> notes;  // one sentence each: what was chosen or left out, and why
 };
